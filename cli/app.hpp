@@ -1,0 +1,20 @@
+// The program `lorentz`: one file per subcommand, each of which adds itself here.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace lorentz::cli {
+
+/// What a subcommand does once its options are parsed; returns an ExitStatus.
+using Action = std::function<int()>;
+
+void add_first_hit(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
+void add_convergents(CLI::App& app, Action& action);
+void add_demo(CLI::App& app, Action& action);
+
+/// The whole program: parses, acts, and turns exceptions into messages and an exit status.
+int run(int argc, char** argv);
+
+}  // namespace lorentz::cli

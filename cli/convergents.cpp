@@ -1,0 +1,69 @@
+// lorentz convergents: the exact continued fraction of a slope.
+#include <fmt/format.h>
+
+#include "app.hpp"
+#include "continued_fraction.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::string slope, run = "1";
+  std::size_t limit = 10000;
+  bool json = false;
+};
+
+std::string json_integer(const Integer& n) {
+  const bool small = n.fits_int64() && n.int64() >= -(1LL << 53) && n.int64() <= (1LL << 53);
+  return small ? n.decimal() : '"' + n.decimal() + '"';
+}
+
+int act(const Options& options) {
+  const double rise = parse_number(options.slope), run = parse_number(options.run);
+  if (run == 0) throw InputError("the run is zero: the slope is infinite");
+  const auto convergents = oracle::convergents(rise, run, options.limit);
+  if (options.json) {
+    std::string out = "{\"rise\":";
+    append_number(out, rise);
+    out += ",\"run\":";
+    append_number(out, run);
+    out += ",\"convergents\":[";
+    for (std::size_t i = 0; i < convergents.size(); ++i) {
+      const auto& c = convergents[i];
+      out += fmt::format("{}{{\"a\":{},\"p\":{},\"q\":{},\"remainder\":", i ? "," : "", json_integer(c.a),
+                         json_integer(c.p), json_integer(c.q));
+      append_number(out, c.remainder);
+      out += ",\"remainder_exact\":\"" + c.remainder_exact + "\"}";
+    }
+    fmt::print("{}]}}\n", out);
+    return kDone;
+  }
+  Table table({"n", "a", "p", "q", "q m - p"});
+  for (std::size_t i = 0; i < convergents.size(); ++i) {
+    const auto& c = convergents[i];
+    table.add({std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
+  }
+  fmt::print("{}", table.text());
+  return kDone;
+}
+
+}  // namespace
+
+void add_convergents(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "convergents", "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.");
+  command->add_option("slope", options->slope, "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64")
+      ->required();
+  command->add_option("run", options->run, "the run (v_1): the slope is rise / run, exactly")->capture_default_str();
+  command->add_option("--limit", options->limit, "print N terms at most")->capture_default_str()->type_name("N");
+  command->add_flag("--json", options->json, "one JSON object, the remainders also as exact fractions");
+  command->footer("Example:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\nA negative slope goes behind --:"
+                  "\n  lorentz convergents -- -0.618");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

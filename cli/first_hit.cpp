@@ -1,0 +1,96 @@
+// lorentz first-hit: queries in, answers out, line by line.
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "app.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "query_stream.hpp"
+#include "registry.hpp"
+#include "scene_option.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::string queries = "-", engine = "oracle", scene, max_time;
+  std::optional<double> radius;
+  oracle::Request request;
+};
+
+// Standard output, gathered into large writes.
+class Output {
+ public:
+  std::string& buffer() { return buffer_; }
+  void flush_if_full() {
+    if (buffer_.size() >= (1 << 18)) flush();
+  }
+  void flush() {
+    for (std::size_t done = 0; done < buffer_.size();) {
+      const ssize_t count = write(STDOUT_FILENO, buffer_.data() + done, buffer_.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw FileError(std::string("standard output: ") + std::strerror(errno));
+      done += static_cast<std::size_t>(count);
+    }
+    buffer_.clear();
+  }
+
+ private:
+  std::string buffer_;
+};
+
+int act(Options options) {
+  check_name(options.engine);
+  if (!options.max_time.empty()) {
+    options.request.max_time = parse_number(options.max_time);
+    if (!(*options.request.max_time > 0)) throw InputError("--max-time: must be above zero");
+  }
+  std::optional<Scene> initial;
+  FirstHit first_hit;
+  if (!options.scene.empty()) {
+    initial = load_scene(options.scene, options.radius);
+    first_hit = make_first_hit(options.engine, *initial);
+  } else if (options.radius) {
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  }
+  QueryStream stream(options.queries, initial);
+  Output output;
+  stream.lines().before_waiting([&] { output.flush(); });
+  for (StreamItem item; stream.next(item); output.flush_if_full()) {
+    const int dimension = stream.scene() ? stream.scene()->dimension : 0;
+    switch (item.kind) {
+      case StreamItem::Kind::scene: first_hit = make_first_hit(options.engine, item.scene); break;
+      case StreamItem::Kind::query:
+        append_answer_line(output.buffer(), item.id, first_hit(item.query, options.request), dimension);
+        break;
+      default: append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);
+    }
+  }
+  output.flush();
+  return stream.had_bad_input() ? kBadInput : kDone;
+}
+
+}  // namespace
+
+void add_first_hit(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
+  command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")->capture_default_str();
+  command->add_option("-e,--engine", options->engine, "oracle (exact), walk (exact, slow), classical, published")
+      ->capture_default_str();
+  command->add_option("--scene", options->scene, "scene before the first scene line: a file, or a name of the catalogue");
+  command->add_option("--radius", options->radius, "radius of every ball of --scene");
+  command->add_option("--digits", options->request.digits, "also print the time with N significant decimal digits (oracle)")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  command->add_option("--max-time", options->max_time, "answer `later` if nothing is entered before time T")->type_name("T");
+  command->add_flag("--detail", options->request.detail, "add the collision point, the outward normal and the impact parameter");
+  command->footer(
+      "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square --radius 0.1");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,145 @@
+#include "measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "table.hpp"
+
+namespace lorentz::cli {
+
+void Tally::count(const oracle::Judgement& judgement) {
+  ++queries;
+  switch (judgement.verdict) {
+    case oracle::Verdict::agree: ++agree; break;
+    case oracle::Verdict::wrong: ++wrong; break;
+    case oracle::Verdict::undecided: ++undecided; break;
+    case oracle::Verdict::unsupported: ++unsupported; break;
+    case oracle::Verdict::error: ++error; break;
+    case oracle::Verdict::missing: ++missing; break;
+  }
+  if (!judgement.ulps) return;
+  ++timed_hits;
+  sum_ulp += *judgement.ulps;
+  max_ulp = std::max(max_ulp, *judgement.ulps);
+}
+
+std::vector<Answer> exact_answers(const CaseSet& set) {
+  std::vector<oracle::Oracle> oracles;
+  for (const Scene& scene : set.scenes) oracles.emplace_back(scene);
+  std::vector<Answer> answers;
+  answers.reserve(set.cases.size());
+  for (const Case& one : set.cases) answers.push_back(oracles[one.scene].first_hit(one.query));
+  return answers;
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kBlock = 16;
+constexpr int kRounds = 5;
+constexpr double kEnoughSeconds = 10;  // no further rounds after that
+
+struct Round {
+  double total_ns = 0;
+  std::vector<double> block_means;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// One answerer over all cases; `look` sees each answer, outside the timed stretches.
+template <class Look>
+Round run_round(const CaseSet& set, const std::vector<FirstHit>& first_hit, Look look) {
+  Round round;
+  std::vector<Answer> answers(kBlock);
+  const oracle::Request request;
+  for (std::size_t begin = 0; begin < set.cases.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, set.cases.size());
+    const auto start = Clock::now();
+    for (std::size_t i = begin; i < end; ++i)
+      answers[i - begin] = first_hit[set.cases[i].scene](set.cases[i].query, request);
+    const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+    round.total_ns += ns;
+    round.block_means.push_back(ns / static_cast<double>(end - begin));
+    for (std::size_t i = begin; i < end; ++i) look(i, answers[i - begin]);
+  }
+  return round;
+}
+
+}  // namespace
+
+std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact, const std::vector<std::string>& names,
+                           const OnWrong& on_wrong) {
+  std::vector<Tally> tallies(names.size());
+  std::vector<std::vector<FirstHit>> answerers(names.size());
+  std::vector<std::vector<Round>> rounds(names.size());
+  for (std::size_t e = 0; e < names.size(); ++e) {
+    tallies[e].name = names[e];
+    for (const Scene& scene : set.scenes) answerers[e].push_back(make_first_hit(names[e], scene));
+  }
+  const auto start = Clock::now();
+  for (int r = 0; r < kRounds; ++r) {
+    for (std::size_t e = 0; e < names.size(); ++e)
+      rounds[e].push_back(run_round(set, answerers[e], [&](std::size_t i, const Answer& given) {
+        if (r > 0) return;
+        if (exact.empty()) {
+          ++tallies[e].queries;
+          return;
+        }
+        const oracle::Judgement judgement = oracle::judge(exact[i], given);
+        tallies[e].count(judgement);
+        if (judgement.verdict == oracle::Verdict::wrong && on_wrong) on_wrong(set.cases[i], exact[i], names[e], given);
+      }));
+    if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
+  }
+  for (std::size_t e = 0; e < names.size(); ++e) {
+    auto& of_engine = rounds[e];
+    std::sort(of_engine.begin(), of_engine.end(), [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
+    const Round& middle = of_engine[of_engine.size() / 2];
+    if (set.cases.empty()) continue;
+    tallies[e].ns_per_query = middle.total_ns / static_cast<double>(set.cases.size());
+    tallies[e].ns_median = median(middle.block_means);
+  }
+  return tallies;
+}
+
+namespace {
+
+std::string share(std::size_t part, std::size_t whole) {
+  if (part == 0 || whole == 0) return std::to_string(part);
+  return fmt::format("{} ({:.3g} %)", part, 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string nanoseconds(double ns) {
+  return ns == 0 ? "-" : fmt::format("{:.0f}", ns);
+}
+
+}  // namespace
+
+std::string table_of(const std::vector<Tally>& tallies, bool judged) {
+  if (!judged) {
+    Table table({"engine", "queries", "ns/query", "ns median"});
+    for (const Tally& t : tallies)
+      table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
+    return table.text();
+  }
+  Table table({"engine", "queries", "agree", "wrong", "undecided", "unsupported", "error", "missing", "max ulp", "mean ulp",
+               "ns/query", "ns median"});
+  for (const Tally& t : tallies) {
+    const std::size_t judged_answers = t.agree + t.wrong;
+    table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), share(t.wrong, judged_answers),
+               std::to_string(t.undecided), std::to_string(t.unsupported), std::to_string(t.error),
+               std::to_string(t.missing), t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+               t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.ns_per_query),
+               nanoseconds(t.ns_median)});
+  }
+  return table.text();
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,53 @@
+// Several answerers over the same queries: what they got wrong, how exact their times are, how long they took.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exchange.hpp"
+#include "oracle.hpp"
+#include "registry.hpp"
+#include "verdict.hpp"
+
+namespace lorentz::cli {
+
+struct Case {
+  Id id = "null";
+  std::size_t scene = 0;  ///< index into CaseSet::scenes
+  Query query;
+};
+
+struct CaseSet {
+  std::vector<Scene> scenes;
+  std::vector<Case> cases;
+};
+
+/// One answerer's account over a set of cases.
+struct Tally {
+  std::string name;
+  std::size_t queries = 0, agree = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0, missing = 0;
+  std::size_t timed_hits = 0;  ///< agreed hits with a time that could be measured
+  double max_ulp = 0, sum_ulp = 0;
+  double ns_per_query = 0;  ///< mean over the queries, in the median round; 0: not timed
+  double ns_median = 0;     ///< median over blocks of 16 queries of a block's mean
+
+  void count(const oracle::Judgement& judgement);
+  double mean_ulp() const { return timed_hits ? sum_ulp / static_cast<double>(timed_hits) : 0; }
+};
+
+/// Called for each wrong answer: the case, the exact answer, who gave which.
+using OnWrong = std::function<void(const Case&, const Answer& exact, const std::string& name, const Answer& given)>;
+
+/// The exact answers to all cases.
+std::vector<Answer> exact_answers(const CaseSet& set);
+
+/// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact` is
+/// empty (nothing is judged) or as many answers as there are cases.
+std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact, const std::vector<std::string>& names,
+                           const OnWrong& on_wrong);
+
+/// A table for people, one row a tally.
+std::string table_of(const std::vector<Tally>& tallies, bool judged);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,54 @@
+#include "query_stream.hpp"
+
+#include <fmt/format.h>
+
+#include "scene_option.hpp"
+
+namespace lorentz::cli {
+
+QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial)
+    : lines_(path), scene_(std::move(initial)) {}
+
+void QueryStream::complain(std::size_t line, const std::string& message) {
+  if (++complaints_ <= kMaxComplaints) fmt::print(stderr, "lorentz: {}:{}: {}\n", lines_.name(), line, message);
+}
+
+void QueryStream::finish() {
+  if (empty_ && complaints_ == 0) {
+    ++complaints_;
+    fmt::print(stderr, "lorentz: {}: is empty: no scene and no query in it\n", lines_.name());
+  }
+  if (complaints_ > kMaxComplaints)
+    fmt::print(stderr, "lorentz: {}: {} more bad lines\n", lines_.name(), complaints_ - kMaxComplaints);
+}
+
+bool QueryStream::next(StreamItem& item) {
+  LineReader::Line line;
+  do {
+    if (!lines_.next(line)) {
+      finish();
+      return false;
+    }
+    reader_.read_query_line(line, scene(), item);
+    if (item.kind == StreamItem::Kind::scene) {
+      try {
+        check_scene(item.scene, fmt::format("{}:{}", lines_.name(), line.number));
+      } catch (const InputError& error) {
+        item.kind = StreamItem::Kind::bad;
+        item.bad_scene = true;
+        // The place is in the message already; the answer need not repeat it.
+        const std::string text = error.what();
+        item.message = text.substr(text.find(": ") + 2);
+      }
+    }
+  } while (item.kind == StreamItem::Kind::nothing);
+  empty_ = false;
+  if (item.kind == StreamItem::Kind::scene) scene_ = item.scene;
+  if (item.kind == StreamItem::Kind::bad) {
+    if (item.bad_scene) scene_.reset();
+    complain(line.number, item.message);
+  }
+  return true;
+}
+
+}  // namespace lorentz::cli

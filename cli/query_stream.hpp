@@ -1,0 +1,41 @@
+// A query stream with its scenes checked and its complaints printed: what every subcommand that reads queries uses.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "exchange.hpp"
+
+namespace lorentz::cli {
+
+class QueryStream {
+ public:
+  /// `initial` is the scene before the first scene line, if any. Throws FileError.
+  QueryStream(const std::string& path, std::optional<Scene> initial);
+
+  /// The next scene, query or bad line; false at the end. Bad lines are complained of on stderr with their
+  /// place; the first kMaxComplaints of them.
+  bool next(StreamItem& item);
+
+  /// The scene that holds now, or null.
+  const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
+
+  /// True if a line was bad, or (complained of at the end) nothing was in the stream.
+  bool had_bad_input() const { return complaints_ > 0; }
+
+  LineReader& lines() { return lines_; }
+
+ private:
+  static constexpr long kMaxComplaints = 20;
+  void complain(std::size_t line, const std::string& message);
+  void finish();
+
+  LineReader lines_;
+  ExchangeReader reader_;
+  std::optional<Scene> scene_;
+  long complaints_ = 0;
+  bool empty_ = true;
+};
+
+}  // namespace lorentz::cli

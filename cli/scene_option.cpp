@@ -1,0 +1,79 @@
+#include "scene_option.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "exchange.hpp"
+#include "scene_check.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the catalogue may be: named by LORENTZ_DATA, beside the build folder, or installed.
+std::vector<fs::path> catalogue_folders() {
+  std::vector<fs::path> folders;
+  if (const char* data = std::getenv("LORENTZ_DATA")) folders.push_back(fs::path(data) / "scenes");
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back(program.parent_path() / "../data/scenes");
+    folders.push_back(program.parent_path() / "../../data/scenes");
+    folders.push_back(program.parent_path() / "../share/lorentz/scenes");
+  }
+  return folders;
+}
+
+std::string catalogue_names() {
+  std::vector<std::string> names;
+  for (const fs::path& folder : catalogue_folders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+    if (!names.empty()) break;
+  }
+  std::sort(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string find_scene(const std::string& name_or_file) {
+  if (fs::exists(name_or_file)) return name_or_file;
+  if (name_or_file.find('/') == std::string::npos)
+    for (const fs::path& folder : catalogue_folders()) {
+      const fs::path file = folder / (name_or_file + ".toml");
+      if (fs::exists(file)) return fs::weakly_canonical(file);
+    }
+  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue ({})", name_or_file, catalogue_names()));
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius) {
+  const std::string file = find_scene(name_or_file);
+  Scene scene = read_scene_file(file);
+  if (radius) {
+    if (!std::isfinite(*radius) || !(*radius > 0)) throw InputError("--radius: must be finite and above zero");
+    for (Lattice& lattice : scene.lattices)
+      for (Atom& atom : lattice.atoms) {
+        if (!atom.is_ball()) throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
+        atom.radius = *radius;
+      }
+  }
+  check_scene(scene, name_or_file);
+  return scene;
+}
+
+void check_scene(const Scene& scene, const std::string& place) {
+  if (auto flaw = oracle::dependence_in(scene)) throw InputError(place + ": " + *flaw);
+  if (auto pair = oracle::overlap_in(scene))
+    fmt::print(stderr, "lorentz: warning: {}: {}; answers stay exact, but is the radius what you meant?\n", place, *pair);
+}
+
+}  // namespace lorentz::cli

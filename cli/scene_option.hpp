@@ -1,0 +1,19 @@
+// Scenes on the command line, and the checks that every scene passes before it is used.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "problem.hpp"
+
+namespace lorentz::cli {
+
+/// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius. Throws
+/// InputError or FileError.
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
+
+/// Throws InputError if the scene cannot be used (dependent vectors). Warns on stderr, once per place, if obstacles
+/// overlap or touch: a radius above half the spacing is mostly a typing error.
+void check_scene(const Scene& scene, const std::string& place);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,21 @@
+// Aligned text tables for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lorentz::cli {
+
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  /// The first column to the left, the others to the right, a rule under the header.
+  std::string text() const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace lorentz::cli

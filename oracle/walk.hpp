@@ -1,0 +1,30 @@
+// The second oracle: cell by cell, exact, slow, without any cleverness. It exists to catch the first one, and shares
+// nothing with it but the problem statement: neither code nor arithmetic (CGAL's MP_Float, not GMP).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "../src/problem.hpp"
+
+namespace lorentz::oracle {
+
+class Walk {
+ public:
+  /// The scene must have no flaw. After `max_cells` cells of one atom's lattice the walk gives up.
+  explicit Walk(Scene scene, std::int64_t max_cells = 100'000) : scene_(std::move(scene)), max_cells_(max_cells) {}
+
+  /// The exact answer, time correctly rounded; `undecided` if the flight passes more than max_cells cells, or if a
+  /// start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth trying; `error` for a
+  /// query that is none, and for semiaxes (unsupported).
+  Answer first_hit(const Query& query) const;
+
+ private:
+  Scene scene_;
+  std::int64_t max_cells_;
+};
+
+/// The version of the library whose numbers the walk computes with.
+std::string walk_arithmetic();
+
+}  // namespace lorentz::oracle

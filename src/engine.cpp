@@ -1,0 +1,54 @@
+#include "engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "classical.hpp"
+#include "published.hpp"
+
+namespace lorentz {
+namespace {
+
+class Unsupported : public Engine {
+ public:
+  Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
+
+ private:
+  Answer first_hit_scaled(const Query&, double) const override { return Answer::unsupported_because(why_); }
+  std::string why_;
+};
+
+}  // namespace
+
+Answer Engine::first_hit(const Query& query, double max_time) const {
+  if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
+  Query scaled = query;
+  const int exponent =
+      std::ilogb(std::max({std::fabs(query.v[0]), std::fabs(query.v[1]), std::fabs(query.v[2])}));
+  for (double& component : scaled.v) component = std::scalbn(component, -exponent);
+  Answer answer = first_hit_scaled(scaled, std::scalbn(max_time, exponent));
+  if (answer.time) answer.time = std::scalbn(*answer.time, -exponent);
+  const bool nothing_before = answer.outcome == Outcome::never || (answer.time && !(*answer.time < max_time));
+  if (std::isfinite(max_time) && nothing_before) {
+    answer = Answer{};
+    answer.outcome = Outcome::later;
+  }
+  return answer;
+}
+
+std::vector<std::string> engine_names() {
+  return {"classical", "published"};
+}
+
+std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
+  if (name != "classical" && name != "published") return nullptr;
+  if (!is_unit_scene(scene))
+    return std::make_unique<Unsupported>(
+        scene, std::string(name) + " does the unit square and cubic lattice with one ball at the origin only");
+  if (scene.lattices[0].atoms[0].radius > 0.5)
+    return std::make_unique<Unsupported>(scene, std::string(name) + " does radii up to half the spacing only");
+  if (name == "classical") return std::make_unique<Classical>(scene);
+  return std::make_unique<Published>(scene);
+}
+
+}  // namespace lorentz

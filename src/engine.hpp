@@ -1,0 +1,46 @@
+// The common interface of the binary64 engines, and what they share: the scaling of the velocity.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "problem.hpp"
+
+namespace lorentz {
+
+/// A first-hit engine for one scene. Const and without hidden state: safe to call from several threads.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an `error`.
+  Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const;
+
+ protected:
+  explicit Engine(Scene scene) : scene_(std::move(scene)) {}
+
+  /// Called for a valid query, its velocity scaled by a power of two so that its largest component lies in [1, 2):
+  /// nothing overflows or underflows that need not. Times are in the scaled units.
+  virtual Answer first_hit_scaled(const Query& query, double max_time) const = 0;
+
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+};
+
+/// The names that make_engine knows.
+std::vector<std::string> engine_names();
+
+/// The engine of this name for a scene without flaws, or null for an unknown name. A scene that the engine
+/// does not do gets an engine that answers every query with `unsupported`.
+std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene);
+
+/// Starts beyond this many cells from the origin are `unsupported`: there a binary64 has no digits left for the
+/// place within a cell.
+inline constexpr double kMaxStart = 0x1p51;
+
+}  // namespace lorentz

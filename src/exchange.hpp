@@ -1,0 +1,75 @@
+// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The one place
+// that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a hexadecimal
+// float ("0x1.8p-1") will do; keys that are not known are ignored.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "line_reader.hpp"
+#include "problem.hpp"
+
+namespace lorentz {
+
+/// Input that does not mean what it should: what() says where and why.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that cannot be opened, read or written.
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// An id as JSON text: a quoted string, an integer, or null where there was none.
+using Id = std::string;
+
+/// What a line of a query stream turned out to be.
+struct StreamItem {
+  enum class Kind { scene, query, bad, nothing };  ///< nothing: a blank line or a `golden` header
+  Kind kind = Kind::nothing;
+  Id id = "null";
+  Scene scene;
+  Query query;
+  std::string message;  ///< of `bad`
+  bool bad_scene = false;  ///< the bad line was a scene: what follows has none
+};
+
+/// Reads the lines of query and answer streams.
+class ExchangeReader {
+ public:
+  ExchangeReader();
+  ~ExchangeReader();
+
+  /// A line of a query stream; x and v must have `dimension` components (0: no scene yet, which makes
+  /// every query bad). Scenes and queries are free of flaws (flaw_of), or the item is bad.
+  void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
+
+  /// A line of an answer stream, of a scene of this dimension or any (0). Throws InputError. False for a blank line.
+  bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A scene file, TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the place.
+Scene read_scene_file(const std::string& path);
+
+/// Appends a line, with its line end. A 2D problem has two components everywhere.
+void append_scene_line(std::string& out, const Scene& scene);
+void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
+void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
+
+/// A JSON string with its quotes.
+std::string json_quoted(std::string_view text);
+
+/// Shortest text that reads back as the same binary64; "inf" in quotes for an infinity.
+void append_number(std::string& out, double value);
+
+/// A decimal or ("0x...") hexadecimal float, all of the text; throws InputError.
+double parse_number(std::string_view text);
+
+}  // namespace lorentz

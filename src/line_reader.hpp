@@ -1,0 +1,52 @@
+// Lines of a file or pipe, fast, of bounded length.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lorentz {
+
+/// Reads a stream line by line from a file descriptor. Memory stays bounded: a line longer than kMaxLine is
+/// reported as such and passed over.
+class LineReader {
+ public:
+  static constexpr std::size_t kMaxLine = std::size_t{1} << 25;  // 32 MiB: a scene of 10^5 atoms fits
+  static constexpr std::size_t kPadding = 64;                    // bytes that may be read beyond a line's end
+
+  struct Line {
+    std::string_view text;  ///< without the line end; kPadding bytes behind it are readable; valid until the next call
+    std::size_t number = 0; ///< counted from 1
+    bool too_long = false;  ///< then text is the line's beginning
+  };
+
+  /// Opens a file, or standard input for "-". Throws FileError if it cannot be read (a directory, say).
+  explicit LineReader(const std::string& path);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  /// The next line; false at the end. Throws FileError if reading fails.
+  bool next(Line& line);
+
+  /// Called before each read that may have to wait: the place to flush what was answered so far.
+  void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool fill();
+  void skip_rest_of_line();
+
+  std::string name_;
+  int descriptor_ = -1;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0;  // unread bytes of the buffer
+  bool at_end_ = false;
+  std::size_t number_ = 0;
+  std::function<void()> before_waiting_;
+};
+
+}  // namespace lorentz

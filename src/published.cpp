@@ -1,0 +1,198 @@
+#include "published.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "ball.hpp"
+
+namespace lorentz {
+namespace {
+
+// A lattice point, kept as binary64 integers as long as it is searched for.
+using Disc = std::array<double, 2>;
+
+enum class Found { disc, channel, gave_up, no_octant };
+
+struct PlaneResult {
+  Found found = Found::disc;
+  Disc disc{};
+};
+
+double distance_to_integers(double b) {
+  return std::min(b, 1 - b);
+}
+
+// The first convergent denominator q of m with |q m - p| <= tolerance, the expansion computed from its start.
+double first_denominator(double m, double tolerance) {
+  double x = m, p_before = 0, p = 1, q_before = 1, q = 0;
+  for (int term = 0; term < 100; ++term) {
+    const double a = std::floor(x);
+    const double p_next = a * p + p_before, q_next = a * q + q_before;
+    p_before = p, p = p_next, q_before = q, q = q_next;
+    if (std::fabs(q * m - p) <= tolerance || x == a) break;
+    x = 1 / (x - a);
+  }
+  return q;
+}
+
+// Step 3: from height b at a column, how many columns on the line comes within eps of an integer height.
+struct Columns {
+  Found found;
+  double k = 0;
+};
+
+Columns columns_ahead(double m, double b, double eps) {
+  double k = 0;
+  const auto step = [&] {
+    const double q = first_denominator(m, 2 * distance_to_integers(b));
+    b = m * q + b;
+    b -= std::floor(b);
+    k += q;
+  };
+  // The fault behind the skipped discs: the tolerance of this first step should be eps + min(b, 1 - b).
+  const double first = b;
+  if (distance_to_integers(b) < eps) step();
+  for (long pass = 0; b > eps && 1 - b > eps; ++pass) {
+    if (pass == Published::kMaxPasses || k > 0x1p52) return {Found::gave_up};
+    step();
+    if (b == first) return {Found::channel};
+  }
+  return {Found::disc, k};
+}
+
+// First octant, 0 < v2 <= v1, v of unit length.
+PlaneResult first_octant(double x1, double x2, double v1, double v2, double r, const Disc* from) {
+  const double n1 = std::floor(x1), n2 = std::floor(x2);
+  x1 -= n1, x2 -= n2;
+  const double m = v2 / v1, eps = r / v1;
+  const double b1 = x2 + m * (1 - x1), b2 = x2 - m * x1;
+  const auto is_next = [&](double c1, double c2, double miss) {
+    const bool ahead = (x1 - c1) * v1 + (x2 - c2) * v2 < 0;
+    const bool left = from && *from == Disc{n1 + c1, n2 + c2};
+    return ahead && !left && std::fabs(miss) < eps;
+  };
+  if (is_next(1, 0, b1)) return {Found::disc, {n1 + 1, n2}};
+  if (is_next(0, 1, 1 - b2)) return {Found::disc, {n1, n2 + 1}};
+  if (is_next(1, 1, 1 - b1)) return {Found::disc, {n1 + 1, n2 + 1}};
+  if (is_next(1, 2, 2 - b1)) return {Found::disc, {n1 + 1, n2 + 2}};
+  const Columns columns = columns_ahead(m, b1 - std::floor(b1), eps);
+  return {columns.found, {n1 + 1 + columns.k, n2 + std::round(b1 + m * columns.k)}};
+}
+
+// Any direction, by reflections and the exchange of the axes, undone at the end.
+PlaneResult first_disc(Disc x, Disc v, double r, const Disc* from) {
+  const Disc home{std::round(x[0]), std::round(x[1])};
+  const bool left = from && *from == home;
+  if (!left && std::hypot(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
+  if (v[0] == 0 || v[1] == 0) return {Found::no_octant};
+  const double speed = std::hypot(v[0], v[1]);
+  const double sign[2] = {std::copysign(1, v[0]), std::copysign(1, v[1])};
+  const int long_axis = std::fabs(v[0]) >= std::fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
+  const auto reflected = [&](const Disc& a) { return Disc{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]}; };
+  const Disc place = reflected(x), direction = reflected(v);
+  const Disc reflected_from = from ? reflected(*from) : Disc{};
+  PlaneResult result = first_octant(place[0], place[1], direction[0] / speed, direction[1] / speed, r,
+                                    from ? &reflected_from : nullptr);
+  Disc disc;
+  disc[long_axis] = sign[long_axis] * result.disc[0];
+  disc[short_axis] = sign[short_axis] * result.disc[1];
+  result.disc = disc;
+  return result;
+}
+
+std::optional<Answer> answer_for(Found found) {
+  switch (found) {
+    case Found::channel: return Answer::never();
+    case Found::gave_up: return Answer::undecided();
+    case Found::no_octant: return Answer::unsupported_because("published has no octant for directions along an axis");
+    case Found::disc: break;
+  }
+  return std::nullopt;
+}
+
+Vec minus(const Vec& a, const Vec& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+ObstacleId obstacle_of(const Vec& n) {
+  return {0, 0, {Integer(std::llround(n[0])), Integer(std::llround(n[1])), Integer(std::llround(n[2]))}};
+}
+
+// The collision with a disc or sphere that the search came up with; its closest approach if the line misses it.
+Answer hit_on(const Vec& centre, const Query& query, double r) {
+  const Vec relative = minus(query.x, centre);
+  const double closest = -dot(relative, query.v) / dot(query.v, query.v);
+  return Answer::hit(obstacle_of(centre), entry_time(relative, query.v, r).value_or(closest));
+}
+
+Answer published_2d(const Query& query, double r, const Vec* from) {
+  const Disc leaving = from ? Disc{(*from)[0], (*from)[1]} : Disc{};
+  const PlaneResult result =
+      first_disc({query.x[0], query.x[1]}, {query.v[0], query.v[1]}, r, from ? &leaving : nullptr);
+  if (auto answer = answer_for(result.found)) return *answer;
+  return hit_on({result.disc[0], result.disc[1], 0}, query, r);
+}
+
+Answer published_3d(const Query& query, double r, const Vec* from) {
+  const double speed = std::sqrt(dot(query.v, query.v));
+  const Vec v{query.v[0] / speed, query.v[1] / speed, query.v[2] / speed};
+  Vec x = query.x;
+  constexpr int kPlanes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  for (long round = 0; round < Published::kMaxRounds; ++round) {
+    Disc disc[3];
+    for (int plane = 0; plane < 3; ++plane) {
+      const auto [i, k] = kPlanes[plane];
+      const Disc leaving = from ? Disc{(*from)[i], (*from)[k]} : Disc{};
+      const PlaneResult result = first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr);
+      if (auto answer = answer_for(result.found)) return *answer;
+      disc[plane] = result.disc;
+    }
+    const bool agree = disc[0][0] == disc[1][0] && disc[0][1] == disc[2][0] && disc[1][1] == disc[2][1];
+    double advance;
+    if (agree) {
+      const Vec centre{disc[0][0], disc[0][1], disc[1][1]};
+      const auto time = entry_time(minus(x, centre), v, r);
+      if (time && *time >= 0 && !(from && *from == centre)) return hit_on(centre, query, r);
+      advance = 1 - 2 * r;  // another fault: this can land inside the next sphere
+    } else {
+      double farthest = 0;
+      for (int plane = 0; plane < 3; ++plane)
+        for (int side = 0; side < 2; ++side) {
+          const int i = kPlanes[plane][side];
+          farthest = std::max(farthest, (std::fabs(disc[plane][side] - x[i]) - r) / std::fabs(v[i]));
+        }
+      advance = farthest - 0.1 * r;
+      if (advance < 0) advance = 0.1 * r;
+    }
+    for (int i = 0; i < 3; ++i) x[i] += advance * v[i];
+    if (!(std::fabs(x[0]) < kMaxStart && std::fabs(x[1]) < kMaxStart && std::fabs(x[2]) < kMaxStart))
+      return Answer::undecided();
+  }
+  return Answer::undecided();
+}
+
+bool lies_inside(const Vec& x, double r, const Vec* from) {
+  const Vec home{std::round(x[0]), std::round(x[1]), std::round(x[2])};
+  const Vec relative = minus(x, home);
+  return dot(relative, relative) < r * r && !(from && *from == home);
+}
+
+}  // namespace
+
+Answer Published::first_hit_scaled(const Query& query, double) const {
+  for (const double component : query.x)
+    if (!(std::fabs(component) < kMaxStart))
+      return Answer::unsupported_because("start too far from the origin for binary64");
+  const double r = scene().lattices[0].atoms[0].radius;
+  Vec from{};
+  if (query.from)
+    for (int i = 0; i < 3; ++i) from[i] = static_cast<double>(query.from->cell[i].int64());
+  const bool has_from = query.from && query.from->cell[0].fits_int64() && query.from->cell[1].fits_int64() &&
+                        query.from->cell[2].fits_int64();
+  const Vec* leaving = has_from ? &from : nullptr;
+  if (lies_inside(query.x, r, leaving))
+    return Answer::inside(obstacle_of({std::round(query.x[0]), std::round(query.x[1]), std::round(query.x[2])}));
+  return scene().dimension == 2 ? published_2d(query, r, leaving) : published_3d(query, r, leaving);
+}
+
+}  // namespace lorentz
