@@ -251,21 +251,18 @@ bool Solver::solve_plane(const Planes& planes, const Z& k3, Z low, Z high) {
   while (low <= (high = limited(high))) {
     const Z end = std::min(high, Z(low + length));
     const Section section = section_of(planes, k3, low, end);
+    const bool few = !section.empty && section.rows.count() <= kMany;
     if (section.empty) {
       if (planes.a == 0) return true;
-    } else if (section.along_rows) {
-      solve_rows(section);
-      return true;
-    } else if (section.rows.count() <= kMany) {
-      solve_rows(section);
-    } else if (!planes.head_on && section.high - section.low > shortest) {
+    } else if (!few && !planes.head_on && section.high - section.low > shortest) {
       low = section.low;
       length = (section.high - section.low) / 2;
       continue;
-    } else if (planes.a != 0) {
+    } else if (!few && planes.a != 0) {
       solve_many_rows(planes, section);
     } else {
       solve_rows(section);
+      if (section.along_rows) return true;
     }
     low = end + 1;
     length *= 2;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "ball.hpp"
 
@@ -17,6 +18,10 @@ struct PlaneResult {
   Found found = Found::disc;
   Disc disc{};
 };
+
+double length(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
 
 double distance_to_integers(double b) {
   return std::min(b, 1 - b);
@@ -83,9 +88,9 @@ PlaneResult first_octant(double x1, double x2, double v1, double v2, double r, c
 PlaneResult first_disc(Disc x, Disc v, double r, const Disc* from) {
   const Disc home{std::round(x[0]), std::round(x[1])};
   const bool left = from && *from == home;
-  if (!left && std::hypot(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
+  if (!left && length(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
   if (v[0] == 0 || v[1] == 0) return {Found::no_octant};
-  const double speed = std::hypot(v[0], v[1]);
+  const double speed = length(v[0], v[1]);
   const double sign[2] = {std::copysign(1, v[0]), std::copysign(1, v[1])};
   const int long_axis = std::fabs(v[0]) >= std::fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
   const auto reflected = [&](const Disc& a) { return Disc{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]}; };
@@ -133,40 +138,49 @@ Answer published_2d(const Query& query, double r, const Vec* from) {
   return hit_on({result.disc[0], result.disc[1], 0}, query, r);
 }
 
+// The discs that the 2D algorithm finds in the coordinate planes xy, xz and yz.
+constexpr int kPlanes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+
+// How far to go for the disc that is farthest off in its own plane; short of it by a tenth of the radius.
+double advance_to_farthest(const Disc (&disc)[3], const Vec& x, const Vec& v, double r) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (int plane = 0; plane < 3; ++plane) {
+    const auto [i, k] = kPlanes[plane];
+    const double distance = length(disc[plane][0] - x[i], disc[plane][1] - x[k]) - r;
+    farthest = std::max(farthest, distance / length(v[i], v[k]));
+  }
+  if (farthest < 0) farthest = 0.1 * r;
+  return farthest - 0.1 * r;
+}
+
 Answer published_3d(const Query& query, double r, const Vec* from) {
   const double speed = std::sqrt(dot(query.v, query.v));
   const Vec v{query.v[0] / speed, query.v[1] / speed, query.v[2] / speed};
   Vec x = query.x;
-  constexpr int kPlanes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  double elapsed = 0;  // in units of length
+  const auto advance = [&](double distance) {
+    for (int i = 0; i < 3; ++i) x[i] += distance * v[i];
+    elapsed += distance;
+  };
   for (long round = 0; round < Published::kMaxRounds; ++round) {
     Disc disc[3];
     for (int plane = 0; plane < 3; ++plane) {
       const auto [i, k] = kPlanes[plane];
+      if (!(std::fabs(x[i]) < kMaxStart && std::fabs(x[k]) < kMaxStart)) return Answer::undecided();
       const Disc leaving = from ? Disc{(*from)[i], (*from)[k]} : Disc{};
       const PlaneResult result = first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr);
       if (auto answer = answer_for(result.found)) return *answer;
       disc[plane] = result.disc;
     }
+    advance(advance_to_farthest(disc, x, v, r));
     const bool agree = disc[0][0] == disc[1][0] && disc[0][1] == disc[2][0] && disc[1][1] == disc[2][1];
-    double advance;
-    if (agree) {
-      const Vec centre{disc[0][0], disc[0][1], disc[1][1]};
-      const auto time = entry_time(minus(x, centre), v, r);
-      if (time && *time >= 0 && !(from && *from == centre)) return hit_on(centre, query, r);
-      advance = 1 - 2 * r;  // another fault: this can land inside the next sphere
-    } else {
-      double farthest = 0;
-      for (int plane = 0; plane < 3; ++plane)
-        for (int side = 0; side < 2; ++side) {
-          const int i = kPlanes[plane][side];
-          farthest = std::max(farthest, (std::fabs(disc[plane][side] - x[i]) - r) / std::fabs(v[i]));
-        }
-      advance = farthest - 0.1 * r;
-      if (advance < 0) advance = 0.1 * r;
-    }
-    for (int i = 0; i < 3; ++i) x[i] += advance * v[i];
-    if (!(std::fabs(x[0]) < kMaxStart && std::fabs(x[1]) < kMaxStart && std::fabs(x[2]) < kMaxStart))
-      return Answer::undecided();
+    if (!agree) continue;
+    const Vec centre{disc[0][0], disc[0][1], disc[1][1]};
+    const auto time = entry_time(minus(x, centre), v, r);
+    if (time && *time >= 0 && !(from && *from == centre))
+      return Answer::hit(obstacle_of(centre), (elapsed + *time) / speed);
+    // The fault behind the late spheres: from next to a sphere that was missed this can land inside another one.
+    advance(1 - 2 * r);
   }
   return Answer::undecided();
 }
