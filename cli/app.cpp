@@ -1,11 +1,11 @@
 #include "app.hpp"
 
-#include <CLI/Version.hpp>
-#include <boost/version.hpp>
 #include <fmt/core.h>
 #include <gmp.h>
 #include <simdjson.h>
 #include <toml++/toml.h>
+#include <CLI/Version.hpp>
+#include <boost/version.hpp>
 
 #include "exchange.hpp"
 #include "exit_status.hpp"
@@ -15,12 +15,16 @@ namespace lorentz::cli {
 namespace {
 
 std::string versions() {
-  const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
+  const auto dotted = [](int major, int minor, int patch) {
+    return fmt::format("{}.{}.{}", major, minor, patch);
+  };
   return fmt::format(
-      "lorentz {}\nexchange format 1\nGMP {}\nCGAL {}\nBoost {}\nCLI11 {}\nfmt {}\nsimdjson {}\ntoml++ {}", LORENTZ_VERSION,
-      gmp_version, oracle::walk_arithmetic(), dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100),
-      CLI11_VERSION, dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
-      dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR, simdjson::SIMDJSON_VERSION_REVISION),
+      "lorentz {}\nexchange format 1\nGMP {}\nCGAL {}\nBoost {}\nCLI11 {}\nfmt {}\nsimdjson {}\ntoml++ {}",
+      LORENTZ_VERSION, gmp_version, oracle::walk_arithmetic(),
+      dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100), CLI11_VERSION,
+      dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
+      dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
+             simdjson::SIMDJSON_VERSION_REVISION),
       dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
 }
 
@@ -31,7 +35,9 @@ int run(int argc, char** argv) {
   app.name("lorentz");
   app.set_version_flag("--version", versions());
   app.require_subcommand(1);
-  app.footer("Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be done.");
+  app.footer(
+      "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be "
+      "done.");
   Action action;
   add_first_hit(app, action);
   add_compare(app, action);

@@ -24,8 +24,8 @@ struct Options {
   bool json = false, strict = false, no_oracle = false;
 };
 
-// The wrong answers, as a query stream that can be run again: scene lines, and queries with `engine`, `expected` and
-// `given` beside what they ask.
+// The wrong answers, as a query stream that can be run again: scene lines, and queries with `engine`,
+// `expected` and `given` beside what they ask.
 class DisagreementFile {
  public:
   DisagreementFile(const std::string& path, const CaseSet& set) : path_(path), set_(set) {
@@ -77,7 +77,8 @@ CaseSet read_cases(const std::string& path, std::optional<Scene> initial, bool& 
   QueryStream stream(path, std::move(initial));
   for (StreamItem item; stream.next(item);) {
     if (item.kind == StreamItem::Kind::scene) set.scenes.push_back(item.scene);
-    if (item.kind == StreamItem::Kind::query) set.cases.push_back({item.id, set.scenes.size() - 1, item.query});
+    if (item.kind == StreamItem::Kind::query)
+      set.cases.push_back({item.id, set.scenes.size() - 1, item.query});
   }
   bad_input |= stream.had_bad_input();
   return set;
@@ -134,9 +135,11 @@ std::string json_of(const std::string& scene, const Options& options, const std:
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     const Tally& t = tallies[i];
     out += fmt::format(
-        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":0,\"wrong\":{},\"undecided\":{},\"unsupported\":{},"
+        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":0,\"wrong\":{},\"undecided\":{},"
+        "\"unsupported\":{},"
         "\"error\":{},\"missing\":{},\"max_ulp\":",
-        i ? "," : "", json_quoted(t.name), t.queries, t.agree, t.wrong, t.undecided, t.unsupported, t.error, t.missing);
+        i ? "," : "", json_quoted(t.name), t.queries, t.agree, t.wrong, t.undecided, t.unsupported, t.error,
+        t.missing);
     append_number(out, t.max_ulp);
     out += ",\"mean_ulp\":";
     append_number(out, t.mean_ulp());
@@ -159,7 +162,8 @@ std::pair<std::string, std::string> name_and_file(const std::string& argument) {
 // The scene's name for the heading; the number of scenes if a file has several.
 std::string title(const Options& options, const CaseSet& set) {
   if (set.scenes.size() > 1) return fmt::format("{} scenes", set.scenes.size());
-  const std::string name = options.scene.empty() ? (options.queries.empty() ? "square" : options.queries) : options.scene;
+  const std::string name =
+      options.scene.empty() ? (options.queries.empty() ? "square" : options.queries) : options.scene;
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
 
@@ -167,19 +171,21 @@ int act(const Options& options) {
   std::vector<std::string> engines = options.engines;
   if (engines.empty() && options.answers.empty()) engines = {"classical", "published"};
   for (const std::string& name : engines) check_name(name);
-  if (options.no_oracle && !options.answers.empty()) throw InputError("--answers needs the oracle; leave --no-oracle out");
+  if (options.no_oracle && !options.answers.empty())
+    throw InputError("--answers needs the oracle; leave --no-oracle out");
 
   bool bad_input = false;
   std::optional<Scene> scene;
   const bool drawn = options.queries.empty();
-  if (!options.scene.empty() || drawn) scene = load_scene(options.scene.empty() ? "square" : options.scene, options.radius);
-  else if (options.radius) throw InputError("--radius: needs --scene");
+  if (!options.scene.empty() || drawn)
+    scene = load_scene(options.scene.empty() ? "square" : options.scene, options.radius);
+  else if (options.radius)
+    throw InputError("--radius: needs --scene");
   const CaseSet set = drawn ? draw_cases(options, *scene) : read_cases(options.queries, scene, bad_input);
 
   DisagreementFile disagreements(options.disagreements, set);
-  const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name, const Answer& given) {
-    disagreements.add(one, exact, name, given);
-  };
+  const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
+                               const Answer& given) { disagreements.add(one, exact, name, given); };
   const std::vector<Answer> exact = options.no_oracle ? std::vector<Answer>{} : exact_answers(set);
   std::vector<Tally> tallies = measure(set, exact, engines, on_wrong);
   for (const std::string& argument : options.answers) {
@@ -204,24 +210,33 @@ int act(const Options& options) {
 
 void add_compare(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "Engines, and answers that other programs logged, against the exact oracle: right or wrong, error, speed.");
-  command->add_option("-e,--engine", options->engines, "classical, published, oracle, walk; several, or once each")
+  CLI::App* command = app.add_subcommand("compare",
+                                         "Engines, and answers that other programs logged, against the exact "
+                                         "oracle: right or wrong, error, speed.");
+  command
+      ->add_option("-e,--engine", options->engines,
+                   "classical, published, oracle, walk; several, or once each")
       ->delimiter(',')
       ->type_name("E");
-  command->add_option("--answers", options->answers, "judge an answer stream that some program wrote, as an engine NAME")
+  command
+      ->add_option("--answers", options->answers,
+                   "judge an answer stream that some program wrote, as an engine NAME")
       ->type_name("NAME=FILE");
-  command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue (default: square)");
+  command->add_option("--scene", options->scene,
+                      "a scene file, or a name of the catalogue (default: square)");
   command->add_option("--radius", options->radius, "radius of every ball of --scene");
-  command->add_option("--queries", options->queries, "query stream (NDJSON) instead of drawn queries; - is standard input");
+  command->add_option("--queries", options->queries,
+                      "query stream (NDJSON) instead of drawn queries; - is standard input");
   command->add_option("--count", options->count, "how many queries to draw")->capture_default_str();
   command->add_option("--seed", options->seed, "of the drawn queries")->capture_default_str();
-  command->add_option("--disagreements", options->disagreements, "write each wrong answer there, as a query stream");
+  command->add_option("--disagreements", options->disagreements,
+                      "write each wrong answer there, as a query stream");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->add_flag("--strict", options->strict, "exit status 1 also for undecided answers");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
-  command->footer("Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one thread."
-                  "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical");
+  command->footer(
+      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one thread."
+      "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

@@ -44,7 +44,8 @@ int act(const Options& options) {
   Table table({"n", "a", "p", "q", "q m - p"});
   for (std::size_t i = 0; i < convergents.size(); ++i) {
     const auto& c = convergents[i];
-    table.add({std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
+    table.add(
+        {std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
   }
   fmt::print("{}", table.text());
   return kDone;
@@ -55,14 +56,22 @@ int act(const Options& options) {
 void add_convergents(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "convergents", "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.");
-  command->add_option("slope", options->slope, "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64")
+      "convergents",
+      "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.");
+  command
+      ->add_option("slope", options->slope,
+                   "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64")
       ->required();
-  command->add_option("run", options->run, "the run (v_1): the slope is rise / run, exactly")->capture_default_str();
-  command->add_option("--limit", options->limit, "print N terms at most")->capture_default_str()->type_name("N");
+  command->add_option("run", options->run, "the run (v_1): the slope is rise / run, exactly")
+      ->capture_default_str();
+  command->add_option("--limit", options->limit, "print N terms at most")
+      ->capture_default_str()
+      ->type_name("N");
   command->add_flag("--json", options->json, "one JSON object, the remainders also as exact fractions");
-  command->footer("Example:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\nA negative slope goes behind --:"
-                  "\n  lorentz convergents -- -0.618");
+  command->footer(
+      "Example:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\nA negative slope goes behind "
+      "--:"
+      "\n  lorentz convergents -- -0.618");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

@@ -19,7 +19,8 @@ CaseSet paper_example() {
   set.scenes.push_back(unit_scene(2, 0.1));
   for (int degrees = 1; degrees < 90; ++degrees) {
     const double angle = degrees * std::numbers::pi / 180;
-    set.cases.push_back({std::to_string(degrees), 0, {{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}}});
+    set.cases.push_back(
+        {std::to_string(degrees), 0, {{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}}});
   }
   return set;
 }
@@ -57,10 +58,11 @@ class Report {
   void add(const std::string& what, const CaseSet& set) {
     const auto tallies = measure(set, exact_answers(set), {"classical", "published", "oracle"}, nullptr);
     for (const Tally& t : tallies)
-      table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "", t.name,
-                  std::to_string(t.agree), std::to_string(t.wrong), std::to_string(t.undecided),
+      table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "",
+                  t.name, std::to_string(t.agree), std::to_string(t.wrong), std::to_string(t.undecided),
                   t.timed_hits ? fmt::format("{:.1f}", t.mean_ulp()) : "-",
-                  t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-", fmt::format("{:.2f}", t.ns_per_query / 1000)});
+                  t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+                  fmt::format("{:.2f}", t.ns_per_query / 1000)});
     wrong_by_published_ += tallies[1].wrong;
     answered_by_published_ += tallies[1].agree + tallies[1].wrong;
   }
@@ -68,25 +70,33 @@ class Report {
   void print() const {
     fmt::print("{}\n", table_.text());
     fmt::print(
-        "right, wrong, undecided: the obstacle that each engine says is hit first, against the exact oracle.\n"
+        "right, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
+        "oracle.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm named a wrong obstacle {} times in {}: no rounding error, but discs and spheres that\n"
-        "it skips (docs/published.md). Each line can be checked: lorentz compare --disagreements FILE writes the cases.\n",
+        "The published algorithm named a wrong obstacle {} times in {}: no rounding error, but discs and "
+        "spheres that\n"
+        "it skips (docs/published.md). Each line can be checked: lorentz compare --disagreements FILE writes "
+        "the cases.\n",
         wrong_by_published_, answered_by_published_);
   }
 
  private:
-  Table table_{{"flights", "number", "engine", "right", "wrong", "undecided", "mean error", "worst", "us/query"}};
+  Table table_{
+      {"flights", "number", "engine", "right", "wrong", "undecided", "mean error", "worst", "us/query"}};
   std::size_t wrong_by_published_ = 0, answered_by_published_ = 0;
 };
 
 int act() {
-  fmt::print("Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed {}).\n\n",
-             kDefaultSeed);
+  fmt::print(
+      "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
+      "{}).\n\n",
+      kDefaultSeed);
   Report report;
   report.add("the paper's example, r = 0.1", paper_example());
-  for (const double r : {0.3, 0.1, 1e-2, 1e-3}) report.add(fmt::format("2D, drawn, r = {}", r), drawn(2, r, 5000));
-  for (const double r : {0.3, 0.2, 0.1}) report.add(fmt::format("2D, leaving a disc, r = {}", r), leaving_flights(2, r, 20000));
+  for (const double r : {0.3, 0.1, 1e-2, 1e-3})
+    report.add(fmt::format("2D, drawn, r = {}", r), drawn(2, r, 5000));
+  for (const double r : {0.3, 0.2, 0.1})
+    report.add(fmt::format("2D, leaving a disc, r = {}", r), leaving_flights(2, r, 20000));
   for (const double r : {0.3, 0.1, 1e-2}) report.add(fmt::format("3D, drawn, r = {}", r), drawn(3, r, 5000));
   report.add("3D, drawn, r = 0.001", drawn(3, 1e-3, 100));
   report.print();
@@ -96,8 +106,8 @@ int act() {
 }  // namespace
 
 void add_demo(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
+  CLI::App* command = app.add_subcommand(
+      "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
   command->callback([&action] { action = act; });
 }
 

@@ -18,7 +18,8 @@ constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
 
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::uint64_t index) : state_(mixed(mixed(seed + kGolden) ^ (index * kGolden))) {}
+Random::Random(std::uint64_t seed, std::uint64_t index)
+    : state_(mixed(mixed(seed + kGolden) ^ (index * kGolden))) {}
 
 std::uint64_t Random::bits() {
   return mixed(state_ += kGolden);
@@ -43,7 +44,8 @@ Vec Random::direction(int dimension) {
   }
 }
 
-std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed, std::size_t count) {
+std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
+                                std::size_t count) {
   constexpr int kTries = 10'000;
   const bool superposition = scene.lattices.size() > 1;
   const Vec one_cell{1, 1, 1}, box = scene.dimension == 2 ? Vec{40, 25, 0} : Vec{10, 10, 10};
@@ -55,7 +57,8 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
     Query query;
     int tries = 0;
     do {
-      if (++tries > kTries) throw InputError("the obstacles leave no free part of the cell to draw queries from");
+      if (++tries > kTries)
+        throw InputError("the obstacles leave no free part of the cell to draw queries from");
       query.x = {};
       for (int i = 0; i < scene.dimension; ++i) {
         const double share = cells[i] * random.uniform();

@@ -62,11 +62,14 @@ int act(Options options) {
   for (StreamItem item; stream.next(item); output.flush_if_full()) {
     const int dimension = stream.scene() ? stream.scene()->dimension : 0;
     switch (item.kind) {
-      case StreamItem::Kind::scene: first_hit = make_first_hit(options.engine, item.scene); break;
+      case StreamItem::Kind::scene:
+        first_hit = make_first_hit(options.engine, item.scene);
+        break;
       case StreamItem::Kind::query:
         append_answer_line(output.buffer(), item.id, first_hit(item.query, options.request), dimension);
         break;
-      default: append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);
+      default:
+        append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);
     }
   }
   output.flush();
@@ -77,19 +80,28 @@ int act(Options options) {
 
 void add_first_hit(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
-  command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")->capture_default_str();
-  command->add_option("-e,--engine", options->engine, "oracle (exact), walk (exact, slow), classical, published")
+  CLI::App* command =
+      app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
+  command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")
       ->capture_default_str();
-  command->add_option("--scene", options->scene, "scene before the first scene line: a file, or a name of the catalogue");
+  command
+      ->add_option("-e,--engine", options->engine, "oracle (exact), walk (exact, slow), classical, published")
+      ->capture_default_str();
+  command->add_option("--scene", options->scene,
+                      "scene before the first scene line: a file, or a name of the catalogue");
   command->add_option("--radius", options->radius, "radius of every ball of --scene");
-  command->add_option("--digits", options->request.digits, "also print the time with N significant decimal digits (oracle)")
+  command
+      ->add_option("--digits", options->request.digits,
+                   "also print the time with N significant decimal digits (oracle)")
       ->check(CLI::Range(1, 100000))
       ->type_name("N");
-  command->add_option("--max-time", options->max_time, "answer `later` if nothing is entered before time T")->type_name("T");
-  command->add_flag("--detail", options->request.detail, "add the collision point, the outward normal and the impact parameter");
+  command->add_option("--max-time", options->max_time, "answer `later` if nothing is entered before time T")
+      ->type_name("T");
+  command->add_flag("--detail", options->request.detail,
+                    "add the collision point, the outward normal and the impact parameter");
   command->footer(
-      "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square --radius 0.1");
+      "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
+      "--radius 0.1");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

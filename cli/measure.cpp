@@ -12,12 +12,24 @@ namespace lorentz::cli {
 void Tally::count(const oracle::Judgement& judgement) {
   ++queries;
   switch (judgement.verdict) {
-    case oracle::Verdict::agree: ++agree; break;
-    case oracle::Verdict::wrong: ++wrong; break;
-    case oracle::Verdict::undecided: ++undecided; break;
-    case oracle::Verdict::unsupported: ++unsupported; break;
-    case oracle::Verdict::error: ++error; break;
-    case oracle::Verdict::missing: ++missing; break;
+    case oracle::Verdict::agree:
+      ++agree;
+      break;
+    case oracle::Verdict::wrong:
+      ++wrong;
+      break;
+    case oracle::Verdict::undecided:
+      ++undecided;
+      break;
+    case oracle::Verdict::unsupported:
+      ++unsupported;
+      break;
+    case oracle::Verdict::error:
+      ++error;
+      break;
+    case oracle::Verdict::missing:
+      ++missing;
+      break;
   }
   if (!judgement.ulps) return;
   ++timed_hits;
@@ -74,8 +86,8 @@ Round run_round(const CaseSet& set, const std::vector<FirstHit>& first_hit, Look
 
 }  // namespace
 
-std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact, const std::vector<std::string>& names,
-                           const OnWrong& on_wrong) {
+std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
+                           const std::vector<std::string>& names, const OnWrong& on_wrong) {
   std::vector<Tally> tallies(names.size());
   std::vector<std::vector<FirstHit>> answerers(names.size());
   std::vector<std::vector<Round>> rounds(names.size());
@@ -94,13 +106,15 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
         }
         const oracle::Judgement judgement = oracle::judge(exact[i], given);
         tallies[e].count(judgement);
-        if (judgement.verdict == oracle::Verdict::wrong && on_wrong) on_wrong(set.cases[i], exact[i], names[e], given);
+        if (judgement.verdict == oracle::Verdict::wrong && on_wrong)
+          on_wrong(set.cases[i], exact[i], names[e], given);
       }));
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
   for (std::size_t e = 0; e < names.size(); ++e) {
     auto& of_engine = rounds[e];
-    std::sort(of_engine.begin(), of_engine.end(), [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
+    std::sort(of_engine.begin(), of_engine.end(),
+              [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
     const Round& middle = of_engine[of_engine.size() / 2];
     if (set.cases.empty()) continue;
     tallies[e].ns_per_query = middle.total_ns / static_cast<double>(set.cases.size());
@@ -129,8 +143,8 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
       table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
     return table.text();
   }
-  Table table({"engine", "queries", "agree", "wrong", "undecided", "unsupported", "error", "missing", "max ulp", "mean ulp",
-               "ns/query", "ns median"});
+  Table table({"engine", "queries", "agree", "wrong", "undecided", "unsupported", "error", "missing",
+               "max ulp", "mean ulp", "ns/query", "ns median"});
   for (const Tally& t : tallies) {
     const std::size_t judged_answers = t.agree + t.wrong;
     table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), share(t.wrong, judged_answers),

@@ -1,4 +1,5 @@
-// Several answerers over the same queries: what they got wrong, how exact their times are, how long they took.
+// Several answerers over the same queries: what they got wrong, how exact their times are, how long they
+// took.
 #pragma once
 
 #include <functional>
@@ -37,15 +38,16 @@ struct Tally {
 };
 
 /// Called for each wrong answer: the case, the exact answer, who gave which.
-using OnWrong = std::function<void(const Case&, const Answer& exact, const std::string& name, const Answer& given)>;
+using OnWrong =
+    std::function<void(const Case&, const Answer& exact, const std::string& name, const Answer& given)>;
 
 /// The exact answers to all cases.
 std::vector<Answer> exact_answers(const CaseSet& set);
 
-/// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact` is
-/// empty (nothing is judged) or as many answers as there are cases.
-std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact, const std::vector<std::string>& names,
-                           const OnWrong& on_wrong);
+/// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
+/// is empty (nothing is judged) or as many answers as there are cases.
+std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
+                           const std::vector<std::string>& names, const OnWrong& on_wrong);
 
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<Tally>& tallies, bool judged);

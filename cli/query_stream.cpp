@@ -10,7 +10,8 @@ QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial)
     : lines_(path), scene_(std::move(initial)) {}
 
 void QueryStream::complain(std::size_t line, const std::string& message) {
-  if (++complaints_ <= kMaxComplaints) fmt::print(stderr, "lorentz: {}:{}: {}\n", lines_.name(), line, message);
+  if (++complaints_ <= kMaxComplaints)
+    fmt::print(stderr, "lorentz: {}:{}: {}\n", lines_.name(), line, message);
 }
 
 void QueryStream::finish() {

@@ -1,4 +1,5 @@
-// A query stream with its scenes checked and its complaints printed: what every subcommand that reads queries uses.
+// A query stream with its scenes checked and its complaints printed: what every subcommand that reads queries
+// uses.
 #pragma once
 
 #include <memory>

@@ -36,7 +36,8 @@ Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
 }
 
 Answer with_request(Answer answer, const Query& query, const Scene& scene, const oracle::Request& request) {
-  const bool nothing_before = answer.outcome == Outcome::never || (answer.time && request.max_time && !(*answer.time < *request.max_time));
+  const bool nothing_before = answer.outcome == Outcome::never ||
+                              (answer.time && request.max_time && !(*answer.time < *request.max_time));
   if (request.max_time && nothing_before) {
     answer = Answer{};
     answer.outcome = Outcome::later;
@@ -57,14 +58,17 @@ std::vector<std::string> answerer_names() {
 void check_name(const std::string& name) {
   const auto names = answerer_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw InputError(fmt::format("no engine is called {}; there are {}", json_quoted(name), fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("no engine is called {}; there are {}", json_quoted(name), fmt::join(names, ", ")));
 }
 
 FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   check_name(name);
   if (name == "oracle") {
     auto truth = std::make_shared<oracle::Oracle>(scene);
-    return [truth](const Query& query, const oracle::Request& request) { return truth->first_hit(query, request); };
+    return [truth](const Query& query, const oracle::Request& request) {
+      return truth->first_hit(query, request);
+    };
   }
   if (name == "walk") {
     auto walk = std::make_shared<oracle::Walk>(scene);

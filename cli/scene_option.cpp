@@ -50,7 +50,8 @@ std::string find_scene(const std::string& name_or_file) {
       const fs::path file = folder / (name_or_file + ".toml");
       if (fs::exists(file)) return fs::weakly_canonical(file);
     }
-  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue ({})", name_or_file, catalogue_names()));
+  throw FileError(
+      fmt::format("{}: no such file, and no scene of the catalogue ({})", name_or_file, catalogue_names()));
 }
 
 }  // namespace
@@ -59,10 +60,12 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
   const std::string file = find_scene(name_or_file);
   Scene scene = read_scene_file(file);
   if (radius) {
-    if (!std::isfinite(*radius) || !(*radius > 0)) throw InputError("--radius: must be finite and above zero");
+    if (!std::isfinite(*radius) || !(*radius > 0))
+      throw InputError("--radius: must be finite and above zero");
     for (Lattice& lattice : scene.lattices)
       for (Atom& atom : lattice.atoms) {
-        if (!atom.is_ball()) throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
+        if (!atom.is_ball())
+          throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
         atom.radius = *radius;
       }
   }
@@ -73,7 +76,8 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
 void check_scene(const Scene& scene, const std::string& place) {
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(place + ": " + *flaw);
   if (auto pair = oracle::overlap_in(scene))
-    fmt::print(stderr, "lorentz: warning: {}: {}; answers stay exact, but is the radius what you meant?\n", place, *pair);
+    fmt::print(stderr, "lorentz: warning: {}: {}; answers stay exact, but is the radius what you meant?\n",
+               place, *pair);
 }
 
 }  // namespace lorentz::cli

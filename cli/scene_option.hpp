@@ -8,12 +8,12 @@
 
 namespace lorentz::cli {
 
-/// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius. Throws
-/// InputError or FileError.
+/// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius.
+/// Throws InputError or FileError.
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
 
-/// Throws InputError if the scene cannot be used (dependent vectors). Warns on stderr, once per place, if obstacles
-/// overlap or touch: a radius above half the spacing is mostly a typing error.
+/// Throws InputError if the scene cannot be used (dependent vectors). Warns on stderr, once per place, if
+/// obstacles overlap or touch: a radius above half the spacing is mostly a typing error.
 void check_scene(const Scene& scene, const std::string& place);
 
 }  // namespace lorentz::cli

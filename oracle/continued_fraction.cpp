@@ -28,8 +28,8 @@ std::vector<Convergent> convergents(double rise, double run, std::size_t limit) 
     const Z remainder = q * height - p * whole;  // over `whole`
     mpq_class exact(remainder, whole);
     exact.canonicalize();
-    result.push_back({to_integer(a), to_integer(p), to_integer(q), round_to_binary64({remainder, +1, 0, whole, 0}),
-                      exact.get_str()});
+    result.push_back({to_integer(a), to_integer(p), to_integer(q),
+                      round_to_binary64({remainder, +1, 0, whole, 0}), exact.get_str()});
   }
   return result;
 }

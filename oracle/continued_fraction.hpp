@@ -8,8 +8,8 @@
 
 namespace lorentz::oracle {
 
-/// One step of the expansion: partial quotient a, convergent p / q, and the signed remainder q m - p, whose sign
-/// alternates: the convergent of an even index lies below m, that of an odd one above it.
+/// One step of the expansion: partial quotient a, convergent p / q, and the signed remainder q m - p, whose
+/// sign alternates: the convergent of an even index lies below m, that of an odd one above it.
 struct Convergent {
   Integer a, p, q;
   double remainder = 0;         ///< correctly rounded

@@ -1,6 +1,5 @@
 #include "exact_line.hpp"
 
-
 namespace lorentz::oracle {
 namespace {
 
@@ -23,13 +22,15 @@ struct Row {
 
 // An integer k such that every earliest entry at t >= 0 has its index in k - 1 .. k + 2 (or there is none).
 //
-// In the plane of (k, t) the balls at real k fill a convex region E: {|x + t v - c(k)| < r}. At each k its lower
-// end is the entry t(k), convex in k.
-// - If E meets the axis t = 0 it does so in an open interval that holds no integer but `from`, so it is shorter
+// In the plane of (k, t) the balls at real k fill a convex region E: {|x + t v - c(k)| < r}. At each k its
+// lower end is the entry t(k), convex in k.
+// - If E meets the axis t = 0 it does so in an open interval that holds no integer but `from`, so it is
+// shorter
 //   than 2, and E lies on one side of the axis to the left of it and on one side to the right: the earliest
 //   entries are those next to the interval, within 2 of its middle.
 // - Otherwise E lies on one side of the axis, and t(k) is least next to its real minimum.
-// - A row along v is a strip of constant width: the entries increase along the flight, and the first is the one
+// - A row along v is a strip of constant width: the entries increase along the flight, and the first is the
+// one
 //   next to t = 0.
 template <std::size_t D>
 std::optional<Z> index_near_first(const Search<D>& search, const Row<D>& row) {

@@ -1,8 +1,8 @@
 // The exact geometry of one flight and the obstacles of one atom. Private to oracle/.
 //
-// Symbols: c a centre relative to x; s = v.c (along), h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r |v|.
-// The line meets the open ball iff |h| < rho, and then enters it at t = (s - sqrt(D)) / v^2, D = rho^2 - |h|^2.
-// It enters at t >= 0 iff besides s > 0 and |c| >= r (x outside or on the surface).
+// Symbols: c a centre relative to x; s = v.c (along), h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r
+// |v|. The line meets the open ball iff |h| < rho, and then enters it at t = (s - sqrt(D)) / v^2, D = rho^2 -
+// |h|^2. It enters at t >= 0 iff besides s > 0 and |c| >= r (x outside or on the surface).
 #pragma once
 
 #include <optional>
@@ -36,10 +36,12 @@ class Earliest {
   const Entry<D>& entry() const { return *entry_; }
 
   /// True if an entry at s - sqrt(d) would come after the earliest one.
-  bool beats(const Z& s, const Z& d) const { return entry_ && compare_entries(entry_->s, entry_->d, s, d) < 0; }
+  bool beats(const Z& s, const Z& d) const {
+    return entry_ && compare_entries(entry_->s, entry_->d, s, d) < 0;
+  }
 
-  /// No obstacle whose centre has an s above this can be entered before or with the earliest one: such an entry
-  /// needs s - rho < s_best.
+  /// No obstacle whose centre has an s above this can be entered before or with the earliest one: such an
+  /// entry needs s - rho < s_best.
   Z reach(const Z& rho_above) const { return entry_->s + rho_above; }
 
   void offer(Entry<D> other) {
@@ -61,14 +63,14 @@ struct Search {
   const Flight<D>& flight;
   const View<D>& view;
   int lattice, atom;
-  const ZVec<D>* from;   ///< coordinates of the obstacle to ignore, or null
-  Z rho2;                ///< r^2 v^2
-  Z rho;                 ///< largest integer below rho: |h| <= rho for the integer h of an obstacle that is met
+  const ZVec<D>* from;  ///< coordinates of the obstacle to ignore, or null
+  Z rho2;               ///< r^2 v^2
+  Z rho;  ///< largest integer below rho: |h| <= rho for the integer h of an obstacle that is met
   Earliest<D>& earliest;
 };
 
-/// Offers the earliest entry at t >= 0 among the obstacles at start + k step, k any integer. x must lie in none of
-/// them but `from`. Costs the same for two obstacles and for 2^1000.
+/// Offers the earliest entry at t >= 0 among the obstacles at start + k step, k any integer. x must lie in
+/// none of them but `from`. Costs the same for two obstacles and for 2^1000.
 template <std::size_t D>
 void offer_first_on_row(const Search<D>& search, const LatticePoint<D>& start, const LatticePoint<D>& step);
 

@@ -1,4 +1,5 @@
-// A scene and a query as integers: all lengths times one power of two, the velocity times another. Private to oracle/.
+// A scene and a query as integers: all lengths times one power of two, the velocity times another. Private to
+// oracle/.
 #pragma once
 
 #include <optional>
@@ -57,10 +58,10 @@ struct ExactScene {
 /// One atom's obstacles seen from the particle: centres are offset + the lattice, relative to x.
 template <std::size_t D>
 struct View {
-  Basis<D> basis;         ///< reduced
-  LatticePoint<D> offset; ///< the centre in the cell near x, and its coordinates n
+  Basis<D> basis;          ///< reduced
+  LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
   Z radius;
-  Z radius2;              ///< radius^2
+  Z radius2;  ///< radius^2
 };
 
 /// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).

@@ -1,8 +1,8 @@
 // The search for the first obstacle of one atom on one flight. Private to oracle/.
 //
-// x must lie in no obstacle of the atom but `from`. The search offers to `search.earliest` entries at t >= 0, the
-// earliest of the atom among them unless an earlier one (of another atom) was there before. If it offers nothing
-// and nothing was there, the flight enters no obstacle of this atom, ever.
+// x must lie in no obstacle of the atom but `from`. The search offers to `search.earliest` entries at t >= 0,
+// the earliest of the atom among them unless an earlier one (of another atom) was there before. If it offers
+// nothing and nothing was there, the flight enters no obstacle of this atom, ever.
 #pragma once
 
 #include "exact_line.hpp"

@@ -1,13 +1,14 @@
 // First hit in 2D. Choose a basis (u, w) of the lattice such that rows along w are sparse across the strip
 // |h| < rho, and yet each row that crosses the whole strip has an obstacle in it:
 //
-//   |h_w| < 2 rho <= |h_u|   by Euclid's algorithm on |h_u|, |h_w| (which is the continued fraction of the slope),
-//   or w the shortest vector, if already |h_w| < 2 rho for it.
+//   |h_w| < 2 rho <= |h_u|   by Euclid's algorithm on |h_u|, |h_w| (which is the continued fraction of the
+//   slope), or w the shortest vector, if already |h_w| < 2 rho for it.
 //
-// Then walk the rows a u + b w in the order in which they leave the strip. At most 2 rho / |h_u| + 1 of them (in the
-// second case: a number bounded by the ratio of the radius to the distance of the rows) overlap at any s, and
-// the first that lies in s > 0 as a whole ends the walk: an open interval of length 2 rho / |h_w| > 1 holds an integer.
-// Each row is solved exactly (offer_first_on_row), so nothing depends on obstacles being disjoint.
+// Then walk the rows a u + b w in the order in which they leave the strip. At most 2 rho / |h_u| + 1 of them
+// (in the second case: a number bounded by the ratio of the radius to the distance of the rows) overlap at
+// any s, and the first that lies in s > 0 as a whole ends the walk: an open interval of length 2 rho / |h_w|
+// > 1 holds an integer. Each row is solved exactly (offer_first_on_row), so nothing depends on obstacles
+// being disjoint.
 #include "first_hit.hpp"
 
 namespace lorentz::oracle {
@@ -53,8 +54,8 @@ void search_first_hit(const Search<2>& search) {
   const ZVec<2>& v = search.flight.v;
   const LatticePoint<2>& offset = search.view.offset;
 
-  // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is that of the
-  // offset. Orient the basis so that det > 0 and h_w <= 0: then a grows with s.
+  // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is that of
+  // the offset. Orient the basis so that det > 0 and h_w <= 0: then a grows with s.
   Z s_w = dot(v, w.vector.p);
   Z det = u.h * s_w - dot(v, u.vector.p) * w.h;
   if (w.h > 0) {

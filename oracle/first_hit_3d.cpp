@@ -1,14 +1,16 @@
 // First hit in 3D, on any lattice.
 //
-// The flight is cut into windows of s = v.c. A window's piece of the cylinder |h| < rho is made round by scaling
-// (4^j |h|^2 + s^2 for a window of about 2^(j+1) rho), and the basis (b1, b2, b3) is reduced under that form. Then
+// The flight is cut into windows of s = v.c. A window's piece of the cylinder |h| < rho is made round by
+// scaling (4^j |h|^2 + s^2 for a window of about 2^(j+1) rho), and the basis (b1, b2, b3) is reduced under
+// that form. Then
 //   1. the planes k3 = const that meet the piece are found from the cylinder's own support: few, or the
 //      window is cut; none, and the flight jumps to the s at which the next plane comes within reach;
-//   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem with its own
+//   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
+//   with its own
 //      windows and its own scaling: rows k2 = const, few of them, or the window is cut;
 //   3. each row is solved exactly and as a whole (offer_first_on_row).
-// Windows double when nothing was met, so the work is logarithmic in the flight. The bounds in 1 and 2 are integers
-// rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
+// Windows double when nothing was met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
+// integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
 //
 // Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
 #include "first_hit.hpp"
@@ -50,7 +52,8 @@ struct Range {
 
 // The k with low <= k gap <= high, for gap != 0.
 Range multiples_between(const Z& low, const Z& high, const Z& gap) {
-  return gap > 0 ? Range{ceil_div(low, gap), floor_div(high, gap)} : Range{ceil_div(high, gap), floor_div(low, gap)};
+  return gap > 0 ? Range{ceil_div(low, gap), floor_div(high, gap)}
+                 : Range{ceil_div(high, gap), floor_div(low, gap)};
 }
 
 // A vector in coordinates of its lattice plane: y across the flight, z along it.
@@ -73,19 +76,19 @@ struct PlaneForm {
   }
 };
 
-// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, e = v x N across the flight within them. In the
-// plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and more exactly
+// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, e = v x N across the flight within them. In
+// the plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and more exactly
 //   v^2 (e.c)^2 + (a s - v^2 level)^2 < rho^2 |e|^2.
-// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right angles,
-// e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
+// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
+// angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
 struct Planes {
   Basis<3> basis;
   ZVec<3> normal, e, f;
   Z a, gap;
-  Z reach2;          // rho^2 |v x N|^2
-  Z reach;           // its root, rounded down: enough for integers that are less
-  bool head_on;      // v is normal to the planes
-  Z across2, across; // rho^2 |e|^2 with the e in use, and its root
+  Z reach2;           // rho^2 |v x N|^2
+  Z reach;            // its root, rounded down: enough for integers that are less
+  bool head_on;       // v is normal to the planes
+  Z across2, across;  // rho^2 |e|^2 with the e in use, and its root
 
   Planes(const Search<3>& search, Basis<3> reduced) : basis(std::move(reduced)) {
     const Flight<3>& flight = search.flight;
@@ -188,14 +191,15 @@ void Solver::solve_rows(const Section& section) {
   }
 }
 
-// The entry that a ball at the best real place of the row would have, t v^2 = (s - sqrt(d)) / q; nothing if the row
-// misses the cylinder. See the derivation of exact_line.cpp: with A, B as there, M = v^2 |g|^2, it is
+// The entry that a ball at the best real place of the row would have, t v^2 = (s - sqrt(d)) / q; nothing if
+// the row misses the cylinder. See the derivation of exact_line.cpp: with A, B as there, M = v^2 |g|^2, it is
 // (A s0 - B sg - sqrt(strip M)) / A.
 struct RealEntry {
   Z s, d, q;
 };
 
-std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& row, const LatticePoint<3>& g) {
+std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& row,
+                                    const LatticePoint<3>& g) {
   const Flight<3>& flight = search.flight;
   const Z gg = dot(g.p, g.p), cg = dot(row.p, g.p), s0 = dot(flight.v, row.p), sg = dot(flight.v, g.p);
   const Z M = flight.v2 * gg, A = M - sg * sg, B = flight.v2 * cg - s0 * sg;
@@ -209,12 +213,13 @@ int compare(const RealEntry& a, const RealEntry& b) {
   return compare_entries(a.s * b.q, a.d * b.q * b.q, b.s * a.q, b.d * a.q * a.q);
 }
 
-// A plane so dense with obstacles (r many times their spacing) that even the shortest window has many rows. The
-// real entry is convex in the row number, so start where the ball touches the plane and go both ways, until it comes
-// after the earliest entry found and grows.
+// A plane so dense with obstacles (r many times their spacing) that even the shortest window has many rows.
+// The real entry is convex in the row number, so start where the ball touches the plane and go both ways,
+// until it comes after the earliest entry found and grows.
 void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   const Flight<3>& flight = search_.flight;
-  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|; rounding here costs time only.
+  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|; rounding here
+  // costs time only.
   Z z = 0;
   if (!planes.head_on) {
     const Z root = floor_sqrt(dot(planes.normal, planes.normal)) + 1;
@@ -229,7 +234,8 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   centre = std::min(std::max(centre, section.rows.first), section.rows.last);
   for (const int direction : {+1, -1}) {
     std::optional<RealEntry> previous;
-    for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last; k += direction) {
+    for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last;
+         k += direction) {
       LatticePoint<3> row = section.start.point;
       row.add_multiple(k, section.next.point);
       const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);

@@ -5,7 +5,8 @@ namespace {
 
 // k in c + k g with |c + k g|^2 < radius2: an open interval, as its first and last integer.
 template <std::size_t D>
-bool visit_row(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radius2, const RowVisitor<D>& visit) {
+bool visit_row(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radius2,
+               const RowVisitor<D>& visit) {
   const Z gg = dot(g.p, g.p), cg = dot(c.p, g.p);
   const Z disc = cg * cg - gg * (dot(c.p, c.p) - radius2);
   if (disc <= 0) return false;
@@ -18,10 +19,11 @@ bool visit_row(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radi
   return visit(start, g, last - first);
 }
 
-// A section of the ball by the points whose component along `normal` is the offset's plus k `gap`: visits each k
-// that can hold a point. `room2` is the section's squared radius, as a fraction room2 / scale.
+// A section of the ball by the points whose component along `normal` is the offset's plus k `gap`: visits
+// each k that can hold a point. `room2` is the section's squared radius, as a fraction room2 / scale.
 template <class Visit>
-bool visit_levels(const Z& level, const Z& gap, const Z& normal2, const Z& room2, const Z& scale, Visit visit) {
+bool visit_levels(const Z& level, const Z& gap, const Z& normal2, const Z& room2, const Z& scale,
+                  Visit visit) {
   // |level + k gap| < sqrt(room2 normal2 / scale)
   const Z bound = floor_sqrt(floor_div(room2 * normal2, scale));
   const Z width = abs(gap), start = gap > 0 ? level : Z(-level);
@@ -61,8 +63,8 @@ bool visit_ball<3>(const Basis<3>& basis, const LatticePoint<3>& offset, const Z
     const Z room2 = radius2 * normal2 - distance * distance;  // over normal2
     if (room2 <= 0) return false;
     const ZVec<3> in_plane = cross(normal, basis[0].p);
-    return visit_levels(dot(in_plane, plane.p), dot(in_plane, basis[1].p), dot(in_plane, in_plane), room2, normal2,
-                        [&](const Z& k2) {
+    return visit_levels(dot(in_plane, plane.p), dot(in_plane, basis[1].p), dot(in_plane, in_plane), room2,
+                        normal2, [&](const Z& k2) {
                           LatticePoint<3> row = plane;
                           row.add_multiple(k2, basis[1]);
                           return visit_row<3>(row, basis[0], radius2, visit);
@@ -108,12 +110,14 @@ std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, 
     if (candidate && (!smallest || *candidate < *smallest)) smallest = candidate;
     return many && smallest;
   };
-  visit_ball<D>(many ? lexicographic_basis<D>(scene, lattice, exponent) : view.basis, view.offset, view.radius2,
-                visit);
+  visit_ball<D>(many ? lexicographic_basis<D>(scene, lattice, exponent) : view.basis, view.offset,
+                view.radius2, visit);
   return smallest;
 }
 
-template std::optional<ZVec<2>> smallest_inside(const ExactScene<2>&, int, const View<2>&, const ZVec<2>*, long);
-template std::optional<ZVec<3>> smallest_inside(const ExactScene<3>&, int, const View<3>&, const ZVec<3>*, long);
+template std::optional<ZVec<2>> smallest_inside(const ExactScene<2>&, int, const View<2>&, const ZVec<2>*,
+                                                long);
+template std::optional<ZVec<3>> smallest_inside(const ExactScene<3>&, int, const View<3>&, const ZVec<3>*,
+                                                long);
 
 }  // namespace lorentz::oracle

@@ -8,13 +8,16 @@
 
 namespace lorentz::oracle {
 
-/// Visits offset + k_1 b_1 + .. + k_D b_D in the open ball |c|^2 < radius2 row by row, k_D outermost and ascending:
-/// each row as its first point, the step b_1, and the last index. Stops when the visitor returns true.
+/// Visits offset + k_1 b_1 + .. + k_D b_D in the open ball |c|^2 < radius2 row by row, k_D outermost and
+/// ascending: each row as its first point, the step b_1, and the last index. Stops when the visitor returns
+/// true.
 template <std::size_t D>
-using RowVisitor = std::function<bool(const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last)>;
+using RowVisitor =
+    std::function<bool(const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last)>;
 
 template <std::size_t D>
-bool visit_ball(const Basis<D>& basis, const LatticePoint<D>& offset, const Z& radius2, const RowVisitor<D>& visit);
+bool visit_ball(const Basis<D>& basis, const LatticePoint<D>& offset, const Z& radius2,
+                const RowVisitor<D>& visit);
 
 /// The smallest n, in lexicographic order, of the obstacles that contain x, `from` excepted.
 template <std::size_t D>

@@ -64,7 +64,8 @@ inline long bit_length(const Z& a) {
   return a == 0 ? 0 : static_cast<long>(mpz_sizeinbase(a.get_mpz_t(), 2));
 }
 
-/// floor((a + sign * sqrt(d)) / q), for d >= 0 and q > 0; sign is +1 or -1. Exact: floor(y / q) = floor(floor(y) / q).
+/// floor((a + sign * sqrt(d)) / q), for d >= 0 and q > 0; sign is +1 or -1. Exact: floor(y / q) =
+/// floor(floor(y) / q).
 inline Z floor_surd(const Z& a, int sign, const Z& d, const Z& q) {
   return floor_div(sign > 0 ? Z(a + floor_sqrt(d)) : Z(a - ceil_sqrt(d)), q);
 }

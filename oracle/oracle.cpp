@@ -55,7 +55,8 @@ struct ExactQuery {
 };
 
 // component * (s - sqrt(d)) + shift * v^2, over `q`.
-Quadratic along_flight(const Z& component, const Z& shift, const Z& s, const Z& d, const Z& q, long exponent) {
+Quadratic along_flight(const Z& component, const Z& shift, const Z& s, const Z& d, const Z& q,
+                       long exponent) {
   return {component * s + shift, component > 0 ? -1 : +1, component * component * d, q, exponent};
 }
 
@@ -65,7 +66,8 @@ Detail ExactQuery<D>::detail_of(const Entry<D>& entry, const Z& radius) const {
   for (std::size_t i = 0; i < D; ++i) {
     const Z& v = flight.v[i];
     const Z relative = -entry.centre.p[i] * flight.v2;  // of x, from the centre
-    detail.point[i] = round_to_binary64(along_flight(v, x[i] * flight.v2, entry.s, entry.d, flight.v2, length_exponent));
+    detail.point[i] =
+        round_to_binary64(along_flight(v, x[i] * flight.v2, entry.s, entry.d, flight.v2, length_exponent));
     detail.normal[i] = round_to_binary64(along_flight(v, relative, entry.s, entry.d, flight.v2 * radius, 0));
   }
   const Z across2 = radius * radius * flight.v2 - entry.d;  // |h|^2 = (impact parameter)^2 v^2
@@ -87,8 +89,8 @@ class Problem {
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a, ++view) {
         const Z rho2 = view->radius2 * exact.flight.v2;
-        search_first_hit(
-            Search<D>{exact.flight, *view, l, a, exact.from_in(query, l, a), rho2, root_below(rho2), earliest});
+        search_first_hit(Search<D>{exact.flight, *view, l, a, exact.from_in(query, l, a), rho2,
+                                   root_below(rho2), earliest});
       }
     return answer_to(exact, earliest, request);
   }
@@ -105,7 +107,8 @@ class Problem {
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
         views.push_back(view_of<D>(scene_, l, a, exact.x, exact.length_exponent));
-        const auto n = smallest_inside<D>(scene_, l, views.back(), exact.from_in(query, l, a), exact.length_exponent);
+        const auto n =
+            smallest_inside<D>(scene_, l, views.back(), exact.from_in(query, l, a), exact.length_exponent);
         if (n) return ObstacleId{l, a, to_cell(*n)};
       }
     return std::nullopt;
@@ -116,7 +119,8 @@ class Problem {
     const Entry<D>& entry = earliest.entry();
     const Quadratic time = exact.time_of(entry);
     if (request.max_time && compare(time, *request.max_time) >= 0) return later();
-    Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.centre.n)}, round_to_binary64(time));
+    Answer answer =
+        Answer::hit({entry.lattice, entry.atom, to_cell(entry.centre.n)}, round_to_binary64(time));
     if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
     if (request.detail) {
       const Z radius = shifted_left(scene_.lattices[entry.lattice].atoms[entry.atom].radius,
@@ -153,8 +157,10 @@ Oracle::Oracle(const Scene& scene) {
   auto impl = std::make_unique<Impl>();
   impl->scene = scene;
   if (!has_semiaxes(scene)) {
-    if (scene.dimension == 2) impl->problem.emplace<Problem<2>>(scene);
-    else impl->problem.emplace<Problem<3>>(scene);
+    if (scene.dimension == 2)
+      impl->problem.emplace<Problem<2>>(scene);
+    else
+      impl->problem.emplace<Problem<3>>(scene);
   }
   impl_ = std::move(impl);
 }
@@ -165,8 +171,10 @@ Oracle::~Oracle() = default;
 
 Answer Oracle::first_hit(const Query& query, const Request& request) const {
   if (auto flaw = flaw_of(query, impl_->scene)) return Answer::error(*flaw);
-  if (const auto* problem = std::get_if<Problem<2>>(&impl_->problem)) return problem->first_hit(query, request);
-  if (const auto* problem = std::get_if<Problem<3>>(&impl_->problem)) return problem->first_hit(query, request);
+  if (const auto* problem = std::get_if<Problem<2>>(&impl_->problem))
+    return problem->first_hit(query, request);
+  if (const auto* problem = std::get_if<Problem<3>>(&impl_->problem))
+    return problem->first_hit(query, request);
   return Answer::unsupported_because("the oracle does not do semiaxes yet; balls (radius) only");
 }
 

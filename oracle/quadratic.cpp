@@ -30,7 +30,8 @@ int compare(const Quadratic& number, double value) {
   // number - m 2^e has the sign of (a - m q 2^(e - exponent)) + sign sqrt(d), scaled to integers.
   const Dyadic dyadic = to_dyadic(value);
   const long shift = dyadic.exponent - number.exponent;
-  if (shift >= 0) return sign_of(number.a - shifted_left(dyadic.mantissa * number.q, shift), number.sign, number.d);
+  if (shift >= 0)
+    return sign_of(number.a - shifted_left(dyadic.mantissa * number.q, shift), number.sign, number.d);
   return sign_of(shifted_left(number.a, -shift) - dyadic.mantissa * number.q, number.sign,
                  shifted_left(number.d, -2 * shift));
 }
@@ -93,7 +94,8 @@ double round_to_binary64(const Quadratic& n) {
   const int sign = sign_of(n.a, n.sign, n.d);
   if (sign == 0) return 0.0;
   if (sign < 0) return -round_to_binary64(negated(n));
-  // The unit of the last place is 2^p; a guess from the magnitude is off by a few bits, so let the floor tell.
+  // The unit of the last place is 2^p; a guess from the magnitude is off by a few bits, so let the floor
+  // tell.
   constexpr long kSmallest = -1074;
   long p = std::max(binary_magnitude(n) - 60, kSmallest - 1);
   const long bits = bit_length(floor_of(n, 1, -p).value);
@@ -141,13 +143,17 @@ std::string round_to_decimal(const Quadratic& n, int digits) {
   if (sign == 0) return "0";
   if (sign < 0) return "-" + round_to_decimal(negated(n), digits);
   // 10^exponent10 <= number < 10^(exponent10 + 1): guess from the bits, then let the floor correct it.
-  long exponent10 = static_cast<long>(std::floor(static_cast<double>(binary_magnitude(n)) * 0.30102999566398120));
+  long exponent10 =
+      static_cast<long>(std::floor(static_cast<double>(binary_magnitude(n)) * 0.30102999566398120));
   const Z least = power_of_ten(digits - 1), limit = power_of_ten(digits);
   for (;;) {
     const Z value = floor_of(times_power_of_ten(n, digits - 1 - exponent10), 1, 0).value;
-    if (value >= limit) ++exponent10;
-    else if (value < least) --exponent10;
-    else break;
+    if (value >= limit)
+      ++exponent10;
+    else if (value < least)
+      --exponent10;
+    else
+      break;
   }
   Z value = round_half_even(floor_of(times_power_of_ten(n, digits - 1 - exponent10), 2, 0));
   if (value == limit) {

@@ -1,5 +1,5 @@
-// Real quadratic numbers (a +- sqrt(d)) / q: what collision times, points and normals are. Comparison and rounding
-// are exact, by integer arithmetic alone; no precision is ever guessed. Private to oracle/.
+// Real quadratic numbers (a +- sqrt(d)) / q: what collision times, points and normals are. Comparison and
+// rounding are exact, by integer arithmetic alone; no precision is ever guessed. Private to oracle/.
 #pragma once
 
 #include <string>
@@ -29,8 +29,8 @@ int compare(const Quadratic& number, double value);
 /// The nearest binary64, ties to even, gradual underflow, +0 for zero; beyond the largest one an infinity.
 double round_to_binary64(const Quadratic& number);
 
-/// `digits` >= 1 significant decimal digits, rounded half to even: positional for exponents -7 to `digits` - 1,
-/// else d.ddde+x. Zero is "0".
+/// `digits` >= 1 significant decimal digits, rounded half to even: positional for exponents -7 to `digits` -
+/// 1, else d.ddde+x. Zero is "0".
 std::string round_to_decimal(const Quadratic& number, int digits);
 
 }  // namespace lorentz::oracle

@@ -1,6 +1,7 @@
-// Exact lattice reduction in two and three dimensions under any positive (semi)definite integer form: Lagrange's
-// algorithm, and in 3D the greedy one (Nguyen and Stehle, "Low-dimensional lattice basis reduction revisited").
-// Whatever it returns is a basis of the same lattice; a worse basis costs time, never correctness. Private to oracle/.
+// Exact lattice reduction in two and three dimensions under any positive (semi)definite integer form:
+// Lagrange's algorithm, and in 3D the greedy one (Nguyen and Stehle, "Low-dimensional lattice basis reduction
+// revisited"). Whatever it returns is a basis of the same lattice; a worse basis costs time, never
+// correctness. Private to oracle/.
 #pragma once
 
 #include <utility>
@@ -15,7 +16,8 @@ struct EuclideanForm {
   Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const { return dot(a.p, b.p); }
 };
 
-/// Makes b1, b2 a shortest pair: |b1| <= |b2|, 2 |b1.b2| <= |b1|^2. A vector of zero length comes first and ends it.
+/// Makes b1, b2 a shortest pair: |b1| <= |b2|, 2 |b1.b2| <= |b1|^2. A vector of zero length comes first and
+/// ends it.
 template <class Point, class Form>
 void reduce_pair(Point& b1, Point& b2, const Form& form) {
   Z g11 = form(b1, b1), g22 = form(b2, b2), g12 = form(b1, b2);

@@ -8,13 +8,13 @@
 
 namespace lorentz::oracle {
 
-/// For a scene that lorentz::flaw_of passed: what is wrong with it nevertheless (dependent primitive vectors or
-/// semiaxes, decided exactly), or nothing.
+/// For a scene that lorentz::flaw_of passed: what is wrong with it nevertheless (dependent primitive vectors
+/// or semiaxes, decided exactly), or nothing.
 std::optional<std::string> dependence_in(const Scene& scene);
 
 /// Names a pair of obstacles that overlap or touch, or nothing. Looks at the pairs of balls that share their
-/// primitive vectors, in scenes of up to 300 atoms. (Two lattices with different vectors nearly always overlap
-/// somewhere; that is what they are for.)
+/// primitive vectors, in scenes of up to 300 atoms. (Two lattices with different vectors nearly always
+/// overlap somewhere; that is what they are for.)
 std::optional<std::string> overlap_in(const Scene& scene);
 
 }  // namespace lorentz::oracle

@@ -14,15 +14,19 @@ double ulp(double t) {
 
 Judgement judge(const Answer& exact, const Answer& given) {
   switch (given.outcome) {
-    case Outcome::undecided: return {Verdict::undecided, {}};
-    case Outcome::error: return {given.unsupported ? Verdict::unsupported : Verdict::error, {}};
-    default: break;
+    case Outcome::undecided:
+      return {Verdict::undecided, {}};
+    case Outcome::error:
+      return {given.unsupported ? Verdict::unsupported : Verdict::error, {}};
+    default:
+      break;
   }
   if (given.outcome != exact.outcome) return {Verdict::wrong, {}};
   if (exact.outcome == Outcome::never) return {Verdict::agree, {}};
   if (!(given.obstacle == exact.obstacle)) return {Verdict::wrong, {}};
   Judgement judgement{Verdict::agree, {}};
-  if (exact.time && given.time && std::isfinite(*exact.time) && *exact.time < std::numeric_limits<double>::max())
+  if (exact.time && given.time && std::isfinite(*exact.time) &&
+      *exact.time < std::numeric_limits<double>::max())
     judgement.ulps = std::fabs(*given.time - *exact.time) / ulp(*exact.time);
   return judgement;
 }

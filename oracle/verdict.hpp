@@ -18,10 +18,12 @@ enum class Verdict {
 
 struct Judgement {
   Verdict verdict = Verdict::missing;
-  std::optional<double> ulps;  ///< where it agrees on a hit and gives a finite time: |t - t_exact| / ulp(t_exact)
+  std::optional<double>
+      ulps;  ///< where it agrees on a hit and gives a finite time: |t - t_exact| / ulp(t_exact)
 };
 
-/// `exact` is an answer of the oracle: hit, never or inside. Times are measured from the correctly rounded time.
+/// `exact` is an answer of the oracle: hit, never or inside. Times are measured from the correctly rounded
+/// time.
 Judgement judge(const Answer& exact, const Answer& given);
 
 }  // namespace lorentz::oracle

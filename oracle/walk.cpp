@@ -1,7 +1,7 @@
-// How it walks. In coordinates y of one atom's lattice (n counts from the atom) the plane is cut into unit cells
-// around the integer points. The ray passes from cell to cell; every obstacle that reaches into a cell has its n within
-// K_i of the cell's, where K_i >= r |row i of M^-1| + 1/2, so all of these are tested, each exactly. The walk ends in
-// the cell that the ray leaves after the earliest entry found.
+// How it walks. In coordinates y of one atom's lattice (n counts from the atom) the plane is cut into unit
+// cells around the integer points. The ray passes from cell to cell; every obstacle that reaches into a cell
+// has its n within K_i of the cell's, where K_i >= r |row i of M^-1| + 1/2, so all of these are tested, each
+// exactly. The walk ends in the cell that the ray leaves after the earliest entry found.
 #include "walk.hpp"
 
 #include <CGAL/MP_Float.h>
@@ -106,7 +106,8 @@ class AtomWalk {
       if (best && CGAL::compare(Root(leaving(n, axis)), best->time) != CGAL::SMALLER) return End::done;
       n[axis] += sign;
       around(n, axis, sign, [&](const Index& m) { test(m, best); });
-      // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing new comes.
+      // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing
+      // new comes.
       if (first_axis < 0) {
         first_axis = axis;
         first_crossing = n;

@@ -1,5 +1,5 @@
-// The second oracle: cell by cell, exact, slow, without any cleverness. It exists to catch the first one, and shares
-// nothing with it but the problem statement: neither code nor arithmetic (CGAL's MP_Float, not GMP).
+// The second oracle: cell by cell, exact, slow, without any cleverness. It exists to catch the first one, and
+// shares nothing with it but the problem statement: neither code nor arithmetic (CGAL's MP_Float, not GMP).
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,11 @@ namespace lorentz::oracle {
 class Walk {
  public:
   /// The scene must have no flaw. After `max_cells` cells of one atom's lattice the walk gives up.
-  explicit Walk(Scene scene, std::int64_t max_cells = 100'000) : scene_(std::move(scene)), max_cells_(max_cells) {}
+  explicit Walk(Scene scene, std::int64_t max_cells = 100'000)
+      : scene_(std::move(scene)), max_cells_(max_cells) {}
 
-  /// The exact answer, time correctly rounded; `undecided` if the flight passes more than max_cells cells, or if a
-  /// start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth trying; `error` for a
+  /// The exact answer, time correctly rounded; `undecided` if the flight passes more than max_cells cells, or
+  /// if a start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth trying; `error` for a
   /// query that is none, and for semiaxes (unsupported).
   Answer first_hit(const Query& query) const;
 

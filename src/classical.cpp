@@ -22,7 +22,8 @@ Answer Classical::first_hit_scaled(const Query& query, double max_time) const {
   Vec x = query.x;
   CellIndex n{};
   for (int i = 0; i < d; ++i) {
-    if (!(std::fabs(x[i]) < kMaxStart)) return Answer::unsupported_because("start too far from the origin for binary64");
+    if (!(std::fabs(x[i]) < kMaxStart))
+      return Answer::unsupported_because("start too far from the origin for binary64");
     const double home = std::floor(x[i] + 0.5);
     n[i] = static_cast<std::int64_t>(home);
     x[i] -= home;

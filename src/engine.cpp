@@ -44,9 +44,11 @@ std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   if (name != "classical" && name != "published") return nullptr;
   if (!is_unit_scene(scene))
     return std::make_unique<Unsupported>(
-        scene, std::string(name) + " does the unit square and cubic lattice with one ball at the origin only");
+        scene,
+        std::string(name) + " does the unit square and cubic lattice with one ball at the origin only");
   if (scene.lattices[0].atoms[0].radius > 0.5)
-    return std::make_unique<Unsupported>(scene, std::string(name) + " does radii up to half the spacing only");
+    return std::make_unique<Unsupported>(scene,
+                                         std::string(name) + " does radii up to half the spacing only");
   if (name == "classical") return std::make_unique<Classical>(scene);
   return std::make_unique<Published>(scene);
 }

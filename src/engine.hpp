@@ -16,14 +16,15 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an `error`.
+  /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an
+  /// `error`.
   Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const;
 
  protected:
   explicit Engine(Scene scene) : scene_(std::move(scene)) {}
 
-  /// Called for a valid query, its velocity scaled by a power of two so that its largest component lies in [1, 2):
-  /// nothing overflows or underflows that need not. Times are in the scaled units.
+  /// Called for a valid query, its velocity scaled by a power of two so that its largest component lies in
+  /// [1, 2): nothing overflows or underflows that need not. Times are in the scaled units.
   virtual Answer first_hit_scaled(const Query& query, double max_time) const = 0;
 
   const Scene& scene() const { return scene_; }
@@ -39,8 +40,8 @@ std::vector<std::string> engine_names();
 /// does not do gets an engine that answers every query with `unsupported`.
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene);
 
-/// Starts beyond this many cells from the origin are `unsupported`: there a binary64 has no digits left for the
-/// place within a cell.
+/// Starts beyond this many cells from the origin are `unsupported`: there a binary64 has no digits left for
+/// the place within a cell.
 inline constexpr double kMaxStart = 0x1p51;
 
 }  // namespace lorentz

@@ -1,6 +1,6 @@
-// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The one place
-// that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a hexadecimal
-// float ("0x1.8p-1") will do; keys that are not known are ignored.
+// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The
+// one place that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a
+// hexadecimal float ("0x1.8p-1") will do; keys that are not known are ignored.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ struct StreamItem {
   Id id = "null";
   Scene scene;
   Query query;
-  std::string message;  ///< of `bad`
+  std::string message;     ///< of `bad`
   bool bad_scene = false;  ///< the bad line was a scene: what follows has none
 };
 
@@ -47,7 +47,8 @@ class ExchangeReader {
   /// every query bad). Scenes and queries are free of flaws (flaw_of), or the item is bad.
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
 
-  /// A line of an answer stream, of a scene of this dimension or any (0). Throws InputError. False for a blank line.
+  /// A line of an answer stream, of a scene of this dimension or any (0). Throws InputError. False for a
+  /// blank line.
   bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer);
 
  private:

@@ -30,11 +30,16 @@ void skip(json::value value) {
       simdjson::ondemand::number number;
       const auto error = value.get_number().get(number);
       double real;
-      if (error && value.get_double().get(real) && error != simdjson::NUMBER_ERROR) throw simdjson::simdjson_error(error);
+      if (error && value.get_double().get(real) && error != simdjson::NUMBER_ERROR)
+        throw simdjson::simdjson_error(error);
       break;
     }
-    case json::json_type::string: (void)value.get_string().value(); break;
-    case json::json_type::boolean: (void)value.get_bool().value(); break;
+    case json::json_type::string:
+      (void)value.get_string().value();
+      break;
+    case json::json_type::boolean:
+      (void)value.get_bool().value();
+      break;
     case json::json_type::null:
       if (!value.is_null()) throw simdjson::simdjson_error(simdjson::N_ATOM_ERROR);
       break;
@@ -56,7 +61,8 @@ struct Components {
 };
 
 Components read_components(json::value value, const char* key) {
-  if (value.type() != json::json_type::array) throw InputError(std::string(key) + ": needs an array of numbers");
+  if (value.type() != json::json_type::array)
+    throw InputError(std::string(key) + ": needs an array of numbers");
   Components result;
   for (json::value element : value.get_array()) {
     const double number = read_number(element, key);
@@ -69,12 +75,15 @@ Components read_components(json::value value, const char* key) {
 Integer read_integer(json::value value, const char* key) {
   std::string_view text;
   const bool is_string = value.type() == json::json_type::string;
-  if (is_string) text = value.get_string();
-  else if (value.type() == json::json_type::number) text = value.raw_json_token();
+  if (is_string)
+    text = value.get_string();
+  else if (value.type() == json::json_type::number)
+    text = value.raw_json_token();
   while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
   if (auto n = Integer::from_decimal(text)) return *n;
   double number = 0.5;
-  if (!is_string && !value.get_double().get(number) && number == std::floor(number) && std::fabs(number) <= 0x1p53)
+  if (!is_string && !value.get_double().get(number) && number == std::floor(number) &&
+      std::fabs(number) <= 0x1p53)
     return Integer(static_cast<std::int64_t>(number));  // 27.0, as some programs write it
   throw InputError(std::string(key) + ": needs an integer (beyond 2^53: a decimal string)");
 }
@@ -104,8 +113,11 @@ CellRead read_cell(json::value value) {
 
 Id read_id(json::value value) {
   switch (value.type()) {
-    case json::json_type::string: return json_quoted(value.get_string().value());
-    case json::json_type::null: skip(value); return "null";
+    case json::json_type::string:
+      return json_quoted(value.get_string().value());
+    case json::json_type::null:
+      skip(value);
+      return "null";
     default: {
       const Integer n = read_integer(value, "id");
       return n.fits_int64() ? n.decimal() : json_quoted(n.decimal());
@@ -120,19 +132,24 @@ struct FromRead {
 };
 
 FromRead read_from(json::value value) {
-  if (value.type() != json::json_type::object) throw InputError("from: needs an object with lattice, atom and cell");
+  if (value.type() != json::json_type::object)
+    throw InputError("from: needs an object with lattice, atom and cell");
   FromRead from;
   for (auto field : value.get_object()) {
     const std::string_view key = field.unescaped_key();
-    if (key == "lattice") from.obstacle.lattice = read_index(field.value(), "from.lattice"), from.lattice = true;
-    else if (key == "atom") from.obstacle.atom = read_index(field.value(), "from.atom"), from.atom = true;
+    if (key == "lattice")
+      from.obstacle.lattice = read_index(field.value(), "from.lattice"), from.lattice = true;
+    else if (key == "atom")
+      from.obstacle.atom = read_index(field.value(), "from.atom"), from.atom = true;
     else if (key == "cell") {
       CellRead cell = read_cell(field.value());
       from.obstacle.cell = std::move(cell.cell);
       from.components = cell.count;
-    } else skip(field.value());
+    } else
+      skip(field.value());
   }
-  if (!from.lattice || !from.atom || from.components == 0) throw InputError("from: needs lattice, atom and cell");
+  if (!from.lattice || !from.atom || from.components == 0)
+    throw InputError("from: needs lattice, atom and cell");
   return from;
 }
 
@@ -151,9 +168,13 @@ SceneNode read_node(json::value value) {
       }
       return {std::move(object)};
     }
-    case json::json_type::number: return {read_number(value, "scene")};
-    case json::json_type::string: return {std::string(value.get_string().value())};
-    default: skip(value); return {};
+    case json::json_type::number:
+      return {read_number(value, "scene")};
+    case json::json_type::string:
+      return {std::string(value.get_string().value())};
+    default:
+      skip(value);
+      return {};
   }
 }
 
@@ -165,7 +186,8 @@ std::string wrong_dimension(const char* what, std::size_t count, int dimension) 
 std::string not_json(const LineReader::Line& line, const simdjson::simdjson_error& error) {
   const auto nuls = std::count(line.text.begin(), line.text.end(), '\0');
   if (nuls > 0)
-    return "not JSON: holds " + std::to_string(nuls) + " NUL bytes (was the file overwritten or cut while it was written?)";
+    return "not JSON: holds " + std::to_string(nuls) +
+           " NUL bytes (was the file overwritten or cut while it was written?)";
   return std::string("not JSON: ") + error.what();
 }
 
@@ -208,11 +230,16 @@ void ExchangeReader::Impl::read_fields(const LineReader::Line& line, const Scene
     const std::string_view key = field.unescaped_key();
     json::value value = field.value();
     try {
-      if (key == "x") x = read_components(value, "x");
-      else if (key == "v") v = read_components(value, "v");
-      else if (key == "id") item.id = read_id(value);
-      else if (key == "from") from = read_from(value);
-      else if (key == "scene") item.bad_scene = true, scene_node = read_node(value);
+      if (key == "x")
+        x = read_components(value, "x");
+      else if (key == "v")
+        v = read_components(value, "v");
+      else if (key == "id")
+        item.id = read_id(value);
+      else if (key == "from")
+        from = read_from(value);
+      else if (key == "scene")
+        item.bad_scene = true, scene_node = read_node(value);
       else {
         golden |= key == "golden";
         skip(value);
@@ -239,11 +266,14 @@ void ExchangeReader::Impl::read_fields(const LineReader::Line& line, const Scene
   if (v.count == 0) throw InputError("v is missing");
   if (x.count != d) throw InputError(wrong_dimension("x", x.count, scene->dimension));
   if (v.count != d) throw InputError(wrong_dimension("v", v.count, scene->dimension));
-  if (from && from->components != d) throw InputError(wrong_dimension("from.cell", from->components, scene->dimension));
+  if (from && from->components != d)
+    throw InputError(wrong_dimension("from.cell", from->components, scene->dimension));
   item.query.x = x.values;
   item.query.v = v.values;
-  if (from) item.query.from = std::move(from->obstacle);
-  else item.query.from.reset();
+  if (from)
+    item.query.from = std::move(from->obstacle);
+  else
+    item.query.from.reset();
   if (auto wrong = flaw_of(item.query, *scene)) throw InputError(*wrong);
   item.kind = StreamItem::Kind::query;
 }
@@ -275,7 +305,8 @@ Outcome outcome_named(std::string_view name) {
   if (name == "later") return Outcome::later;
   if (name == "undecided") return Outcome::undecided;
   if (name == "error") return Outcome::error;
-  throw InputError("outcome: " + json_quoted(name) + " is none of hit, never, inside, later, undecided, error");
+  throw InputError("outcome: " + json_quoted(name) +
+                   " is none of hit, never, inside, later, undecided, error");
 }
 
 double read_time(json::value value) {
@@ -297,15 +328,24 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
     for (auto field : document.get_object()) {
       const std::string_view key = field.unescaped_key();
       json::value value = field.value();
-      if (key == "id") id = read_id(value);
-      else if (key == "outcome") answer.outcome = outcome_named(value.get_string().value()), has_outcome = true;
-      else if (key == "lattice") answer.obstacle.lattice = read_index(value, "lattice");
-      else if (key == "atom") answer.obstacle.atom = read_index(value, "atom");
-      else if (key == "cell") answer.obstacle.cell = read_cell(value).cell, has_cell = true;
-      else if (key == "time") answer.time = read_time(value);
-      else if (key == "message") answer.message = value.get_string().value();
-      else if (key == "reason") answer.unsupported = value.get_string().value() == "unsupported";
-      else skip(value);
+      if (key == "id")
+        id = read_id(value);
+      else if (key == "outcome")
+        answer.outcome = outcome_named(value.get_string().value()), has_outcome = true;
+      else if (key == "lattice")
+        answer.obstacle.lattice = read_index(value, "lattice");
+      else if (key == "atom")
+        answer.obstacle.atom = read_index(value, "atom");
+      else if (key == "cell")
+        answer.obstacle.cell = read_cell(value).cell, has_cell = true;
+      else if (key == "time")
+        answer.time = read_time(value);
+      else if (key == "message")
+        answer.message = value.get_string().value();
+      else if (key == "reason")
+        answer.unsupported = value.get_string().value() == "unsupported";
+      else
+        skip(value);
     }
     if (!ended(document)) throw InputError("not JSON: more than one value in the line");
     if (!has_outcome) throw InputError("outcome is missing");
@@ -340,7 +380,8 @@ SceneNode parse_toml(const std::string& text) {
   try {
     return node_from(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    throw InputError("line " + std::to_string(error.source().begin.line) + ": not TOML: " + std::string(error.description()));
+    throw InputError("line " + std::to_string(error.source().begin.line) +
+                     ": not TOML: " + std::string(error.description()));
   }
 }
 

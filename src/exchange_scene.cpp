@@ -25,7 +25,8 @@ double parse_hexadecimal(std::string_view text, const std::string& place) {
   double value = 0;
   const auto [end, status] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
-  if (status == std::errc::result_out_of_range) throw InputError(place + ": " + json_quoted(text) + " is out of binary64's range");
+  if (status == std::errc::result_out_of_range)
+    throw InputError(place + ": " + json_quoted(text) + " is out of binary64's range");
   if (status != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
     throw InputError(place + ": " + json_quoted(text) + " is no hexadecimal float (like \"0x1.8p-1\")");
   return negative ? -value : value;
@@ -33,7 +34,8 @@ double parse_hexadecimal(std::string_view text, const std::string& place) {
 
 double parse_number(std::string_view text) {
   const std::string_view unsigned_text = text.substr(!text.empty() && text.front() == '-' ? 1 : 0);
-  if (unsigned_text.starts_with("0x") || unsigned_text.starts_with("0X")) return parse_hexadecimal(text, "number");
+  if (unsigned_text.starts_with("0x") || unsigned_text.starts_with("0X"))
+    return parse_hexadecimal(text, "number");
   double value = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
@@ -67,8 +69,8 @@ std::string item(const std::string& place, std::size_t i) {
 Vec vector_at(const SceneNode& node, int dimension, const std::string& place) {
   const auto& array = array_at(node, place);
   if (array.size() != static_cast<std::size_t>(dimension))
-    throw InputError(place + ": has " + std::to_string(array.size()) + " components, the scene has dimension " +
-                     std::to_string(dimension));
+    throw InputError(place + ": has " + std::to_string(array.size()) +
+                     " components, the scene has dimension " + std::to_string(dimension));
   Vec result{};
   for (std::size_t i = 0; i < array.size(); ++i) result[i] = number_at(array[i], item(place, i));
   return result;
@@ -77,9 +79,11 @@ Vec vector_at(const SceneNode& node, int dimension, const std::string& place) {
 std::vector<Vec> vectors_at(const SceneNode& node, int dimension, const std::string& place) {
   const auto& array = array_at(node, place);
   if (array.size() != static_cast<std::size_t>(dimension))
-    throw InputError(place + ": needs " + std::to_string(dimension) + " vectors, has " + std::to_string(array.size()));
+    throw InputError(place + ": needs " + std::to_string(dimension) + " vectors, has " +
+                     std::to_string(array.size()));
   std::vector<Vec> result;
-  for (std::size_t i = 0; i < array.size(); ++i) result.push_back(vector_at(array[i], dimension, item(place, i)));
+  for (std::size_t i = 0; i < array.size(); ++i)
+    result.push_back(vector_at(array[i], dimension, item(place, i)));
   return result;
 }
 
@@ -90,8 +94,10 @@ Atom atom_from(const SceneNode& node, int dimension, const std::string& place) {
   const SceneNode* semiaxes = node.member("semiaxes");
   if (!radius && !semiaxes) throw InputError(place + ": radius is missing (or semiaxes)");
   if (radius && semiaxes) throw InputError(place + ": has both radius and semiaxes; leave one out");
-  if (radius) atom.radius = number_at(*radius, place + ".radius");
-  else atom.semiaxes = vectors_at(*semiaxes, dimension, place + ".semiaxes");
+  if (radius)
+    atom.radius = number_at(*radius, place + ".radius");
+  else
+    atom.semiaxes = vectors_at(*semiaxes, dimension, place + ".semiaxes");
   return atom;
 }
 
@@ -106,7 +112,8 @@ Scene scene_from(const SceneNode& node) {
   for (std::size_t l = 0; l < lattices.size(); ++l) {
     const std::string place = item("lattices", l);
     Lattice lattice;
-    const auto vectors = vectors_at(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
+    const auto vectors =
+        vectors_at(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
     std::copy(vectors.begin(), vectors.end(), lattice.vectors.begin());
     const auto& atoms = array_at(required(lattices[l], "atoms", place), place + ".atoms");
     for (std::size_t a = 0; a < atoms.size(); ++a)

@@ -143,9 +143,15 @@ void append_answer_line(std::string& out, const Id& id, const Answer& answer, in
       out += ",\"outcome\":\"inside\",";
       append_obstacle(out, answer.obstacle, dimension);
       break;
-    case Outcome::never: out += ",\"outcome\":\"never\""; break;
-    case Outcome::later: out += ",\"outcome\":\"later\""; break;
-    case Outcome::undecided: out += ",\"outcome\":\"undecided\""; break;
+    case Outcome::never:
+      out += ",\"outcome\":\"never\"";
+      break;
+    case Outcome::later:
+      out += ",\"outcome\":\"later\"";
+      break;
+    case Outcome::undecided:
+      out += ",\"outcome\":\"undecided\"";
+      break;
     case Outcome::error:
       out += ",\"outcome\":\"error\",\"message\":" + json_quoted(answer.message);
       if (answer.unsupported) out += ",\"reason\":\"unsupported\"";

@@ -11,7 +11,8 @@
 
 namespace lorentz {
 
-LineReader::LineReader(const std::string& path) : name_(path == "-" ? "standard input" : path), buffer_(1 << 20) {
+LineReader::LineReader(const std::string& path)
+    : name_(path == "-" ? "standard input" : path), buffer_(1 << 20) {
   descriptor_ = path == "-" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw FileError(path + ": " + std::strerror(errno));
   struct stat status {};

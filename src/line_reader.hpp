@@ -17,9 +17,10 @@ class LineReader {
   static constexpr std::size_t kPadding = 64;                    // bytes that may be read beyond a line's end
 
   struct Line {
-    std::string_view text;  ///< without the line end; kPadding bytes behind it are readable; valid until the next call
-    std::size_t number = 0; ///< counted from 1
-    bool too_long = false;  ///< then text is the line's beginning
+    std::string_view
+        text;  ///< without the line end; kPadding bytes behind it are readable; valid until the next call
+    std::size_t number = 0;  ///< counted from 1
+    bool too_long = false;   ///< then text is the line's beginning
   };
 
   /// Opens a file, or standard input for "-". Throws FileError if it cannot be read (a directory, say).

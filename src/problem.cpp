@@ -14,7 +14,8 @@ std::optional<Integer> Integer::from_decimal(std::string_view text) {
   digits.remove_prefix(first);
   std::string canonical = (negative ? "-" : "") + std::string(digits);
   Integer result;
-  const auto [end, status] = std::from_chars(canonical.data(), canonical.data() + canonical.size(), result.value_);
+  const auto [end, status] =
+      std::from_chars(canonical.data(), canonical.data() + canonical.size(), result.value_);
   if (status != std::errc{}) {
     result.value_ = 0;
     result.digits_ = std::move(canonical);

@@ -1,7 +1,8 @@
 // The exact problem statement, shared by every engine, oracle and reader: scenes, queries, answers.
 //
 // Every number here is a binary64 value and means exactly the dyadic rational that it is. Lengths are in the
-// scene's own unit; a velocity has any length, and times are in units in which x + t v is the particle's place.
+// scene's own unit; a velocity has any length, and times are in units in which x + t v is the particle's
+// place.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@ namespace lorentz {
 /// A point or direction, Cartesian. A 2D problem uses the first two components and keeps the third at zero.
 using Vec = std::array<double, 3>;
 
-/// An obstacle of the motif: an open ball of `radius` > 0, or the open ellipsoid { position + A y : |y| < 1 } whose
-/// matrix A has the columns `semiaxes`. A cell coordinate n counts from `position`.
+/// An obstacle of the motif: an open ball of `radius` > 0, or the open ellipsoid { position + A y : |y| < 1 }
+/// whose matrix A has the columns `semiaxes`. A cell coordinate n counts from `position`.
 struct Atom {
   Vec position{};
   double radius = 0;
@@ -26,7 +27,8 @@ struct Atom {
   bool is_ball() const { return semiaxes.empty(); }
 };
 
-/// Primitive vectors u_1..u_d (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_d u_d.
+/// Primitive vectors u_1..u_d (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_d
+/// u_d.
 struct Lattice {
   std::array<Vec, 3> vectors{};
   std::vector<Atom> atoms;
@@ -85,8 +87,8 @@ enum class Outcome {
   error       ///< no valid query, or (unsupported) one that this engine does not do
 };
 
-/// The collision itself, for those who ask for it. Unit outward normal; impact parameter: distance of the line
-/// of flight from the obstacle's centre.
+/// The collision itself, for those who ask for it. Unit outward normal; impact parameter: distance of the
+/// line of flight from the obstacle's centre.
 struct Detail {
   Vec point{};
   Vec normal{};
@@ -95,12 +97,12 @@ struct Detail {
 
 struct Answer {
   Outcome outcome = Outcome::undecided;
-  ObstacleId obstacle;            ///< of `hit` and `inside`
-  std::optional<double> time;     ///< of `hit`; may be infinite, and absent in answers that others logged
-  std::string time_decimal;       ///< of `hit`, if digits were asked for
-  std::optional<Detail> detail;   ///< of `hit`, if it was asked for
-  std::string message;            ///< of `error`
-  bool unsupported = false;       ///< of `error`: a valid query, outside what this engine does
+  ObstacleId obstacle;           ///< of `hit` and `inside`
+  std::optional<double> time;    ///< of `hit`; may be infinite, and absent in answers that others logged
+  std::string time_decimal;      ///< of `hit`, if digits were asked for
+  std::optional<Detail> detail;  ///< of `hit`, if it was asked for
+  std::string message;           ///< of `error`
+  bool unsupported = false;      ///< of `error`: a valid query, outside what this engine does
 
   static Answer hit(ObstacleId obstacle, double time);
   static Answer inside(ObstacleId obstacle);
@@ -110,11 +112,12 @@ struct Answer {
   static Answer unsupported_because(std::string message);
 };
 
-/// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete. That
-/// the primitive vectors are independent is decided exactly by the oracle (oracle/scene_check.hpp).
+/// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete.
+/// That the primitive vectors are independent is decided exactly by the oracle (oracle/scene_check.hpp).
 std::optional<std::string> flaw_of(const Scene& scene);
 
-/// What is wrong with a query in this scene, or nothing: finite numbers, v != 0, `from` names an atom that exists.
+/// What is wrong with a query in this scene, or nothing: finite numbers, v != 0, `from` names an atom that
+/// exists.
 std::optional<std::string> flaw_of(const Query& query, const Scene& scene);
 
 /// The unit square (d = 2) or cubic (d = 3) lattice with one ball of this radius at the origin.

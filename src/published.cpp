@@ -93,7 +93,9 @@ PlaneResult first_disc(Disc x, Disc v, double r, const Disc* from) {
   const double speed = length(v[0], v[1]);
   const double sign[2] = {std::copysign(1, v[0]), std::copysign(1, v[1])};
   const int long_axis = std::fabs(v[0]) >= std::fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
-  const auto reflected = [&](const Disc& a) { return Disc{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]}; };
+  const auto reflected = [&](const Disc& a) {
+    return Disc{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]};
+  };
   const Disc place = reflected(x), direction = reflected(v);
   const Disc reflected_from = from ? reflected(*from) : Disc{};
   PlaneResult result = first_octant(place[0], place[1], direction[0] / speed, direction[1] / speed, r,
@@ -107,10 +109,14 @@ PlaneResult first_disc(Disc x, Disc v, double r, const Disc* from) {
 
 std::optional<Answer> answer_for(Found found) {
   switch (found) {
-    case Found::channel: return Answer::never();
-    case Found::gave_up: return Answer::undecided();
-    case Found::no_octant: return Answer::unsupported_because("published has no octant for directions along an axis");
-    case Found::disc: break;
+    case Found::channel:
+      return Answer::never();
+    case Found::gave_up:
+      return Answer::undecided();
+    case Found::no_octant:
+      return Answer::unsupported_because("published has no octant for directions along an axis");
+    case Found::disc:
+      break;
   }
   return std::nullopt;
 }
@@ -123,7 +129,8 @@ ObstacleId obstacle_of(const Vec& n) {
   return {0, 0, {Integer(std::llround(n[0])), Integer(std::llround(n[1])), Integer(std::llround(n[2]))}};
 }
 
-// The collision with a disc or sphere that the search came up with; its closest approach if the line misses it.
+// The collision with a disc or sphere that the search came up with; its closest approach if the line misses
+// it.
 Answer hit_on(const Vec& centre, const Query& query, double r) {
   const Vec relative = minus(query.x, centre);
   const double closest = -dot(relative, query.v) / dot(query.v, query.v);
@@ -168,7 +175,8 @@ Answer published_3d(const Query& query, double r, const Vec* from) {
       const auto [i, k] = kPlanes[plane];
       if (!(std::fabs(x[i]) < kMaxStart && std::fabs(x[k]) < kMaxStart)) return Answer::undecided();
       const Disc leaving = from ? Disc{(*from)[i], (*from)[k]} : Disc{};
-      const PlaneResult result = first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr);
+      const PlaneResult result =
+          first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr);
       if (auto answer = answer_for(result.found)) return *answer;
       disc[plane] = result.disc;
     }
@@ -179,7 +187,8 @@ Answer published_3d(const Query& query, double r, const Vec* from) {
     const auto time = entry_time(minus(x, centre), v, r);
     if (time && *time >= 0 && !(from && *from == centre))
       return Answer::hit(obstacle_of(centre), (elapsed + *time) / speed);
-    // The fault behind the late spheres: from next to a sphere that was missed this can land inside another one.
+    // The fault behind the late spheres: from next to a sphere that was missed this can land inside another
+    // one.
     advance(1 - 2 * r);
   }
   return Answer::undecided();
@@ -205,7 +214,8 @@ Answer Published::first_hit_scaled(const Query& query, double) const {
                         query.from->cell[2].fits_int64();
   const Vec* leaving = has_from ? &from : nullptr;
   if (lies_inside(query.x, r, leaving))
-    return Answer::inside(obstacle_of({std::round(query.x[0]), std::round(query.x[1]), std::round(query.x[2])}));
+    return Answer::inside(
+        obstacle_of({std::round(query.x[0]), std::round(query.x[1]), std::round(query.x[2])}));
   return scene().dimension == 2 ? published_2d(query, r, leaving) : published_3d(query, r, leaving);
 }
 

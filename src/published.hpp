@@ -1,16 +1,17 @@
-// The efficient algorithm of Kraemer, Kryukov and Sanders, "Efficient algorithms for general periodic Lorentz gases in
-// two and three dimensions" (J. Phys. A 49, 2016), in binary64 and as published: reconstructed from the paper's text
-// and the behaviour of its authors' program of 2015, faults included, because it is what users compare against.
-// docs/published.md lists the faults; tests/published_test.cpp holds them fast.
+// The efficient algorithm of Kraemer, Kryukov and Sanders, "Efficient algorithms for general periodic Lorentz
+// gases in two and three dimensions" (J. Phys. A 49, 2016), in binary64 and as published: reconstructed from
+// the paper's text and the behaviour of its authors' program of 2015, faults included, because it is what
+// users compare against. docs/published.md lists the faults; tests/published_test.cpp holds them fast.
 #pragma once
 
 #include "engine.hpp"
 
 namespace lorentz {
 
-/// Unit square and cubic lattice. 2D: convergents of the slope. 3D: the 2D algorithm in the three coordinate planes.
-/// Directions along an axis (in 3D: with any zero component) are `unsupported`: the algorithm has no octant for
-/// them. A search that has not ended after kMaxPasses passes (2D) or kMaxRounds rounds (3D) is `undecided`.
+/// Unit square and cubic lattice. 2D: convergents of the slope. 3D: the 2D algorithm in the three coordinate
+/// planes. Directions along an axis (in 3D: with any zero component) are `unsupported`: the algorithm has no
+/// octant for them. A search that has not ended after kMaxPasses passes (2D) or kMaxRounds rounds (3D) is
+/// `undecided`.
 class Published : public Engine {
  public:
   static constexpr long kMaxPasses = 1'000'000;

@@ -1,0 +1,269 @@
+// The program as its users call it: what it prints where, and its exit status.
+#include <sys/wait.h>
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Run {
+  int status;
+  std::string out, err;
+};
+
+// A folder of its own for each test case, gone at its end.
+class Folder {
+ public:
+  Folder() {
+    char name[] = "/tmp/lorentz-test-XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ / name; }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  std::string read(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(path_ / name).rdbuf();
+    return text.str();
+  }
+  Run lorentz(const std::string& arguments) const {
+    const std::string command =
+        std::string(LORENTZ_PROGRAM) + " " + arguments + " >" + file("out") + " 2>" + file("err");
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
+  }
+
+ private:
+  fs::path path_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+const std::string kScene =
+    R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})"
+    "\n";
+const std::string kGood = R"({"id":"good","x":[0.5,0],"v":[1,0]})"
+                          "\n";
+const std::string kGoodAnswer =
+    R"({"id":"good","outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.25})"
+    "\n";
+
+}  // namespace
+
+TEST_CASE("first-hit answers a stream, line by line") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood + "\n" +
+                                             R"({"id":7,"x":[0,0.5],"v":[1,0]})"
+                                             "\n" +
+                                             R"({"id":8,"x":[0.1,0],"v":[1,0]})");
+  for (const std::string engine : {"oracle", "walk", "classical"}) {
+    const Run run = folder.lorentz("first-hit --engine " + engine + " " + queries);
+    INFO(run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    CHECK(lines(run.out) == 3);
+    CHECK(run.out.starts_with(kGoodAnswer));
+    CHECK(contains(run.out, engine == "classical" ? R"({"id":7,"outcome":"undecided"})"
+                                                  : R"({"id":7,"outcome":"never"})"));
+    CHECK(contains(run.out, R"({"id":8,"outcome":"inside","lattice":0,"atom":0,"cell":[0,0]})"));
+  }
+  CHECK(folder.lorentz("first-hit < " + queries).out == folder.lorentz("first-hit - < " + queries).out);
+}
+
+TEST_CASE("Digits, detail and a time limit") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  CHECK(contains(folder.lorentz("first-hit --digits 5 " + queries).out, R"("time_decimal":"0.25000")"));
+  CHECK(contains(folder.lorentz("first-hit --detail " + queries).out,
+                 R"("point":[0.75,0],"normal":[-1,0],"impact_parameter":0)"));
+  CHECK(folder.lorentz("first-hit --max-time 0.25 " + queries).out ==
+        "{\"id\":\"good\",\"outcome\":\"later\"}\n");
+  CHECK(folder.lorentz("first-hit --max-time 0.2500001 " + queries).out == kGoodAnswer);
+  CHECK(folder.lorentz("first-hit --max-time 0x1p-2 --engine classical " + queries).out ==
+        "{\"id\":\"good\",\"outcome\":\"later\"}\n");
+}
+
+TEST_CASE("Bad lines get an error in their place, and the good ones around them their answers") {
+  const Folder folder;
+  const std::string huge(100'000'000, '1');
+  for (const std::string& bad :
+       {std::string("nonsense"), std::string("{\"x\":[0,0.5],\"v\":[0,0]}"),
+        std::string("{\"x\":[0,0.5,0],\"v\":[1,0]}"), std::string("{\"x\":[NaN,0.5],\"v\":[1,0]}"),
+        std::string("{\"x\":[1e999,0.5],\"v\":[1,0]}"), std::string("{\"v\":[1,0]}"),
+        std::string(100000, '['), std::string("\xff\xfe"), huge}) {
+    const Run run = folder.lorentz("first-hit " + folder.write("q", kScene + kGood + bad + "\n" + kGood));
+    INFO(bad.substr(0, 100) << "\n" << run.out << run.err);
+    CHECK(run.status == 2);
+    CHECK(lines(run.out) == 3);
+    CHECK(run.out.starts_with(kGoodAnswer + R"({"id":null,"outcome":"error","message":")"));
+    CHECK(run.out.ends_with(kGoodAnswer));
+    CHECK(contains(run.err, "q:3: "));
+  }
+}
+
+TEST_CASE("After a bad scene every query is an error, until the next good one") {
+  const Folder folder;
+  const std::string dependent =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[0.1,0.2],[0.2,0.4]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})"
+      "\n";
+  const Run run =
+      folder.lorentz("first-hit " + folder.write("q", kGood + dependent + kGood + kScene + kGood));
+  INFO(run.out << run.err);
+  CHECK(run.status == 2);
+  CHECK(lines(run.out) == 4);
+  CHECK(run.out.starts_with(R"({"id":"good","outcome":"error","message":"no scene before this query"})"));
+  CHECK(contains(
+      run.out,
+      R"({"id":null,"outcome":"error","message":"lattice 0: the primitive vectors are linearly dependent)"));
+  CHECK(run.out.ends_with(kGoodAnswer));
+}
+
+TEST_CASE("Files that are not there, folders, empty files, a full disk") {
+  const Folder folder;
+  CHECK(folder.lorentz("first-hit /no/such/file").status == 3);
+  CHECK(contains(folder.lorentz("first-hit /no/such/file").err, "/no/such/file"));
+  CHECK(folder.lorentz("first-hit /tmp").status == 3);
+  CHECK(folder.lorentz("first-hit " + folder.write("q", "")).status == 2);
+  CHECK(contains(folder.lorentz("first-hit " + folder.write("q", "\n\n")).err, "is empty"));
+  CHECK(folder.lorentz("compare --scene /no/such/scene").status == 3);
+  CHECK(folder.lorentz("compare --scene " + folder.write("s", "")).status == 2);
+  CHECK(folder.lorentz("compare --count 10 --disagreements /no/such/folder/f").status == 3);
+  const auto queries = folder.write("q", kScene + kGood);
+  const Run full =
+      folder.lorentz("first-hit " + queries + " >/dev/full");  // the second redirection is the harness's
+  CHECK(full.status == 0);
+  const int status = std::system(
+      (std::string(LORENTZ_PROGRAM) + " first-hit " + queries + " >/dev/full 2>/dev/null").c_str());
+  CHECK(WEXITSTATUS(status) == 3);
+}
+
+TEST_CASE("Bad usage") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  for (const std::string& arguments :
+       {std::string(""), std::string("no-such-command"), "first-hit --no-such-option " + queries,
+        "first-hit --engine nobody " + queries, "first-hit --digits 0 " + queries,
+        "first-hit --max-time soon " + queries, "first-hit --radius 0.1 " + queries,
+        std::string("compare --radius 0 --scene square"), std::string("compare --radius nan --scene square"),
+        std::string("compare --answers nofile"), std::string("convergents one"),
+        std::string("convergents 1 0")}) {
+    const Run run = folder.lorentz(arguments);
+    INFO(arguments << "\n" << run.out << run.err);
+    CHECK(run.status == 2);
+    CHECK_FALSE(run.err.empty());
+  }
+  for (const char* help : {"--help", "first-hit --help", "compare --help", "convergents --help", "--version"})
+    CHECK(folder.lorentz(help).status == 0);
+}
+
+TEST_CASE("A scene whose obstacles overlap or touch is answered, with a warning") {
+  const Folder folder;
+  const auto run = [&](const char* radius) {
+    return folder.lorentz("first-hit --scene square --radius " + std::string(radius) + " " +
+                          folder.write("q", kGood));
+  };
+  CHECK(run("0.4").err.empty());
+  CHECK(contains(run("0.5").err, "overlap or touch"));
+  CHECK(run("0.5").status == 0);
+  CHECK(run("0.5").out ==
+        "{\"id\":\"good\",\"outcome\":\"hit\",\"lattice\":0,\"atom\":0,\"cell\":[1,0],\"time\":0}\n");
+}
+
+TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file that can be run again") {
+  const Folder folder;
+  const std::string skipped =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.2}]}]}})"
+      "\n"
+      R"({"id":"skip","x":[-0.04390243902439025,0.1951219512195122],"v":[9,5],"from":{"lattice":0,"atom":0,"cell":[0,0]}})"
+      "\n";
+  const auto queries = folder.write("q", skipped + kGood);
+  const Run run = folder.lorentz("compare --queries " + queries +
+                                 " --engine classical,published --disagreements " + folder.file("d"));
+  INFO(run.out << run.err << folder.read("d"));
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "published"));
+  CHECK(contains(run.out, "1 (100 %)"));
+  CHECK(lines(folder.read("d")) == 2);
+  CHECK(contains(
+      folder.read("d"),
+      R"("engine":"published","expected":{"id":"skip","outcome":"hit","lattice":0,"atom":0,"cell":[1,1])"));
+  CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine published").status == 1);
+  CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine classical").status == 0);
+
+  const Run json = folder.lorentz("compare --json --queries " + queries + " --engine published");
+  CHECK(json.status == 1);
+  CHECK(contains(
+      json.out,
+      R"("engines":[{"engine":"published","queries":2,"agree":0,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":1,"error":0,"missing":0,)"));
+  CHECK(contains(json.out, "\"ns_median\":"));
+}
+
+TEST_CASE("compare judges answers that were logged elsewhere") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood +
+                                             R"({"id":2,"x":[0,0.5],"v":[1,0]})"
+                                             "\n" +
+                                             R"({"id":3,"x":[0.5,0],"v":[-1,0]})"
+                                             "\n");
+  const auto answers =
+      folder.write("a", kGoodAnswer + R"({"id":2,"outcome":"hit","lattice":0,"atom":0,"cell":[9,9]})"
+                                      "\n");
+  const Run run = folder.lorentz("compare --json --queries " + queries + " --answers mine=" + answers);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(
+      run.out,
+      R"("engine":"mine","queries":3,"agree":1,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":0,"error":0,"missing":1)"));
+  const Run twice = folder.lorentz("compare --queries " + queries +
+                                   " --answers mine=" + folder.write("a2", kGoodAnswer + kGoodAnswer));
+  CHECK(twice.status == 2);
+  CHECK(contains(twice.err, "a2:2: "));
+  CHECK(folder
+            .lorentz("compare --queries " + queries +
+                     " --answers mine=" + folder.write("a3", "rubbish\n" + kGoodAnswer))
+            .status == 2);
+  CHECK(folder.lorentz("compare --queries " + queries + " --answers mine=/no/such/file").status == 3);
+}
+
+TEST_CASE("compare is repeatable, and --strict counts undecided answers") {
+  const Folder folder;
+  const std::string arguments =
+      "compare --scene cubic --radius 0.2 --count 300 --engine oracle,classical --seed 5";
+  const Run first = folder.lorentz(arguments + " --json"), second = folder.lorentz(arguments + " --json");
+  CHECK(first.status == 0);
+  CHECK(first.out.substr(0, first.out.find("ns_per_query")) ==
+        second.out.substr(0, second.out.find("ns_per_query")));
+  const auto never = folder.write("q", kScene + R"({"id":2,"x":[0,0.5],"v":[1,0]})"
+                                                "\n");
+  CHECK(folder.lorentz("compare --engine classical --queries " + never).status == 0);
+  CHECK(folder.lorentz("compare --engine classical --strict --queries " + never).status == 1);
+}
+
+TEST_CASE("convergents prints the expansion") {
+  const Folder folder;
+  const Run run = folder.lorentz("convergents 3.141592653589793");
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, "292"));
+  CHECK(contains(run.out, "355  "));
+  const Run json = folder.lorentz("convergents --json 3 2");
+  CHECK(
+      json.out ==
+      R"({"rise":3,"run":2,"convergents":[{"a":1,"p":1,"q":1,"remainder":0.5,"remainder_exact":"1/2"},{"a":2,"p":3,"q":2,"remainder":0,"remainder_exact":"0"}]})"
+      "\n");
+  CHECK(folder.lorentz("convergents 0x1.8p+0").out == folder.lorentz("convergents 1.5").out);
+  CHECK(folder.lorentz("convergents -- -1.5").status == 0);
+}

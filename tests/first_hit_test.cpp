@@ -1,0 +1,199 @@
+// Cases that can be checked by hand, for both oracles: what the words of the specification mean.
+#include <catch2/catch.hpp>
+
+#include "oracle.hpp"
+#include "support.hpp"
+#include "walk.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+// Both oracles, which must agree; `walk` may be left out where it cannot go.
+Answer first_hit(const Scene& scene, const Query& query, bool walk_too = true) {
+  const Answer answer = oracle::Oracle(scene).first_hit(query);
+  if (walk_too) {
+    INFO(stream(scene, query));
+    REQUIRE(same(answer, oracle::Walk(scene).first_hit(query)));
+  }
+  return answer;
+}
+
+ObstacleId at(std::int64_t n1, std::int64_t n2, std::int64_t n3 = 0) {
+  return {0, 0, {Integer(n1), Integer(n2), Integer(n3)}};
+}
+
+const Scene kQuarter = unit_scene(2, 0.25);
+
+}  // namespace
+
+TEST_CASE("Head on, from outside") {
+  const Answer answer = first_hit(kQuarter, {{0.5, 0}, {1, 0}, {}});
+  CHECK(answer.obstacle == at(1, 0));
+  CHECK(answer.time == 0.25);
+  CHECK(first_hit(kQuarter, {{0.5, 0}, {4, 0}, {}}).time == 0.0625);
+}
+
+TEST_CASE("A tangent is no hit") {
+  CHECK(first_hit(kQuarter, {{0.5, 0.25}, {1, 0}, {}}).outcome == Outcome::never);
+  const Answer answer = first_hit(kQuarter, {{0.5, std::nextafter(0.25, 0)}, {1, 0}, {}});
+  CHECK(answer.obstacle == at(1, 0));
+}
+
+TEST_CASE("On a boundary: inwards hits at 0, outwards and along the tangent do not") {
+  const Vec on_top{0, 0.25};
+  const Answer inwards = first_hit(kQuarter, {on_top, {0, -1}, {}});
+  CHECK(inwards.outcome == Outcome::hit);
+  CHECK(inwards.obstacle == at(0, 0));
+  CHECK(inwards.time == 0.0);
+  CHECK_FALSE(std::signbit(*inwards.time));
+  const Answer outwards = first_hit(kQuarter, {on_top, {0, 1}, {}});
+  CHECK(outwards.obstacle == at(0, 1));
+  CHECK(outwards.time == 0.5);
+  CHECK(first_hit(kQuarter, {on_top, {1, 0}, {}}).outcome == Outcome::never);
+  // (3, 4, 5) / 20 lies exactly on the circle of radius 1/4; not in binary64, but scaled by 20 it does.
+  Scene scene = unit_scene(2, 5);
+  scene.lattices[0].vectors = {Vec{20, 0}, Vec{0, 20}, Vec{}};
+  CHECK(first_hit(scene, {{3, 4}, {-3, -4}, {}}).time == 0.0);
+  CHECK(first_hit(scene, {{3, 4}, {4, -3}, {}}).outcome != Outcome::inside);
+  CHECK_FALSE(first_hit(scene, {{3, 4}, {4, -3}, {}}).obstacle == at(0, 0));
+}
+
+TEST_CASE("Inside is the open obstacle; of several the smallest") {
+  CHECK(first_hit(kQuarter, {{0.24, 0}, {1, 0}, {}}).outcome == Outcome::inside);
+  CHECK(first_hit(kQuarter, {{0.25, 0}, {1, 0}, {}}).outcome == Outcome::hit);
+  const Answer answer = first_hit(unit_scene(2, 0.75), {{0.5, 0.5}, {1, 0}, {}});
+  CHECK(answer.outcome == Outcome::inside);
+  CHECK(answer.obstacle == at(0, 0));
+  CHECK(first_hit(unit_scene(3, 2.5), {{0, 0, 0}, {1, 0, 0}, {}}).obstacle == at(-2, -1, -1));
+}
+
+TEST_CASE("`from` is ignored, wherever x lies") {
+  const Query inside{{0.1, 0.1}, {1, 0}, at(0, 0)};
+  CHECK(first_hit(kQuarter, inside).obstacle == at(1, 0));
+  const Query ahead{{0.5, 0}, {1, 0}, at(1, 0)};
+  CHECK(first_hit(kQuarter, ahead).obstacle == at(2, 0));
+  const Query on_surface{{0, 0.25}, {0, -1}, at(0, 0)};
+  CHECK(first_hit(kQuarter, on_surface).obstacle == at(0, -1));
+  // With a second obstacle around x, that one counts.
+  const Query two{{0.5, 0.5}, {1, 0}, at(0, 0)};
+  CHECK(first_hit(unit_scene(2, 0.75), two).outcome == Outcome::inside);
+  CHECK(first_hit(unit_scene(2, 0.75), two).obstacle == at(0, 1));
+  const Query elsewhere{
+      {0.5, 0},
+      {1, 0},
+      ObstacleId{0, 0, {*Integer::from_decimal("100000000000000000000"), Integer(0), Integer(0)}}};
+  CHECK(first_hit(kQuarter, elsewhere).obstacle == at(1, 0));
+}
+
+TEST_CASE("Ties go to the smallest lattice, atom, cell") {
+  // Radius 5/8 at distance 1: x in the middle below, both discs entered at the same time.
+  const Answer answer = first_hit(unit_scene(2, 0.625), {{0.5, 0.5}, {0, -1}, {}});
+  CHECK(answer.outcome == Outcome::hit);
+  CHECK(answer.obstacle == at(0, 0));
+  CHECK(first_hit(unit_scene(2, 0.625), {{0.5, 0.5}, {-1, 0}, {}}).obstacle == at(0, 0));
+  CHECK(first_hit(unit_scene(2, 0.625), {{0.5, 0.5}, {1, 0}, {}}).obstacle == at(1, 0));
+  // The same obstacle twice: as two atoms, as two lattices.
+  Scene twins = kQuarter;
+  twins.lattices[0].atoms.push_back(twins.lattices[0].atoms[0]);
+  CHECK(first_hit(twins, {{0.5, 0}, {1, 0}, {}}).obstacle == at(1, 0));
+  CHECK(first_hit(twins, {{0.5, 0}, {1, 0}, at(1, 0)}).obstacle == ObstacleId{0, 1, at(1, 0).cell});
+  Scene two = kQuarter;
+  two.lattices.push_back(two.lattices[0]);
+  CHECK(first_hit(two, {{0.5, 0}, {1, 0}, {}}).obstacle.lattice == 0);
+  CHECK(first_hit(two, {{0.5, 0}, {1, 0}, at(1, 0)}).obstacle == ObstacleId{1, 0, at(1, 0).cell});
+}
+
+TEST_CASE("The paper's example, 1 degree") {
+  const Answer answer =
+      first_hit(unit_scene(2, 0.1), {{0, 0.445}, {0.9998476951563913, 0.01745240643728351}, {}});
+  CHECK(answer.obstacle == at(27, 1));
+}
+
+TEST_CASE("A scene of two lattices: the earlier of their hits") {
+  Scene scene = kQuarter;
+  scene.lattices.push_back(unit_scene(2, 0.125).lattices[0]);
+  scene.lattices[1].atoms[0].position = {0.5, 0.5};
+  CHECK(first_hit(scene, {{0.25, 0.5}, {1, 0}, {}}).obstacle == ObstacleId{1, 0, at(0, 0).cell});
+  CHECK(first_hit(scene, {{0.5, 0}, {1, 0}, {}}).obstacle == at(1, 0));
+}
+
+TEST_CASE("A query that is none gets an error that says why") {
+  const oracle::Oracle oracle(kQuarter);
+  CHECK(oracle.first_hit({{0, 0.5}, {0, 0}, {}}).message.find("v is zero") != std::string::npos);
+  CHECK(oracle.first_hit({{0, NAN}, {1, 0}, {}}).message.find("x is not finite") != std::string::npos);
+  CHECK(oracle.first_hit({{0, 0.5}, {1, INFINITY}, {}}).message.find("v is not finite") != std::string::npos);
+  CHECK(oracle.first_hit({{0, 0.5}, {1, 0}, ObstacleId{0, 1, {}}}).message.find("atom 1") !=
+        std::string::npos);
+  Scene ellipse = kQuarter;
+  ellipse.lattices[0].atoms[0] = {{}, 0, {Vec{0.2, 0}, Vec{0, 0.1}}};
+  CHECK(oracle::Oracle(ellipse).first_hit({{0, 0.5}, {1, 0}, {}}).unsupported);
+}
+
+TEST_CASE("A time limit is compared with the exact time") {
+  const oracle::Oracle oracle(kQuarter);
+  oracle::Request request;
+  const auto outcome = [&](double max_time, Query query) {
+    request.max_time = max_time;
+    return oracle.first_hit(query, request).outcome;
+  };
+  const Query head_on{{0.5, 0}, {1, 0}, {}};
+  CHECK(outcome(0.25, head_on) == Outcome::later);  // entered at, not before
+  CHECK(outcome(std::nextafter(0.25, 1), head_on) == Outcome::hit);
+  CHECK(outcome(1e9, {{0, 0.5}, {1, 0}, {}}) == Outcome::later);
+  CHECK(outcome(1, {{0, 0}, {1, 0}, {}}) == Outcome::inside);
+}
+
+TEST_CASE("Details are correctly rounded") {
+  oracle::Request request;
+  request.detail = true;
+  request.digits = 30;
+  // Disc of radius 5 in a cell of 20, line at height 3: point (20 - 4, 3), normal (-4, 3) / 5, impact
+  // parameter 3.
+  Scene scene = unit_scene(2, 5);
+  scene.lattices[0].vectors = {Vec{20, 0}, Vec{0, 20}, Vec{}};
+  const Answer answer = oracle::Oracle(scene).first_hit({{10, 3}, {2, 0}, {}}, request);
+  REQUIRE(answer.detail.has_value());
+  CHECK(answer.time == 3.0);
+  CHECK(answer.time_decimal == "3.00000000000000000000000000000");
+  CHECK(answer.detail->point == Vec{16, 3});
+  CHECK(answer.detail->normal == Vec{-0.8, 0.6});
+  CHECK(answer.detail->impact_parameter == 3.0);
+  // In general: the normal has unit length, and the point lies on the ray.
+  Draw draw(51);
+  INFO("seed 51");
+  for (int i = 0; i < 200; ++i) {
+    const int d = draw.one_in(2) ? 2 : 3;
+    const Scene drawn = scene_of(draw, Style::generic, d);
+    const Query query = query_of(draw, Style::generic, drawn);
+    const Answer hit = oracle::Oracle(drawn).first_hit(query, request);
+    if (hit.outcome != Outcome::hit) continue;
+    const Detail& detail = *hit.detail;
+    const double v2 = query.v[0] * query.v[0] + query.v[1] * query.v[1] + query.v[2] * query.v[2];
+    CHECK(std::hypot(detail.normal[0], detail.normal[1], detail.normal[2]) == Approx(1).epsilon(1e-15));
+    double cosine = 0;
+    for (int k = 0; k < 3; ++k) {
+      CHECK(detail.point[k] == Approx(query.x[k] + *hit.time * query.v[k])
+                                   .epsilon(1e-14)
+                                   .margin(1e-14 * (1 + *hit.time * std::fabs(query.v[k]))));
+      cosine -= detail.normal[k] * query.v[k] / std::sqrt(v2);
+    }
+    const double r = drawn.lattices[hit.obstacle.lattice].atoms[hit.obstacle.atom].radius;
+    CHECK(detail.impact_parameter ==
+          Approx(r * std::sqrt(std::max(0.0, 1 - cosine * cosine))).margin(1e-7 * r));
+  }
+}
+
+TEST_CASE("Subnormal and huge velocities and places") {
+  CHECK(first_hit(kQuarter, {{0.5, 0}, {0x1p-1000, 0}, {}}, false).time == 0x1p998);
+  CHECK(std::isinf(*first_hit(kQuarter, {{0.5, 0}, {0x1p-1074, 0}, {}}, false).time));
+  CHECK(first_hit(kQuarter, {{0.5, 0}, {0x1p1023, 0}, {}}).time == 0x1p-1025);
+  CHECK(first_hit(kQuarter, {{0.5, 0x1p-1074}, {1, 0}, {}}).obstacle == at(1, 0));
+  const Answer off_axis = first_hit(kQuarter, {{0.5, 0.5}, {1, 0x1p-1074}, {}}, false);
+  CHECK(off_axis.outcome == Outcome::hit);
+  CHECK(off_axis.obstacle.cell[1] == Integer(1));
+  CHECK(std::isinf(*off_axis.time));
+  const Answer far = first_hit(kQuarter, {{0x1p1000, 0}, {0, 1}, {}}, false);
+  CHECK(far.outcome == Outcome::inside);
+}

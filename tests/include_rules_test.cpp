@@ -1,0 +1,100 @@
+// Who may include whom (CONTRIBUTING.md): engine and oracle share the problem statement and nothing else, so
+// that a bug in one cannot hide in the other.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kRoot = LORENTZ_SOURCE_DIR;
+
+std::vector<std::string> includes_of(const fs::path& file) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> names;
+  std::ifstream in(file);
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, kInclude)) names.push_back(match[1]);
+  return names;
+}
+
+std::vector<fs::path> sources(const char* folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+      files.push_back(entry.path());
+  return files;
+}
+
+bool starts_with_any(const std::string& name, std::initializer_list<const char*> prefixes) {
+  for (const char* prefix : prefixes)
+    if (name.starts_with(prefix)) return true;
+  return false;
+}
+
+std::set<std::string> own_headers(const char* folder) {
+  std::set<std::string> names;
+  for (const fs::path& file : sources(folder))
+    if (file.extension() == ".hpp") names.insert(file.filename());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("src sees no big numbers, no oracle, no program") {
+  const auto oracle = own_headers("oracle"), cli = own_headers("cli");
+  REQUIRE(sources("src").size() > 8);
+  for (const fs::path& file : sources("src"))
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      CHECK_FALSE(starts_with_any(name, {"gmp", "mpfr", "mpfi", "boost/", "CGAL/", "../oracle", "../cli"}));
+      CHECK_FALSE(oracle.contains(name));
+      CHECK_FALSE(cli.contains(name));
+      // Only the exchange library may use more than the standard library.
+      if (!file.filename().string().starts_with("exchange"))
+        CHECK_FALSE(starts_with_any(name, {"simdjson", "toml++", "fmt/"}));
+    }
+}
+
+TEST_CASE("oracle sees of src the problem only") {
+  const auto cli = own_headers("cli");
+  REQUIRE(sources("oracle").size() > 15);
+  auto src = own_headers("src");
+  src.erase("problem.hpp");
+  for (const fs::path& file : sources("oracle"))
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      CHECK_FALSE(src.contains(fs::path(name).filename()));
+      CHECK_FALSE(cli.contains(name));
+      CHECK((!name.starts_with("../") || name == "../src/problem.hpp"));
+    }
+}
+
+TEST_CASE("walk sees the problem, CGAL and the standard library; nobody else sees CGAL") {
+  for (const fs::path& file : sources("oracle")) {
+    const bool is_walk = file.stem() == "walk";
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      if (!is_walk)
+        CHECK_FALSE(name.starts_with("CGAL/"));
+      else if (name.find('/') != std::string::npos || name.ends_with(".hpp"))
+        CHECK((name.starts_with("CGAL/") || name == "../src/problem.hpp" || name == "walk.hpp"));
+      else
+        CHECK_FALSE(name.starts_with("gmp"));
+    }
+  }
+}
+
+TEST_CASE("The oracle's public headers show none of its libraries") {
+  for (const char* header :
+       {"oracle.hpp", "walk.hpp", "scene_check.hpp", "continued_fraction.hpp", "verdict.hpp"})
+    for (const std::string& name : includes_of(kRoot / "oracle" / header)) {
+      INFO(header << " includes " << name);
+      CHECK((name == "../src/problem.hpp" || name.find_first_of("/.") == std::string::npos));
+    }
+}

@@ -1,0 +1,57 @@
+#include "scene_check.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support.hpp"
+
+using namespace lorentz;
+
+namespace {
+
+Scene with_vectors(int dimension, std::array<Vec, 3> vectors) {
+  Scene scene = unit_scene(dimension, 0.1);
+  scene.lattices[0].vectors = vectors;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Dependent vectors are found exactly, nearly dependent ones are none") {
+  CHECK(oracle::dependence_in(with_vectors(2, {Vec{1, 2}, Vec{2, 4}})).has_value());
+  CHECK(oracle::dependence_in(with_vectors(2, {Vec{0.1, 0.2}, Vec{0.2, 0.4}})).has_value());
+  CHECK(oracle::dependence_in(with_vectors(2, {Vec{1, 0}, Vec{0, 0}})).has_value());
+  CHECK(oracle::dependence_in(with_vectors(3, {Vec{1, 2, 3}, Vec{4, 5, 6}, Vec{7, 8, 9}})).has_value());
+  // 0.1 + 0.2 is not 0.3 in binary64, so these are independent, though the plain determinant says 0 or
+  // nearly.
+  CHECK_FALSE(oracle::dependence_in(with_vectors(2, {Vec{1, 0.1 + 0.2}, Vec{1, 0.3}})).has_value());
+  CHECK_FALSE(oracle::dependence_in(with_vectors(2, {Vec{1e300, 1}, Vec{1e300, std::nextafter(1.0, 2)}}))
+                  .has_value());
+  CHECK_FALSE(oracle::dependence_in(with_vectors(2, {Vec{5e-324, 0}, Vec{0, 1e308}})).has_value());
+  Scene flat = unit_scene(2, 0.1);
+  flat.lattices[0].atoms[0].semiaxes = {Vec{1, 1}, Vec{2, 2}};
+  CHECK(oracle::dependence_in(flat).has_value());
+}
+
+TEST_CASE("Overlapping and touching obstacles are noticed, separate ones are not") {
+  CHECK_FALSE(oracle::overlap_in(unit_scene(2, std::nextafter(0.5, 0))).has_value());
+  CHECK(oracle::overlap_in(unit_scene(2, 0.5)).has_value());
+  CHECK(oracle::overlap_in(unit_scene(3, 0.5)).has_value());
+  CHECK(oracle::overlap_in(unit_scene(3, 1e9)).has_value());
+
+  Scene motif = unit_scene(2, 0.25);
+  motif.lattices[0].atoms.push_back({{0.5, 0.5}, 0.25, {}});
+  CHECK_FALSE(oracle::overlap_in(motif).has_value());
+  motif.lattices[0].atoms[1].position = {0.5, 1000};  // touches (0, 1000) + (1, 0)'s half: distance 1/2
+  CHECK(oracle::overlap_in(motif).has_value());
+
+  Scene two = unit_scene(2, 0.25);
+  two.lattices.push_back(two.lattices[0]);
+  CHECK(oracle::overlap_in(two).has_value());
+  two.lattices[1].atoms[0].position = {0.5, 0.5};
+  CHECK_FALSE(oracle::overlap_in(two).has_value());
+
+  // A skewed basis of the square: the overlap is along neither of its vectors.
+  Scene skewed = unit_scene(2, 0.5);
+  skewed.lattices[0].vectors = {Vec{1000, 1}, Vec{1001, 1}};
+  CHECK(oracle::overlap_in(skewed).has_value());
+}

@@ -1,0 +1,111 @@
+// The two oracles share neither code nor arithmetic: wherever walk can go, they must say the same, to the
+// bit.
+#include <catch2/catch.hpp>
+
+#include "oracle.hpp"
+#include "support.hpp"
+#include "walk.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+struct Counts {
+  int hit = 0, never = 0, inside = 0, undecided = 0;
+};
+
+void hold_against_each_other(const Scene& scene, const Query& query, Counts& counts) {
+  const oracle::Oracle first(scene);
+  const oracle::Walk second(scene, 1500);
+  for (const Query& one : {query, reversed(query)}) {
+    const Answer expected = second.first_hit(one);
+    if (expected.outcome == Outcome::undecided) {
+      ++counts.undecided;
+      continue;
+    }
+    counts.hit += expected.outcome == Outcome::hit;
+    counts.never += expected.outcome == Outcome::never;
+    counts.inside += expected.outcome == Outcome::inside;
+    const Answer given = first.first_hit(one);
+    INFO(stream(scene, one) << "walk:   " << line(expected, scene.dimension)
+                            << "oracle: " << line(given, scene.dimension));
+    REQUIRE(same(given, expected));
+  }
+}
+
+Counts campaign(std::uint64_t seed, Style style, int dimension, int cases) {
+  INFO("seed " << seed);
+  Draw draw(seed);
+  Counts counts;
+  for (int i = 0; i < cases; ++i) {
+    const Scene scene = scene_of(draw, style, dimension);
+    hold_against_each_other(scene, query_of(draw, style, scene), counts);
+  }
+  return counts;
+}
+
+// The campaign must have met every outcome, or it tests less than it says.
+void require_variety(const Counts& counts, int cases) {
+  CHECK(counts.hit > cases / 4);
+  CHECK(counts.inside > cases / 8);
+  CHECK(counts.undecided < cases / 4);
+}
+
+}  // namespace
+
+TEST_CASE("Oracle equals walk on generic scenes") {
+  require_variety(campaign(101, Style::generic, 2, 2000), 2000);
+  require_variety(campaign(102, Style::generic, 3, 1000), 1000);
+}
+
+TEST_CASE("Oracle equals walk on a coarse grid: ties, tangents, rational slopes") {
+  const Counts flat = campaign(201, Style::grid, 2, 3000), solid = campaign(202, Style::grid, 3, 1500);
+  require_variety(flat, 3000);
+  require_variety(solid, 1500);
+  CHECK(flat.never > 100);
+  CHECK(solid.never > 10);
+}
+
+TEST_CASE(
+    "Oracle equals walk a little off the grid: near-rational slopes, nearly touching, nearly parallel") {
+  require_variety(campaign(301, Style::near_grid, 2, 3000), 3000);
+  require_variety(campaign(302, Style::near_grid, 3, 1500), 1500);
+}
+
+TEST_CASE("Oracle equals walk on small obstacles") {
+  Draw draw(401);
+  Counts counts;
+  for (int i = 0; i < 300; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    const Scene scene = unit_scene(
+        dimension, dimension == 2 ? std::exp2(draw.between(-9, -4)) : std::exp2(draw.between(-4.5, -3)));
+    hold_against_each_other(scene, {draw.vec(dimension, 0, 1), draw.vec(dimension, -1, 1), {}}, counts);
+  }
+  CHECK(counts.hit > 400);
+}
+
+TEST_CASE("Oracle equals walk on dense walls and rods of overlapping obstacles") {
+  // Spacing far below the radius in one or two directions: many rows in every plane, many obstacles in every
+  // row.
+  Draw draw(501);
+  Counts counts;
+  for (int i = 0; i < 150; ++i) {
+    const int dimension = draw.one_in(3) ? 2 : 3;
+    Scene scene = unit_scene(dimension, draw.between(0.2, 0.4));
+    for (int k = 0; k + 1 < dimension; ++k)
+      if (k == 0 || draw.one_in(2)) scene.lattices[0].vectors[k][k] = draw.between(0.03, 0.1);
+    scene.lattices[0].vectors[0][dimension - 1] = draw.one_in(2) ? 0 : draw.tiny(-30, -4);
+    Vec x = draw.vec(dimension, 0, 1);
+    x[dimension - 1] = draw.between(0.35, 0.65);
+    if (dimension == 3 && scene.lattices[0].vectors[1][1] == 1) x[1] = draw.between(0.35, 0.65);
+    hold_against_each_other(scene, {x, vec_of(draw, Style::near_grid, dimension, 2), {}}, counts);
+  }
+  CHECK(counts.hit > 100);
+}
+
+TEST_CASE("Oracle equals walk, long campaign", "[long]") {
+  std::uint64_t seed = 1000;
+  for (const Style style : {Style::generic, Style::grid, Style::near_grid})
+    for (const int dimension : {2, 3}) require_variety(campaign(++seed, style, dimension, 60'000), 60'000);
+}

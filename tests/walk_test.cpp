@@ -1,0 +1,32 @@
+#include "walk.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support.hpp"
+
+using namespace lorentz;
+
+TEST_CASE("Walk says undecided where it will not go") {
+  CHECK(oracle::Walk(unit_scene(2, 0.1), 10).first_hit({{0, 0.445}, {0.99985, 0.01745}, {}}).outcome ==
+        Outcome::undecided);
+  CHECK(oracle::Walk(unit_scene(2, 0.1)).first_hit({{0x1p60, 0.445}, {1, 0.5}, {}}).outcome ==
+        Outcome::undecided);
+  CHECK(oracle::Walk(unit_scene(2, 1000)).first_hit({{0, 0.445}, {1, 0.5}, {}}).outcome ==
+        Outcome::undecided);
+}
+
+TEST_CASE("Walk knows a period when it has seen it, also one that `from` hides once") {
+  const oracle::Walk walk(unit_scene(2, 0.25));
+  CHECK(walk.first_hit({{0, 0.5}, {1, 0}, {}}).outcome == Outcome::never);
+  CHECK(walk.first_hit({{0.5, 0.25}, {1, 1}, {}}).outcome == Outcome::hit);
+  const Answer answer =
+      walk.first_hit({{0.5, 0}, {1, 0}, ObstacleId{0, 0, {Integer(1), Integer(0), Integer(0)}}});
+  CHECK(answer.outcome == Outcome::hit);
+  CHECK(answer.obstacle.cell[0] == Integer(2));
+}
+
+TEST_CASE("Walk rounds times at the ends of the range") {
+  const oracle::Walk walk(unit_scene(2, 0.25));
+  CHECK(walk.first_hit({{0.5, 0}, {0x1p1023, 0}, {}}).time == 0x1p-1025);
+  CHECK(walk.first_hit({{0.25, 0}, {-1, 0}, {}}).time == 0.0);
+}
