@@ -39,6 +39,12 @@ class WindowForm {
   Z along_, whole_;
 };
 
+// By how many halvings to cut a window with too many rows (dimension 2) or planes (3): n of them mean some
+// n^dimension obstacles. If that is too much, the windows grow again.
+long cut_for(const Z& count, long dimension) {
+  return std::max(1L, dimension * (bit_length(count / kMany) - 1));
+}
+
 // min and max of a and b.
 std::pair<Z, Z> ordered(const Z& a, const Z& b) {
   return a <= b ? std::pair(a, b) : std::pair(b, a);
@@ -262,7 +268,7 @@ bool Solver::solve_plane(const Planes& planes, const Z& k3, Z low, Z high) {
       if (planes.a == 0) return true;
     } else if (!few && !planes.head_on && section.high - section.low > shortest) {
       low = section.low;
-      length = (section.high - section.low) / 2;
+      length = std::max(rho_above_, Z((section.high - section.low) >> cut_for(section.rows.count(), 2)));
       continue;
     } else if (!few && planes.a != 0) {
       solve_many_rows(planes, section);
@@ -292,6 +298,9 @@ void Solver::run() {
   // A window of about one free path, volume / (pi r^2).
   long j = std::max(0L, bit_length(determinant<3>(basis)) - 3 * bit_length(view.radius) - 1);
   Z low = 1;
+  // After each empty window the next is longer, and by a growing factor: from the edge of a slender section
+  // (a plane grazed at a slope of 2^-60) to its first obstacle it can be 2^30 first windows.
+  long growth = 1;
   for (;;) {
     const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);
     if (high < low) return;
@@ -302,7 +311,7 @@ void Solver::run() {
     const Range levels =
         multiples_between(least - planes.reach - home, most + planes.reach - home, planes.gap * flight.v2);
     if (levels.count() > kMany && j > 0) {
-      --j;
+      j = std::max(0L, j - cut_for(levels.count(), 3));
       continue;
     }
     if (levels.empty()) {
@@ -314,7 +323,7 @@ void Solver::run() {
       if (exhausted) return;
       low = high + 1;
     }
-    ++j;
+    j += growth++;
   }
 }
 
