@@ -1,5 +1,8 @@
 #include "inside.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lorentz::oracle {
 namespace {
 
@@ -74,12 +77,43 @@ bool visit_ball<3>(const Basis<3>& basis, const LatticePoint<3>& offset, const Z
 
 namespace {
 
-// A bound on the number of rows that visit_ball has to look at, in a reduced basis.
+// Near enough, whatever the size: a long double reaches 2^16384.
+using Estimate = long double;
+
+Estimate estimate(const Z& a) {
+  signed long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, a.get_mpz_t());
+  return std::ldexp(static_cast<Estimate>(mantissa), static_cast<int>(exponent));
+}
+
+Estimate length(const auto& vector) {
+  return std::sqrt(estimate(dot(vector.p, vector.p)));
+}
+
+// About how many rows visit_ball looks at in a basis b, outermost vector last, if it looks at all. Lines or planes of
+// the lattice stand at most |b_i| apart; in a reduced basis not much less.
 template <std::size_t D>
-Z rows_at_most(const Basis<D>& basis, const Z& radius2) {
-  Z rows = 1;
-  for (std::size_t i = 1; i < D; ++i) rows *= 2 * floor_sqrt(2 * radius2 / dot(basis[i].p, basis[i].p)) + 3;
+Estimate rows_in_all(const Basis<D>& basis, Estimate radius) {
+  Estimate rows = 1;
+  for (std::size_t i = 1; i < D; ++i) rows *= 2 * radius / length(basis[i]) + 1;
   return rows;
+}
+
+// About how many, if it stops at the first point: a level holds one for certain once the section's radius exceeds the
+// covering radius of the lattice within the level, mu: that is mu^2 / (2 r) from the edge of the ball.
+template <std::size_t D>
+Estimate rows_to_first(const Basis<D>& basis, Estimate radius) {
+  const Estimate volume = std::fabs(estimate(determinant<D>(basis)));
+  if constexpr (D == 2) {
+    const Estimate mu = length(basis[0]) / 2;
+    return std::min(2 * radius, mu * mu / (2 * radius)) * length(basis[0]) / volume + 1;
+  } else {
+    const ZVec<3> normal = cross(basis[0].p, basis[1].p);
+    const Estimate area = std::sqrt(estimate(dot(normal, normal)));
+    const Estimate mu = (length(basis[0]) + length(basis[1])) / 2;
+    const Estimate levels = std::min(2 * radius, mu * mu / (2 * radius)) * area / volume + 1;
+    return levels * (2 * std::min(radius, mu) * length(basis[0]) / area + 1);
+  }
 }
 
 // Along a row n moves by step.n, so the smallest n stands at one of its ends.
@@ -101,17 +135,18 @@ template <std::size_t D>
 std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, const View<D>& view,
                                        const ZVec<D>* from, long exponent) {
   // Few rows: look at all of them, in the short basis. A radius of many cells: take the rows in lexicographic
-  // order, and the first point is the smallest.
-  constexpr int kManyRows = 4096;
-  const bool many = rows_at_most<D>(view.basis, view.radius2) > kManyRows;
+  // order, and the first point is the smallest. (Floating point here chooses the cheaper way, nothing more.)
+  constexpr Estimate kFewRows = 64;
+  const Estimate radius = estimate(view.radius), rows = rows_in_all<D>(view.basis, radius);
+  const Basis<D> ordered = rows > kFewRows ? lexicographic_basis<D>(scene, lattice, exponent) : view.basis;
+  const bool many = rows > kFewRows && rows_to_first<D>(ordered, radius) < rows;
   std::optional<ZVec<D>> smallest;
   const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
     const auto candidate = smallest_on_row<D>(first, step, last, from);
     if (candidate && (!smallest || *candidate < *smallest)) smallest = candidate;
     return many && smallest;
   };
-  visit_ball<D>(many ? lexicographic_basis<D>(scene, lattice, exponent) : view.basis, view.offset,
-                view.radius2, visit);
+  visit_ball<D>(many ? ordered : view.basis, view.offset, view.radius2, visit);
   return smallest;
 }
 

@@ -4,6 +4,7 @@
 // correctness. Private to oracle/.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "exact_problem.hpp"
@@ -45,11 +46,13 @@ void reduce(Basis<2>& basis, const Form& form) {
 template <class Form>
 void reduce(Basis<3>& basis, const Form& form) {
   for (;;) {
-    if (form(basis[2], basis[2]) < form(basis[1], basis[1])) std::swap(basis[1], basis[2]);
+    std::sort(basis.begin(), basis.end(), [&](const auto& a, const auto& b) { return form(a, a) < form(b, b); });
     reduce_pair(basis[0], basis[1], form);
+    const Z g22 = form(basis[1], basis[1]), g33 = form(basis[2], basis[2]);
+    if (g33 < g22) continue;
     // Take from b3 the combination of b1 and b2 nearest to it, by rounding its real coordinates.
-    const Z g11 = form(basis[0], basis[0]), g22 = form(basis[1], basis[1]), g12 = form(basis[0], basis[1]);
-    const Z g13 = form(basis[0], basis[2]), g23 = form(basis[1], basis[2]), before = form(basis[2], basis[2]);
+    const Z g11 = form(basis[0], basis[0]), g12 = form(basis[0], basis[1]);
+    const Z g13 = form(basis[0], basis[2]), g23 = form(basis[1], basis[2]);
     const Z det = g11 * g22 - g12 * g12;
     if (det == 0) return;
     const Z k1 = round_div(g13 * g22 - g23 * g12, det), k2 = round_div(g23 * g11 - g13 * g12, det);
@@ -58,7 +61,7 @@ void reduce(Basis<3>& basis, const Form& form) {
     shorter.add_multiple(-k1, basis[0]);
     shorter.add_multiple(-k2, basis[1]);
     const Z after = form(shorter, shorter);
-    if (after >= before) return;
+    if (after >= g33) return;
     basis[2] = std::move(shorter);
     if (after >= g22) return;
   }
