@@ -1,14 +1,18 @@
 #include "app.hpp"
 
-#include <fmt/core.h>
 #include <gmp.h>
 #include <simdjson.h>
 #include <toml++/toml.h>
+
 #include <CLI/Version.hpp>
 #include <boost/version.hpp>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
 
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "messages.hpp"
 #include "walk.hpp"
 
 namespace lorentz::cli {
@@ -28,13 +32,53 @@ std::string versions() {
       dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
 }
 
+// The subcommand that was meant must exist; the parser itself would only say that one is required.
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const std::string& name : names)
+    if (name == argv[1]) return;
+  throw InputError(
+      fmt::format("no subcommand is called {}; there are {}", json_quoted(argv[1]), fmt::join(names, ", ")));
+}
+
+int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
+  try {
+    check_subcommand(app, argc, argv);
+    app.parse(argc, argv);
+    return action();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  } catch (const InputError& error) {
+    say("{}", error.what());
+    return kBadInput;
+  } catch (const FileError& error) {
+    say("{}", error.what());
+    return kFailed;
+  } catch (const std::bad_alloc&) {
+    say("out of memory");
+    return kFailed;
+  }
+}
+
 }  // namespace
+
+void finish_output() {
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  if (!flushed || std::ferror(stdout) || !std::cout)
+    throw FileError(std::string("standard output: ") + std::strerror(errno));
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"Exact first hits in periodic Lorentz gases: the reference that engines are checked against."};
   app.name("lorentz");
   app.set_version_flag("--version", versions());
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    return "lorentz: " + CLI::FailureMessage::simple(failed, error);
+  });
   app.footer(
       "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be "
       "done.");
@@ -43,21 +87,14 @@ int run(int argc, char** argv) {
   add_compare(app, action);
   add_convergents(app, action);
   add_demo(app, action);
+  const int status = parse_and_act(app, action, argc, argv);
   try {
-    app.parse(argc, argv);
-    return action();
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "lorentz: {}\n", error.what());
-    return kBadInput;
+    finish_output();
   } catch (const FileError& error) {
-    fmt::print(stderr, "lorentz: {}\n", error.what());
-    return kFailed;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "lorentz: out of memory\n");
+    say("{}", error.what());
     return kFailed;
   }
+  return status;
 }
 
 }  // namespace lorentz::cli

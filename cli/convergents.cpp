@@ -1,18 +1,17 @@
 // lorentz convergents: the exact continued fraction of a slope.
-#include <fmt/format.h>
-
 #include "app.hpp"
 #include "continued_fraction.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
 #include "table.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::string slope, run = "1";
-  std::size_t limit = 10000;
+  std::string slope, run = "1", limit = "10000";
   bool json = false;
 };
 
@@ -24,7 +23,9 @@ std::string json_integer(const Integer& n) {
 int act(const Options& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
-  const auto convergents = oracle::convergents(rise, run, options.limit);
+  const std::size_t limit = whole_number(options.limit, "--limit", 1, 1'000'000);
+  const auto convergents = oracle::convergents(rise, run, limit);
+  const bool complete = convergents.back().remainder_exact == "0";
   if (options.json) {
     std::string out = "{\"rise\":";
     append_number(out, rise);
@@ -38,7 +39,7 @@ int act(const Options& options) {
       append_number(out, c.remainder);
       out += ",\"remainder_exact\":\"" + c.remainder_exact + "\"}";
     }
-    fmt::print("{}]}}\n", out);
+    print(out + fmt::format("],\"complete\":{}}}\n", complete));
     return kDone;
   }
   Table table({"n", "a", "p", "q", "q m - p"});
@@ -47,7 +48,8 @@ int act(const Options& options) {
     table.add(
         {std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
   }
-  fmt::print("{}", table.text());
+  print(table.text());
+  if (!complete) print(fmt::format("... (stopped after --limit {} terms)\n", limit));
   return kDone;
 }
 

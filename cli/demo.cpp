@@ -1,6 +1,4 @@
 // lorentz demo: the main job on real input, in a minute. What `./run demo` shows.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +6,7 @@
 #include "draw.hpp"
 #include "exit_status.hpp"
 #include "measure.hpp"
+#include "messages.hpp"
 #include "table.hpp"
 
 namespace lorentz::cli {
@@ -67,17 +66,17 @@ class Report {
     answered_by_published_ += tallies[1].agree + tallies[1].wrong;
   }
 
-  void print() const {
-    fmt::print("{}\n", table_.text());
-    fmt::print(
-        "right, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
+  void show() const {
+    print(table_.text());
+    print(fmt::format(
+        "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
         "oracle.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
         "The published algorithm named a wrong obstacle {} times in {}: no rounding error, but discs and "
         "spheres that\n"
         "it skips (docs/published.md). Each line can be checked: lorentz compare --disagreements FILE writes "
         "the cases.\n",
-        wrong_by_published_, answered_by_published_);
+        wrong_by_published_, answered_by_published_));
   }
 
  private:
@@ -87,10 +86,10 @@ class Report {
 };
 
 int act() {
-  fmt::print(
+  print(fmt::format(
       "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
       "{}).\n\n",
-      kDefaultSeed);
+      kDefaultSeed));
   Report report;
   report.add("the paper's example, r = 0.1", paper_example());
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
@@ -99,7 +98,7 @@ int act() {
     report.add(fmt::format("2D, leaving a disc, r = {}", r), leaving_flights(2, r, 20000));
   for (const double r : {0.3, 0.1, 1e-2}) report.add(fmt::format("3D, drawn, r = {}", r), drawn(3, r, 5000));
   report.add("3D, drawn, r = 0.001", drawn(3, 1e-3, 100));
-  report.print();
+  report.show();
   return kDone;
 }
 
@@ -108,6 +107,8 @@ int act() {
 void add_demo(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
+  command->footer(
+      "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.");
   command->callback([&action] { action = act; });
 }
 

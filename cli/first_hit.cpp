@@ -2,12 +2,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
+#include <chrono>
 #include <cstring>
 
 #include "app.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "numbers.hpp"
 #include "query_stream.hpp"
 #include "registry.hpp"
 #include "scene_option.hpp"
@@ -16,17 +17,19 @@ namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::string queries = "-", engine = "oracle", scene, max_time;
-  std::optional<double> radius;
-  oracle::Request request;
+  std::string queries = "-", engine = "oracle";
+  std::optional<std::string> scene, radius, digits, max_time;
+  bool detail = false;
 };
 
-// Standard output, gathered into large writes.
+// Standard output, gathered into large writes, none of which is held back for long.
 class Output {
  public:
   std::string& buffer() { return buffer_; }
-  void flush_if_full() {
-    if (buffer_.size() >= (1 << 18)) flush();
+  void flush_if_due() {
+    if (buffer_.size() >= (1 << 18) ||
+        std::chrono::steady_clock::now() - flushed_ > std::chrono::milliseconds(200))
+      flush();
   }
   void flush() {
     for (std::size_t done = 0; done < buffer_.size();) {
@@ -36,37 +39,49 @@ class Output {
       done += static_cast<std::size_t>(count);
     }
     buffer_.clear();
+    flushed_ = std::chrono::steady_clock::now();
   }
 
  private:
   std::string buffer_;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
-int act(Options options) {
-  check_name(options.engine);
-  if (!options.max_time.empty()) {
-    options.request.max_time = parse_number(options.max_time);
-    if (!(*options.request.max_time > 0)) throw InputError("--max-time: must be above zero");
+oracle::Request request_of(const Options& options) {
+  oracle::Request request;
+  if (options.digits) {
+    if (options.engine != "oracle")
+      throw InputError("--digits: only the oracle knows more digits than a binary64 has");
+    request.digits = static_cast<int>(whole_number(*options.digits, "--digits", 1, 100'000));
   }
+  request.max_time = positive_number(options.max_time, "--max-time");
+  request.detail = options.detail;
+  return request;
+}
+
+int act(const Options& options) {
+  check_name(options.engine);
+  const oracle::Request request = request_of(options);
+  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  if (radius && !options.scene)
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   std::optional<Scene> initial;
   FirstHit first_hit;
-  if (!options.scene.empty()) {
-    initial = load_scene(options.scene, options.radius);
+  if (options.scene) {
+    initial = load_scene(*options.scene, radius);
     first_hit = make_first_hit(options.engine, *initial);
-  } else if (options.radius) {
-    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   }
   QueryStream stream(options.queries, initial);
   Output output;
   stream.lines().before_waiting([&] { output.flush(); });
-  for (StreamItem item; stream.next(item); output.flush_if_full()) {
+  for (StreamItem item; stream.next(item); output.flush_if_due()) {
     const int dimension = stream.scene() ? stream.scene()->dimension : 0;
     switch (item.kind) {
       case StreamItem::Kind::scene:
         first_hit = make_first_hit(options.engine, item.scene);
         break;
       case StreamItem::Kind::query:
-        append_answer_line(output.buffer(), item.id, first_hit(item.query, options.request), dimension);
+        append_answer_line(output.buffer(), item.id, first_hit(item.query, request), dimension);
         break;
       default:
         append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);
@@ -89,15 +104,14 @@ void add_first_hit(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_option("--scene", options->scene,
                       "scene before the first scene line: a file, or a name of the catalogue");
-  command->add_option("--radius", options->radius, "radius of every ball of --scene");
+  command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
   command
-      ->add_option("--digits", options->request.digits,
+      ->add_option("--digits", options->digits,
                    "also print the time with N significant decimal digits (oracle)")
-      ->check(CLI::Range(1, 100000))
       ->type_name("N");
   command->add_option("--max-time", options->max_time, "answer `later` if nothing is entered before time T")
       ->type_name("T");
-  command->add_flag("--detail", options->request.detail,
+  command->add_flag("--detail", options->detail,
                     "add the collision point, the outward normal and the impact parameter");
   command->footer(
       "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "

@@ -1,7 +1,6 @@
 #include "query_stream.hpp"
 
-#include <fmt/format.h>
-
+#include "messages.hpp"
 #include "scene_option.hpp"
 
 namespace lorentz::cli {
@@ -10,17 +9,15 @@ QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial)
     : lines_(path), scene_(std::move(initial)) {}
 
 void QueryStream::complain(std::size_t line, const std::string& message) {
-  if (++complaints_ <= kMaxComplaints)
-    fmt::print(stderr, "lorentz: {}:{}: {}\n", lines_.name(), line, message);
+  if (++complaints_ <= kMaxComplaints) say("{}:{}: {}", lines_.name(), line, message);
 }
 
 void QueryStream::finish() {
   if (empty_ && complaints_ == 0) {
     ++complaints_;
-    fmt::print(stderr, "lorentz: {}: is empty: no scene and no query in it\n", lines_.name());
+    say("{}: is empty: no scene and no query in it", lines_.name());
   }
-  if (complaints_ > kMaxComplaints)
-    fmt::print(stderr, "lorentz: {}: {} more bad lines\n", lines_.name(), complaints_ - kMaxComplaints);
+  if (complaints_ > kMaxComplaints) say("{}: {} more bad lines", lines_.name(), complaints_ - kMaxComplaints);
 }
 
 bool QueryStream::next(StreamItem& item) {
@@ -31,6 +28,8 @@ bool QueryStream::next(StreamItem& item) {
       return false;
     }
     reader_.read_query_line(line, scene(), item);
+    if (item.kind == StreamItem::Kind::bad && item.message == ExchangeReader::kNoScene && bad_scene_line_ > 0)
+      item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);
     if (item.kind == StreamItem::Kind::scene) {
       try {
         check_scene(item.scene, fmt::format("{}:{}", lines_.name(), line.number));
@@ -46,7 +45,10 @@ bool QueryStream::next(StreamItem& item) {
   empty_ = false;
   if (item.kind == StreamItem::Kind::scene) scene_ = item.scene;
   if (item.kind == StreamItem::Kind::bad) {
-    if (item.bad_scene) scene_.reset();
+    if (item.bad_scene) {
+      scene_.reset();
+      bad_scene_line_ = line.number;
+    }
     complain(line.number, item.message);
   }
   return true;

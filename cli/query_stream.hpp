@@ -35,6 +35,7 @@ class QueryStream {
   LineReader lines_;
   ExchangeReader reader_;
   std::optional<Scene> scene_;
+  std::size_t bad_scene_line_ = 0;
   long complaints_ = 0;
   bool empty_ = true;
 };

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <memory>
 
 #include "engine.hpp"
 #include "exchange.hpp"
@@ -12,38 +15,31 @@
 namespace lorentz::cli {
 namespace {
 
-// Collision point, normal and impact parameter of a hit, as a binary64 engine would compute them.
+// Collision point, normal and impact parameter of a hit, in binary64.
 Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
   const Lattice& lattice = scene.lattices[answer.obstacle.lattice];
   const Atom& atom = lattice.atoms[answer.obstacle.atom];
-  Detail detail;
-  double across2 = 0;
-  Vec centre = atom.position, arm{};
+  Vec centre = atom.position;
   for (int i = 0; i < scene.dimension; ++i)
     for (int k = 0; k < scene.dimension; ++k)
-      centre[k] += std::stod(answer.obstacle.cell[i].decimal()) * lattice.vectors[i][k];
-  double along = 0, v2 = 0;
+      centre[k] += std::strtod(answer.obstacle.cell[i].decimal().c_str(), nullptr) * lattice.vectors[i][k];
+  Detail detail;
+  const double speed = std::hypot(query.v[0], query.v[1], query.v[2]);
+  double along = 0;
+  Vec arm{};
   for (int k = 0; k < 3; ++k) {
     detail.point[k] = query.x[k] + *answer.time * query.v[k];
-    detail.normal[k] = (detail.point[k] - centre[k]) / atom.radius;
-    arm[k] = centre[k] - query.x[k];
-    along += arm[k] * query.v[k];
-    v2 += query.v[k] * query.v[k];
+    arm[k] = detail.point[k] - centre[k];
+    along += arm[k] * (query.v[k] / speed);
   }
-  for (int k = 0; k < 3; ++k) across2 += std::pow(arm[k] - along / v2 * query.v[k], 2);
-  detail.impact_parameter = std::sqrt(across2);
+  const double length = std::hypot(arm[0], arm[1], arm[2]);
+  Vec across{};
+  for (int k = 0; k < 3; ++k) {
+    detail.normal[k] = arm[k] / length;
+    across[k] = arm[k] - along * (query.v[k] / speed);
+  }
+  detail.impact_parameter = std::hypot(across[0], across[1], across[2]);
   return detail;
-}
-
-Answer with_request(Answer answer, const Query& query, const Scene& scene, const oracle::Request& request) {
-  const bool nothing_before = answer.outcome == Outcome::never ||
-                              (answer.time && request.max_time && !(*answer.time < *request.max_time));
-  if (request.max_time && nothing_before) {
-    answer = Answer{};
-    answer.outcome = Outcome::later;
-  }
-  if (request.detail && answer.outcome == Outcome::hit) answer.detail = detail_of(answer, query, scene);
-  return answer;
 }
 
 }  // namespace
@@ -70,18 +66,20 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
       return truth->first_hit(query, request);
     };
   }
+  std::function<Answer(const Query&, double)> answer;
   if (name == "walk") {
     auto walk = std::make_shared<oracle::Walk>(scene);
-    return [walk, scene](const Query& query, const oracle::Request& request) {
-      return with_request(walk->first_hit(query), query, scene, request);
+    answer = [walk](const Query& query, double max_time) {
+      return limited(walk->first_hit(query), max_time);
     };
+  } else {
+    std::shared_ptr<Engine> engine = make_engine(name, scene);
+    answer = [engine](const Query& query, double max_time) { return engine->first_hit(query, max_time); };
   }
-  std::shared_ptr<Engine> engine = make_engine(name, scene);
-  return [engine, scene](const Query& query, const oracle::Request& request) {
-    const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
-    Answer answer = engine->first_hit(query, max_time);
-    if (request.detail && answer.outcome == Outcome::hit) answer.detail = detail_of(answer, query, scene);
-    return answer;
+  return [answer, scene](const Query& query, const oracle::Request& request) {
+    Answer result = answer(query, request.max_time.value_or(std::numeric_limits<double>::infinity()));
+    if (request.detail && result.outcome == Outcome::hit) result.detail = detail_of(result, query, scene);
+    return result;
   };
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exchange.hpp"
+#include "messages.hpp"
 #include "scene_check.hpp"
 
 namespace lorentz::cli {
@@ -60,8 +61,6 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
   const std::string file = find_scene(name_or_file);
   Scene scene = read_scene_file(file);
   if (radius) {
-    if (!std::isfinite(*radius) || !(*radius > 0))
-      throw InputError("--radius: must be finite and above zero");
     for (Lattice& lattice : scene.lattices)
       for (Atom& atom : lattice.atoms) {
         if (!atom.is_ball())
@@ -76,8 +75,7 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
 void check_scene(const Scene& scene, const std::string& place) {
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(place + ": " + *flaw);
   if (auto pair = oracle::overlap_in(scene))
-    fmt::print(stderr, "lorentz: warning: {}: {}; answers stay exact, but is the radius what you meant?\n",
-               place, *pair);
+    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place, *pair);
 }
 
 }  // namespace lorentz::cli

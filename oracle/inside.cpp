@@ -90,8 +90,8 @@ Estimate length(const auto& vector) {
   return std::sqrt(estimate(dot(vector.p, vector.p)));
 }
 
-// About how many rows visit_ball looks at in a basis b, outermost vector last, if it looks at all. Lines or planes of
-// the lattice stand at most |b_i| apart; in a reduced basis not much less.
+// About how many rows visit_ball looks at in a basis b, outermost vector last, if it looks at all. Lines or
+// planes of the lattice stand at most |b_i| apart; in a reduced basis not much less.
 template <std::size_t D>
 Estimate rows_in_all(const Basis<D>& basis, Estimate radius) {
   Estimate rows = 1;
@@ -99,8 +99,9 @@ Estimate rows_in_all(const Basis<D>& basis, Estimate radius) {
   return rows;
 }
 
-// About how many, if it stops at the first point: a level holds one for certain once the section's radius exceeds the
-// covering radius of the lattice within the level, mu: that is mu^2 / (2 r) from the edge of the ball.
+// About how many, if it stops at the first point: a level holds one for certain once the section's radius
+// exceeds the covering radius of the lattice within the level, mu: that is mu^2 / (2 r) from the edge of the
+// ball.
 template <std::size_t D>
 Estimate rows_to_first(const Basis<D>& basis, Estimate radius) {
   const Estimate volume = std::fabs(estimate(determinant<D>(basis)));

@@ -115,10 +115,10 @@ class Problem {
   }
 
   Answer answer_to(const ExactQuery<D>& exact, const Earliest<D>& earliest, const Request& request) const {
-    if (!earliest.found()) return request.max_time ? later() : Answer::never();
+    if (!earliest.found()) return request.max_time ? Answer::later() : Answer::never();
     const Entry<D>& entry = earliest.entry();
     const Quadratic time = exact.time_of(entry);
-    if (request.max_time && compare(time, *request.max_time) >= 0) return later();
+    if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
     Answer answer =
         Answer::hit({entry.lattice, entry.atom, to_cell(entry.centre.n)}, round_to_binary64(time));
     if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
@@ -127,12 +127,6 @@ class Problem {
                                     scene_.exponent - exact.length_exponent);
       answer.detail = exact.detail_of(entry, radius);
     }
-    return answer;
-  }
-
-  static Answer later() {
-    Answer answer;
-    answer.outcome = Outcome::later;
     return answer;
   }
 

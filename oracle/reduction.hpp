@@ -46,7 +46,8 @@ void reduce(Basis<2>& basis, const Form& form) {
 template <class Form>
 void reduce(Basis<3>& basis, const Form& form) {
   for (;;) {
-    std::sort(basis.begin(), basis.end(), [&](const auto& a, const auto& b) { return form(a, a) < form(b, b); });
+    std::sort(basis.begin(), basis.end(),
+              [&](const auto& a, const auto& b) { return form(a, a) < form(b, b); });
     reduce_pair(basis[0], basis[1], form);
     const Z g22 = form(basis[1], basis[1]), g33 = form(basis[2], basis[2]);
     if (g33 < g22) continue;

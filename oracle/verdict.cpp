@@ -16,6 +16,8 @@ Judgement judge(const Answer& exact, const Answer& given) {
   switch (given.outcome) {
     case Outcome::undecided:
       return {Verdict::undecided, {}};
+    case Outcome::later:
+      return {Verdict::undecided, {}};  // it looked no farther
     case Outcome::error:
       return {given.unsupported ? Verdict::unsupported : Verdict::error, {}};
     default:

@@ -28,12 +28,7 @@ Answer Engine::first_hit(const Query& query, double max_time) const {
   for (double& component : scaled.v) component = std::scalbn(component, -exponent);
   Answer answer = first_hit_scaled(scaled, std::scalbn(max_time, exponent));
   if (answer.time) answer.time = std::scalbn(*answer.time, -exponent);
-  const bool nothing_before = answer.outcome == Outcome::never || (answer.time && !(*answer.time < max_time));
-  if (std::isfinite(max_time) && nothing_before) {
-    answer = Answer{};
-    answer.outcome = Outcome::later;
-  }
-  return answer;
+  return limited(std::move(answer), max_time);
 }
 
 std::vector<std::string> engine_names() {

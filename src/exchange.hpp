@@ -40,6 +40,9 @@ struct StreamItem {
 /// Reads the lines of query and answer streams.
 class ExchangeReader {
  public:
+  /// The message of a query before which there is no scene.
+  static constexpr const char* kNoScene = "no scene before this query";
+
   ExchangeReader();
   ~ExchangeReader();
 
@@ -48,7 +51,7 @@ class ExchangeReader {
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
 
   /// A line of an answer stream, of a scene of this dimension or any (0). Throws InputError. False for a
-  /// blank line.
+  /// blank line or a `golden` header.
   bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer);
 
  private:
@@ -63,6 +66,9 @@ Scene read_scene_file(const std::string& path);
 void append_scene_line(std::string& out, const Scene& scene);
 void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
+
+/// Beyond 2^53 in absolute value as a decimal string.
+void append_integer(std::string& out, const Integer& n);
 
 /// A JSON string with its quotes.
 std::string json_quoted(std::string_view text);

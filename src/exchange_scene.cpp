@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "exchange.hpp"
 
@@ -10,42 +11,60 @@ namespace lorentz {
 const SceneNode* SceneNode::member(const char* key) const {
   const Object* object = std::get_if<Object>(&value);
   if (!object) return nullptr;
-  for (const auto& [name, node] : *object)
-    if (name == key) return &node;
+  for (auto member = object->rbegin(); member != object->rend(); ++member)
+    if (member->first == key) return &member->second;
   return nullptr;
 }
 
-double parse_hexadecimal(std::string_view text, const std::string& place) {
-  const bool negative = !text.empty() && text.front() == '-';
-  std::string_view digits = text.substr(negative ? 1 : 0);
-  if (!digits.starts_with("0x") && !digits.starts_with("0X"))
-    throw InputError(place + ": the string " + json_quoted(text) +
-                     " is no hexadecimal float (like \"0x1.8p-1\"); write decimal numbers without quotes");
-  digits.remove_prefix(2);
+namespace {
+
+// [+-] digits as `format` has them, nothing else. Nearest binary64, ties to even; what is too small becomes 0
+// or subnormal, as in any JSON reader.
+double parse_digits(std::string_view text, std::chars_format format, const std::string& place,
+                    const char* what) {
+  const std::string_view whole = text;
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const bool hexadecimal = format == std::chars_format::hex;
+  if (hexadecimal) text.remove_prefix(2);
+  const bool digits = !text.empty() && std::string_view("0123456789abcdefABCDEF.").find(text.front()) !=
+                                           std::string_view::npos;
   double value = 0;
-  const auto [end, status] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
-  if (status == std::errc::result_out_of_range)
-    throw InputError(place + ": " + json_quoted(text) + " is out of binary64's range");
-  if (status != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw InputError(place + ": " + json_quoted(text) + " is no hexadecimal float (like \"0x1.8p-1\")");
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value, format);
+  if (!digits || status == std::errc::invalid_argument || end != text.data() + text.size())
+    throw InputError(place + ": " + json_quoted(whole) + what);
+  if (status == std::errc::result_out_of_range) {  // too large or too small: strtod tells which
+    value = std::strtod(((hexadecimal ? "0x" : "") + std::string(text)).c_str(), nullptr);
+    if (std::isinf(value))
+      throw InputError(place + ": " + json_quoted(whole) + " is beyond the range of binary64");
+  }
   return negative ? -value : value;
 }
 
+bool looks_hexadecimal(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return text.starts_with("0x") || text.starts_with("0X");
+}
+
+}  // namespace
+
+double parse_hexadecimal(std::string_view text, const std::string& place) {
+  constexpr const char* kWhat =
+      " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
+  if (!looks_hexadecimal(text)) throw InputError(place + ": the string " + json_quoted(text) + kWhat);
+  return parse_digits(text, std::chars_format::hex, place, kWhat);
+}
+
 double parse_number(std::string_view text) {
-  const std::string_view unsigned_text = text.substr(!text.empty() && text.front() == '-' ? 1 : 0);
-  if (unsigned_text.starts_with("0x") || unsigned_text.starts_with("0X"))
-    return parse_hexadecimal(text, "number");
-  double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    throw InputError(json_quoted(text) + " is no finite number");
-  return value;
+  if (looks_hexadecimal(text)) return parse_hexadecimal(text, "number");
+  return parse_digits(text, std::chars_format::general, "number", " is no finite number");
 }
 
 namespace {
 
 const SceneNode& required(const SceneNode& node, const char* key, const std::string& place) {
+  if (!std::holds_alternative<SceneNode::Object>(node.value))
+    throw InputError((place.empty() ? "scene" : place) + ": needs an object");
   const SceneNode* member = node.member(key);
   if (!member) throw InputError((place.empty() ? "scene" : place) + ": " + key + " is missing");
   return *member;

@@ -29,10 +29,12 @@ void append_number(std::string& out, double value) {
     return;
   }
   char text[32];
-  out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+  // Beyond 2^53 never as digits only, which a reader might take for an integer.
+  const bool large = std::fabs(value) >= 0x1p53;
+  const auto end = large ? std::to_chars(text, text + sizeof text, value, std::chars_format::scientific)
+                         : std::to_chars(text, text + sizeof text, value);
+  out.append(text, end.ptr);
 }
-
-namespace {
 
 void append_integer(std::string& out, const Integer& n) {
   constexpr std::int64_t kExactInBinary64 = std::int64_t{1} << 53;
@@ -47,6 +49,8 @@ void append_integer(std::string& out, const Integer& n) {
   out.append(text, end);
   if (!small) out += '"';
 }
+
+namespace {
 
 void append_vector(std::string& out, const Vec& a, int dimension) {
   for (int i = 0; i < dimension; ++i) {

@@ -65,6 +65,9 @@ bool LineReader::next(Line& line) {
     const std::size_t length = newline ? static_cast<const char*>(newline) - start : end_ - begin_;
     if (newline || (at_end_ && length > 0)) {
       line = {std::string_view(start, length), ++number_, false};
+      constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+      if (number_ == 1 && line.text.starts_with(kByteOrderMark))
+        line.text.remove_prefix(kByteOrderMark.size());
       begin_ += length + (newline ? 1 : 0);
       return true;
     }

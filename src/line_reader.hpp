@@ -29,7 +29,7 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The next line; false at the end. Throws FileError if reading fails.
+  /// The next line, the first without a byte order mark; false at the end. Throws FileError if reading fails.
   bool next(Line& line);
 
   /// Called before each read that may have to wait: the place to flush what was answered so far.

@@ -48,6 +48,12 @@ Answer Answer::never() {
   return answer;
 }
 
+Answer Answer::later() {
+  Answer answer;
+  answer.outcome = Outcome::later;
+  return answer;
+}
+
 Answer Answer::undecided() {
   return Answer{};
 }
@@ -63,6 +69,11 @@ Answer Answer::unsupported_because(std::string message) {
   Answer answer = error(std::move(message));
   answer.unsupported = true;
   return answer;
+}
+
+Answer limited(Answer answer, double max_time) {
+  const bool nothing_before = answer.outcome == Outcome::never || (answer.time && !(*answer.time < max_time));
+  return std::isfinite(max_time) && nothing_before ? Answer::later() : answer;
 }
 
 namespace {

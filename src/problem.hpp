@@ -107,10 +107,14 @@ struct Answer {
   static Answer hit(ObstacleId obstacle, double time);
   static Answer inside(ObstacleId obstacle);
   static Answer never();
+  static Answer later();
   static Answer undecided();
   static Answer error(std::string message);
   static Answer unsupported_because(std::string message);
 };
+
+/// The answer, or `later` if it says that nothing is entered before `max_time` (an infinity: no limit).
+Answer limited(Answer answer, double max_time);
 
 /// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete.
 /// That the primitive vectors are independent is decided exactly by the oracle (oracle/scene_check.hpp).

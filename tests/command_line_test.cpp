@@ -170,6 +170,49 @@ TEST_CASE("Bad usage") {
     CHECK(folder.lorentz(help).status == 0);
 }
 
+TEST_CASE("A closed or full stderr loses messages and nothing else") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood + "bad\n" + kGood);
+  for (const std::string redirection : {"2>&-", "2>/dev/full"}) {
+    const int status = std::system(
+        (std::string(LORENTZ_PROGRAM) + " first-hit " + queries + " >" + folder.file("o") + " " + redirection)
+            .c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 2);
+    CHECK(lines(folder.read("o")) == 3);
+  }
+}
+
+TEST_CASE("Output that does not arrive is a failure, in every subcommand") {
+  const Folder folder;
+  for (const char* arguments :
+       {"--version", "--help", "compare --count 10", "compare --count 10 --json", "convergents 1.5"}) {
+    INFO(arguments);
+    const int status =
+        std::system((std::string(LORENTZ_PROGRAM) + " " + arguments + " >/dev/full 2>/dev/null").c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 3);
+  }
+}
+
+TEST_CASE("Counts and seeds out of range, scenes that cannot be drawn from") {
+  const Folder folder;
+  const auto semiaxes = folder.write("s",
+                                     "dimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], atoms = "
+                                     "[{position = [0, 0], semiaxes = [[0.1, 0], [0, 0.2]]}]}]\n");
+  for (const std::string& arguments :
+       {std::string("compare --count -1"), std::string("compare --count 99999999999999999999999"),
+        std::string("compare --count 1.5"), std::string("compare --seed -1"),
+        std::string("compare --seed 18446744073709551616"), "compare --count 5 --scene " + semiaxes,
+        std::string("compare --radius 0.75 --count 5"), std::string("convergents 1.5 --limit 0")}) {
+    const Run run = folder.lorentz(arguments);
+    INFO(arguments << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "lorentz: "));
+  }
+  CHECK(folder.lorentz("compare --count 1e2 --seed 18446744073709551615").status == 0);
+}
+
 TEST_CASE("A scene whose obstacles overlap or touch is answered, with a warning") {
   const Folder folder;
   const auto run = [&](const char* radius) {
@@ -237,6 +280,23 @@ TEST_CASE("compare judges answers that were logged elsewhere") {
                      " --answers mine=" + folder.write("a3", "rubbish\n" + kGoodAnswer))
             .status == 2);
   CHECK(folder.lorentz("compare --queries " + queries + " --answers mine=/no/such/file").status == 3);
+  // The wrong file: none of its answers is to one of these queries.
+  const Run other = folder.lorentz("compare --queries " + queries + " --answers mine=" +
+                                   folder.write("a4", R"({"id":"x","outcome":"never"})"
+                                                      "\n"));
+  CHECK(other.status == 2);
+  CHECK(contains(other.err, "no answer matches any query"));
+  // Ids that come twice in the queries cannot be matched; lines without an id are passed over.
+  CHECK(folder
+            .lorentz("compare --queries " + folder.write("q2", kScene + kGood + kGood) +
+                     " --answers mine=" + folder.write("a5", kGoodAnswer))
+            .status == 2);
+  const std::string error = R"({"id":null,"outcome":"error","message":"not JSON"})"
+                            "\n";
+  CHECK(folder
+            .lorentz("compare --queries " + folder.write("q3", kScene + kGood) +
+                     " --answers mine=" + folder.write("a6", error + kGoodAnswer + error))
+            .status == 0);
 }
 
 TEST_CASE("compare is repeatable, and --strict counts undecided answers") {
@@ -262,8 +322,9 @@ TEST_CASE("convergents prints the expansion") {
   const Run json = folder.lorentz("convergents --json 3 2");
   CHECK(
       json.out ==
-      R"({"rise":3,"run":2,"convergents":[{"a":1,"p":1,"q":1,"remainder":0.5,"remainder_exact":"1/2"},{"a":2,"p":3,"q":2,"remainder":0,"remainder_exact":"0"}]})"
+      R"({"rise":3,"run":2,"convergents":[{"a":1,"p":1,"q":1,"remainder":0.5,"remainder_exact":"1/2"},{"a":2,"p":3,"q":2,"remainder":0,"remainder_exact":"0"}],"complete":true})"
       "\n");
   CHECK(folder.lorentz("convergents 0x1.8p+0").out == folder.lorentz("convergents 1.5").out);
   CHECK(folder.lorentz("convergents -- -1.5").status == 0);
+  CHECK(contains(folder.lorentz("convergents 3.14159 --limit 3").out, "stopped after --limit 3"));
 }

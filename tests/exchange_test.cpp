@@ -183,7 +183,7 @@ TEST_CASE("Every sort of bad line is told by name, and keeps its id where it can
       {"{\"id\":1,\"x\":[0,0.5],\"v\":[1]}", "v: has 1 components", "1"},
       {"{\"id\":1,\"x\":[0,0.5],\"v\":[0,-0.0]}", "v is zero", "1"},
       {"{\"id\":1,\"x\":[0,NaN],\"v\":[1,0]}", "", "1"},
-      {"{\"id\":1,\"x\":[0,1e999],\"v\":[1,0]}", "x: is no finite number", "1"},
+      {"{\"id\":1,\"x\":[0,1e999],\"v\":[1,0]}", "x: is beyond the range", "1"},
       {"{\"x\":[0,\"nan\"],\"v\":[1,0],\"id\":\"late\"}", "no hexadecimal float", "\"late\""},
       {"{\"id\":1,\"x\":[0,\"0x1p2000\"],\"v\":[1,0]}", "range", "1"},
       {"{\"id\":1,\"x\":[0,null],\"v\":[1,0]}", "x: needs a number", "1"},
@@ -208,6 +208,80 @@ TEST_CASE("Every sort of bad line is told by name, and keeps its id where it can
   CHECK(read(std::string("\0\0{\"id\":1}", 10), &kSquare).message.find("2 NUL bytes") != std::string::npos);
 }
 
+TEST_CASE("What is nearly JSON is none, also where it would be ignored") {
+  for (const char* value : {"01", "1.", ".5", "-", "1e", "0x10", "+1", "tru", "nul", "1.2.3", "'a'"}) {
+    const StreamItem item =
+        read(std::string("{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"other\":") + value + "}", &kSquare);
+    INFO(value << " -> " << item.message);
+    CHECK(item.kind == StreamItem::Kind::bad);
+  }
+  CHECK(read("{\"id\":01,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).kind == StreamItem::Kind::bad);
+  CHECK(read("[1,2]", &kSquare).message.find("one object") != std::string::npos);
+}
+
+TEST_CASE("Nesting is bounded, in lines and in scene files") {
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  for (const std::string& text : {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"z\":" + deep + "}",
+                                  "{\"scene\":" + deep + "}", "{\"golden\":" + deep + "}"}) {
+    const StreamItem item = read(text, &kSquare);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.message.find("nested deeper") != std::string::npos);
+  }
+  std::string dotted = "a";
+  for (int i = 0; i < 100'000; ++i) dotted += ".a";
+  const std::string path = test::temporary_file();
+  for (const std::string& text : {deep, "{\"a\":" + deep + "}", dotted + " = 1\n"}) {
+    std::ofstream(path) << text;
+    CHECK_THROWS_AS(read_scene_file(path), InputError);
+  }
+  std::remove(path.c_str());
+}
+
+TEST_CASE("Of a key that comes twice the last counts, everywhere") {
+  CHECK(read("{\"id\":1,\"id\":2,\"x\":[9,9],\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "2");
+  const StreamItem scene = read(
+      "{\"scene\":{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[{\"position\":[0,0],"
+      "\"radius\":1,\"radius\":2}]}]}}",
+      nullptr);
+  CHECK(scene.scene.lattices[0].atoms[0].radius == 2);
+}
+
+TEST_CASE("Numbers too small are rounded, too large are refused, in every notation") {
+  CHECK(parse_number("1e-999") == 0);
+  CHECK(parse_number("0x1p-2000") == 0);
+  CHECK(parse_number("0x1.8p-1074") == 0x1p-1073);
+  CHECK(parse_number("+0.5") == 0.5);
+  CHECK(parse_number("-0x1p-3") == -0.125);
+  for (const char* text :
+       {"1e999", "0x1p2000", "inf", "nan", "", "-", "0x", "1x", "1 ", "--1", "+-1", "infinity", "0x1p"}) {
+    INFO(text);
+    CHECK_THROWS_AS(parse_number(text), InputError);
+  }
+}
+
+TEST_CASE("Large numbers never look like integers, large ids are strings") {
+  std::string text;
+  append_number(text, 63050394783186936.0);
+  CHECK(text == "6.3050394783186936e+16");
+  CHECK(read("{\"id\":9007199254740993,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "\"9007199254740993\"");
+  CHECK(read("{\"id\":9007199254740992,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "9007199254740992");
+}
+
+TEST_CASE("A bad answer line is refused, not guessed at") {
+  ExchangeReader reader;
+  Id id;
+  Answer answer;
+  for (const char* text : {R"({"id":1})", R"({"id":1,"outcome":"maybe"})", R"({"id":1,"outcome":"hit"})",
+                           R"({"id":1,"outcome":"hit","atom":0,"cell":[1,2],"time":1})",
+                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[]})",
+                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[1,2],"time":-1})",
+                           R"({"id":1,"outcome":"hit","lattice":-1,"atom":0,"cell":[1,2],"time":1})"}) {
+    INFO(text);
+    CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer), InputError);
+  }
+  CHECK_FALSE(reader.read_answer_line(Padded("{\"golden\":{}}").line(), id, answer));
+}
+
 TEST_CASE("Blank lines and golden headers are passed over, unknown keys ignored") {
   CHECK(read("", &kSquare).kind == StreamItem::Kind::nothing);
   CHECK(read(" \t\r", &kSquare).kind == StreamItem::Kind::nothing);
@@ -229,7 +303,7 @@ TEST_CASE("Every sort of bad scene is told by its place") {
   const auto with_atom = [](const std::string& atom) {
     return "{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[" + atom + "]}]}";
   };
-  CHECK(message("5").find("dimension is missing") != std::string::npos);
+  CHECK(message("5").find("needs an object") != std::string::npos);
   CHECK(message("{\"dimension\":4,\"lattices\":[]}").find("must be 2 or 3") != std::string::npos);
   CHECK(message("{\"dimension\":2,\"lattices\":[]}").find("at least one lattice") != std::string::npos);
   CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0]],\"atoms\":[]}]}")

@@ -105,6 +105,19 @@ TEST_CASE("Ties go to the smallest lattice, atom, cell") {
   CHECK(first_hit(two, {{0.5, 0}, {1, 0}, at(1, 0)}).obstacle == ObstacleId{1, 0, at(1, 0).cell});
 }
 
+TEST_CASE("Primitive vectors as skewed as may be") {
+  // The unit cube in other clothes: u_1 = (1, 10^8, -10^17), cells mapped back by hand.
+  Scene scene = unit_scene(3, 0.1);
+  scene.lattices[0].vectors = {Vec{1, 1e8, -1e17}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  const Query query{{0.3, 0.4, 0.2}, {1, 0.3, 0.2}, {}};
+  const Answer plain = oracle::Oracle(unit_scene(3, 0.1)).first_hit(query),
+               skewed = oracle::Oracle(scene).first_hit(query);
+  REQUIRE(plain.time == skewed.time);
+  const std::int64_t n = plain.obstacle.cell[0].int64();
+  CHECK(skewed.obstacle.cell == Cell{Integer(n), Integer(plain.obstacle.cell[1].int64() - n * 100'000'000),
+                                     Integer(plain.obstacle.cell[2].int64() + n * 100'000'000'000'000'000)});
+}
+
 TEST_CASE("The paper's example, 1 degree") {
   const Answer answer =
       first_hit(unit_scene(2, 0.1), {{0, 0.445}, {0.9998476951563913, 0.01745240643728351}, {}});

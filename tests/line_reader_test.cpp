@@ -35,6 +35,11 @@ TEST_CASE("Lines, with and without an end, empty ones too") {
   CHECK(lines_of("").empty());
   CHECK(lines_of("a") == Lines{"a"});
   CHECK(lines_of("a\n") == Lines{"a"});
+  CHECK(lines_of("\xef\xbb\xbf"
+                 "a\n\xef\xbb\xbf"
+                 "b") == Lines{"a",
+                               "\xef\xbb\xbf"
+                               "b"});
   CHECK(lines_of("\n\na\nb") == Lines{"", "", "a", "b"});
   CHECK(lines_of(std::string("a\0b\nc", 5)) == Lines{std::string("a\0b", 3), "c"});
 }

@@ -29,6 +29,7 @@ TEST_CASE("Each answer gets its verdict") {
   CHECK(verdict(Answer::inside(kHere), Answer::inside(kHere)) == Verdict::agree);
   CHECK(verdict(Answer::inside(kHere), Answer::inside(kThere)) == Verdict::wrong);
   CHECK(verdict(hit, Answer::undecided()) == Verdict::undecided);
+  CHECK(verdict(hit, Answer::later()) == Verdict::undecided);
   CHECK(verdict(hit, Answer::error("no")) == Verdict::error);
   CHECK(verdict(hit, Answer::unsupported_because("no")) == Verdict::unsupported);
 }

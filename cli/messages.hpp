@@ -1,0 +1,27 @@
+// What the program says to people: messages on stderr, tables on stdout.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+
+namespace lorentz::cli {
+
+/// A message on stderr with the program's name in front. If stderr is closed or full the message is lost and
+/// nothing else.
+template <class... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string text = "lorentz: " + fmt::format(format, std::forward<Args>(args)...) + '\n';
+  std::fputs(text.c_str(), stderr);
+}
+
+/// Text on stdout. That it arrived is checked once, at the program's end (finish_output).
+inline void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+/// Throws FileError if something printed did not arrive.
+void finish_output();
+
+}  // namespace lorentz::cli

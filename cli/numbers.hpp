@@ -1,0 +1,18 @@
+// Numbers on the command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lorentz::cli {
+
+/// A whole number from `least` to `most`: digits, or a form like 1e6. Throws InputError, naming the option.
+std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least,
+                           std::uint64_t most);
+
+/// A finite number above zero, decimal or hexadecimal, or nothing if the option was not given. Throws
+/// InputError.
+std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,140 @@
+#include "exchange_json.hpp"
+
+#include <cmath>
+
+#include "exchange.hpp"
+
+namespace lorentz {
+namespace {
+
+// The token of a number, without the white space that may follow it.
+std::string_view token_of(json::value value) {
+  std::string_view token = value.raw_json_token();
+  while (!token.empty() && static_cast<unsigned char>(token.back()) <= ' ') token.remove_suffix(1);
+  return token;
+}
+
+// -?(0|[1-9][0-9]*)(.[0-9]+)?([eE][+-]?[0-9]+)?
+bool is_json_number(std::string_view token) {
+  std::size_t i = 0;
+  const auto at = [&](char c) { return i < token.size() && token[i] == c; };
+  const auto digits = [&] {
+    const std::size_t start = i;
+    while (i < token.size() && token[i] >= '0' && token[i] <= '9') ++i;
+    return i > start;
+  };
+  if (at('-')) ++i;
+  if (at('0'))
+    ++i;
+  else if (!digits())
+    return false;
+  if (at('.')) {
+    ++i;
+    if (!digits()) return false;
+  }
+  if (at('e') || at('E')) {
+    ++i;
+    if (at('+') || at('-')) ++i;
+    if (!digits()) return false;
+  }
+  return i == token.size();
+}
+
+void check_number(json::value value) {
+  const std::string_view token = token_of(value);
+  if (!is_json_number(token)) throw NotJson{json_quoted(token.substr(0, 40)) + " is no JSON value"};
+}
+
+}  // namespace
+
+void check_depth(int depth) {
+  constexpr int kMaxDepth = 64;
+  if (depth > kMaxDepth) throw InputError("nested deeper than " + std::to_string(kMaxDepth) + " levels");
+}
+
+void skip(json::value value, int depth) {
+  check_depth(depth);
+  switch (value.type()) {
+    case json::json_type::array:
+      for (json::value element : value.get_array()) skip(element, depth + 1);
+      break;
+    case json::json_type::object:
+      for (auto field : value.get_object()) {
+        (void)field.unescaped_key().value();
+        skip(field.value(), depth + 1);
+      }
+      break;
+    case json::json_type::number:
+      check_number(value);
+      break;
+    case json::json_type::string:
+      (void)value.get_string().value();
+      break;
+    case json::json_type::boolean:
+      (void)value.get_bool().value();
+      break;
+    case json::json_type::null:
+      if (!value.is_null()) throw simdjson::simdjson_error(simdjson::N_ATOM_ERROR);
+      break;
+  }
+}
+
+double read_number(json::value value, const std::string& place) {
+  if (value.type() == json::json_type::string) return parse_hexadecimal(value.get_string().value(), place);
+  if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
+  double number;
+  if (!value.get_double().get(number)) return number;
+  check_number(value);
+  throw InputError(place + ": is beyond the range of binary64");
+}
+
+Integer read_integer(json::value value, const char* key) {
+  const bool is_string = value.type() == json::json_type::string;
+  std::string_view text;
+  if (is_string) {
+    text = value.get_string();
+  } else if (value.type() == json::json_type::number) {
+    check_number(value);
+    text = token_of(value);
+  }
+  if (auto n = Integer::from_decimal(text)) return *n;
+  double number = 0.5;
+  if (!is_string && !value.get_double().get(number) && number == std::floor(number) &&
+      std::fabs(number) <= 0x1p53)
+    return Integer(static_cast<std::int64_t>(number));  // 27.0, as some programs write it
+  throw InputError(std::string(key) + ": needs an integer (beyond 2^53: a decimal string)");
+}
+
+SceneNode read_node(json::value value, const std::string& place, int depth) {
+  check_depth(depth);
+  switch (value.type()) {
+    case json::json_type::array: {
+      SceneNode::Array array;
+      for (json::value element : value.get_array())
+        array.push_back(read_node(element, place + "[" + std::to_string(array.size()) + "]", depth + 1));
+      return {std::move(array)};
+    }
+    case json::json_type::object: {
+      SceneNode::Object object;
+      for (auto field : value.get_object()) {
+        std::string key(field.unescaped_key().value());
+        SceneNode node = read_node(field.value(), place + "." + key, depth + 1);
+        object.emplace_back(std::move(key), std::move(node));
+      }
+      return {std::move(object)};
+    }
+    case json::json_type::number:
+      return {read_number(value, place)};
+    case json::json_type::string:
+      return {std::string(value.get_string().value())};
+    default:
+      skip(value);
+      return {};
+  }
+}
+
+bool ended(json::document& document) {
+  return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
+}
+
+}  // namespace lorentz
