@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "exchange.hpp"
+#include "progress.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -58,6 +59,7 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
   const Vec& cells = superposition ? box : one_cell;
   std::vector<Query> queries;
   queries.reserve(count);
+  Progress progress("drawing", count);
   for (std::size_t index = 0; index < count; ++index) {
     Random random(seed, index);
     Query query;
@@ -75,6 +77,7 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
     } while (!oracle.is_free(query.x));
     query.v = random.direction(scene.dimension);
     queries.push_back(query);
+    progress.at(queries.size());
   }
   return queries;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "progress.hpp"
 #include "table.hpp"
 
 namespace lorentz::cli {
@@ -42,7 +43,11 @@ std::vector<Answer> exact_answers(const CaseSet& set) {
   for (const Scene& scene : set.scenes) oracles.emplace_back(scene);
   std::vector<Answer> answers;
   answers.reserve(set.cases.size());
-  for (const Case& one : set.cases) answers.push_back(oracles[one.scene].first_hit(one.query));
+  Progress progress("exact answers", set.cases.size());
+  for (const Case& one : set.cases) {
+    answers.push_back(oracles[one.scene].first_hit(one.query));
+    progress.at(answers.size());
+  }
   return answers;
 }
 
@@ -67,8 +72,9 @@ double median(std::vector<double> values) {
 
 // One answerer over all cases; `look` sees each answer, outside the timed stretches.
 template <class Look>
-Round run_round(const CaseSet& set, const std::vector<FirstHit>& first_hit, Look look) {
+Round run_round(const CaseSet& set, const std::string& name, const std::vector<FirstHit>& first_hit, Look look) {
   Round round;
+  Progress progress(name.c_str(), set.cases.size());
   std::vector<Answer> answers(kBlock);
   const oracle::Request request;
   for (std::size_t begin = 0; begin < set.cases.size(); begin += kBlock) {
@@ -80,6 +86,7 @@ Round run_round(const CaseSet& set, const std::vector<FirstHit>& first_hit, Look
     round.total_ns += ns;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
     for (std::size_t i = begin; i < end; ++i) look(i, answers[i - begin]);
+    progress.at(begin);
   }
   return round;
 }
@@ -98,7 +105,7 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
   const auto start = Clock::now();
   for (int r = 0; r < kRounds; ++r) {
     for (std::size_t e = 0; e < names.size(); ++e)
-      rounds[e].push_back(run_round(set, answerers[e], [&](std::size_t i, const Answer& given) {
+      rounds[e].push_back(run_round(set, names[e], answerers[e], [&](std::size_t i, const Answer& given) {
         if (r > 0) return;
         if (exact.empty()) {
           ++tallies[e].queries;

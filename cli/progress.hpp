@@ -1,0 +1,41 @@
+// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal.
+#pragma once
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+namespace lorentz::cli {
+
+class Progress {
+ public:
+  Progress(const char* what, std::size_t total) : what_(what), total_(total), shown_(isatty(STDERR_FILENO) == 1) {}
+  ~Progress() {
+    if (drawn_) std::fputs("\r\033[K", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `done` of the total are done; draws a few times a second, from the first second on.
+  void at(std::size_t done) {
+    if (!shown_ || done % 64 != 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(200);
+    constexpr std::size_t kWidth = 40;
+    const std::size_t full = total_ ? kWidth * done / total_ : kWidth;
+    std::fprintf(stderr, "\r%s [%s%s] %zu of %zu", what_, std::string(full, '#').c_str(),
+                 std::string(kWidth - full, ' ').c_str(), done, total_);
+    drawn_ = true;
+  }
+
+ private:
+  const char* what_;
+  std::size_t total_;
+  bool shown_, drawn_ = false;
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+};
+
+}  // namespace lorentz::cli
