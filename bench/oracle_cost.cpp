@@ -1,5 +1,5 @@
-// What a first hit costs the oracle: by radius (drawn flights) and by distance (a slow drift out of a corridor or a
-// plane channel). Medians with the quartiles beside them, in microseconds.
+// What a first hit costs the oracle: by radius (drawn flights) and by distance (a slow drift out of a
+// corridor or a plane channel). Medians with the quartiles beside them, in microseconds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +23,14 @@ Spread cost(const oracle::Oracle& oracle, const std::vector<Query>& queries) {
   for (const Query& query : queries) {
     const auto start = std::chrono::steady_clock::now();
     const Answer answer = oracle.first_hit(query);
-    microseconds.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    microseconds.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
     if (answer.outcome == Outcome::undecided) throw answer;  // uses the answer, and never happens
   }
   std::sort(microseconds.begin(), microseconds.end());
-  const auto at = [&](double share) { return microseconds[static_cast<std::size_t>(share * static_cast<double>(microseconds.size() - 1))]; };
+  const auto at = [&](double share) {
+    return microseconds[static_cast<std::size_t>(share * static_cast<double>(microseconds.size() - 1))];
+  };
   return {at(0.25), at(0.5), at(0.75)};
 }
 

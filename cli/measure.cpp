@@ -72,7 +72,8 @@ double median(std::vector<double> values) {
 
 // One answerer over all cases; `look` sees each answer, outside the timed stretches.
 template <class Look>
-Round run_round(const CaseSet& set, const std::string& name, const std::vector<FirstHit>& first_hit, Look look) {
+Round run_round(const CaseSet& set, const std::string& name, const std::vector<FirstHit>& first_hit,
+                Look look) {
   Round round;
   Progress progress(name.c_str(), set.cases.size());
   std::vector<Answer> answers(kBlock);

@@ -11,7 +11,8 @@ namespace lorentz::cli {
 
 class Progress {
  public:
-  Progress(const char* what, std::size_t total) : what_(what), total_(total), shown_(isatty(STDERR_FILENO) == 1) {}
+  Progress(const char* what, std::size_t total)
+      : what_(what), total_(total), shown_(isatty(STDERR_FILENO) == 1) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }

@@ -21,22 +21,28 @@ namespace {
 
 constexpr long kMany = 8;  // so many planes or rows in a window mean that it surely holds an obstacle
 
-// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s s, for vectors with known s.
+// A lattice vector with its s.
+struct WindowVector {
+  LatticePoint<3> point;
+  Z s;
+
+  void add_multiple(const Z& k, const WindowVector& other) {
+    point.add_multiple(k, other.point);
+    mpz_addmul(s.get_mpz_t(), k.get_mpz_t(), other.s.get_mpz_t());
+  }
+};
+
+// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2.
 class WindowForm {
  public:
-  WindowForm(const Flight<3>& flight, long j) : flight_(flight) {
-    along_ = shifted_left(1, 2 * j) - 1;
-    whole_ = shifted_left(flight.v2, 2 * j);
-  }
-  Z operator()(const LatticePoint<3>& a, const LatticePoint<3>& b) const {
-    const Z whole = whole_ * dot(a.p, b.p);
-    if (along_ == 0) return whole;
-    return whole - along_ * dot(flight_.v, a.p) * dot(flight_.v, b.p);
+  WindowForm(const Flight<3>& flight, long j)
+      : whole_(shifted_left(flight.v2, 2 * j)), along_(shifted_left(1, 2 * j) - 1) {}
+  Z operator()(const WindowVector& a, const WindowVector& b) const {
+    return whole_ * dot(a.point.p, b.point.p) - along_ * (a.s * b.s);
   }
 
  private:
-  const Flight<3>& flight_;
-  Z along_, whole_;
+  Z whole_, along_;
 };
 
 // By how many halvings to cut a window with too many rows (dimension 2) or planes (3): n of them mean some
@@ -88,7 +94,7 @@ struct PlaneForm {
 // If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
 // angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
 struct Planes {
-  Basis<3> basis;
+  std::array<WindowVector, 3> basis;
   ZVec<3> normal, e, f;
   Z a, gap;
   Z reach2;           // rho^2 |v x N|^2
@@ -96,17 +102,17 @@ struct Planes {
   bool head_on;       // v is normal to the planes
   Z across2, across;  // rho^2 |e|^2 with the e in use, and its root
 
-  Planes(const Search<3>& search, Basis<3> reduced) : basis(std::move(reduced)) {
+  Planes(const Search<3>& search, const std::array<WindowVector, 3>& reduced) : basis(reduced) {
     const Flight<3>& flight = search.flight;
-    normal = cross(basis[0].p, basis[1].p);
+    normal = cross(basis[0].point.p, basis[1].point.p);
     a = dot(normal, flight.v);
-    gap = dot(normal, basis[2].p);
+    gap = dot(normal, basis[2].point.p);
     e = cross(flight.v, normal);
     reach2 = search.rho2 * dot(e, e);
     reach = floor_sqrt(reach2);
     head_on = reach2 == 0;
     if (head_on) {
-      e = basis[0].p;
+      e = basis[0].point.p;
       f = cross(flight.v, e);
     }
     across2 = search.rho2 * dot(e, e);
@@ -145,7 +151,7 @@ class Solver {
 Solver::Section Solver::section_of(const Planes& planes, const Z& k3, const Z& low, const Z& high) const {
   const Flight<3>& flight = search_.flight;
   LatticePoint<3> origin = search_.view.offset;
-  origin.add_multiple(k3, planes.basis[2]);
+  origin.add_multiple(k3, planes.basis[2].point);
   const Z level = flight.v2 * dot(planes.normal, origin.p);
   Section section;
   section.low = low;
@@ -173,11 +179,12 @@ Solver::Section Solver::section_of(const Planes& planes, const Z& k3, const Z& l
   const auto in_plane = [&](const LatticePoint<3>& b) {
     return PlanePoint{b, dot(planes.e, b.p), planes.head_on ? dot(planes.f, b.p) : dot(flight.v, b.p)};
   };
-  section.step = in_plane(planes.basis[0]);
-  section.next = in_plane(planes.basis[1]);
   section.start = in_plane(origin);
   const long scale = bit_length(z_high - z_low) - bit_length(half_width) - 1;
-  reduce_pair(section.step, section.next, PlaneForm{std::max(scale, 0L), std::max(-scale, 0L)});
+  std::array<PlanePoint, 2> pair{in_plane(planes.basis[0].point), in_plane(planes.basis[1].point)};
+  reduce(pair, PlaneForm{std::max(scale, 0L), std::max(-scale, 0L)});
+  section.step = std::move(pair[0]);
+  section.next = std::move(pair[1]);
   // A point at (y, z) stands in row k2 = (y1 (z - z0) - z1 (y - y0)) / (y1 z2 - z1 y2).
   const PlanePoint &g1 = section.step, &g2 = section.next;
   const auto [least, most] = ordered(g1.y * z_low, g1.y * z_high);
@@ -224,15 +231,18 @@ int compare(const RealEntry& a, const RealEntry& b) {
 // until it comes after the earliest entry found and grows.
 void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   const Flight<3>& flight = search_.flight;
-  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|; rounding here
-  // costs time only.
+  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding here
+  // costs time only; but the right row is one of many, and |N| can be a small integer, so its root gets bits
+  // behind the point.
   Z z = 0;
   if (!planes.head_on) {
-    const Z root = floor_sqrt(dot(planes.normal, planes.normal)) + 1;
+    const long bits = 64 + bit_length(section.rows.count());
+    const Z root = floor_sqrt(shifted_left(dot(planes.normal, planes.normal), 2 * bits)) + 1;
     const Z level = flight.v2 * dot(planes.normal, section.start.point.p);
     const Z r = search_.view.radius;
-    const int sign = sgn(planes.a);
-    z = floor_div(level - sign * r * root * flight.v2, planes.a) + r * abs(planes.a) / root;
+    z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * flight.v2,
+                  shifted_left(planes.a, bits)) +
+        shifted_left(r * abs(planes.a), bits) / root;
   }
   const PlanePoint &g1 = section.step, &g2 = section.next;
   const Z across = g1.y * (z - section.start.z) + g1.z * section.start.y;
@@ -294,9 +304,10 @@ Z Solver::jump_beyond(const Planes& planes, const Z& home, const Z& high) const 
 void Solver::run() {
   const Flight<3>& flight = search_.flight;
   const View<3>& view = search_.view;
-  Basis<3> basis = view.basis;
+  std::array<WindowVector, 3> basis;
+  for (int i = 0; i < 3; ++i) basis[i] = {view.basis[i], dot(flight.v, view.basis[i].p)};
   // A window of about one free path, volume / (pi r^2).
-  long j = std::max(0L, bit_length(determinant<3>(basis)) - 3 * bit_length(view.radius) - 1);
+  long j = std::max(0L, bit_length(determinant<3>(view.basis)) - 3 * bit_length(view.radius) - 1);
   Z low = 1;
   // After each empty window the next is longer, and by a growing factor: from the edge of a slender section
   // (a plane grazed at a slope of 2^-60) to its first obstacle it can be 2^30 first windows.

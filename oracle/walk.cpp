@@ -1,7 +1,8 @@
 // How it walks. In coordinates y of one atom's lattice (n counts from the atom) the plane is cut into unit
-// cells around the integer points. The ray passes from cell to cell; every obstacle that reaches into a cell
-// has its n within K_i of the cell's, where K_i >= r |row i of M^-1| + 1/2, so all of these are tested, each
-// exactly. The walk ends in the cell that the ray leaves after the earliest entry found.
+// cells around the integer points. The ray passes from cell to cell. A point of the ray on an obstacle's
+// surface has |n_i - y_i| <= r |row i of M^-1| =: R_i for that obstacle, and lies within 1/2 of its cell, so
+// an obstacle that is entered in a cell has its n within K_i = floor(R_i + 1/2) of the cell's: all of these
+// are tested, each exactly. The walk ends in the cell that the ray leaves after the earliest entry found.
 #include "walk.hpp"
 
 #include <CGAL/MP_Float.h>
@@ -120,13 +121,13 @@ class AtomWalk {
   }
 
  private:
-  // Smallest K with (K - 1/2) det >= r |row|.
+  // floor(R + 1/2), R = r |row| / det: the smallest K with (K + 1/2) det > r |row|.
   int reach_of(const RealVec& row) const {
     const Real size2 = r2_ * inner(row, row);
-    int k = 1;
+    int k = 0;
     for (; k <= kMaxReach; ++k) {
-      const Real margin = Real(k - 0.5) * det_;
-      if (margin * margin >= size2) break;
+      const Real margin = Real(k + 0.5) * det_;
+      if (margin * margin > size2) break;
     }
     return k;
   }

@@ -74,6 +74,12 @@ TEST_CASE("A radius of many cells is answered, and at once") {
   CHECK(solid.obstacle.cell == Cell{Integer(-1000000), Integer(-1000), Integer(0)});
   CHECK(oracle::Oracle(unit_scene(3, 0x1p200)).first_hit({{0, 0, 0}, {1, 0, 0}, {}}).outcome ==
         Outcome::inside);
+  // Dense and skewed at once: the answer is checked by what it must satisfy.
+  Scene skewed = unit_scene(2, 0.83);
+  skewed.lattices[0].vectors = {Vec{0, 1e-7}, Vec{2e-4, 3}, Vec{}};
+  const Answer dense = oracle::Oracle(skewed).first_hit({{0.3, 0.4}, {1, 0.3}, {}});
+  REQUIRE(dense.outcome == Outcome::inside);
+  CHECK(dense.obstacle.cell == Cell{Integer(-169466182197), Integer(5649), Integer(0)});
   // No timed test: but a search through all 10^12 or 10^18 obstacles would not end today.
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::minutes(5));
 }

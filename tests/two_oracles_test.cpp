@@ -104,6 +104,22 @@ TEST_CASE("Oracle equals walk on dense walls and rods of overlapping obstacles")
   CHECK(counts.hit > 100);
 }
 
+TEST_CASE("Walls so dense that their obstacles cannot be told apart by size") {
+  // Spacing 2^-k: far beyond any walk. The plane x = 1 acts like a wall that the ball touches at 1 - r (its
+  // centre line hits some centre within 2^-k), so the time is known to about 4^-k.
+  for (const int k : {10, 30, 44, 60, 200}) {
+    Scene scene = unit_scene(3, 0.4);
+    scene.lattices[0].vectors[1][1] = scene.lattices[0].vectors[2][2] = std::ldexp(1, -k);
+    for (const Vec v : {Vec{1, 0.3, 0.2}, Vec{1e-3, 0.3, 0.2}, Vec{1, 0, 0}}) {
+      const Answer answer = oracle::Oracle(scene).first_hit({{0.5, 0.5, 0.1}, v, {}});
+      REQUIRE(answer.outcome == Outcome::hit);
+      CHECK(answer.obstacle.cell[0] == Integer(1));
+      CHECK(*answer.time * v[0] ==
+            Approx(0.1).epsilon(std::max(std::ldexp(4, -2 * k) / 0.4, 1e-14) * (1 + 1 / v[0])));
+    }
+  }
+}
+
 TEST_CASE("Oracle equals walk, long campaign", "[long]") {
   std::uint64_t seed = 1000;
   for (const Style style : {Style::generic, Style::grid, Style::near_grid})

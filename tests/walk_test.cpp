@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "oracle.hpp"
 #include "support.hpp"
 
 using namespace lorentz;
@@ -23,6 +24,28 @@ TEST_CASE("Walk knows a period when it has seen it, also one that `from` hides o
       walk.first_hit({{0.5, 0}, {1, 0}, ObstacleId{0, 0, {Integer(1), Integer(0), Integer(0)}}});
   CHECK(answer.outcome == Outcome::hit);
   CHECK(answer.obstacle.cell[0] == Integer(2));
+}
+
+TEST_CASE("Walk looks as far as obstacles reach") {
+  // Spacing 1/4 along x, radius 1: the disc in the next cell but three is entered first, from a cell that is
+  // not its own.
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].vectors = {Vec{0.25, 0}, Vec{0, 8}, Vec{}};
+  for (int i = 0; i < 64; ++i) {
+    const double slope = 3 * i / 64.0;
+    const Query query{{0.01 * i, 2}, {slope, -1}, {}};
+    INFO(test::stream(scene, query));
+    CHECK(test::same(oracle::Walk(scene).first_hit(query), oracle::Oracle(scene).first_hit(query)));
+  }
+  CHECK(oracle::Walk(scene).first_hit({{0, 0.999}, {1, 0}, {}}).obstacle.cell[0] == Integer(0));
+  CHECK(oracle::Walk(scene).first_hit({{0, 0.5}, {1, 0}, {}}).obstacle.cell[0] == Integer(-3));
+}
+
+TEST_CASE("Walk rounds ties to even") {
+  // From inside disc (0, 0), which is `from`, to x = 3/4: 3/4 - m 2^-54 lies midway between two binary64.
+  const oracle::Walk walk(unit_scene(2, 0.25));
+  CHECK(walk.first_hit({{0x1p-54, 0}, {1, 0}, ObstacleId{}}).time == 0.75);
+  CHECK(walk.first_hit({{3 * 0x1p-54, 0}, {1, 0}, ObstacleId{}}).time == 0.75 - 0x1p-52);
 }
 
 TEST_CASE("Walk rounds times at the ends of the range") {
