@@ -26,6 +26,14 @@ TEST_CASE("Walk knows a period when it has seen it, also one that `from` hides o
   CHECK(answer.obstacle.cell[0] == Integer(2));
 }
 
+TEST_CASE("A period in which `from` was the only obstacle is not the last word") {
+  // The line y = (x - 1) / 2 from beyond disc (1, 0): through `from` = (3, 1), then its translate (5, 2).
+  const Query query{{1.3, 0.15}, {2, 1}, ObstacleId{0, 0, {Integer(3), Integer(1), Integer(0)}}};
+  const Answer answer = oracle::Walk(unit_scene(2, 0.1)).first_hit(query);
+  CHECK(answer.outcome == Outcome::hit);
+  CHECK(answer.obstacle.cell == Cell{Integer(5), Integer(2), Integer(0)});
+}
+
 TEST_CASE("Walk looks as far as obstacles reach") {
   // Spacing 1/4 along x, radius 1: the disc in the next cell but three is entered first, from a cell that is
   // not its own.
