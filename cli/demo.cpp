@@ -59,7 +59,7 @@ class Report {
     for (const Tally& t : tallies)
       table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "",
                   t.name, std::to_string(t.agree), std::to_string(t.wrong), std::to_string(t.undecided),
-                  t.timed_hits ? fmt::format("{:.1f}", t.mean_ulp()) : "-",
+                  t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-",
                   t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
                   fmt::format("{:.2f}", t.ns_per_query / 1000)});
     wrong_by_published_ += tallies[1].wrong;
