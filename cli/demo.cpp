@@ -72,7 +72,7 @@ class Report {
         "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
         "oracle.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm named a wrong obstacle {} times in {}: no rounding error, but discs and "
+        "The published algorithm was wrong {} times in {}: hardly ever by rounding, mostly by discs and "
         "spheres that\n"
         "it skips (docs/published.md). Each line can be checked: lorentz compare --disagreements FILE writes "
         "the cases.\n",

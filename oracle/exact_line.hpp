@@ -69,6 +69,23 @@ struct Search {
   Earliest<D>& earliest;
 };
 
+/// The quadratic functions of k along a row, c(k) = start + k step:
+///   |c|^2 = cc + 2 k cg + k^2 gg,   s = s0 + k sg,   |h|^2 = C + 2 k B + k^2 A.
+template <std::size_t D>
+struct Row {
+  Z cc, cg, gg, s0, sg, A, B, C;
+
+  Row(const Flight<D>& flight, const LatticePoint<D>& start, const LatticePoint<D>& step)
+      : cc(dot(start.p, start.p)),
+        cg(dot(start.p, step.p)),
+        gg(dot(step.p, step.p)),
+        s0(dot(flight.v, start.p)),
+        sg(dot(flight.v, step.p)),
+        A(flight.v2 * gg - sg * sg),
+        B(flight.v2 * cg - s0 * sg),
+        C(flight.v2 * cc - s0 * s0) {}
+};
+
 /// Offers the earliest entry at t >= 0 among the obstacles at start + k step, k any integer. x must lie in
 /// none of them but `from`. Costs the same for two obstacles and for 2^1000.
 template <std::size_t D>

@@ -6,10 +6,9 @@
 //   1. the planes k3 = const that meet the piece are found from the cylinder's own support: few, or the
 //      window is cut; none, and the flight jumps to the s at which the next plane comes within reach;
 //   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
-//   with its own
-//      windows and its own scaling: rows k2 = const, few of them, or the window is cut;
+//      with windows and a scaling of its own: rows k2 = const, few of them, or the window is cut;
 //   3. each row is solved exactly and as a whole (offer_first_on_row).
-// Windows double when nothing was met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
+// Windows grow while nothing is met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
 // integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
 //
 // Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
@@ -205,21 +204,17 @@ void Solver::solve_rows(const Section& section) {
 }
 
 // The entry that a ball at the best real place of the row would have, t v^2 = (s - sqrt(d)) / q; nothing if
-// the row misses the cylinder. See the derivation of exact_line.cpp: with A, B as there, M = v^2 |g|^2, it is
-// (A s0 - B sg - sqrt(strip M)) / A.
+// the row misses the cylinder. With A, B, M as in exact_line.cpp it is (A s0 - B sg - sqrt(strip M)) / A.
 struct RealEntry {
   Z s, d, q;
 };
 
-std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& row,
-                                    const LatticePoint<3>& g) {
-  const Flight<3>& flight = search.flight;
-  const Z gg = dot(g.p, g.p), cg = dot(row.p, g.p), s0 = dot(flight.v, row.p), sg = dot(flight.v, g.p);
-  const Z M = flight.v2 * gg, A = M - sg * sg, B = flight.v2 * cg - s0 * sg;
-  if (A == 0) return std::nullopt;
-  const Z strip = B * B - A * (flight.v2 * dot(row.p, row.p) - s0 * s0 - search.rho2);
-  if (strip <= 0) return std::nullopt;
-  return RealEntry{A * s0 - B * sg, strip * M, A};
+std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& start,
+                                    const LatticePoint<3>& step) {
+  const Row<3> row(search.flight, start, step);
+  const Z strip = row.B * row.B - row.A * (row.C - search.rho2);
+  if (row.A == 0 || strip <= 0) return std::nullopt;
+  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.flight.v2 * row.gg, row.A};
 }
 
 int compare(const RealEntry& a, const RealEntry& b) {
