@@ -12,9 +12,9 @@ namespace lorentz::oracle {
 /// or semiaxes, decided exactly), or nothing.
 std::optional<std::string> dependence_in(const Scene& scene);
 
-/// Names a pair of obstacles that overlap or touch, or nothing. Looks at the pairs of balls that share their
-/// primitive vectors, in scenes of up to 300 atoms. (Two lattices with different vectors nearly always
-/// overlap somewhere; that is what they are for.)
+/// Names a pair of atoms, obstacles of which overlap or touch somewhere, or nothing; decided exactly, for
+/// balls, in scenes of up to 300 atoms. (Two lattices with incommensurate vectors overlap somewhere: binary64
+/// makes them commensurate, but finely.)
 std::optional<std::string> overlap_in(const Scene& scene);
 
 }  // namespace lorentz::oracle

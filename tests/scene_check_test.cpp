@@ -50,6 +50,21 @@ TEST_CASE("Overlapping and touching obstacles are noticed, separate ones are not
   two.lattices[1].atoms[0].position = {0.5, 0.5};
   CHECK_FALSE(oracle::overlap_in(two).has_value());
 
+  // Spacings 1 and 3/2 along x, 1 along y: differences are the multiples of 1/2 along x.
+  two.lattices[1].vectors[0][0] = 1.5;
+  two.lattices[1].atoms[0].position = {0.25, 0.5};
+  two.lattices[1].atoms[0].radius = two.lattices[0].atoms[0].radius = 0.25;
+  CHECK_FALSE(oracle::overlap_in(two).has_value());  // nearest centres are (1/4, 1/2) apart
+  two.lattices[1].atoms[0].radius = 0.3125;
+  CHECK(oracle::overlap_in(two).has_value());
+  // Rotated by a binary64 angle: they come as near to each other as one likes, but not the lattices to
+  // themselves.
+  Scene rotated = unit_scene(2, 0.01);
+  rotated.lattices.push_back(rotated.lattices[0]);
+  rotated.lattices[1].vectors = {Vec{std::cos(0.6), std::sin(0.6)}, Vec{-std::sin(0.6), std::cos(0.6)}};
+  rotated.lattices[1].atoms[0].position = {0.5, 0.5};
+  CHECK(oracle::overlap_in(rotated).has_value());
+
   // A skewed basis of the square: the overlap is along neither of its vectors.
   Scene skewed = unit_scene(2, 0.5);
   skewed.lattices[0].vectors = {Vec{1000, 1}, Vec{1001, 1}};
