@@ -1,11 +1,6 @@
 #include "app.hpp"
 
-#include <gmp.h>
-#include <simdjson.h>
-#include <toml++/toml.h>
-
 #include <CLI/Version.hpp>
-#include <boost/version.hpp>
 #include <cerrno>
 #include <cstring>
 #include <iostream>
@@ -13,23 +8,16 @@
 #include "exchange.hpp"
 #include "exit_status.hpp"
 #include "messages.hpp"
+#include "oracle.hpp"
 #include "walk.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 std::string versions() {
-  const auto dotted = [](int major, int minor, int patch) {
-    return fmt::format("{}.{}.{}", major, minor, patch);
-  };
-  return fmt::format(
-      "lorentz {}\nexchange format 1\nGMP {}\nCGAL {}\nBoost {}\nCLI11 {}\nfmt {}\nsimdjson {}\ntoml++ {}",
-      LORENTZ_VERSION, gmp_version, oracle::walk_arithmetic(),
-      dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100), CLI11_VERSION,
-      dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
-      dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
-             simdjson::SIMDJSON_VERSION_REVISION),
-      dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
+  return fmt::format("lorentz {}\nexchange format 1\n{}\n{}\n{}\nCLI11 {}\nfmt {}.{}.{}", LORENTZ_VERSION,
+                     oracle::oracle_libraries(), oracle::walk_libraries(), exchange_libraries(),
+                     CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
 // The subcommand that was meant must exist; the parser itself would only say that one is required.
@@ -58,6 +46,9 @@ int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
     return kFailed;
   } catch (const std::bad_alloc&) {
     say("out of memory");
+    return kFailed;
+  } catch (const std::exception& error) {
+    say("{}", error.what());
     return kFailed;
   }
 }

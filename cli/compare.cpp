@@ -1,11 +1,9 @@
 // lorentz compare: engines, and answers logged elsewhere, against the oracle.
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "app.hpp"
+#include "disagreement_file.hpp"
 #include "draw.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
@@ -23,61 +21,6 @@ struct Options {
   std::optional<std::string> scene, radius, queries, disagreements;
   std::string count = "10000", seed = std::to_string(kDefaultSeed);
   bool json = false, strict = false, no_oracle = false;
-};
-
-// The wrong answers, as a query stream that can be run again: scene lines, and queries with `engine`,
-// `expected` and `given` beside what they ask.
-class DisagreementFile {
- public:
-  DisagreementFile(const std::optional<std::string>& path, const CaseSet& set) : set_(set) {
-    if (!path) return;
-    path_ = *path;
-    file_ = std::fopen(path_.c_str(), "w");
-    if (!file_) throw FileError(path_ + ": " + std::strerror(errno));
-    if (!set_.scenes.empty()) write_scene(0);  // so that it is a stream even if nothing disagrees
-  }
-  ~DisagreementFile() {
-    if (file_) std::fclose(file_);
-  }
-  DisagreementFile(const DisagreementFile&) = delete;
-  DisagreementFile& operator=(const DisagreementFile&) = delete;
-
-  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given) {
-    if (!file_) return;
-    if (one.scene != scene_) write_scene(one.scene);
-    const int dimension = set_.scenes[one.scene].dimension;
-    std::string out;
-    append_query_line(out, one.id, one.query, dimension);
-    out.resize(out.size() - 2);  // "}\n": the object goes on
-    out += ",\"engine\":" + json_quoted(name) + ",\"expected\":";
-    append_answer_line(out, one.id, exact, dimension);
-    out.back() = ',';
-    out += "\"given\":";
-    append_answer_line(out, one.id, given, dimension);
-    out.back() = '}';
-    std::fputs((out + '\n').c_str(), file_);
-  }
-
-  void close() {
-    if (!file_) return;
-    const bool failed = std::ferror(file_) != 0;
-    const bool not_closed = std::fclose(file_) != 0;
-    file_ = nullptr;
-    if (failed || not_closed) throw FileError(path_ + ": writing failed");
-  }
-
- private:
-  void write_scene(std::size_t scene) {
-    std::string out;
-    append_scene_line(out, set_.scenes[scene]);
-    std::fputs(out.c_str(), file_);
-    scene_ = scene;
-  }
-
-  std::string path_;
-  const CaseSet& set_;
-  std::FILE* file_ = nullptr;
-  std::size_t scene_ = 0;
 };
 
 CaseSet read_cases(const std::string& path, std::optional<Scene> initial, bool& bad_input) {
@@ -101,7 +44,13 @@ CaseSet draw_cases(const Scene& scene, std::uint64_t seed, std::size_t count) {
   return set;
 }
 
-using Answers = std::unordered_map<Id, Answer>;
+struct LoggedAnswer {
+  Answer answer;
+  std::size_t components = 0;  // of its cell
+  std::size_t line = 0;
+};
+
+using Answers = std::unordered_map<Id, LoggedAnswer>;
 
 // A logged answer stream, by id. Bad lines and ids that come twice are complained of; answers without an id
 // (to lines that were no queries) are passed over.
@@ -110,13 +59,14 @@ Answers read_answers(const std::string& path, bool& bad_input) {
   LineReader lines(path);
   ExchangeReader reader;
   Id id;
-  Answer answer;
+  LoggedAnswer logged;
   bool empty = true;
   for (LineReader::Line line; lines.next(line);) {
     try {
-      if (!reader.read_answer_line(line, id, answer)) continue;
+      if (!reader.read_answer_line(line, id, logged.answer, logged.components)) continue;
       empty = false;
-      if (id != "null" && !answers.emplace(id, answer).second)
+      logged.line = line.number;
+      if (id != "null" && !answers.emplace(id, logged).second)
         throw InputError("the id " + id + " came before; an answer stream has one answer a query");
     } catch (const InputError& error) {
       empty = false;
@@ -141,16 +91,32 @@ void check_ids(const CaseSet& set, bool& bad_input) {
     }
 }
 
-Tally judge_logged(const std::string& name, const Answers& answers, const CaseSet& set,
-                   const std::vector<Answer>& exact, const OnWrong& on_wrong) {
+struct Logged {
+  std::string name, file;
+};
+
+Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& set,
+                   const std::vector<Answer>& exact, const OnWrong& on_wrong, bool& bad_input) {
   Tally tally;
-  tally.name = name;
+  tally.name = logged.name;
   for (std::size_t i = 0; i < set.cases.size(); ++i) {
     const auto found = answers.find(set.cases[i].id);
-    const bool given = found != answers.end();
-    const oracle::Judgement judgement = given ? oracle::judge(exact[i], found->second) : oracle::Judgement{};
+    if (found == answers.end()) {
+      tally.count(oracle::Judgement{});
+      continue;
+    }
+    const auto& [answer, components, line] = found->second;
+    const int dimension = set.scenes[set.cases[i].scene].dimension;
+    if (components != 0 && components != static_cast<std::size_t>(dimension)) {
+      bad_input = true;
+      say("{}:{}: cell: has {} components, the scene has dimension {}", logged.file, line, components,
+          dimension);
+      tally.count({oracle::Verdict::error, {}});
+      continue;
+    }
+    const oracle::Judgement judgement = oracle::judge(exact[i], answer);
     tally.count(judgement);
-    if (judgement.verdict == oracle::Verdict::wrong) on_wrong(set.cases[i], exact[i], name, found->second);
+    if (judgement.verdict == oracle::Verdict::wrong) on_wrong(set.cases[i], exact[i], logged.name, answer);
   }
   return tally;
 }
@@ -177,21 +143,23 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
         "\"error\":{},\"missing\":{},\"max_ulp\":",
         i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(0), count(t.wrong),
         count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
-    append_number(out, t.max_ulp);
+    const auto measured = [&](double value, bool was_measured) {
+      if (was_measured)
+        append_number(out, value);
+      else
+        out += "null";
+    };
+    measured(t.max_ulp, t.timed_hits > 0);
     out += ",\"mean_ulp\":";
-    append_number(out, t.mean_ulp());
+    measured(t.mean_ulp(), t.timed_hits > 0);
     out += ",\"ns_per_query\":";
-    append_number(out, t.ns_per_query);
+    measured(t.ns_per_query, t.ns_per_query > 0);
     out += ",\"ns_median\":";
-    append_number(out, t.ns_median);
+    measured(t.ns_median, t.ns_per_query > 0);
     out += '}';
   }
   return out + "]}\n";
 }
-
-struct Logged {
-  std::string name, file;
-};
 
 std::vector<Logged> logged_answers(const Options& options) {
   std::vector<Logged> all;
@@ -206,7 +174,9 @@ std::vector<Logged> logged_answers(const Options& options) {
 
 // The scene's name for the heading; the number of scenes if a file has several.
 std::string title(const Options& options, const CaseSet& set) {
-  if (set.scenes.size() > 1) return fmt::format("{} scenes", set.scenes.size());
+  std::unordered_set<std::size_t> used;
+  for (const Case& one : set.cases) used.insert(one.scene);
+  if (used.size() > 1) return fmt::format("{} scenes", used.size());
   const std::string name = options.scene.value_or(options.queries.value_or("square"));
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
@@ -217,49 +187,58 @@ int exit_status(const std::vector<Tally>& tallies, bool strict) {
   return kDone;
 }
 
-int act(const Options& options) {
-  const std::vector<Logged> logged = logged_answers(options);
-  std::vector<std::string> engines = options.engines;
-  if (engines.empty() && logged.empty()) engines = {"classical", "published"};
-  for (const std::string& name : engines) check_name(name);
-  if (options.no_oracle && !logged.empty())
-    throw InputError("--answers needs the oracle; leave --no-oracle out");
-  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+// The cases that were asked for: drawn, or read from a stream.
+CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
   const std::uint64_t count = whole_number(options.count, "--count", 0, 1'000'000'000);
   const std::optional<double> radius = positive_number(options.radius, "--radius");
-
-  bool bad_input = false;
   std::optional<Scene> scene;
-  const bool drawn = !options.queries;
-  if (options.scene || drawn)
+  if (options.scene || !options.queries)
     scene = load_scene(options.scene.value_or("square"), radius);
   else if (radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  const CaseSet set =
-      drawn ? draw_cases(*scene, seed, count) : read_cases(*options.queries, scene, bad_input);
-  if (!logged.empty()) check_ids(set, bad_input);
+  return options.queries ? read_cases(*options.queries, scene, bad_input) : draw_cases(*scene, seed, count);
+}
 
-  DisagreementFile disagreements(options.disagreements, set);
+void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies) {
+  const std::string seed_text = std::to_string(seed);
+  if (options.json) {
+    print(json_of(title(options, set), seed <= 1ull << 53 ? seed_text : json_quoted(seed_text), tallies,
+                  !options.no_oracle));
+    return;
+  }
+  const bool drawn = !options.queries;
+  print(fmt::format("{}: {} {} queries{}\n\n{}", title(options, set), set.cases.size(),
+                    drawn ? "drawn" : "given", drawn ? ", seed " + seed_text : "",
+                    table_of(tallies, !options.no_oracle)));
+}
+
+int act(const Options& options) {
+  const std::vector<Logged> all_logged = logged_answers(options);
+  std::vector<std::string> engines = options.engines;
+  if (engines.empty() && all_logged.empty()) engines = {"classical", "published"};
+  for (const std::string& name : engines) check_name(name);
+  if (options.no_oracle && !all_logged.empty())
+    throw InputError("--answers needs the oracle; leave --no-oracle out");
+  if (!options.queries && !all_logged.empty())
+    throw InputError("--answers needs --queries: the queries that were answered");
+  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+
+  bool bad_input = false;
+  const CaseSet set = cases_of(options, seed, bad_input);
+  if (!all_logged.empty()) check_ids(set, bad_input);
+  DisagreementFile disagreements(options.disagreements);
+  disagreements.begin(set);
   const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
                                const Answer& given) { disagreements.add(one, exact, name, given); };
   const std::vector<Answer> exact = options.no_oracle ? std::vector<Answer>{} : exact_answers(set);
   std::vector<Tally> tallies = measure(set, exact, engines, on_wrong);
-  for (const auto& [name, file] : logged) {
-    const Answers answers = read_answers(file, bad_input);
-    tallies.push_back(judge_logged(name, answers, set, exact, on_wrong));
-    check_matches(file, tallies.back(), answers.size(), bad_input);
+  for (const Logged& logged : all_logged) {
+    const Answers answers = read_answers(logged.file, bad_input);
+    tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, bad_input));
+    check_matches(logged.file, tallies.back(), answers.size(), bad_input);
   }
   disagreements.close();
-
-  if (options.json) {
-    print(json_of(title(options, set),
-                  seed <= 1ull << 53 ? std::to_string(seed) : json_quoted(std::to_string(seed)), tallies,
-                  !options.no_oracle));
-  } else {
-    print(fmt::format("{}: {} {} queries{}\n\n{}", title(options, set), set.cases.size(),
-                      drawn ? "drawn" : "given", drawn ? fmt::format(", seed {}", seed) : "",
-                      table_of(tallies, !options.no_oracle)));
-  }
+  show(options, set, seed, tallies);
   return bad_input ? kBadInput : exit_status(tallies, options.strict);
 }
 
@@ -272,7 +251,7 @@ void add_compare(CLI::App& app, Action& action) {
                                          "oracle: right or wrong, error, speed.");
   command
       ->add_option("-e,--engine", options->engines,
-                   "classical, published, oracle, walk; several, or once each")
+                   fmt::format("{}; several, or once each", fmt::join(answerer_names(), ", ")))
       ->delimiter(',')
       ->type_name("E");
   command

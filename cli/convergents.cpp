@@ -16,8 +16,9 @@ struct Options {
 };
 
 std::string json_integer(const Integer& n) {
-  const bool small = n.fits_int64() && n.int64() >= -(1LL << 53) && n.int64() <= (1LL << 53);
-  return small ? n.decimal() : '"' + n.decimal() + '"';
+  std::string out;
+  append_integer(out, n);
+  return out;
 }
 
 int act(const Options& options) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "app.hpp"
+#include "disagreement_file.hpp"
 #include "draw.hpp"
 #include "exit_status.hpp"
 #include "measure.hpp"
@@ -54,8 +55,13 @@ CaseSet drawn(int dimension, double radius, std::size_t count) {
 
 class Report {
  public:
+  explicit Report(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
+
   void add(const std::string& what, const CaseSet& set) {
-    const auto tallies = measure(set, exact_answers(set), {"classical", "published", "oracle"}, nullptr);
+    disagreements_.begin(set);
+    const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
+                                 const Answer& given) { disagreements_.add(one, exact, name, given); };
+    const auto tallies = measure(set, exact_answers(set), {"classical", "published", "oracle"}, on_wrong);
     for (const Tally& t : tallies)
       table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "",
                   t.name, std::to_string(t.agree), std::to_string(t.wrong), std::to_string(t.undecided),
@@ -66,31 +72,32 @@ class Report {
     answered_by_published_ += tallies[1].agree + tallies[1].wrong;
   }
 
-  void show() const {
+  void show() {
+    disagreements_.close();
     print(table_.text());
     print(fmt::format(
         "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
         "oracle.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm was wrong {} times in {}: hardly ever by rounding, mostly by discs and "
-        "spheres that\n"
-        "it skips (docs/published.md). Each line can be checked: lorentz compare --disagreements FILE writes "
-        "the cases.\n",
+        "The published algorithm was wrong {} times in {}; docs/published.md says why. Nobody has to believe "
+        "it:\n"
+        "lorentz demo --disagreements FILE writes these cases, to be run again by any program.\n",
         wrong_by_published_, answered_by_published_));
   }
 
  private:
+  DisagreementFile disagreements_;
   Table table_{
       {"flights", "number", "engine", "right", "wrong", "undecided", "mean error", "worst", "us/query"}};
   std::size_t wrong_by_published_ = 0, answered_by_published_ = 0;
 };
 
-int act() {
+int act(const std::optional<std::string>& disagreements) {
   print(fmt::format(
       "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
       "{}).\n\n",
       kDefaultSeed));
-  Report report;
+  Report report(disagreements);
   report.add("the paper's example, r = 0.1", paper_example());
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
     report.add(fmt::format("2D, drawn, r = {}", r), drawn(2, r, 5000));
@@ -109,7 +116,10 @@ void add_demo(CLI::App& app, Action& action) {
       "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
   command->footer(
       "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.");
-  command->callback([&action] { action = act; });
+  auto disagreements = std::make_shared<std::optional<std::string>>();
+  command->add_option("--disagreements", *disagreements, "write each wrong answer there, as a query stream")
+      ->type_name("FILE");
+  command->callback([disagreements, &action] { action = [disagreements] { return act(*disagreements); }; });
 }
 
 }  // namespace lorentz::cli

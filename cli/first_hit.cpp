@@ -8,6 +8,7 @@
 #include "app.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "messages.hpp"
 #include "numbers.hpp"
 #include "query_stream.hpp"
 #include "registry.hpp"
@@ -100,7 +101,8 @@ void add_first_hit(CLI::App& app, Action& action) {
   command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")
       ->capture_default_str();
   command
-      ->add_option("-e,--engine", options->engine, "oracle (exact), walk (exact, slow), classical, published")
+      ->add_option("-e,--engine", options->engine,
+                   fmt::format("one of {}", fmt::join(answerer_names(), ", ")))
       ->capture_default_str();
   command->add_option("--scene", options->scene,
                       "scene before the first scene line: a file, or a name of the catalogue");

@@ -1,12 +1,13 @@
 #include "query_stream.hpp"
 
 #include "messages.hpp"
+#include "scene_check.hpp"
 #include "scene_option.hpp"
 
 namespace lorentz::cli {
 
 QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial)
-    : lines_(path), scene_(std::move(initial)) {}
+    : lines_(path), scene_(std::move(initial)), initial_(scene_.has_value()) {}
 
 void QueryStream::complain(std::size_t line, const std::string& message) {
   if (++complaints_ <= kMaxComplaints) say("{}:{}: {}", lines_.name(), line, message);
@@ -20,6 +21,21 @@ void QueryStream::finish() {
   if (complaints_ > kMaxComplaints) say("{}: {} more bad lines", lines_.name(), complaints_ - kMaxComplaints);
 }
 
+// Dependent vectors make a scene bad; overlaps, and that it replaces the command line's scene, are only
+// mentioned.
+void QueryStream::check_scene(StreamItem& item, std::size_t line) {
+  const std::string place = fmt::format("{}:{}", lines_.name(), line);
+  if (auto flaw = oracle::dependence_in(item.scene)) {
+    item.kind = StreamItem::Kind::bad;
+    item.bad_scene = true;
+    item.message = *flaw;
+    return;
+  }
+  warn_of_overlaps(item.scene, place);
+  if (initial_) say("{}: this scene takes the place of --scene", place);
+  initial_ = false;
+}
+
 bool QueryStream::next(StreamItem& item) {
   LineReader::Line line;
   do {
@@ -30,17 +46,7 @@ bool QueryStream::next(StreamItem& item) {
     reader_.read_query_line(line, scene(), item);
     if (item.kind == StreamItem::Kind::bad && item.message == ExchangeReader::kNoScene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);
-    if (item.kind == StreamItem::Kind::scene) {
-      try {
-        check_scene(item.scene, fmt::format("{}:{}", lines_.name(), line.number));
-      } catch (const InputError& error) {
-        item.kind = StreamItem::Kind::bad;
-        item.bad_scene = true;
-        // The place is in the message already; the answer need not repeat it.
-        const std::string text = error.what();
-        item.message = text.substr(text.find(": ") + 2);
-      }
-    }
+    if (item.kind == StreamItem::Kind::scene) check_scene(item, line.number);
   } while (item.kind == StreamItem::Kind::nothing);
   empty_ = false;
   if (item.kind == StreamItem::Kind::scene) scene_ = item.scene;

@@ -31,10 +31,12 @@ class QueryStream {
   static constexpr long kMaxComplaints = 20;
   void complain(std::size_t line, const std::string& message);
   void finish();
+  void check_scene(StreamItem& item, std::size_t line);
 
   LineReader lines_;
   ExchangeReader reader_;
   std::optional<Scene> scene_;
+  bool initial_;  // no scene line came yet
   std::size_t bad_scene_line_ = 0;
   long complaints_ = 0;
   bool empty_ = true;

@@ -78,7 +78,11 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   }
   return [answer, scene](const Query& query, const oracle::Request& request) {
     Answer result = answer(query, request.max_time.value_or(std::numeric_limits<double>::infinity()));
-    if (request.detail && result.outcome == Outcome::hit) result.detail = detail_of(result, query, scene);
+    if (!request.detail || result.outcome != Outcome::hit) return result;
+    const Detail detail = detail_of(result, query, scene);
+    // Beyond the range of binary64 there is none; the oracle has it.
+    if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
+      result.detail = detail;
     return result;
   };
 }

@@ -10,8 +10,8 @@
 
 namespace lorentz::cli {
 
-/// Answers the queries of one scene. `digits` and `detail` beyond what a binary64 engine has are left out by
-/// it.
+/// Answers the queries of one scene. `digits` are the oracle's only; a detail that binary64 cannot compute is
+/// left out.
 using FirstHit = std::function<Answer(const Query&, const oracle::Request&)>;
 
 /// All names, for help texts and checks.

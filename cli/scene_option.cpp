@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the catalogue may be: named by LORENTZ_DATA, beside the build folder, or installed.
+// Where the catalogue may be: named by LORENTZ_DATA, or beside the build folder.
 std::vector<fs::path> catalogue_folders() {
   std::vector<fs::path> folders;
   if (const char* data = std::getenv("LORENTZ_DATA")) folders.push_back(fs::path(data) / "scenes");
@@ -27,7 +27,6 @@ std::vector<fs::path> catalogue_folders() {
   if (!error) {
     folders.push_back(program.parent_path() / "../data/scenes");
     folders.push_back(program.parent_path() / "../../data/scenes");
-    folders.push_back(program.parent_path() / "../share/lorentz/scenes");
   }
   return folders;
 }
@@ -45,14 +44,17 @@ std::string catalogue_names() {
 }
 
 std::string find_scene(const std::string& name_or_file) {
-  if (fs::exists(name_or_file)) return name_or_file;
-  if (name_or_file.find('/') == std::string::npos)
+  std::error_code error;
+  const bool is_name = name_or_file.find('/') == std::string::npos;
+  const fs::file_status status = fs::status(name_or_file, error);
+  if (fs::exists(status) && !(is_name && fs::is_directory(status))) return name_or_file;
+  if (is_name)
     for (const fs::path& folder : catalogue_folders()) {
       const fs::path file = folder / (name_or_file + ".toml");
-      if (fs::exists(file)) return fs::weakly_canonical(file);
+      if (fs::exists(file, error)) return fs::weakly_canonical(file, error);
     }
-  throw FileError(
-      fmt::format("{}: no such file, and no scene of the catalogue ({})", name_or_file, catalogue_names()));
+  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue ({})",
+                              name_or_file.substr(0, 200), catalogue_names()));
 }
 
 }  // namespace
@@ -68,12 +70,12 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
         atom.radius = *radius;
       }
   }
-  check_scene(scene, name_or_file);
+  if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
+  warn_of_overlaps(scene, name_or_file);
   return scene;
 }
 
-void check_scene(const Scene& scene, const std::string& place) {
-  if (auto flaw = oracle::dependence_in(scene)) throw InputError(place + ": " + *flaw);
+void warn_of_overlaps(const Scene& scene, const std::string& place) {
   if (auto pair = oracle::overlap_in(scene))
     say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place, *pair);
 }

@@ -12,8 +12,7 @@ namespace lorentz::cli {
 /// Throws InputError or FileError.
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
 
-/// Throws InputError if the scene cannot be used (dependent vectors). Warns on stderr, once per place, if
-/// obstacles overlap or touch: a radius above half the spacing is mostly a typing error.
-void check_scene(const Scene& scene, const std::string& place);
+/// Warns on stderr if obstacles overlap or touch: a radius above half the spacing is mostly a typing error.
+void warn_of_overlaps(const Scene& scene, const std::string& place);
 
 }  // namespace lorentz::cli

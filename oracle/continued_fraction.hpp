@@ -17,7 +17,8 @@ struct Convergent {
 };
 
 /// All convergents of m = rise / run, two binary64 values taken exactly, until the remainder is 0 (it ends:
-/// m is rational) or `limit` terms. The quotient before the last is chosen so that the last one is above 1.
+/// m is rational) or `limit` terms. A last quotient is above 1, except that of
+/// m = 1 alone.
 /// Requires run != 0.
 std::vector<Convergent> convergents(double rise, double run, std::size_t limit);
 

@@ -178,4 +178,8 @@ bool Oracle::is_free(const Vec& x) const {
   return std::get<Problem<3>>(impl_->problem).is_free(query);
 }
 
+std::string oracle_libraries() {
+  return std::string("GMP ") + gmp_version;
+}
+
 }  // namespace lorentz::oracle

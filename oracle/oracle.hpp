@@ -18,7 +18,8 @@ struct Request {
 
 class Oracle {
  public:
-  /// The scene must have no flaw (flaw_of, oracle::flaw_of). Reduces its lattices, once.
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in). Reduces its lattices,
+  /// once.
   explicit Oracle(const Scene& scene);
   Oracle(Oracle&&) noexcept;
   Oracle& operator=(Oracle&&) noexcept;
@@ -26,8 +27,9 @@ class Oracle {
 
   /// The exact answer: `hit` (time correctly rounded to binary64), `inside`, `never`, or `later` if asked
   /// for; `error` for a query that is none, and for scenes with semiaxes (unsupported). Never `undecided`.
-  /// Costs grow with the logarithms of 1/r, of the distance and of the numbers' range. Safe to call from
-  /// several threads.
+  /// Costs grow with the logarithms of 1/r, of the distance and of the numbers' range. The exception: which
+  /// of very many obstacles around x is the smallest (10^10 of them, in a lattice both dense and skewed) can
+  /// take long. Safe to call from several threads.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
   /// True if x lies in no open obstacle. Requires a finite x and a scene of balls.
@@ -37,5 +39,8 @@ class Oracle {
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };
+
+/// The libraries that the oracle computes with, and their versions.
+std::string oracle_libraries();
 
 }  // namespace lorentz::oracle

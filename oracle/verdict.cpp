@@ -13,6 +13,7 @@ double ulp(double t) {
 }  // namespace
 
 Judgement judge(const Answer& exact, const Answer& given) {
+  if (exact.outcome == Outcome::error) return {Verdict::unsupported, {}};
   switch (given.outcome) {
     case Outcome::undecided:
       return {Verdict::undecided, {}};
@@ -27,9 +28,9 @@ Judgement judge(const Answer& exact, const Answer& given) {
   if (exact.outcome == Outcome::never) return {Verdict::agree, {}};
   if (!(given.obstacle == exact.obstacle)) return {Verdict::wrong, {}};
   Judgement judgement{Verdict::agree, {}};
-  if (exact.time && given.time && std::isfinite(*exact.time) &&
-      *exact.time < std::numeric_limits<double>::max())
-    judgement.ulps = std::fabs(*given.time - *exact.time) / ulp(*exact.time);
+  const bool measurable = exact.time && given.time && std::isfinite(*given.time) &&
+                          *exact.time < std::numeric_limits<double>::max();
+  if (measurable) judgement.ulps = std::fabs(*given.time - *exact.time) / ulp(*exact.time);
   return judgement;
 }
 

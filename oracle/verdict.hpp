@@ -11,7 +11,7 @@ enum class Verdict {
   agree,        ///< the same outcome and the same obstacle
   wrong,        ///< another outcome, or another obstacle
   undecided,    ///< it said that it does not know
-  unsupported,  ///< it said that it does not do this kind of query
+  unsupported,  ///< it said that it does not do this kind of query; or the oracle itself cannot judge it
   error,        ///< it said that the query is none, or broke
   missing       ///< there is no answer
 };
@@ -22,7 +22,7 @@ struct Judgement {
       ulps;  ///< where it agrees on a hit and gives a finite time: |t - t_exact| / ulp(t_exact)
 };
 
-/// `exact` is an answer of the oracle: hit, never or inside. Times are measured from the correctly rounded
+/// `exact` is an answer of the oracle without a time limit. Times are measured from the correctly rounded
 /// time.
 Judgement judge(const Answer& exact, const Answer& given);
 

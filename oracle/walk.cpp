@@ -275,8 +275,8 @@ Answer Walk::first_hit(const Query& query) const {
   return Answer::hit({best->lattice, best->atom, to_cell(best->n)}, rounded(best->time));
 }
 
-std::string walk_arithmetic() {
-  return CGAL_VERSION_STR;
+std::string walk_libraries() {
+  return std::string("CGAL ") + CGAL_VERSION_STR;
 }
 
 }  // namespace lorentz::oracle

@@ -25,7 +25,7 @@ class Walk {
   std::int64_t max_cells_;
 };
 
-/// The version of the library whose numbers the walk computes with.
-std::string walk_arithmetic();
+/// The libraries that the walk computes with, and their versions.
+std::string walk_libraries();
 
 }  // namespace lorentz::oracle

@@ -31,21 +31,48 @@ Answer Engine::first_hit(const Query& query, double max_time) const {
   return limited(std::move(answer), max_time);
 }
 
+namespace {
+
+// Why the two known algorithms do not do a scene, or nothing.
+std::optional<std::string> beyond_unit_lattices(const Scene& scene) {
+  if (!is_unit_scene(scene)) return "does the unit square and cubic lattice with one ball at the origin only";
+  if (scene.lattices[0].atoms[0].radius > 0.5) return "does radii up to half the spacing only";
+  return std::nullopt;
+}
+
+template <class E>
+std::unique_ptr<Engine> make(const Scene& scene) {
+  return std::make_unique<E>(scene);
+}
+
+// All engines: name, why a scene is beyond it (or nothing), and how it is made.
+struct Entry {
+  const char* name;
+  std::optional<std::string> (*beyond)(const Scene&);
+  std::unique_ptr<Engine> (*make)(const Scene&);
+};
+
+constexpr Entry kEngines[] = {
+    {"classical", beyond_unit_lattices, make<Classical>},
+    {"published", beyond_unit_lattices, make<Published>},
+};
+
+}  // namespace
+
 std::vector<std::string> engine_names() {
-  return {"classical", "published"};
+  std::vector<std::string> names;
+  for (const Entry& entry : kEngines) names.push_back(entry.name);
+  return names;
 }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
-  if (name != "classical" && name != "published") return nullptr;
-  if (!is_unit_scene(scene))
-    return std::make_unique<Unsupported>(
-        scene,
-        std::string(name) + " does the unit square and cubic lattice with one ball at the origin only");
-  if (scene.lattices[0].atoms[0].radius > 0.5)
-    return std::make_unique<Unsupported>(scene,
-                                         std::string(name) + " does radii up to half the spacing only");
-  if (name == "classical") return std::make_unique<Classical>(scene);
-  return std::make_unique<Published>(scene);
+  for (const Entry& entry : kEngines) {
+    if (entry.name != name) continue;
+    if (auto why = entry.beyond(scene))
+      return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
+    return entry.make(scene);
+  }
+  return nullptr;
 }
 
 }  // namespace lorentz

@@ -4,24 +4,14 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "errors.hpp"
 #include "line_reader.hpp"
 #include "problem.hpp"
 
 namespace lorentz {
-
-/// Input that does not mean what it should: what() says where and why.
-struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// A file that cannot be opened, read or written.
-struct FileError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// An id as JSON text: a quoted string, an integer, or null where there was none.
 using Id = std::string;
@@ -46,13 +36,14 @@ class ExchangeReader {
   ExchangeReader();
   ~ExchangeReader();
 
-  /// A line of a query stream; x and v must have `dimension` components (0: no scene yet, which makes
-  /// every query bad). Scenes and queries are free of flaws (flaw_of), or the item is bad.
+  /// A line of a query stream. `scene` is the scene that holds, or null: then every query is bad. Scenes and
+  /// queries are free of flaws (flaw_of), or the item is bad.
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
 
-  /// A line of an answer stream, of a scene of this dimension or any (0). Throws InputError. False for a
-  /// blank line or a `golden` header.
-  bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer);
+  /// A line of an answer stream. `components` becomes the number of its cell's coordinates (0: no cell),
+  /// which is for the caller to hold against the scene's dimension. Throws InputError. False for a blank line
+  /// or a `golden` header.
+  bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer, std::size_t& components);
 
  private:
   struct Impl;
@@ -66,6 +57,9 @@ Scene read_scene_file(const std::string& path);
 void append_scene_line(std::string& out, const Scene& scene);
 void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
+
+/// What the formats are read with, and its versions.
+std::string exchange_libraries();
 
 /// Beyond 2^53 in absolute value as a decimal string.
 void append_integer(std::string& out, const Integer& n);

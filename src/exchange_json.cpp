@@ -1,5 +1,6 @@
 #include "exchange_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "exchange.hpp"
@@ -42,7 +43,11 @@ bool is_json_number(std::string_view token) {
 
 void check_number(json::value value) {
   const std::string_view token = token_of(value);
-  if (!is_json_number(token)) throw NotJson{json_quoted(token.substr(0, 40)) + " is no JSON value"};
+  if (is_json_number(token)) return;
+  const auto ascii =
+      std::find_if(token.begin(), token.end(), [](char c) { return static_cast<unsigned char>(c) > 126; });
+  throw NotJson{json_quoted(token.substr(0, std::min<std::size_t>(40, ascii - token.begin()))) +
+                " is no JSON value"};
 }
 
 }  // namespace

@@ -173,7 +173,8 @@ struct ExchangeReader::Impl {
   }
 
   void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
-  void read_answer(const LineReader::Line& line, Id& id, Answer& answer, bool& header);
+  // False for a header.
+  bool read_answer(const LineReader::Line& line, Id& id, Answer& answer, std::size_t& components);
 };
 
 ExchangeReader::ExchangeReader() : impl_(std::make_unique<Impl>()) {}
@@ -246,7 +247,8 @@ double read_time(json::value value) {
 }
 
 struct AnswerFields {
-  bool outcome = false, lattice = false, atom = false, cell = false, golden = false;
+  bool outcome = false, lattice = false, atom = false, golden = false;
+  std::size_t components = 0;  // of the cell
 };
 
 void read_answer_field(std::string_view key, json::value value, Id& id, Answer& answer, AnswerFields& has) {
@@ -263,10 +265,8 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
     has.atom = true;
   } else if (key == "cell") {
     CellRead cell = read_cell(value);
-    if (cell.count != 2 && cell.count != 3)
-      throw InputError("cell: has " + std::to_string(cell.count) + " components");
     answer.obstacle.cell = std::move(cell.cell);
-    has.cell = true;
+    has.components = cell.count;
   } else if (key == "time") {
     answer.time = read_time(value);
   } else if (key == "message") {
@@ -281,34 +281,36 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
 
 }  // namespace
 
-void ExchangeReader::Impl::read_answer(const LineReader::Line& line, Id& id, Answer& answer, bool& header) {
+bool ExchangeReader::Impl::read_answer(const LineReader::Line& line, Id& id, Answer& answer,
+                                       std::size_t& components) {
   AnswerFields has;
   for (auto field : open(line)) {
     const std::string_view key = field.unescaped_key();
     read_answer_field(key, field.value(), id, answer, has);
   }
   close();
-  header = has.golden && !has.outcome;
-  if (header) return;
+  if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
   const bool names_obstacle = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-  if (names_obstacle && !(has.lattice && has.atom && has.cell))
+  if (names_obstacle && !(has.lattice && has.atom && has.components > 0))
     throw InputError("needs lattice, atom and cell");
+  components = has.components;
+  return true;
 }
 
-bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answer& answer) {
+bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answer& answer,
+                                      std::size_t& components) {
   if (is_blank(line)) return false;
   answer = Answer{};
   id = "null";
-  bool header = false;
+  components = 0;
   try {
-    impl_->read_answer(line, id, answer, header);
+    return impl_->read_answer(line, id, answer, components);
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(not_json(line, error.what()));
   } catch (const NotJson& error) {
     throw InputError(not_json(line, error.why));
   }
-  return !header;
 }
 
 }  // namespace lorentz

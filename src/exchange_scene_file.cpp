@@ -96,4 +96,14 @@ Scene read_scene_file(const std::string& path) {
   }
 }
 
+std::string exchange_libraries() {
+  const auto dotted = [](int major, int minor, int patch) {
+    return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch);
+  };
+  return "simdjson " +
+         dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
+                simdjson::SIMDJSON_VERSION_REVISION) +
+         "\ntoml++ " + dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
+}
+
 }  // namespace lorentz

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "exchange.hpp"
+#include "errors.hpp"
 
 namespace lorentz {
 

@@ -208,10 +208,11 @@ Answer Published::first_hit_scaled(const Query& query, double) const {
       return Answer::unsupported_because("start too far from the origin for binary64");
   const double r = scene().lattices[0].atoms[0].radius;
   Vec from{};
-  if (query.from)
-    for (int i = 0; i < 3; ++i) from[i] = static_cast<double>(query.from->cell[i].int64());
-  const bool has_from = query.from && query.from->cell[0].fits_int64() && query.from->cell[1].fits_int64() &&
-                        query.from->cell[2].fits_int64();
+  bool has_from = query.from.has_value();
+  for (int i = 0; has_from && i < 3; ++i) {
+    has_from = query.from->cell[i].fits_int64();  // a disc farther off than that is never met
+    if (has_from) from[i] = static_cast<double>(query.from->cell[i].int64());
+  }
   const Vec* leaving = has_from ? &from : nullptr;
   if (lies_inside(query.x, r, leaving))
     return Answer::inside(

@@ -129,7 +129,8 @@ TEST_CASE("Answers round-trip, cells beyond 2^53 as strings") {
   ExchangeReader reader;
   Id id;
   Answer answer;
-  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer));
+  std::size_t components = 0;
+  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
   CHECK(id == "7");
   CHECK(test::same(hit, answer));
 
@@ -137,7 +138,7 @@ TEST_CASE("Answers round-trip, cells beyond 2^53 as strings") {
   text.clear();
   append_answer_line(text, "null", hit, 3);
   CHECK(text.find("\"time\":\"inf\"") != std::string::npos);
-  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer));
+  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
   CHECK(std::isinf(*answer.time));
 
   for (const Answer& other :
@@ -146,7 +147,7 @@ TEST_CASE("Answers round-trip, cells beyond 2^53 as strings") {
     text.clear();
     append_answer_line(text, "\"b\"", other, 2);
     INFO(text);
-    REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer));
+    REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
     CHECK(test::same(other, answer));
     CHECK(answer.message == other.message);
     CHECK(answer.unsupported == other.unsupported);
@@ -271,15 +272,16 @@ TEST_CASE("A bad answer line is refused, not guessed at") {
   ExchangeReader reader;
   Id id;
   Answer answer;
+  std::size_t components = 0;
   for (const char* text : {R"({"id":1})", R"({"id":1,"outcome":"maybe"})", R"({"id":1,"outcome":"hit"})",
                            R"({"id":1,"outcome":"hit","atom":0,"cell":[1,2],"time":1})",
                            R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[]})",
                            R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[1,2],"time":-1})",
                            R"({"id":1,"outcome":"hit","lattice":-1,"atom":0,"cell":[1,2],"time":1})"}) {
     INFO(text);
-    CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer), InputError);
+    CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer, components), InputError);
   }
-  CHECK_FALSE(reader.read_answer_line(Padded("{\"golden\":{}}").line(), id, answer));
+  CHECK_FALSE(reader.read_answer_line(Padded("{\"golden\":{}}").line(), id, answer, components));
 }
 
 TEST_CASE("Blank lines and golden headers are passed over, unknown keys ignored") {

@@ -90,6 +90,15 @@ TEST_CASE("walk sees the problem, CGAL and the standard library; nobody else see
   }
 }
 
+TEST_CASE("The program and the measurements see none of the oracle's libraries") {
+  for (const char* folder : {"cli", "bench"})
+    for (const fs::path& file : sources(folder))
+      for (const std::string& name : includes_of(file)) {
+        INFO(file << " includes " << name);
+        CHECK_FALSE(starts_with_any(name, {"gmp", "mpfr", "boost/", "CGAL/"}));
+      }
+}
+
 TEST_CASE("The oracle's public headers show none of its libraries") {
   for (const char* header :
        {"oracle.hpp", "walk.hpp", "scene_check.hpp", "continued_fraction.hpp", "verdict.hpp"})

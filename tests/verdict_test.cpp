@@ -34,6 +34,10 @@ TEST_CASE("Each answer gets its verdict") {
   CHECK(verdict(hit, Answer::unsupported_because("no")) == Verdict::unsupported);
 }
 
+TEST_CASE("Where the oracle has no answer nobody is wrong") {
+  CHECK(verdict(Answer::unsupported_because("semiaxes"), Answer::hit(kHere, 1)) == Verdict::unsupported);
+}
+
 TEST_CASE("Errors of the time are counted in ulps of the exact one") {
   const Answer hit = Answer::hit(kHere, 1.5);
   CHECK(oracle::judge(hit, hit).ulps == 0.0);
@@ -42,5 +46,6 @@ TEST_CASE("Errors of the time are counted in ulps of the exact one") {
   Answer logged = hit;
   logged.time.reset();
   CHECK_FALSE(oracle::judge(hit, logged).ulps.has_value());
+  CHECK_FALSE(oracle::judge(hit, Answer::hit(kHere, INFINITY)).ulps.has_value());
   CHECK_FALSE(oracle::judge(hit, Answer::hit(kThere, 1.5)).ulps.has_value());
 }
