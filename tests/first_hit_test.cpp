@@ -1,4 +1,5 @@
 // Cases that can be checked by hand, for both oracles: what the words of the specification mean.
+#include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
 
 #include "oracle.hpp"
@@ -173,29 +174,45 @@ TEST_CASE("Details are correctly rounded") {
   CHECK(answer.detail->point == Vec{16, 3});
   CHECK(answer.detail->normal == Vec{-0.8, 0.6});
   CHECK(answer.detail->impact_parameter == 3.0);
-  // In general: the normal has unit length, and the point lies on the ray.
+}
+
+TEST_CASE(
+    "Times, points, normals and impact parameters are correctly rounded: MPFR at 400 digits says the same") {
+  using Big = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<400>>;
+  using BigVec = std::array<Big, 3>;
+  const auto inner = [](const BigVec& a, const BigVec& b) {
+    return Big(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  };
+  oracle::Request request;
+  request.detail = true;
   Draw draw(51);
   INFO("seed 51");
-  for (int i = 0; i < 200; ++i) {
+  int hits = 0;
+  for (int i = 0; i < 600; ++i) {
     const int d = draw.one_in(2) ? 2 : 3;
-    const Scene drawn = scene_of(draw, Style::generic, d);
-    const Query query = query_of(draw, Style::generic, drawn);
-    const Answer hit = oracle::Oracle(drawn).first_hit(query, request);
+    const Scene scene = scene_of(draw, draw.one_in(2) ? Style::generic : Style::near_grid, d);
+    const Query query = query_of(draw, Style::generic, scene);
+    const Answer hit = oracle::Oracle(scene).first_hit(query, request);
     if (hit.outcome != Outcome::hit) continue;
-    const Detail& detail = *hit.detail;
-    const double v2 = query.v[0] * query.v[0] + query.v[1] * query.v[1] + query.v[2] * query.v[2];
-    CHECK(std::hypot(detail.normal[0], detail.normal[1], detail.normal[2]) == Approx(1).epsilon(1e-15));
-    double cosine = 0;
+    ++hits;
+    const Lattice& lattice = scene.lattices[hit.obstacle.lattice];
+    const Atom& atom = lattice.atoms[hit.obstacle.atom];
+    BigVec x, v, arm;  // arm: from x to the centre
     for (int k = 0; k < 3; ++k) {
-      CHECK(detail.point[k] == Approx(query.x[k] + *hit.time * query.v[k])
-                                   .epsilon(1e-14)
-                                   .margin(1e-14 * (1 + *hit.time * std::fabs(query.v[k]))));
-      cosine -= detail.normal[k] * query.v[k] / std::sqrt(v2);
+      x[k] = query.x[k], v[k] = query.v[k], arm[k] = Big(atom.position[k]) - x[k];
+      for (int n = 0; n < d; ++n) arm[k] += Big(hit.obstacle.cell[n].decimal()) * lattice.vectors[n][k];
     }
-    const double r = drawn.lattices[hit.obstacle.lattice].atoms[hit.obstacle.atom].radius;
-    CHECK(detail.impact_parameter ==
-          Approx(r * std::sqrt(std::max(0.0, 1 - cosine * cosine))).margin(1e-7 * r));
+    const Big v2 = inner(v, v), s = inner(v, arm), h2 = v2 * inner(arm, arm) - s * s, r = atom.radius;
+    const Big t = (s - sqrt(Big(r * r * v2 - h2))) / v2;
+    INFO(stream(scene, query));
+    REQUIRE(*hit.time == t.convert_to<double>());
+    REQUIRE(hit.detail->impact_parameter == Big(sqrt(Big(h2 / v2))).convert_to<double>());
+    for (int k = 0; k < d; ++k) {
+      REQUIRE(hit.detail->point[k] == Big(x[k] + t * v[k]).convert_to<double>());
+      REQUIRE(hit.detail->normal[k] == Big((t * v[k] - arm[k]) / r).convert_to<double>());
+    }
   }
+  CHECK(hits > 200);
 }
 
 TEST_CASE("Subnormal and huge velocities and places") {
