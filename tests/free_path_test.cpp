@@ -17,7 +17,7 @@ struct Mean {
 };
 
 // Flights from collision to collision: starts uniform on the surface, directions by the cosine law (flux),
-// `from` the obstacle that is left. A third of the random numbers is thrown away; what counts is that index
+// `from` the obstacle that is left. Most draws are thrown away, by the cosine; the index
 // fixes them.
 Mean mean_free_path(int dimension, double r, int count, std::uint64_t seed) {
   const oracle::Oracle oracle(unit_scene(dimension, r));
