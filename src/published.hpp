@@ -10,8 +10,8 @@ namespace lorentz {
 
 /// Unit square and cubic lattice. 2D: convergents of the slope. 3D: the 2D algorithm in the three coordinate
 /// planes. Directions along an axis (in 3D: with any zero component) are `unsupported`: the algorithm has no
-/// octant for them. A search that has not ended after kMaxPasses passes (2D) or kMaxRounds rounds (3D) is
-/// `undecided`.
+/// octant for them. A search is `undecided` after kMaxPasses passes or 2^52 columns (2D), after kMaxRounds
+/// rounds or beyond kMaxStart (3D).
 class Published : public Engine {
  public:
   static constexpr long kMaxPasses = 1'000'000;
