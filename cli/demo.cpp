@@ -25,23 +25,12 @@ CaseSet paper_example() {
   return set;
 }
 
-// Flights of a particle that has just left a disc at the origin: where the published algorithm skips discs.
+// Where the published algorithm skips discs.
 CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
   CaseSet set;
   set.scenes.push_back(unit_scene(dimension, radius));
-  const oracle::Oracle oracle(set.scenes[0]);
-  for (std::uint64_t index = 0; set.cases.size() < count; ++index) {
-    Random random(kDefaultSeed + 1, index);
-    const Vec normal = random.direction(dimension), v = random.direction(dimension);
-    Query query{{}, v, ObstacleId{}};
-    double outwards = 0;
-    for (int i = 0; i < dimension; ++i) {
-      query.x[i] = radius * normal[i];
-      outwards += normal[i] * v[i];
-    }
-    // Flux through the surface is proportional to the cosine.
-    if (outwards > random.uniform()) set.cases.push_back({std::to_string(index), 0, query});
-  }
+  for (const Query& query : draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count))
+    set.cases.push_back({std::to_string(set.cases.size()), 0, query});
   return set;
 }
 

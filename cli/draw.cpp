@@ -82,4 +82,16 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
   return queries;
 }
 
+std::vector<Query> draw_leaving_queries(int dimension, double radius, std::uint64_t seed, std::size_t count) {
+  std::vector<Query> queries;
+  for (std::uint64_t index = 0; queries.size() < count; ++index) {
+    Random random(seed, index);
+    const Vec normal = random.direction(dimension), v = random.direction(dimension);
+    const double cosine = normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2];
+    if (!(cosine > random.uniform())) continue;
+    queries.push_back({{radius * normal[0], radius * normal[1], radius * normal[2]}, v, ObstacleId{}});
+  }
+  return queries;
+}
+
 }  // namespace lorentz::cli

@@ -30,4 +30,8 @@ class Random {
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count);
 
+/// `count` flights of a particle that leaves the ball at the origin of a unit scene: uniform on its surface,
+/// directions by the cosine law (which is the flux of a gas in equilibrium), `from` that ball.
+std::vector<Query> draw_leaving_queries(int dimension, double radius, std::uint64_t seed, std::size_t count);
+
 }  // namespace lorentz::cli

@@ -44,7 +44,7 @@ bool QueryStream::next(StreamItem& item) {
       return false;
     }
     reader_.read_query_line(line, scene(), item);
-    if (item.kind == StreamItem::Kind::bad && item.message == ExchangeReader::kNoScene && bad_scene_line_ > 0)
+    if (item.no_scene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);
     if (item.kind == StreamItem::Kind::scene) check_scene(item, line.number);
   } while (item.kind == StreamItem::Kind::nothing);

@@ -14,14 +14,23 @@ struct Dyadic {
   long exponent = 0;
 };
 
+/// A binary64 other than 0 as mantissa * 2^exponent with an odd mantissa.
+struct OddMantissa {
+  long mantissa, exponent;
+
+  explicit OddMantissa(double value) {
+    int e = 0;
+    mantissa = static_cast<long>(std::ldexp(std::frexp(value, &e), 53));  // exact: 53 bits
+    const int zeros = __builtin_ctzl(static_cast<unsigned long>(mantissa));
+    mantissa >>= zeros;
+    exponent = e - 53L + zeros;
+  }
+};
+
 inline Dyadic to_dyadic(double value) {
   if (value == 0) return {};
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  auto mantissa = static_cast<long>(std::ldexp(fraction, 53));  // exact: |fraction| < 1 has 53 bits
-  long e = exponent - 53;
-  const int zeros = __builtin_ctzl(static_cast<unsigned long>(mantissa));
-  return {Z(mantissa >> zeros), e + zeros};
+  const OddMantissa odd(value);
+  return {Z(odd.mantissa), odd.exponent};
 }
 
 /// The smallest exponent of the nonzero values seen: 2^-exponent makes integers of all of them.
@@ -29,10 +38,7 @@ class CommonExponent {
  public:
   void see(double value) {
     if (value == 0) return;
-    int e = 0;
-    const double fraction = std::frexp(value, &e);
-    const auto mantissa = static_cast<long>(std::ldexp(fraction, 53));
-    exponent_ = std::min(exponent_, e - 53L + __builtin_ctzl(static_cast<unsigned long>(mantissa)));
+    exponent_ = std::min(exponent_, OddMantissa(value).exponent);
     any_ = true;
   }
   long get() const { return any_ ? exponent_ : 0; }

@@ -24,15 +24,13 @@ struct StreamItem {
   Scene scene;
   Query query;
   std::string message;     ///< of `bad`
+  bool no_scene = false;   ///< `bad` because no scene holds
   bool bad_scene = false;  ///< the bad line was a scene: what follows has none
 };
 
 /// Reads the lines of query and answer streams.
 class ExchangeReader {
  public:
-  /// The message of a query before which there is no scene.
-  static constexpr const char* kNoScene = "no scene before this query";
-
   ExchangeReader();
   ~ExchangeReader();
 

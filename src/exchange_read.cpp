@@ -137,18 +137,17 @@ void check_dimension(const char* what, std::size_t count, int dimension) {
                      " components, the scene has dimension " + std::to_string(dimension));
 }
 
-Query query_from(QueryFields& fields, const Scene* scene) {
-  if (!scene) throw InputError(ExchangeReader::kNoScene);
+Query query_from(QueryFields& fields, const Scene& scene) {
   if (!fields.has_x) throw InputError("x is missing");
   if (!fields.has_v) throw InputError("v is missing");
-  check_dimension("x", fields.x.count, scene->dimension);
-  check_dimension("v", fields.v.count, scene->dimension);
+  check_dimension("x", fields.x.count, scene.dimension);
+  check_dimension("v", fields.v.count, scene.dimension);
   Query query{fields.x.values, fields.v.values, {}};
   if (fields.from) {
-    check_dimension("from.cell", fields.from->components, scene->dimension);
+    check_dimension("from.cell", fields.from->components, scene.dimension);
     query.from = std::move(fields.from->obstacle);
   }
-  if (auto flaw = flaw_of(query, *scene)) throw InputError(*flaw);
+  if (auto flaw = flaw_of(query, scene)) throw InputError(*flaw);
   return query;
 }
 
@@ -199,7 +198,9 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
     item.bad_scene = false;
     item.kind = StreamItem::Kind::scene;
   } else if (!fields.golden || fields.has_x || fields.has_v) {
-    item.query = query_from(fields, scene);
+    item.no_scene = scene == nullptr;
+    if (item.no_scene) throw InputError("no scene before this query");
+    item.query = query_from(fields, *scene);
     item.kind = StreamItem::Kind::query;
   }
 }
@@ -207,7 +208,7 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
 void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   item.kind = StreamItem::Kind::nothing;
   item.id = "null";
-  item.bad_scene = false;
+  item.no_scene = item.bad_scene = false;
   if (is_blank(line)) return;
   const auto bad = [&](std::string message) {
     item.kind = StreamItem::Kind::bad;

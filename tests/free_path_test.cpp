@@ -8,7 +8,6 @@
 #include "oracle.hpp"
 
 using namespace lorentz;
-using cli::Random;
 
 namespace {
 
@@ -16,23 +15,15 @@ struct Mean {
   double value, error;
 };
 
-// Flights from collision to collision: starts uniform on the surface, directions by the cosine law (flux),
-// `from` the obstacle that is left. Most draws are thrown away, by the cosine; the index
-// fixes them.
+// Flights from collision to collision.
 Mean mean_free_path(int dimension, double r, int count, std::uint64_t seed) {
   const oracle::Oracle oracle(unit_scene(dimension, r));
   double sum = 0, sum2 = 0;
-  int flights = 0;
-  for (std::uint64_t index = 0; flights < count; ++index) {
-    Random random(seed, index);
-    const Vec normal = random.direction(dimension), v = random.direction(dimension);
-    const double cosine = normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2];
-    if (cosine < random.uniform()) continue;
-    const Answer answer = oracle.first_hit({{r * normal[0], r * normal[1], r * normal[2]}, v, ObstacleId{}});
+  for (const Query& query : cli::draw_leaving_queries(dimension, r, seed, static_cast<std::size_t>(count))) {
+    const Answer answer = oracle.first_hit(query);
     REQUIRE(answer.outcome == Outcome::hit);
     sum += *answer.time;
     sum2 += *answer.time * *answer.time;
-    ++flights;
   }
   const double mean = sum / count;
   return {mean, std::sqrt((sum2 / count - mean * mean) / count)};

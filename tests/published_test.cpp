@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "draw.hpp"
 #include "oracle.hpp"
 #include "support.hpp"
 #include "verdict.hpp"
@@ -71,17 +72,9 @@ TEST_CASE("Skipped disc: the first step's tolerance is too small") {
 }
 
 TEST_CASE("Skipped discs are about 0.1 % of the flights that leave a disc") {
-  Draw draw(81);
   INFO("seed 81");
   for (const double r : {0.1, 0.2}) {
-    std::vector<Query> queries;
-    while (queries.size() < 20000) {
-      const double angle = draw.between(0, 6.283185307179586), direction = draw.between(0, 6.283185307179586);
-      if (std::cos(direction - angle) < draw.uniform()) continue;
-      queries.push_back({{r * std::cos(angle), r * std::sin(angle)},
-                         {std::cos(direction), std::sin(direction)},
-                         ObstacleId{}});
-    }
+    const auto queries = cli::draw_leaving_queries(2, r, 81, 20000);
     const Share share = share_wrong(unit_scene(2, r), queries);
     INFO("r = " << r << ": " << share.wrong << " wrong of " << share.answered);
     CHECK(share.answered > 19900);
