@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 
 #include "exchange.hpp"
 
@@ -46,6 +48,18 @@ TEST_CASE("Drawn starts are free and fill the cell evenly; directions are isotro
       CHECK(mean_v2[k] == Approx(1.0 / dimension).margin(0.015));
     }
   }
+}
+
+TEST_CASE("No direction is preferred: 16 sectors of the circle hold as many each") {
+  constexpr int kCount = 32000, kSectors = 16;
+  int sectors[kSectors] = {};
+  for (int index = 0; index < kCount; ++index) {
+    const Vec v = Random(kDefaultSeed, static_cast<std::uint64_t>(index)).direction(2);
+    const double turn = std::atan2(v[1], v[0]) / (2 * std::numbers::pi);
+    ++sectors[static_cast<int>(kSectors * (turn + 1)) % kSectors];
+  }
+  // 2000 each, standard deviation 43.
+  for (const int count : sectors) CHECK(std::abs(count - kCount / kSectors) < 4 * 43);
 }
 
 TEST_CASE("A scene without free part is refused") {
