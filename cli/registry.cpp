@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "engine.hpp"
+#include "escalate.hpp"
 #include "exchange.hpp"
 #include "walk.hpp"
 
@@ -46,6 +47,7 @@ Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
 
 std::vector<std::string> answerer_names() {
   std::vector<std::string> names = engine_names();
+  names.push_back("certified");
   names.push_back("oracle");
   names.push_back("walk");
   return names;
@@ -64,6 +66,12 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
     auto truth = std::make_shared<oracle::Oracle>(scene);
     return [truth](const Query& query, const oracle::Request& request) {
       return truth->first_hit(query, request);
+    };
+  }
+  if (name == "certified") {
+    auto certified = std::make_shared<oracle::Certified>(scene);
+    return [certified](const Query& query, const oracle::Request& request) {
+      return certified->first_hit(query, request);
     };
   }
   std::function<Answer(const Query&, double)> answer;

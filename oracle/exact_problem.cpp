@@ -1,6 +1,6 @@
 #include "exact_problem.hpp"
 
-#include "reduction.hpp"
+#include "short_basis.hpp"
 
 namespace lorentz::oracle {
 

@@ -13,7 +13,7 @@
 //
 // Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
 #include "first_hit.hpp"
-#include "reduction.hpp"
+#include "short_basis.hpp"
 
 namespace lorentz::oracle {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "exact_problem.hpp"
 #include "inside.hpp"
-#include "reduction.hpp"
+#include "short_basis.hpp"
 
 namespace lorentz::oracle {
 namespace {

@@ -15,11 +15,11 @@ ObstacleId obstacle_of(const CellIndex& n) {
 
 }  // namespace
 
-Answer Classical::first_hit_scaled(const Query& query, double max_time) const {
+Answer Classical::first_hit_scaled(const Ray& ray, double max_time) const {
   const int d = scene().dimension;
   const double r = scene().lattices[0].atoms[0].radius;
-  const Vec& v = query.v;
-  Vec x = query.x;
+  const Vec& v = ray.v;
+  Vec x = ray.x;
   CellIndex n{};
   for (int i = 0; i < d; ++i) {
     if (!(std::fabs(x[i]) < kMaxStart))
@@ -28,7 +28,7 @@ Answer Classical::first_hit_scaled(const Query& query, double max_time) const {
     n[i] = static_cast<std::int64_t>(home);
     x[i] -= home;
   }
-  const auto is_from = [&] { return query.from && query.from->cell == obstacle_of(n).cell; };
+  const auto is_from = [&] { return ray.from && ray.from->cell == obstacle_of(n).cell; };
   if (dot(x, x) < r * r && !is_from()) return Answer::inside(obstacle_of(n));
 
   double elapsed = 0;

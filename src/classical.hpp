@@ -18,7 +18,7 @@ class Classical : public Engine {
   explicit Classical(const Scene& scene) : Engine(scene) {}
 
  private:
-  Answer first_hit_scaled(const Query& query, double max_time) const override;
+  Answer first_hit_scaled(const Ray& ray, double max_time) const override;
 };
 
 }  // namespace lorentz

@@ -1,10 +1,12 @@
 #include "engine.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "classical.hpp"
 #include "published.hpp"
+#include "reduction.hpp"
 
 namespace lorentz {
 namespace {
@@ -14,21 +16,37 @@ class Unsupported : public Engine {
   Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
 
  private:
-  Answer first_hit_scaled(const Query&, double) const override { return Answer::unsupported_because(why_); }
+  Answer first_hit_scaled(const Ray&, double) const override { return Answer::unsupported_because(why_); }
   std::string why_;
 };
 
 }  // namespace
 
+ScaledVelocity::ScaledVelocity(const Vec& v) : scaled(v) {
+  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023;
+  if (exponent > -1000 && exponent < 1000) {
+    const double factor = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent) << 52);
+    for (double& component : scaled) component *= factor;
+  } else {
+    exponent = std::ilogb(largest);
+    for (double& component : scaled) component = std::scalbn(component, -exponent);
+  }
+}
+
+double scaled_time(double time, int exponent) {
+  const double factor = std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+  return exponent > -500 && exponent < 500 ? time * factor : std::scalbn(time, exponent);
+}
+
 Answer Engine::first_hit(const Query& query, double max_time) const {
   if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
-  Query scaled = query;
-  const int exponent =
-      std::ilogb(std::max({std::fabs(query.v[0]), std::fabs(query.v[1]), std::fabs(query.v[2])}));
-  for (double& component : scaled.v) component = std::scalbn(component, -exponent);
-  Answer answer = first_hit_scaled(scaled, std::scalbn(max_time, exponent));
-  if (answer.time) answer.time = std::scalbn(*answer.time, -exponent);
-  return limited(std::move(answer), max_time);
+  const ScaledVelocity velocity(query.v);
+  Answer answer = first_hit_scaled({query.x, velocity.scaled, query.from ? &*query.from : nullptr},
+                                   scaled_time(max_time, velocity.exponent));
+  if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
+  if (std::isfinite(max_time)) return limited(std::move(answer), max_time);
+  return answer;
 }
 
 namespace {
@@ -55,6 +73,7 @@ struct Entry {
 constexpr Entry kEngines[] = {
     {"classical", beyond_unit_lattices, make<Classical>},
     {"published", beyond_unit_lattices, make<Published>},
+    {"reduction", Reduction::beyond, make<Reduction>},
 };
 
 }  // namespace

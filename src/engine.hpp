@@ -11,6 +11,14 @@
 
 namespace lorentz {
 
+/// A flight as the engines take it: the velocity scaled by a power of two so that its largest component lies
+/// in [1, 2), and nothing overflows or underflows that need not.
+struct Ray {
+  const Vec& x;
+  Vec v;
+  const ObstacleId* from;  ///< or null
+};
+
 /// A first-hit engine for one scene. Const and without hidden state: safe to call from several threads.
 class Engine {
  public:
@@ -23,15 +31,25 @@ class Engine {
  protected:
   explicit Engine(Scene scene) : scene_(std::move(scene)) {}
 
-  /// Called for a valid query, its velocity scaled by a power of two so that its largest component lies in
-  /// [1, 2): nothing overflows or underflows that need not. Times are in the scaled units.
-  virtual Answer first_hit_scaled(const Query& query, double max_time) const = 0;
+  /// Called for a valid query. Times are in the units of the scaled velocity.
+  virtual Answer first_hit_scaled(const Ray& ray, double max_time) const = 0;
 
   const Scene& scene() const { return scene_; }
 
  private:
   Scene scene_;
 };
+
+/// A velocity v other than zero, scaled to a Ray's; v = scaled * 2^exponent.
+struct ScaledVelocity {
+  Vec scaled;
+  int exponent;
+
+  explicit ScaledVelocity(const Vec& v);
+};
+
+/// time * 2^exponent, fast where that is a normal number's business.
+double scaled_time(double time, int exponent);
 
 /// The names that make_engine knows.
 std::vector<std::string> engine_names();

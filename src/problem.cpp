@@ -18,13 +18,13 @@ std::optional<Integer> Integer::from_decimal(std::string_view text) {
       std::from_chars(canonical.data(), canonical.data() + canonical.size(), result.value_);
   if (status != std::errc{}) {
     result.value_ = 0;
-    result.digits_ = std::move(canonical);
+    result.digits_ = std::make_unique<const std::string>(std::move(canonical));
   }
   return result;
 }
 
 std::string Integer::decimal() const {
-  return fits_int64() ? std::to_string(value_) : digits_;
+  return fits_int64() ? std::to_string(value_) : *digits_;
 }
 
 Answer Answer::hit(ObstacleId obstacle, double time) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,19 +45,30 @@ struct Scene {
 class Integer {
  public:
   Integer(std::int64_t value = 0) : value_(value) {}
+  Integer(const Integer& other) : value_(other.value_) {
+    if (other.digits_) digits_ = std::make_unique<const std::string>(*other.digits_);
+  }
+  Integer(Integer&&) noexcept = default;
+  Integer& operator=(const Integer& other) { return *this = Integer(other); }
+  Integer& operator=(Integer&&) noexcept = default;
+  ~Integer() = default;
 
   /// Reads an optional '-' and decimal digits; nothing else is a number. Leading zeros are dropped.
   static std::optional<Integer> from_decimal(std::string_view text);
 
-  bool fits_int64() const { return digits_.empty(); }
+  bool fits_int64() const { return !digits_; }
   std::int64_t int64() const { return value_; }  ///< only if fits_int64()
   std::string decimal() const;
 
-  friend bool operator==(const Integer&, const Integer&) = default;
+  friend bool operator==(const Integer& a, const Integer& b) {
+    if (a.fits_int64() || b.fits_int64()) return a.digits_ == b.digits_ && a.value_ == b.value_;
+    return *a.digits_ == *b.digits_;
+  }
 
  private:
   std::int64_t value_ = 0;
-  std::string digits_;  ///< canonical decimal form when 64 bits do not hold it, else empty
+  std::unique_ptr<const std::string>
+      digits_;  ///< canonical decimal form when 64 bits do not hold it, else null
 };
 
 /// Coordinates n of a lattice cell; a 2D problem keeps the third at zero.

@@ -131,18 +131,18 @@ ObstacleId obstacle_of(const Vec& n) {
 
 // The collision with a disc or sphere that the search came up with; its closest approach if the line misses
 // it.
-Answer hit_on(const Vec& centre, const Query& query, double r) {
-  const Vec relative = minus(query.x, centre);
-  const double closest = -dot(relative, query.v) / dot(query.v, query.v);
-  return Answer::hit(obstacle_of(centre), entry_time(relative, query.v, r).value_or(closest));
+Answer hit_on(const Vec& centre, const Ray& ray, double r) {
+  const Vec relative = minus(ray.x, centre);
+  const double closest = -dot(relative, ray.v) / dot(ray.v, ray.v);
+  return Answer::hit(obstacle_of(centre), entry_time(relative, ray.v, r).value_or(closest));
 }
 
-Answer published_2d(const Query& query, double r, const Vec* from) {
+Answer published_2d(const Ray& ray, double r, const Vec* from) {
   const Disc leaving = from ? Disc{(*from)[0], (*from)[1]} : Disc{};
   const PlaneResult result =
-      first_disc({query.x[0], query.x[1]}, {query.v[0], query.v[1]}, r, from ? &leaving : nullptr);
+      first_disc({ray.x[0], ray.x[1]}, {ray.v[0], ray.v[1]}, r, from ? &leaving : nullptr);
   if (auto answer = answer_for(result.found)) return *answer;
-  return hit_on({result.disc[0], result.disc[1], 0}, query, r);
+  return hit_on({result.disc[0], result.disc[1], 0}, ray, r);
 }
 
 // The discs that the 2D algorithm finds in the coordinate planes xy, xz and yz.
@@ -160,10 +160,10 @@ double advance_to_farthest(const Disc (&disc)[3], const Vec& x, const Vec& v, do
   return farthest - 0.1 * r;
 }
 
-Answer published_3d(const Query& query, double r, const Vec* from) {
-  const double speed = std::sqrt(dot(query.v, query.v));
-  const Vec v{query.v[0] / speed, query.v[1] / speed, query.v[2] / speed};
-  Vec x = query.x;
+Answer published_3d(const Ray& ray, double r, const Vec* from) {
+  const double speed = std::sqrt(dot(ray.v, ray.v));
+  const Vec v{ray.v[0] / speed, ray.v[1] / speed, ray.v[2] / speed};
+  Vec x = ray.x;
   double elapsed = 0;  // in units of length
   const auto advance = [&](double distance) {
     for (int i = 0; i < 3; ++i) x[i] += distance * v[i];
@@ -202,22 +202,21 @@ bool lies_inside(const Vec& x, double r, const Vec* from) {
 
 }  // namespace
 
-Answer Published::first_hit_scaled(const Query& query, double) const {
-  for (const double component : query.x)
+Answer Published::first_hit_scaled(const Ray& ray, double) const {
+  for (const double component : ray.x)
     if (!(std::fabs(component) < kMaxStart))
       return Answer::unsupported_because("start too far from the origin for binary64");
   const double r = scene().lattices[0].atoms[0].radius;
   Vec from{};
-  bool has_from = query.from.has_value();
+  bool has_from = ray.from != nullptr;
   for (int i = 0; has_from && i < 3; ++i) {
-    has_from = query.from->cell[i].fits_int64();  // a disc farther off than that is never met
-    if (has_from) from[i] = static_cast<double>(query.from->cell[i].int64());
+    has_from = ray.from->cell[i].fits_int64();  // a disc farther off than that is never met
+    if (has_from) from[i] = static_cast<double>(ray.from->cell[i].int64());
   }
   const Vec* leaving = has_from ? &from : nullptr;
-  if (lies_inside(query.x, r, leaving))
-    return Answer::inside(
-        obstacle_of({std::round(query.x[0]), std::round(query.x[1]), std::round(query.x[2])}));
-  return scene().dimension == 2 ? published_2d(query, r, leaving) : published_3d(query, r, leaving);
+  if (lies_inside(ray.x, r, leaving))
+    return Answer::inside(obstacle_of({std::round(ray.x[0]), std::round(ray.x[1]), std::round(ray.x[2])}));
+  return scene().dimension == 2 ? published_2d(ray, r, leaving) : published_3d(ray, r, leaving);
 }
 
 }  // namespace lorentz

@@ -21,7 +21,7 @@ class Published : public Engine {
   explicit Published(const Scene& scene) : Engine(scene) {}
 
  private:
-  Answer first_hit_scaled(const Query& query, double max_time) const override;
+  Answer first_hit_scaled(const Ray& ray, double max_time) const override;
 };
 
 }  // namespace lorentz

@@ -61,7 +61,7 @@ TEST_CASE("src sees no big numbers, no oracle, no program") {
     }
 }
 
-TEST_CASE("oracle sees of src the problem only") {
+TEST_CASE("oracle sees of src the problem only, but for escalate, which sees the engine") {
   const auto cli = own_headers("cli");
   REQUIRE(sources("oracle").size() > 15);
   auto src = own_headers("src");
@@ -69,8 +69,11 @@ TEST_CASE("oracle sees of src the problem only") {
   for (const fs::path& file : sources("oracle"))
     for (const std::string& name : includes_of(file)) {
       INFO(file << " includes " << name);
-      CHECK_FALSE(src.contains(fs::path(name).filename()));
       CHECK_FALSE(cli.contains(name));
+      if (file.stem() == "escalate" && (name == "../src/flight.hpp" || name == "../src/reduction.hpp"))
+        continue;
+      if (file.stem() != "escalate") CHECK(name != "escalate.hpp");
+      CHECK_FALSE(src.contains(fs::path(name).filename()));
       CHECK((!name.starts_with("../") || name == "../src/problem.hpp"));
     }
 }

@@ -1,0 +1,31 @@
+// The engine `certified`: the fast engine's answer where that is certain, the oracle's where it is not.
+// Always exact, at nearly the speed of the fast one.
+#pragma once
+
+#include <optional>
+
+#include "../src/flight.hpp"
+#include "../src/reduction.hpp"
+#include "oracle.hpp"
+
+namespace lorentz::oracle {
+
+class Certified {
+ public:
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  explicit Certified(const Scene& scene);
+
+  /// What Oracle::first_hit answers, to the bit. `digits` and `detail` are the oracle's work alone. `tally`,
+  /// if given, counts which stage decided; `undecided` are the queries that the oracle answered. Safe to call
+  /// from several threads (each with its own tally).
+  Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
+
+ private:
+  std::optional<Answer> fast_answer(const Query& query, const Request& request, StageTally* tally) const;
+
+  Scene scene_;
+  Oracle oracle_;
+  std::optional<Reduction> fast_;  ///< nothing: the scene is beyond it
+};
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,245 @@
+// One flight among one atom's balls, or several atoms': from the query to a Flight. Private to the reduction
+// engine, which compiles it twice, with and without the fused multiply-add.
+#pragma once
+
+#include <type_traits>
+
+#include "reduction.hpp"
+#include "reduction_2d.hpp"
+#include "reduction_3d.hpp"
+
+namespace lorentz {
+
+/// One atom's lattice seen along a velocity. The unit lattices are turned so that it lies in the first
+/// octant.
+template <int D, bool kUnit>
+struct Aim {
+  Octant octant;
+  bool altered = false;  ///< a component of v too small for the search was taken as zero
+  Vec v;                 ///< turned, without such components
+  std::conditional_t<D == 2, Direction2<kUnit>, Direction3<kUnit>> direction;
+
+  template <class Arch>
+  Aim(Arch arch, const Bravais& lattice, const Vec& velocity)
+      : octant(kUnit ? Octant(D, velocity) : Octant()), v(searched(velocity)), direction(arch, lattice, v) {}
+
+ private:
+  Vec searched(const Vec& velocity) {
+    Vec turned = velocity;
+    if constexpr (kUnit) octant.template apply<D>(velocity, turned);
+    for (double& component : turned) {
+      altered = altered || flushed(component) != component;
+      component = flushed(component);
+    }
+    return turned;
+  }
+};
+
+/// The first of one atom's balls that is entered, with what its time needs.
+template <class Arch, int D, bool kUnit>
+class Finding {
+  using DD = DoubleDouble<Arch>;
+  using Search = std::conditional_t<D == 2, Search2<Arch, kUnit>, Search3<Arch, kUnit>>;
+
+ public:
+  Outcome outcome = Outcome::undecided;
+  Stage stage = Stage::binary64;
+  Wide N[D];  ///< the cell of the ball found, or of the home cell, from the home cell, in the short basis
+
+  Finding() {
+    for (Wide& n : N) n = Wide();
+  }
+
+  /// The start's offset; false if it is too far away.
+  bool start(const Bravais& lattice, const Vec& x) {
+    lattice_ = &lattice;
+    return set_offset<Arch, kUnit, D>(lattice, x, offset_);
+  }
+
+  /// Does x lie in a ball (`from` excepted)? Then N is its cell.
+  Decision inside(const ObstacleId* from) {
+    for (Wide& n : N) n = Wide();
+    double other[D]{};
+    int others = 0;
+    if constexpr (!kUnit) others = neighbours(other);
+    if (others == 0) {  // nearly always
+      const Decision decision = is_inside(offset_.d, offset_.error, lattice_->radius, stage);
+      if (decision == Decision::no) return decision;
+    }
+    Wide leaving[D];
+    const bool has_from = find_from(from, leaving);
+    for (int which = 0; which < 1 << others; ++which) {
+      Wide d[D];
+      std::copy(offset_.d, offset_.d + D, d);
+      double error = offset_.error;
+      if (which > 0) {
+        choose(which, other);
+        error = place_of<SplitProduct, kUnit, D>(*lattice_, offset_, N, d);
+      }
+      const Decision decision = is_inside(d, error, lattice_->radius, stage);
+      if (decision == Decision::no || (has_from && same(leaving, N))) continue;
+      return decision;
+    }
+    return Decision::no;
+  }
+
+  /// Balls that are entered after max_time need not be found.
+  void find(const Aim<D, kUnit>& aim, const ObstacleId* from, double max_time) {
+    const double s_limit = (max_time * aim.direction.v2 + aim.direction.rho) * (1 + 0x1p-40);
+    Offset<D> turned;
+    if constexpr (kUnit) aim.octant.apply(offset_.d, turned.d);
+    Search search(*lattice_, aim.direction, kUnit ? turned : offset_);
+    Wide leaving[D];
+    if (from && find_from(from, leaving)) {
+      Wide there[D];
+      if constexpr (kUnit) aim.octant.apply(leaving, there);
+      outcome = search.run(kUnit ? there : leaving, s_limit);
+    } else {
+      outcome = search.run(nullptr, s_limit);
+    }
+    stage = std::max(stage, search.stage);
+    if (outcome == Outcome::never && aim.altered) outcome = Outcome::undecided;
+    if (outcome == Outcome::undecided) stage = Stage::undecided;
+    if (outcome != Outcome::hit) return;
+    s_ = search.best_s, s_error_ = search.best_s_error;
+    slack_ = search.best_slack, slack_error_ = search.best_slack_error;
+    if constexpr (kUnit)
+      aim.octant.undo(search.best, N);
+    else
+      std::copy(search.best, search.best + D, N);
+  }
+
+  /// The cell in the scene's own primitive vectors; false if 64 bits do not hold it.
+  bool cell(std::array<std::int64_t, 3>& cell) const {
+    std::int64_t n[3]{};
+    for (int i = 0; i < D; ++i) {
+      if (!(std::fabs(N[i].hi) < 0x1p61)) return false;
+      n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(N[i].lo) +
+             static_cast<std::int64_t>(offset_.home[i]);
+    }
+    if constexpr (kUnit) {
+      for (int k = 0; k < D; ++k) cell[k] = n[k];
+      return true;
+    }
+    for (int k = 0; k < D; ++k) {
+      cell[k] = 0;
+      for (int i = 0; i < D; ++i) {
+        std::int64_t step;
+        if (__builtin_mul_overflow(n[i], lattice_->transform[i][k], &step) ||
+            __builtin_add_overflow(cell[k], step, &cell[k]))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  /// The time of entry within a few ulps.
+  double close_time(const Vec& v, double v2, double rho) const {
+    if (slack_ * 16 < rho * rho) {
+      double error;
+      return wide_time(v, error).value();
+    }
+    const double q = std::sqrt(slack_);
+    if (s_ > 4 * q) {
+      double s = 0;
+      for (int k = 0; k < D; ++k) s += v[k] * distance(k);
+      return (s - q) / v2;
+    }
+    // Nearby the difference would cancel: (s^2 - q^2) / (s + q), where s^2 - q^2 = v^2 (|d|^2 - r^2).
+    DD d[D], N_here[D];
+    for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
+    place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
+    double s = 0;
+    DD gap = -DD::product(lattice_->radius, lattice_->radius);
+    for (int k = 0; k < D; ++k) {
+      const DD square = DD::product(d[k].hi, d[k].hi), sum = DD::sum(gap.hi, square.hi);
+      gap = DD(sum.hi, sum.lo + (gap.lo + square.lo + 2 * d[k].hi * d[k].lo));
+      s += v[k] * d[k].hi;
+    }
+    return std::max(gap.value(), 0.0) / (s + q);
+  }
+
+  /// The time in binary64 and the bound of its error, from the search alone.
+  double rough_time(double v2, double& error) const {
+    const double q = std::sqrt(slack_), t = (s_ - q) / v2;
+    error = 2 * (s_error_ + slack_error_ / q) / v2 + 16 * kRoundoff * s_ / v2;
+    return t;
+  }
+
+  /// The time in double-double, and the bound of its error.
+  DD time(const Vec& v, double& error) const {
+    DD d[D], N_here[D];
+    for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
+    const double d_error = place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
+    const Encounter<Arch, D> encounter(v, d, d_error, lattice_->radius);
+    return encounter.time(d, d_error, lattice_->radius, error);
+  }
+
+  [[gnu::noinline]] Wide wide_time(const Vec& v, double& error) const {
+    Wide d[D];
+    const double d_error = place_of<SplitProduct, kUnit, D>(*lattice_, offset_, N, d);
+    const Encounter<SplitProduct, D> encounter(v, d, d_error, lattice_->radius);
+    return encounter.time(d, d_error, lattice_->radius, error);
+  }
+
+ private:
+  // Component k of the ball's place seen from x, to some ulps of |d|.
+  double distance(int k) const {
+    if constexpr (kUnit) return N[k].hi + offset_.d[k].hi;
+    double d = offset_.d[k].hi;
+    for (int i = 0; i < D; ++i) d += lattice_->basis[i][k].hi * N[i].hi;
+    return d;
+  }
+
+  static bool same(const Wide* a, const Wide* b) {
+    for (int i = 0; i < D; ++i)
+      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
+    return true;
+  }
+
+  // The cells besides the home cell whose ball may contain x: up to one step along each basis vector.
+  int neighbours(double (&other)[D]) const {
+    int count = 0;
+    for (int i = 0; i < D; ++i) {
+      double coordinate = 0;  // of x, from the ball of the home cell
+      for (int k = 0; k < D; ++k) coordinate -= lattice_->dual[i][k] * offset_.d[k].hi;
+      if (std::fabs(coordinate) + lattice_->reach[i] < 1 - 0x1p-30) continue;
+      other[i] = std::copysign(1, coordinate);
+      ++count;
+    }
+    return count;
+  }
+
+  // The subset number `which` of these steps.
+  void choose(int which, const double (&other)[D]) {
+    for (int i = 0, bit = 0; i < D; ++i) {
+      N[i] = Wide();
+      if (other[i] == 0) continue;
+      if (which >> bit & 1) N[i] = Wide(other[i]);
+      ++bit;
+    }
+  }
+
+  // `from` from the home cell, if it is of this atom and not absurdly far away.
+  [[gnu::noinline]] bool find_from(const ObstacleId* from, Wide (&here)[D]) const {
+    if (!from || from->lattice != lattice_->lattice || from->atom != lattice_->atom) return false;
+    for (int i = 0; i < D; ++i) {
+      std::int64_t sum = -static_cast<std::int64_t>(offset_.home[i]), step;
+      for (int k = 0; k < D; ++k)
+        if (!from->cell[k].fits_int64() ||
+            __builtin_mul_overflow(from->cell[k].int64(), kUnit ? k == i : lattice_->inverse[k][i], &step) ||
+            __builtin_add_overflow(sum, step, &sum))
+          return false;
+      if (sum > (std::int64_t{1} << 61) || sum < -(std::int64_t{1} << 61)) return false;
+      const double high = static_cast<double>(sum);
+      here[i] = Wide(high, static_cast<double>(sum - static_cast<std::int64_t>(high)));
+    }
+    return true;
+  }
+
+  const Bravais* lattice_ = nullptr;
+  Offset<D> offset_;
+  double s_, s_error_, slack_, slack_error_;
+};
+
+}  // namespace lorentz

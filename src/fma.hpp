@@ -1,0 +1,38 @@
+// The error of a product, exactly: by one fused multiply-add where the processor has it, by splitting the
+// factors where it has not. Both give the same bits, so code written against either gives the same answers;
+// it is compiled once for each (see reduction.cpp) and chosen when the program starts.
+#pragma once
+
+#include <cmath>
+
+namespace lorentz {
+
+/// a * b = p + product_error(a, b, p) exactly, where p is the rounded product; required of the caller is that
+/// nothing overflows and that |p| >= 2^-960 or p = 0, so that the error is a binary64.
+struct HardwareFma {
+  static double product_error(double a, double b, double p) { return __builtin_fma(a, b, -p); }
+
+  /// a - k b, required to be a binary64: then it is exact.
+  static double remainder(double a, double k, double b) { return __builtin_fma(-k, b, a); }
+};
+
+/// The same without the instruction: Veltkamp's splitting and Dekker's product (Numer. Math. 18, 1971).
+struct SplitProduct {
+  static double product_error(double a, double b, double p) {
+    const double a_high = high_part(a), a_low = a - a_high, b_high = high_part(b), b_low = b - b_high;
+    return ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low;
+  }
+
+  static double remainder(double a, double k, double b) {
+    const double p = k * b;
+    return (a - p) - product_error(k, b, p);
+  }
+
+ private:
+  static double high_part(double a) {
+    const double c = 0x1.0000002p27 * a;  // 2^27 + 1
+    return c - (c - a);
+  }
+};
+
+}  // namespace lorentz

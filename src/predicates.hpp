@@ -1,0 +1,34 @@
+// The formulas whose rounding errors decide, as templates on the number type: the engine runs them on
+// binary64, tests/bounds_test.cpp on numbers that carry their error. Bounds: bounds.hpp.
+#pragma once
+
+#include <cmath>
+
+#include "bounds.hpp"
+
+namespace lorentz {
+
+/// Yes, no, or not certain at this precision.
+enum class Decision { yes, no, doubtful };
+
+/// 2D: height over the line of the lattice point n R - m L from an anchor at height y, where R and L have the
+/// heights D_R and -D_L.
+template <class T>
+T height_in_row(const T& y, const T& n, const T& D_R, const T& m, const T& D_L) {
+  return (y + n * D_R) - m * D_L;
+}
+
+/// Is |value| < limit, where value errs by at most error and limit by kRho units?
+inline Decision is_below(double value, double limit, double error) {
+  const double size = std::fabs(value), spread = error + kRho * kRoundoff * limit;
+  if (size + spread < limit) return Decision::yes;
+  if (size - spread > limit) return Decision::no;
+  return Decision::doubtful;
+}
+
+/// Is value > 0, where it errs by at most error?
+inline Decision is_positive(double value, double error) {
+  return value > error ? Decision::yes : value < -error ? Decision::no : Decision::doubtful;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,312 @@
+#include "reduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "flight_kernel.hpp"
+
+namespace lorentz {
+namespace {
+
+// What a kernel is asked.
+struct Task {
+  const PreparedScene& scene;
+  const Vec& x;  ///< in the scene's scaled lengths
+  const Vec& v;  ///< in [1, 2)
+  const ObstacleId* from;
+  double max_time;
+  const void* aims;  ///< an Aim for each atom, or null: then they are made here
+};
+
+using Time = Reduction::Time;
+
+/// The smallest model that serves a scene.
+enum class Model {
+  unit,      ///< one square or cubic lattice of spacing 1, a ball at the origin
+  one_atom,  ///< one ball in any cell
+  several    ///< several atoms, in one lattice or several
+};
+
+Model model_of(const PreparedScene& scene) {
+  if (scene.atoms.size() > 1) return Model::several;
+  return scene.atoms[0].unit ? Model::unit : Model::one_atom;
+}
+
+bool has_fma() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
+// Times in other units; a time that leaves the normal numbers is no longer known to be correctly rounded.
+void rescale(Flight& flight, int exponent) {
+  if (exponent == 0 || flight.outcome != Outcome::hit) return;
+  flight.time = scaled_time(flight.time, exponent);
+  if (flight.time != 0 && !std::isnormal(flight.time)) flight.time_is_rounded = false;
+}
+
+// Atoms of one lattice and one radius look the same along a direction.
+bool share_an_aim(const Bravais& a, const Bravais& b) {
+  return a.lattice == b.lattice && a.radius == b.radius;
+}
+
+Flight undecided(Flight flight) {
+  flight.outcome = Outcome::undecided;
+  flight.stage = Stage::undecided;
+  return flight;
+}
+
+template <Time kTime, class Arch, int D, bool kUnit>
+inline void set_time(const Finding<Arch, D, kUnit>& finding, const Bravais& lattice, const Task& task,
+                     Flight& flight) {
+  double v2 = 0;
+  for (int k = 0; k < D; ++k) v2 += task.v[k] * task.v[k];
+  if constexpr (kTime == Time::close) {
+    flight.time = finding.close_time(task.v, v2, lattice.radius * std::sqrt(v2));
+  } else {
+    double error;
+    const auto t = finding.time(task.v, error);
+    flight.time = t.hi + (t.lo + error);
+    flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
+  }
+}
+
+/// One atom in the scene.
+template <Time kTime, class Arch, int D, bool kUnit>
+inline Flight fly_one(const Task& task) {
+  const Bravais& lattice = task.scene.atoms[0];
+  Flight flight;
+  Finding<Arch, D, kUnit> finding;
+  if (!finding.start(lattice, task.x)) return undecided(flight);
+  const Decision inside = finding.inside(task.from);
+  if (inside == Decision::doubtful) return undecided(flight);
+  if (inside == Decision::no) {
+    if (task.aims)
+      finding.find(*static_cast<const Aim<D, kUnit>*>(task.aims), task.from, task.max_time);
+    else
+      finding.find(Aim<D, kUnit>(Arch{}, lattice, task.v), task.from, task.max_time);
+    flight.outcome = finding.outcome;
+  } else {
+    flight.outcome = Outcome::inside;
+  }
+  flight.stage = finding.stage;
+  if (flight.outcome == Outcome::hit || flight.outcome == Outcome::inside)
+    if (!finding.cell(flight.cell)) return undecided(flight);
+  if (flight.outcome == Outcome::hit) set_time<kTime>(finding, lattice, task, flight);
+  return flight;
+}
+
+/// Is one hit before the other? Binary64, then double-double.
+template <class Found>
+inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, Stage& stage) {
+  double v2 = 0, error, other_error;
+  for (const double component : v) v2 += component * component;
+  const double difference = other.rough_time(v2, other_error) - one.rough_time(v2, error);
+  const Decision decision = is_positive(difference, error + other_error);
+  if (decision != Decision::doubtful) return decision;
+  stage = std::max(stage, Stage::double_double);
+  const Wide close = other.wide_time(v, other_error) - one.wide_time(v, error);
+  return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
+}
+
+/// Several atoms, in one lattice or several: the earliest of their hits.
+template <Time kTime, class Arch, int D>
+inline Flight fly_several(const Task& task) {
+  Flight flight;
+  Finding<Arch, D, false> finding;
+  for (const Bravais& lattice : task.scene.atoms) {  // the smallest ball that contains x
+    if (!finding.start(lattice, task.x)) return undecided(flight);
+    const Decision inside = finding.inside(task.from);
+    flight.stage = std::max(flight.stage, finding.stage);
+    if (inside == Decision::no) continue;
+    if (inside == Decision::doubtful) return undecided(flight);
+    flight.outcome = Outcome::inside;
+    flight.lattice = lattice.lattice, flight.atom = lattice.atom;
+    return finding.cell(flight.cell) ? flight : undecided(flight);
+  }
+  flight.outcome = Outcome::never;
+  Finding<Arch, D, false> best;
+  const Bravais* best_lattice = nullptr;
+  std::optional<Aim<D, false>> own;
+  double limit = task.max_time;
+  for (const Bravais& lattice : task.scene.atoms) {
+    const Bravais* before = &lattice - 1;
+    if (!task.aims && (&lattice == task.scene.atoms.data() || !share_an_aim(*before, lattice)))
+      own.emplace(Arch{}, lattice, task.v);
+    const auto& aim =
+        task.aims ? static_cast<const Aim<D, false>*>(task.aims)[&lattice - task.scene.atoms.data()] : *own;
+    Finding<Arch, D, false> next;
+    next.start(lattice, task.x);
+    next.find(aim, task.from, limit);
+    flight.stage = std::max(flight.stage, next.stage);
+    if (next.outcome == Outcome::undecided) return undecided(flight);
+    if (next.outcome == Outcome::never) continue;
+    const Decision sooner = best_lattice ? is_sooner(next, best, task.v, flight.stage) : Decision::yes;
+    if (sooner == Decision::doubtful) return undecided(flight);
+    if (sooner == Decision::no) continue;
+    best = next, best_lattice = &lattice;
+    double error;
+    const double time = next.rough_time(aim.direction.v2, error);
+    limit = std::min(limit, time + error);
+  }
+  if (!best_lattice) return flight;
+  flight.outcome = Outcome::hit;
+  flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
+  if (!best.cell(flight.cell)) return undecided(flight);
+  set_time<kTime>(best, *best_lattice, task, flight);
+  return flight;
+}
+
+using Kernel = Flight (*)(const Task&);
+using AimsKernel = std::shared_ptr<const void> (*)(const PreparedScene&, const Vec&);
+
+/// What runs for a scene, on this processor.
+struct Kernels {
+  Kernel close = nullptr, rounded = nullptr;
+  AimsKernel aims = nullptr;
+};
+
+template <Time kTime, class Arch, int D, Model kModel>
+inline Flight fly_with(const Task& task) {
+  if constexpr (kModel == Model::several)
+    return fly_several<kTime, Arch, D>(task);
+  else
+    return fly_one<kTime, Arch, D, kModel == Model::unit>(task);
+}
+
+template <class Arch, int D, Model kModel>
+std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
+  using Item = Aim<D, kModel == Model::unit>;
+  auto aims = std::make_shared<std::vector<Item>>();
+  for (const Bravais& lattice : scene.atoms) aims->emplace_back(Arch{}, lattice, v);
+  return std::shared_ptr<const void>(aims, aims->data());
+}
+
+// Inlined as a whole into functions for one kind of processor, so that an fma is one instruction or none.
+template <Time kTime, int D, Model kModel>
+[[gnu::target("fma"), gnu::flatten]] Flight fly_fma(const Task& task) {
+  return fly_with<kTime, HardwareFma, D, kModel>(task);
+}
+
+template <Time kTime, int D, Model kModel>
+[[gnu::flatten]] Flight fly_split(const Task& task) {
+  return fly_with<kTime, SplitProduct, D, kModel>(task);
+}
+
+template <int D, Model kModel>
+Kernels kernels_of(bool fma) {
+  if (fma)
+    return {fly_fma<Time::close, D, kModel>, fly_fma<Time::rounded, D, kModel>,
+            aims_for<SplitProduct, D, kModel>};
+  return {fly_split<Time::close, D, kModel>, fly_split<Time::rounded, D, kModel>,
+          aims_for<SplitProduct, D, kModel>};
+}
+
+template <int D>
+Kernels kernels_of(Model model, bool fma) {
+  switch (model) {
+    case Model::unit:
+      return kernels_of<D, Model::unit>(fma);
+    case Model::one_atom:
+      return kernels_of<D, Model::one_atom>(fma);
+    case Model::several:
+      return kernels_of<D, Model::several>(fma);
+  }
+  return {};
+}
+
+}  // namespace
+
+struct Reduction::Model {
+  PreparedScene scene;
+  lorentz::Model model = lorentz::Model::unit;
+  Kernels kernels;
+};
+
+Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
+  auto model = std::make_unique<Model>();
+  model->scene = prepare(scene);
+  if (!model->scene.beyond.empty()) throw std::invalid_argument("reduction " + model->scene.beyond);
+  model->model = model_of(model->scene);
+  const bool fma = processor == Processor::this_one && has_fma();
+  model->kernels = scene.dimension == 2 ? kernels_of<2>(model->model, fma) : kernels_of<3>(model->model, fma);
+  model_ = std::move(model);
+}
+
+Reduction::~Reduction() = default;
+
+std::optional<std::string> Reduction::beyond(const Scene& scene) {
+  PreparedScene prepared = prepare(scene);
+  if (prepared.beyond.empty()) return std::nullopt;
+  return std::move(prepared.beyond);
+}
+
+const char* Reduction::model() const {
+  switch (model_->model) {
+    case lorentz::Model::unit:
+      return "unit";
+    case lorentz::Model::one_atom:
+      return "one atom";
+    case lorentz::Model::several:
+      return "several atoms";
+  }
+  return "";
+}
+
+Flight Reduction::fly(const Ray& ray, const void* aims, double max_time, Time time) const {
+  const int exponent = model_->scene.exponent;
+  const Kernel kernel = time == Time::close ? model_->kernels.close : model_->kernels.rounded;
+  if (exponent == 0) return kernel({model_->scene, ray.x, ray.v, ray.from, max_time, aims});
+  Vec x = ray.x;
+  for (double& component : x) component = std::scalbn(component, -exponent);
+  Flight flight = kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), aims});
+  rescale(flight, exponent);
+  return flight;
+}
+
+Flight Reduction::fly(const Query& query, double max_time, Time time) const {
+  const ScaledVelocity velocity(query.v);
+  Flight flight = fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr}, nullptr,
+                      scaled_time(max_time, velocity.exponent), time);
+  rescale(flight, -velocity.exponent);
+  return flight;
+}
+
+Reduction::Direction Reduction::direction(const Vec& v) const {
+  const ScaledVelocity velocity(v);
+  Direction direction;
+  direction.scaled_v_ = velocity.scaled;
+  direction.exponent_ = velocity.exponent;
+  direction.aims_ = model_->kernels.aims(model_->scene, velocity.scaled);
+  return direction;
+}
+
+Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
+                      Time time) const {
+  Flight flight = fly(Ray{x, direction.scaled_v_, from}, direction.aims_.get(),
+                      scaled_time(max_time, direction.exponent_), time);
+  rescale(flight, -direction.exponent_);
+  return flight;
+}
+
+Answer answer_of(const Flight& flight) {
+  Answer answer;
+  answer.outcome = flight.outcome;
+  if (flight.outcome != Outcome::hit && flight.outcome != Outcome::inside) return answer;
+  answer.obstacle.lattice = flight.lattice;
+  answer.obstacle.atom = flight.atom;
+  for (int k = 0; k < 3; ++k) answer.obstacle.cell[k] = Integer(flight.cell[k]);
+  if (flight.outcome == Outcome::hit) answer.time = flight.time;
+  return answer;
+}
+
+Answer Reduction::first_hit_scaled(const Ray& ray, double max_time) const {
+  return answer_of(fly(ray, nullptr, max_time, Time::close));
+}
+
+}  // namespace lorentz

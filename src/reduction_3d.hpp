@@ -1,0 +1,658 @@
+// The first ball of a 3D Bravais lattice that a line meets, in O(log 1/r). Private to the reduction engine.
+//
+// Coordinates: across the line in units of r, along it in units of a length that grows while nothing is met.
+// In these the cylinder is of radius 1, a window of it of length 1, and a basis that is short in them has few
+// lattice planes and few lattice lines that meet the window. A line is solved by one quadratic.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "encounter.hpp"
+#include "offset.hpp"
+
+namespace lorentz {
+
+/// A lattice vector: integer coefficients in the lattice's short basis; across (units of r) and along.
+struct Arm3 {
+  double n[3]{};
+  double p[2]{};
+  double z = 0;
+  double floor = 0;  ///< what the cancellation of large terms leaves of error, in units of the roundoff
+
+  void subtract(double k, const Arm3& other) {
+    for (int i = 0; i < 3; ++i) n[i] -= k * other.n[i];
+    p[0] -= k * other.p[0], p[1] -= k * other.p[1];
+    z -= k * other.z;
+  }
+};
+
+inline double product(const Arm3& a, const Arm3& b) {
+  return a.p[0] * b.p[0] + a.p[1] * b.p[1] + a.z * b.z;
+}
+
+/// Three vectors, shortest first, and what the enumeration needs of their dual basis.
+struct Basis3 {
+  Arm3 b[3];
+  double length = 0;     ///< of a window, in units of s = v . d
+  double dual[3][3]{};   ///< dual_i . b_j = delta_ij, in (p_0, p_1, z)
+  double g = 0, e[2]{};  ///< dual_2 across the line: length and direction
+  double inverse_g = 0;
+  double g1_e = 0, g1_f = 0;  ///< dual_1 across: along e, and perpendicular to it
+  double tilt_error = 0;      ///< of dual_2's component along the line
+  bool usable = false;        ///< integers below 2^53, and nearly orthogonal: |b_i| |dual_i| <= 8
+};
+
+/// A lattice seen along one direction: all that does not depend on the start.
+template <bool kUnit>
+struct Direction3 {
+  Vec v{};
+  double v2 = 0, rho = 0;
+  double scale[2]{};  ///< across = scale * (form . n)
+  double inverse_r = 0;
+  Wide cartesian[3][3]{};  ///< across 0, across 1, along: of the axes
+  Wide form[3][3]{};       ///< the same of each vector of the short basis
+  double size_of[3]{};     ///< the size of each vector of the short basis
+  Basis3 basis;
+
+  template <class Arch>
+  Direction3(Arch, const Bravais& lattice, const Vec& velocity) : v(velocity) {
+    v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double speed = std::sqrt(v2), r = lattice.radius;
+    rho = r * speed;
+    set_forms<Arch>(lattice);
+    constexpr double kWindowCells = 2;  // expected number of balls in a window
+    basis.length = kWindowCells * lattice.volume / (3.14 * r * r) * speed;
+    const double along = 1 / basis.length;
+    for (int i = 0; i < 3; ++i) {
+      Arm3& arm = basis.b[i];
+      arm.n[i] = 1;
+      arm.p[0] = scale[0] * form[0][i].hi, arm.p[1] = scale[1] * form[1][i].hi, arm.z = along * form[2][i].hi;
+    }
+    reduce<Arch>(basis);
+  }
+
+  /// A longer window: the basis is reduced on from where it is.
+  template <class Arch>
+  void lengthen(Basis3& longer, double factor) const {
+    longer.length *= factor;
+    for (Arm3& arm : longer.b) arm.z /= factor;
+    reduce<Arch>(longer);
+  }
+
+  /// A vector's across and along from its coefficients: the large terms cancel exactly.
+  template <class Arch>
+  void recompute(Arm3& arm, double length) const {
+    arm.p[0] = scale[0] * combination<Arch>(form[0], arm.n);
+    arm.p[1] = scale[1] * combination<Arch>(form[1], arm.n);
+    arm.z = combination<Arch>(form[2], arm.n) / length;
+    double terms = 0;
+    for (int j = 0; j < 3; ++j) terms += std::fabs(arm.n[j]) * size_of[j];
+    arm.floor = kAnchorTerms / kRoundoff * 4 * inverse_r * terms;
+  }
+
+  /// Across (twice) and along of a Cartesian vector.
+  template <class Arch>
+  void forms_of(const Wide (&d)[3], Wide (&f)[3]) const {
+    using DD = DoubleDouble<Arch>;
+    for (int i = 0; i < 3; ++i) {
+      DD sum = DD(d[0]) * DD(cartesian[i][0]);
+      for (int k = 1; k < 3; ++k) sum = sum + DD(d[k]) * DD(cartesian[i][k]);
+      f[i] = Wide(sum);
+    }
+  }
+
+  template <class Arch>
+  static double combination(const Wide (&f)[3], const double (&n)[3]) {
+    using DD = DoubleDouble<Arch>;
+    const DD a = DD::product(n[0], f[0].hi), b = DD::product(n[1], f[1].hi), c = DD::product(n[2], f[2].hi);
+    const DD ab = DD::sum(a.hi, b.hi), all = DD::sum(ab.hi, c.hi);
+    const double low = (a.lo + n[0] * f[0].lo) + (b.lo + n[1] * f[1].lo) + (c.lo + n[2] * f[2].lo);
+    return all.hi + ((ab.lo + all.lo) + low);
+  }
+
+ private:
+  // Two vectors across the line, exactly perpendicular to it and to each other, and v itself.
+  template <class Arch>
+  void set_forms(const Bravais& lattice) {
+    using DD = DoubleDouble<Arch>;
+    int c = 0;
+    if constexpr (kUnit)
+      c = 2;  // the first octant
+    else
+      for (int i = 1; i < 3; ++i)
+        if (std::fabs(v[i]) < std::fabs(v[c])) c = i;
+    const int a = (c + 1) % 3, b = (c + 2) % 3;
+    const double across2 = v[a] * v[a] + v[b] * v[b], across = std::sqrt(across2);
+    scale[0] = 1 / (across * lattice.radius);
+    scale[1] = scale[0] / std::sqrt(v2);
+    cartesian[0][a] = Wide(-v[b]), cartesian[0][b] = Wide(v[a]);
+    cartesian[1][a] = Wide(-DD::product(v[a], v[c])), cartesian[1][b] = Wide(-DD::product(v[b], v[c]));
+    cartesian[1][c] = Wide(DD::product(v[a], v[a]) + DD::product(v[b], v[b]));
+    for (int k = 0; k < 3; ++k) cartesian[2][k] = Wide(v[k]);
+    inverse_r = 1 / lattice.radius;
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (kUnit) {
+        for (int k = 0; k < 3; ++k) form[k][i] = cartesian[k][i];
+        size_of[i] = 1;
+      } else {
+        const Wide B[3] = {lattice.basis[i][0], lattice.basis[i][1], lattice.basis[i][2]};
+        Wide f[3];
+        forms_of<Arch>(B, f);
+        for (int k = 0; k < 3; ++k) form[k][i] = f[k];
+        size_of[i] =
+            std::fabs(B[0].hi) + std::fabs(B[1].hi) + std::fabs(B[2].hi) + 0x1p104 * lattice.basis_error;
+      }
+    }
+  }
+
+  static void exchange(Arm3& a, Arm3& b, double& a2, double& b2) {
+    std::swap(a, b);
+    std::swap(a2, b2);
+  }
+
+ public:
+  /// Running coordinates err by their coefficients times the first rounding: beyond these they are computed
+  /// anew.
+  static constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100;
+  static constexpr double kGoodRunning = 0x1p40;  ///< coefficients times 1/r: errors of 2^-12, in units of r
+
+  /// The state of a reduction: how large the integers ever were, and whether the coordinates are running
+  /// sums.
+  struct Progress {
+    double largest = 0;  ///< of the coefficients; below 2^52 all steps were exact
+    double limit = kRunningCoefficient;
+    bool fresh = true;  ///< the coordinates are those of the coefficients, not sums of rounded ones
+  };
+
+  // Pairwise reduction to a basis that is short in the window's metric, then once more from exact
+  // coefficients.
+  template <class Arch>
+  void reduce(Basis3& basis) const {
+    Progress progress;
+    bool done = false;
+    for (int round = 0; round < 60 && !done; ++round) {
+      done = greedy(basis.b, progress) && (progress.fresh || progress.largest * inverse_r < kGoodRunning);
+      for (Arm3& arm : basis.b) recompute<Arch>(arm, basis.length);
+      progress.fresh = true;
+      progress.limit = kNoLimit;
+    }
+    set_dual(basis);
+    basis.usable = basis.usable && done && progress.largest < kMaxCoefficient / 2;
+  }
+
+  static void subtract(Arm3& arm, double k, const Arm3& other, Progress& progress) {
+    arm.subtract(k, other);
+    progress.largest =
+        std::max({progress.largest, std::fabs(arm.n[0]), std::fabs(arm.n[1]), std::fabs(arm.n[2])});
+  }
+
+  // Greedy reduction: the two shorter vectors by Lagrange's step, then the longest by the nearest point of
+  // their plane. False if it was interrupted, because the coordinates have to be computed anew.
+  static bool greedy(Arm3 (&b)[3], Progress& progress) {
+    double size[3];
+    for (int i = 0; i < 3; ++i) size[i] = product(b[i], b[i]);
+    const auto sort = [&] {
+      if (size[1] < size[0]) exchange(b[0], b[1], size[0], size[1]);
+      if (size[2] < size[1]) {
+        exchange(b[1], b[2], size[1], size[2]);
+        if (size[1] < size[0]) exchange(b[0], b[1], size[0], size[1]);
+      }
+    };
+    sort();
+    for (int step = 0; step < 300; ++step) {
+      double c01 = product(b[0], b[1]);
+      const double k = std::nearbyint(c01 / size[0]);
+      if (k != 0) {
+        if (std::fabs(k) > kRunningQuotient && !progress.fresh) return false;
+        subtract(b[1], k, b[0], progress);
+        progress.fresh = false;
+        size[1] = product(b[1], b[1]);
+        if (size[1] < size[0]) {
+          exchange(b[0], b[1], size[0], size[1]);
+          continue;
+        }
+        c01 = product(b[0], b[1]);
+      }
+      const double c02 = product(b[0], b[2]), c12 = product(b[1], b[2]);
+      const double inverse = 1 / (size[0] * size[1] - c01 * c01);
+      const double k0 = std::nearbyint((c02 * size[1] - c12 * c01) * inverse);
+      const double k1 = std::nearbyint((c12 * size[0] - c02 * c01) * inverse);
+      if (k0 == 0 && k1 == 0) return true;
+      if (std::max(std::fabs(k0), std::fabs(k1)) > kRunningQuotient && !progress.fresh) return false;
+      Arm3 next = b[2];
+      subtract(next, k0, b[0], progress);
+      subtract(next, k1, b[1], progress);
+      const double after = product(next, next);
+      if (!(after < size[2])) return true;
+      progress.fresh = false;
+      b[2] = next, size[2] = after;
+      if (after >= size[1]) return true;
+      if (progress.largest > progress.limit) return false;
+      sort();
+    }
+    return false;
+  }
+
+  void set_dual(Basis3& basis) const {
+    auto& b = basis.b;
+    for (Arm3& arm : b)
+      if (arm.z < 0) {
+        for (double& n : arm.n) n = -n;
+        arm.p[0] = -arm.p[0], arm.p[1] = -arm.p[1], arm.z = -arm.z;
+      }
+    for (int i = 0; i < 3; ++i) {
+      const Arm3 &x = b[(i + 1) % 3], &y = b[(i + 2) % 3];
+      basis.dual[i][0] = x.p[1] * y.z - x.z * y.p[1];
+      basis.dual[i][1] = x.z * y.p[0] - x.p[0] * y.z;
+      basis.dual[i][2] = x.p[0] * y.p[1] - x.p[1] * y.p[0];
+    }
+    const double inverse =
+        1 / (b[0].p[0] * basis.dual[0][0] + b[0].p[1] * basis.dual[0][1] + b[0].z * basis.dual[0][2]);
+    for (auto& row : basis.dual)
+      for (double& component : row) component *= inverse;
+    basis.usable = true;
+    for (int i = 0; i < 3; ++i) {
+      const auto& g = basis.dual[i];
+      const double defect = product(b[i], b[i]) * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+      basis.usable = basis.usable && defect <= 64;  // and no NaN
+      for (const double n : b[i].n) basis.usable = basis.usable && std::fabs(n) < kMaxCoefficient;
+    }
+    const auto& g2 = basis.dual[2];
+    const auto& g1 = basis.dual[1];
+    basis.g = std::sqrt(g2[0] * g2[0] + g2[1] * g2[1]);
+    const auto reach = [](const Arm3& arm) { return std::fabs(arm.p[0]) + std::fabs(arm.p[1]) + arm.floor; };
+    basis.tilt_error = 32 * kRoundoff * reach(b[0]) * reach(b[1]) * std::fabs(inverse);
+    basis.inverse_g = 1 / basis.g;
+    basis.e[0] = g2[0] * basis.inverse_g, basis.e[1] = g2[1] * basis.inverse_g;
+    basis.g1_e = g1[0] * basis.e[0] + g1[1] * basis.e[1];
+    basis.g1_f = g1[1] * basis.e[0] - g1[0] * basis.e[1];
+  }
+};
+
+/// The search for one start.
+template <class Arch, bool kUnit>
+class Search3 {
+  using DD = DoubleDouble<Arch>;
+
+ public:
+  Search3(const Bravais& lattice, const Direction3<kUnit>& direction, const Offset<3>& offset)
+      : lattice_(lattice), to_(direction), offset_(offset), basis_(&direction.basis) {}
+
+  Stage stage = Stage::binary64;
+  Wide best[3];  ///< coefficients of the ball found, from the home cell, in the short basis
+  double best_s = kNothing, best_slack = 0, best_s_error = 0, best_slack_error = 0;
+
+  /// `from`: coefficients of the ball that is being left, or null. Entered after s_limit: need not be found.
+  Outcome run(const Wide* from, double s_limit) {
+    from_ = from;
+    s_limit_ = s_limit;
+    set_start();
+    for (int window = 0; window < kMaxWindows; ++window) {
+      if (!basis_->usable || !set_anchor()) return give_up();
+      no_plane_met_ = true;
+      if (!scan_window()) return give_up();
+      if (best_s < kNothing) return Outcome::hit;
+      advance();
+      if (begin_ > s_limit_ || begin_ > 2 * period()) return Outcome::never;
+      if (!(begin_ < kFarthest)) return give_up();
+      if (window >= 1) lengthen(4);
+    }
+    return give_up();
+  }
+
+ private:
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+  static constexpr double kSlop = 0x1p-20;  ///< inflation of every range of the enumeration
+  static constexpr int kMaxWindows = 200;
+  static constexpr double kFarthest = 0x1p61;  ///< in s; the cells of a ball there still fit 64 bits
+  static constexpr double kManyLines = 12;
+
+  /// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
+  struct Point {
+    double n[3]{};
+    double p[2]{};
+    double z = 0, size = 0, extent = 0;
+
+    Point() = default;
+    Point(const Point& base, double k, const Arm3& arm) {
+      for (int i = 0; i < 3; ++i) n[i] = base.n[i] + k * arm.n[i];
+      const double step[2] = {k * arm.p[0], k * arm.p[1]};
+      p[0] = base.p[0] + step[0], p[1] = base.p[1] + step[1];
+      z = base.z + k * arm.z;
+      size = base.size + std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(k) * arm.floor;
+      extent = base.extent + std::fabs(k * arm.z);
+    }
+  };
+
+  Outcome give_up() {
+    stage = Stage::undecided;
+    return Outcome::undecided;
+  }
+
+  void set_start() {
+    to_.template forms_of<Arch>(offset_.d, start_);
+    for (const Wide& component : offset_.d) start_size_ += std::fabs(component.hi);
+  }
+
+  // A lattice point near the middle of the window; all others are counted from it, in small numbers.
+  bool set_anchor() {
+    for (Wide& n : anchor_) n = Wide();
+    const double middle = 0.5;
+    anchor_point_ = at(anchor_);
+    for (int pass = 0; pass < 3; ++pass) {
+      double k[3], largest = 0;
+      const double z = anchor_point_.z - middle;
+      for (int i = 0; i < 3; ++i) {
+        const auto& g = basis_->dual[i];
+        k[i] = -std::nearbyint(g[0] * anchor_point_.p[0] + g[1] * anchor_point_.p[1] + g[2] * z);
+        largest = std::max(largest, std::fabs(k[i]));
+      }
+      if (largest == 0) break;
+      if (!(largest < 0x1p60)) return false;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) anchor_[j] = Wide(DD(anchor_[j]) + DD::product(k[i], basis_->b[i].n[j]));
+      anchor_point_ = at(anchor_);
+      if (largest < 0x1p20) break;
+    }
+    double terms = start_size_;
+    for (int j = 0; j < 3; ++j) {
+      if (!(std::fabs(anchor_[j].hi) < 0x1p61)) return false;
+      terms += std::fabs(anchor_[j].hi) * to_.size_of[j];
+    }
+    const double error = 4 * (kAnchorTerms * terms + offset_.error) + kFlushed;
+    p_error_ = error * to_.inverse_r;
+    s_error_ = error + kRoundoff * begin_;
+    z_first_ = -(s_error_ / basis_->length + 0x1p-48);
+    return true;
+  }
+
+  Point at(const Wide (&N)[3]) const {
+    Point point;
+    for (int i = 0; i < 2; ++i) point.p[i] = to_.scale[i] * combination(N, to_.form[i], start_[i]);
+    point.z = combination(N, to_.form[2], start_[2] - Wide(begin_)) / basis_->length;
+    point.size = std::fabs(point.p[0]) + std::fabs(point.p[1]);
+    point.extent = std::fabs(point.z);
+    return point;
+  }
+
+  static double combination(const Wide (&N)[3], const Wide (&f)[3], Wide start) {
+    const DD a = DD::product(N[0].hi, f[0].hi), b = DD::product(N[1].hi, f[1].hi),
+             c = DD::product(N[2].hi, f[2].hi);
+    const DD ab = DD::sum(a.hi, b.hi), abc = DD::sum(ab.hi, c.hi), all = DD::sum(abc.hi, start.hi);
+    double low = 0;
+    for (int i = 0; i < 3; ++i) low += N[i].hi * f[i].lo + N[i].lo * f[i].hi;
+    return all.hi + (((ab.lo + abc.lo) + (all.lo + start.lo)) + ((a.lo + b.lo) + (c.lo + low)));
+  }
+
+  // To the next window: right behind this one, or where the next lattice plane comes within r of the line.
+  void advance() {
+    const Basis3& basis = *basis_;
+    double step = 1;
+    if (no_plane_met_) {
+      const double tilt = basis.dual[2][2], kappa = plane_of(anchor_point_);
+      const double steepest = std::fabs(tilt) + basis.tilt_error;
+      // Planes at k + kappa - tilt z = 0 on the line; how far the nearest one ahead has to come.
+      const double here = tilt > 0 ? tilt - kappa : kappa - tilt;
+      const double gap = std::ceil(here + basis.g) - here - basis.g;
+      const double jump = 1 + (gap - kSlop) / steepest;
+      step = std::min(std::max(step, jump), 0x1p70);
+    }
+    const double next = begin_ + step * (1 - kSlop) * basis.length;
+    begin_ = std::max(begin_, next - 2 * kRoundoff * next);  // rounded down: no gap between the windows
+  }
+
+  // What lies on the line repeats after this: v . b of a lattice vector b that is exactly parallel to it.
+  double period() const {
+    for (const Arm3& arm : basis_->b)
+      if (arm.p[0] == 0 && arm.p[1] == 0 && is_parallel(lattice_, to_.v, arm.n))
+        return arm.z * basis_->length;
+    return kNothing;
+  }
+
+  void lengthen(double factor) {
+    if (basis_ != &longer_) longer_ = *basis_;
+    to_.template lengthen<Arch>(longer_, factor);
+    basis_ = &longer_;
+  }
+
+  double plane_of(const Point& point) const {
+    const auto& g = basis_->dual[2];
+    return g[0] * point.p[0] + g[1] * point.p[1] + g[2] * point.z;
+  }
+
+  double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop; }
+
+  // The planes k b_2 + (b_0, b_1) that meet the window.
+  bool scan_window() {
+    const Basis3& basis = *basis_;
+    const double kappa = plane_of(anchor_point_), tilt = basis.dual[2][2];
+    const double low = std::min(0.0, tilt) - basis.g - kappa - kSlop,
+                 high = std::max(0.0, tilt) + basis.g - kappa + kSlop;
+    for (double k = std::ceil(low); k <= high; ++k) {
+      const Point point(anchor_point_, k, basis.b[2]);
+      if (!scan_plane(point, kappa + k)) return false;
+    }
+    return true;
+  }
+
+  // The lines of a plane: in the coordinates xi (along e), eta (across e), z the plane is g xi + tilt z =
+  // kappa.
+  bool scan_plane(const Point& point, double kappa) {
+    const Basis3& basis = *basis_;
+    const double tilt = basis.dual[2][2];
+    double z_first = z_first_, z_last = end();
+    const double at_first = kappa - tilt * z_first, at_last = kappa - tilt * z_last,
+                 g = basis.g * (1 + kSlop);
+    if (std::fabs(at_first) > g || std::fabs(at_last) > g) {  // the section ends within the window
+      if ((at_first > g && at_last > g) || (at_first < -g && at_last < -g)) return true;
+      const double one = (kappa - g) / tilt, other = (kappa + g) / tilt;
+      z_first = std::max(z_first, std::min(one, other) - kSlop);
+      z_last = std::min(z_last, std::max(one, other) + kSlop);
+      if (z_first > z_last) return true;
+    }
+    no_plane_met_ = false;
+    const double xi_first = (kappa - tilt * z_first) * basis.inverse_g,
+                 xi_last = (kappa - tilt * z_last) * basis.inverse_g;
+    double nearest = 0;
+    if (xi_first * xi_last > 0) nearest = std::min(std::fabs(xi_first), std::fabs(xi_last));
+    const double eta = std::sqrt(std::max(0.0, 1 - nearest * nearest)) + kSlop;
+    const auto& g1 = basis.dual[1];
+    const double a = basis.g1_e * xi_first + g1[2] * z_first, b = basis.g1_e * xi_last + g1[2] * z_last;
+    const double here = g1[0] * point.p[0] + g1[1] * point.p[1] + g1[2] * point.z,
+                 half = std::fabs(basis.g1_f) * eta;
+    const double spread = kSlop * (1 + std::fabs(basis.g1_e) + std::fabs(g1[2]));
+    const double low = std::ceil(std::min(a, b) - half - here - spread),
+                 high = std::max(a, b) + half - here + spread;
+    if (high - low > kManyLines) return scan_plane_finely(point, z_first, z_last, kappa);
+    for (double k = low; k <= high; ++k)
+      if (!scan_line(Point(point, k, basis.b[1]), basis.b[0], z_first, z_last)) return false;
+    return true;
+  }
+
+  // A long, thin section: the first ball in an ellipse of a 2D lattice. Parts of it, short at first and then
+  // twice as long each, with a basis of the plane that is short in the metric of the part.
+  [[gnu::noinline]] bool scan_plane_finely(const Point& in_plane, double z_first, double z_last,
+                                           double kappa) {
+    const Basis3& basis = *basis_;
+    const double tilt = basis.dual[2][2];
+    const auto half_width = [&](double z1, double z2) {
+      const double xi_1 = (kappa - tilt * z1) * basis.inverse_g, xi_2 = (kappa - tilt * z2) * basis.inverse_g;
+      const double nearest = xi_1 * xi_2 > 0 ? std::min(std::fabs(xi_1), std::fabs(xi_2)) : 0;
+      return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest))) + kSlop * kSlop;
+    };
+    const auto eta = [&](const double* p) { return p[1] * basis.e[0] - p[0] * basis.e[1]; };
+    Arm3 c[2] = {basis.b[0], basis.b[1]};
+    const double cell = std::fabs(c[0].z * eta(c[1].p) - c[1].z * eta(c[0].p));
+    double part = z_last - z_first;
+    while (part * half_width(z_first, z_first + part) > 2 * cell) part /= 4;
+    Point base = in_plane;
+    for (double z = z_first; z < std::min(z_last, end()); z += part, part *= 2) {
+      const double z_next = std::min(z + part, z_last), width = half_width(z, z_next),
+                   middle = z + 0.5 * (z_next - z);
+      const double along = 2 / (z_next - z), across = 1 / width;
+      if (!reduce_in_plane(c, along, across, eta)) return false;
+      const double inverse = 1 / (c[0].z * eta(c[1].p) - c[1].z * eta(c[0].p));
+      for (int pass = 0; pass < 2; ++pass) {  // a lattice point near the middle of the part
+        const double dz = middle - base.z, dh = -eta(base.p);
+        const double k0 = std::nearbyint((dz * eta(c[1].p) - c[1].z * dh) * inverse);
+        const double k1 = std::nearbyint((c[0].z * dh - dz * eta(c[0].p)) * inverse);
+        base = recomputed(Point(Point(base, k0, c[0]), k1, c[1]));
+      }
+      // k_1 = (c_0 x (point - base)) / (c_0 x c_1)
+      const double centre = (c[0].z * -eta(base.p) - (middle - base.z) * eta(c[0].p)) * inverse;
+      const double reach =
+          (std::fabs(c[0].z) * width + 0.5 * (z_next - z) * std::fabs(eta(c[0].p))) * std::fabs(inverse) +
+          kSlop;
+      if (!(reach < 64)) return false;
+      for (double k = std::ceil(centre - reach); k <= centre + reach; ++k)
+        if (!scan_line(Point(base, k, c[1]), c[0], z - kSlop * part, z_next + kSlop * part)) return false;
+    }
+    return true;
+  }
+
+  // Lagrange's reduction of two vectors of the plane; the shorter one is c_0, and points forward.
+  template <class Eta>
+  bool reduce_in_plane(Arm3 (&c)[2], double along, double across, Eta eta) const {
+    const auto times = [&](const Arm3& a, const Arm3& b) {
+      return a.z * along * (b.z * along) + eta(a.p) * across * (eta(b.p) * across);
+    };
+    for (int step = 0; step < 200; ++step) {
+      if (times(c[1], c[1]) < times(c[0], c[0])) std::swap(c[0], c[1]);
+      const double k = std::nearbyint(times(c[0], c[1]) / times(c[0], c[0]));
+      if (k == 0) {
+        if (c[0].z < 0) {
+          for (double& n : c[0].n) n = -n;
+          c[0].p[0] = -c[0].p[0], c[0].p[1] = -c[0].p[1], c[0].z = -c[0].z;
+        }
+        return true;
+      }
+      c[1].subtract(k, c[0]);
+      to_.template recompute<Arch>(c[1], basis_->length);
+    }
+    return false;
+  }
+
+  // The same point, its coordinates from the integers.
+  Point recomputed(const Point& point) const {
+    Wide N[3];
+    for (int i = 0; i < 3; ++i) N[i] = anchor_[i] + Wide(point.n[i]);
+    Point same = at(N);
+    for (int i = 0; i < 3; ++i) same.n[i] = point.n[i];
+    return same;
+  }
+
+  // The balls along one line: |q + k p| < 1 is a quadratic in k.
+  bool scan_line(const Point& q, const Arm3& arm, double z_first, double z_last) {
+    const double a = arm.p[0] * arm.p[0] + arm.p[1] * arm.p[1];
+    const double b = q.p[0] * arm.p[0] + q.p[1] * arm.p[1];
+    const double moment = q.p[0] * arm.p[1] - q.p[1] * arm.p[0];
+    const double unsure = kLine * kRoundoff * (1 + q.size) + p_error_;
+    const double discriminant = a * (1 + 8 * unsure) - moment * moment;  // rounded up
+    if (discriminant < 0) return true;
+    const double inverse = 1 / a, half = std::sqrt(discriminant) * inverse;
+    double k_first = -b * inverse - half, k_last = -b * inverse + half;
+    const double slack = kSlop + 4 * unsure * std::sqrt(inverse);
+    if (!(slack < 0.25)) return scan_line_closely(q, arm, z_first, z_last);
+    k_first -= slack, k_last += slack;
+    if (arm.z > 0) {
+      const double inverse_z = 1 / arm.z;
+      k_first = std::max(k_first, (z_first - q.z) * inverse_z - kSlop);
+      k_last = std::min(k_last, (z_last - q.z) * inverse_z + kSlop);
+    }
+    return scan_stretch(q, arm, std::ceil(k_first), k_last);
+  }
+
+  // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder.
+  [[gnu::noinline]] bool scan_line_closely(const Point& q, const Arm3& arm, double z_first, double z_last) {
+    if (!(arm.z > 0)) return false;
+    const double k_first = std::ceil((z_first - q.z) / arm.z - kSlop),
+                 k_last = (z_last - q.z) / arm.z + kSlop;
+    const Point first(q, k_first, arm);
+    const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
+    const double distance = std::hypot(first.p[0], first.p[1]);
+    if (distance - drift > 1 + 8 * (kLine * kRoundoff * (1 + first.size) + p_error_)) return true;
+    return scan_stretch(q, arm, k_first, k_last);
+  }
+
+  bool scan_stretch(const Point& q, const Arm3& arm, double k_first, double k_last) {
+    int steps = 0;
+    for (double k = k_first; k <= k_last; ++k) {
+      if (++steps > 64) return false;
+      const Look look = look_at(Point(q, k, arm));
+      if (look == Look::doubtful) return false;
+      if (look != Look::missed) return true;
+    }
+    return true;
+  }
+
+  enum class Look { missed, taken, beyond, doubtful };
+
+  Look look_at(const Point& point) {
+    const double square = point.p[0] * point.p[0] + point.p[1] * point.p[1];
+    const double error = kAcross * kRoundoff * point.size + p_error_;
+    const double spread = (1 + square) * (2 * error + kScale * kRoundoff);
+    const Decision meets = is_positive(1 - square, spread);
+    if (meets == Decision::no) return Look::missed;
+    const double s = begin_ + point.z * basis_->length;
+    const double s_error = s_error_ + kAlong * kRoundoff * point.extent * basis_->length;
+    if (s < -s_error) return Look::missed;
+    if (s - s_error > std::min(best_s + best_s_error, s_limit_)) return Look::beyond;
+    Wide N[3];
+    for (int i = 0; i < 3; ++i) {
+      if (!(std::fabs(point.n[i]) < kMaxCoefficient)) return Look::doubtful;
+      N[i] = anchor_[i] + Wide(point.n[i]);
+    }
+    if (from_ && same(N, from_)) return Look::missed;
+    if (meets == Decision::yes && s > s_error)
+      return offer(N, s, s_error, (1 - square) * (to_.rho * to_.rho), 2 * spread * (to_.rho * to_.rho));
+    return look_closely(N);
+  }
+
+  Look offer(const Wide* N, double s, double s_error, double slack, double slack_error) {
+    if (!(s + s_error < best_s - best_s_error)) return same(N, best) ? Look::missed : Look::doubtful;
+    for (int i = 0; i < 3; ++i) best[i] = N[i];
+    best_s = s, best_s_error = s_error, best_slack = slack, best_slack_error = slack_error;
+    return Look::taken;
+  }
+
+  static bool same(const Wide* a, const Wide* b) {
+    for (int i = 0; i < 3; ++i)
+      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
+    return true;
+  }
+
+  // The same decisions in double-double.
+  [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
+    stage = std::max(stage, Stage::double_double);
+    Wide d[3];
+    const double error = place_of<SplitProduct, kUnit, 3>(lattice_, offset_, N, d);
+    const Encounter<SplitProduct, 3> encounter(to_.v, d, error, lattice_.radius);
+    const Decision meets = encounter.meets();
+    if (meets == Decision::doubtful) return Look::doubtful;
+    if (meets == Decision::no) return Look::missed;
+    const Decision ahead = encounter.is_ahead();
+    if (ahead == Decision::doubtful) return Look::doubtful;
+    if (ahead == Decision::no) return Look::missed;
+    return offer(N, encounter.s.hi, encounter.s_error + kRoundoff * encounter.s.hi, encounter.slack.hi,
+                 encounter.slack_error + kRoundoff * encounter.slack.hi);
+  }
+
+  const Bravais& lattice_;
+  const Direction3<kUnit>& to_;
+  const Offset<3>& offset_;
+  const Basis3* basis_;
+  Basis3 longer_;
+  const Wide* from_ = nullptr;
+  double s_limit_ = 0;
+  Wide start_[3];
+  double start_size_ = 0;
+  double begin_ = 0;  ///< of the window, in units of s
+  Wide anchor_[3];
+  Point anchor_point_;
+  double p_error_ = 0, s_error_ = 0;
+  double z_first_ = 0;  ///< of a window, with its error
+  bool no_plane_met_ = true;
+};
+
+}  // namespace lorentz
