@@ -8,10 +8,10 @@ namespace lorentz {
 /// Unit roundoff of binary64: one operation errs by at most u times its result.
 inline constexpr double kRoundoff = 0x1p-53;
 
-/// Velocity and offset components below this (the largest component of v is in [1, 2), lattice vectors are
-/// about 1) are taken as zero, so that no product underflows; what that changes, over 2^53 cells, is below
-/// kFlushed.
-inline constexpr double kFlush = 0x1p-450, kFlushed = 0x1p-390;
+/// Velocity and offset components below kTinyComponent (engine.hpp; the largest component of v is in [1, 2),
+/// lattice vectors are about 1) are taken as zero, so that no product underflows; what that changes, over
+/// 2^53 cells, is below kFlushed.
+inline constexpr double kFlushed = 0x1p-390;
 
 /// |computed height - height| <= kHeight u (|y| + |n D_R| + |m D_L|): predicates.hpp, height_in_row.
 inline constexpr double kHeight = 8;

@@ -32,6 +32,7 @@ ScaledVelocity::ScaledVelocity(const Vec& v) : scaled(v) {
     exponent = std::ilogb(largest);
     for (double& component : scaled) component = std::scalbn(component, -exponent);
   }
+  for (int i = 0; i < 3; ++i) tiny_component |= v[i] != 0 && std::fabs(scaled[i]) < kTinyComponent;
 }
 
 double scaled_time(double time, int exponent) {
@@ -42,8 +43,9 @@ double scaled_time(double time, int exponent) {
 Answer Engine::first_hit(const Query& query, double max_time) const {
   if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
   const ScaledVelocity velocity(query.v);
-  Answer answer = first_hit_scaled({query.x, velocity.scaled, query.from ? &*query.from : nullptr},
-                                   scaled_time(max_time, velocity.exponent));
+  Answer answer = first_hit_scaled(
+      {query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
+      scaled_time(max_time, velocity.exponent));
   if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
   if (std::isfinite(max_time)) return limited(std::move(answer), max_time);
   return answer;

@@ -17,7 +17,10 @@ struct Ray {
   const Vec& x;
   Vec v;
   const ObstacleId* from;  ///< or null
+  bool tiny_component;     ///< of v, below kTinyComponent but not zero: it may have lost digits, even all
 };
+
+inline constexpr double kTinyComponent = 0x1p-450;
 
 /// A first-hit engine for one scene. Const and without hidden state: safe to call from several threads.
 class Engine {
@@ -44,6 +47,7 @@ class Engine {
 struct ScaledVelocity {
   Vec scaled;
   int exponent;
+  bool tiny_component = false;  ///< as in Ray
 
   explicit ScaledVelocity(const Vec& v);
 };

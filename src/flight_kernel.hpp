@@ -15,8 +15,7 @@ namespace lorentz {
 template <int D, bool kUnit>
 struct Aim {
   Octant octant;
-  bool altered = false;  ///< a component of v too small for the search was taken as zero
-  Vec v;                 ///< turned, without such components
+  Vec v;  ///< turned, components below kTinyComponent taken as zero
   std::conditional_t<D == 2, Direction2<kUnit>, Direction3<kUnit>> direction;
 
   template <class Arch>
@@ -27,10 +26,7 @@ struct Aim {
   Vec searched(const Vec& velocity) {
     Vec turned = velocity;
     if constexpr (kUnit) octant.template apply<D>(velocity, turned);
-    for (double& component : turned) {
-      altered = altered || flushed(component) != component;
-      component = flushed(component);
-    }
+    for (double& component : turned) component = flushed(component);
     return turned;
   }
 };
@@ -98,7 +94,6 @@ class Finding {
       outcome = search.run(nullptr, s_limit);
     }
     stage = std::max(stage, search.stage);
-    if (outcome == Outcome::never && aim.altered) outcome = Outcome::undecided;
     if (outcome == Outcome::undecided) stage = Stage::undecided;
     if (outcome != Outcome::hit) return;
     s_ = search.best_s, s_error_ = search.best_s_error;

@@ -24,7 +24,7 @@ struct Offset {
 inline constexpr double kMaxGeneralStart = 0x1p44;
 
 inline double flushed(double a) {
-  return std::fabs(a) < kFlush ? 0 : a;
+  return std::fabs(a) < kTinyComponent ? 0 : a;
 }
 
 /// Reduces x to its home cell; false if x is too far away for that. On the unit lattices d is exact.

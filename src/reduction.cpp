@@ -261,18 +261,20 @@ const char* Reduction::model() const {
 Flight Reduction::fly(const Ray& ray, const void* aims, double max_time, Time time) const {
   const int exponent = model_->scene.exponent;
   const Kernel kernel = time == Time::close ? model_->kernels.close : model_->kernels.rounded;
-  if (exponent == 0) return kernel({model_->scene, ray.x, ray.v, ray.from, max_time, aims});
   Vec x = ray.x;
-  for (double& component : x) component = std::scalbn(component, -exponent);
+  if (exponent != 0)
+    for (double& component : x) component = std::scalbn(component, -exponent);
   Flight flight = kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), aims});
   rescale(flight, exponent);
+  if (flight.outcome == Outcome::never && ray.tiny_component) return undecided(flight);
   return flight;
 }
 
 Flight Reduction::fly(const Query& query, double max_time, Time time) const {
   const ScaledVelocity velocity(query.v);
-  Flight flight = fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr}, nullptr,
-                      scaled_time(max_time, velocity.exponent), time);
+  Flight flight =
+      fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
+          nullptr, scaled_time(max_time, velocity.exponent), time);
   rescale(flight, -velocity.exponent);
   return flight;
 }
@@ -282,13 +284,14 @@ Reduction::Direction Reduction::direction(const Vec& v) const {
   Direction direction;
   direction.scaled_v_ = velocity.scaled;
   direction.exponent_ = velocity.exponent;
+  direction.tiny_component_ = velocity.tiny_component;
   direction.aims_ = model_->kernels.aims(model_->scene, velocity.scaled);
   return direction;
 }
 
 Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
                       Time time) const {
-  Flight flight = fly(Ray{x, direction.scaled_v_, from}, direction.aims_.get(),
+  Flight flight = fly(Ray{x, direction.scaled_v_, from, direction.tiny_component_}, direction.aims_.get(),
                       scaled_time(max_time, direction.exponent_), time);
   rescale(flight, -direction.exponent_);
   return flight;

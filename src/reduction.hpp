@@ -56,6 +56,7 @@ class Reduction::Direction {
   friend class Reduction;
   Vec scaled_v_{};
   int exponent_ = 0;
+  bool tiny_component_ = false;
   std::shared_ptr<const void> aims_;  // what it points to depends on the scene's model
 };
 

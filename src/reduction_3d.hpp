@@ -553,7 +553,7 @@ class Search3 {
     const double inverse = 1 / a, half = std::sqrt(discriminant) * inverse;
     double k_first = -b * inverse - half, k_last = -b * inverse + half;
     const double slack = kSlop + 4 * unsure * std::sqrt(inverse);
-    if (!(slack < 0.25)) return scan_line_closely(q, arm, z_first, z_last);
+    if (!(slack < 0.25)) return scan_line_closely(q, arm, z_first, z_last, k_first);
     k_first -= slack, k_last += slack;
     if (arm.z > 0) {
       const double inverse_z = 1 / arm.z;
@@ -563,16 +563,44 @@ class Search3 {
     return scan_stretch(q, arm, std::ceil(k_first), k_last);
   }
 
-  // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder.
-  [[gnu::noinline]] bool scan_line_closely(const Point& q, const Arm3& arm, double z_first, double z_last) {
+  // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder;
+  // `estimate` is about there.
+  [[gnu::noinline]] bool scan_line_closely(const Point& q, const Arm3& arm, double z_first, double z_last,
+                                           double estimate) {
     if (!(arm.z > 0)) return false;
     const double k_first = std::ceil((z_first - q.z) / arm.z - kSlop),
                  k_last = (z_last - q.z) / arm.z + kSlop;
     const Point first(q, k_first, arm);
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
     const double distance = std::hypot(first.p[0], first.p[1]);
-    if (distance - drift > 1 + 8 * (kLine * kRoundoff * (1 + first.size) + p_error_)) return true;
-    return scan_stretch(q, arm, k_first, k_last);
+    const double unsure = 8 * (kLine * kRoundoff * (1 + first.size) + p_error_);
+    if (distance - drift > 1 + unsure) return true;
+    if (distance < 1 - unsure || k_last - k_first < 16 || !(estimate > k_first))
+      return scan_stretch(q, arm, k_first, k_last);
+    double k = std::nearbyint(estimate);
+    return refine_entry(q, arm, k) && scan_stretch(q, arm, std::max(k_first, k), k_last);
+  }
+
+  // From k near the entry of a line into the cylinder to one just before it, by Newton's step in
+  // double-double.
+  bool refine_entry(const Point& q, const Arm3& arm, double& k) {
+    const Point there(q, k, arm);
+    Wide N[3];
+    for (int i = 0; i < 3; ++i) {
+      if (!(std::fabs(there.n[i]) < kMaxCoefficient)) return false;
+      N[i] = anchor_[i] + Wide(there.n[i]);
+    }
+    stage = std::max(stage, Stage::double_double);
+    const Encounter<SplitProduct, 3> encounter = encounter_at(N);
+    const double rho2 = to_.rho * to_.rho, outside = -encounter.slack.hi / rho2;  // |p|^2 - 1
+    const double inward = -2 * (there.p[0] * arm.p[0] + there.p[1] * arm.p[1]);
+    const double speed = std::fabs(arm.p[0]) + std::fabs(arm.p[1]), step = outside / inward;
+    if (!(inward > 0 && std::fabs(step) * speed * speed < 0x1p-7 * inward))
+      return false;  // grazing, or not near
+    const double unsure = 2 + std::fabs(step) * 0x1p-6 + encounter.slack_error / rho2 / inward;
+    if (!(unsure < 24)) return false;
+    k = std::floor(k + step - unsure);
+    return true;
   }
 
   bool scan_stretch(const Point& q, const Arm3& arm, double k_first, double k_last) {
@@ -622,12 +650,16 @@ class Search3 {
     return true;
   }
 
+  Encounter<SplitProduct, 3> encounter_at(const Wide (&N)[3]) const {
+    Wide d[3];
+    const double error = place_of<SplitProduct, kUnit, 3>(lattice_, offset_, N, d);
+    return {to_.v, d, error, lattice_.radius};
+  }
+
   // The same decisions in double-double.
   [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
     stage = std::max(stage, Stage::double_double);
-    Wide d[3];
-    const double error = place_of<SplitProduct, kUnit, 3>(lattice_, offset_, N, d);
-    const Encounter<SplitProduct, 3> encounter(to_.v, d, error, lattice_.radius);
+    const Encounter<SplitProduct, 3> encounter = encounter_at(N);
     const Decision meets = encounter.meets();
     if (meets == Decision::doubtful) return Look::doubtful;
     if (meets == Decision::no) return Look::missed;
