@@ -18,6 +18,18 @@ T height_in_row(const T& y, const T& n, const T& D_R, const T& m, const T& D_L) 
   return (y + n * D_R) - m * D_L;
 }
 
+/// Its position along the line, likewise.
+template <class T>
+T sum_along(const T& s, const T& n, const T& S_R, const T& m, const T& S_L) {
+  return (s + n * S_R) + m * S_L;
+}
+
+/// |v|^2.
+template <class T>
+T speed_squared(const T& a, const T& b, const T& c) {
+  return (a * a + b * b) + c * c;
+}
+
 /// Is |value| < limit, where value errs by at most error and limit by kRho units?
 inline Decision is_below(double value, double limit, double error) {
   const double size = std::fabs(value), spread = error + kRho * kRoundoff * limit;

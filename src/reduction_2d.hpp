@@ -47,7 +47,7 @@ struct Direction2 {
 
   template <class Arch>
   Direction2(Arch, const Bravais& lattice, const Vec& velocity) : v(velocity) {
-    v2 = v[0] * v[0] + v[1] * v[1];
+    v2 = speed_squared(v[0], v[1], 0.0);
     rho = lattice.radius * std::sqrt(v2);
     set_forms<Arch>(lattice);
     set_first_arms();
@@ -275,7 +275,7 @@ class Search2 {
     const double h = height_in_row(y_, n, R.D, m, L.D);
     const double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) +
                          y_error_ + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
-    const double s = s_ + n * R.S + m * L.S;
+    const double s = sum_along(s_, n, R.S, m, L.S);
     const double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
     const Decision meets = is_below(h, to_.rho, error);
     if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;

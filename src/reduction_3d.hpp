@@ -57,7 +57,7 @@ struct Direction3 {
 
   template <class Arch>
   Direction3(Arch, const Bravais& lattice, const Vec& velocity) : v(velocity) {
-    v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    v2 = speed_squared(v[0], v[1], v[2]);
     const double speed = std::sqrt(v2), r = lattice.radius;
     rho = r * speed;
     set_forms<Arch>(lattice);
