@@ -43,6 +43,23 @@ Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
   return detail;
 }
 
+// An answerer without details, and with details computed here if they are asked for. One call deep: what is timed
+// is the engine.
+template <class Answerer>
+FirstHit with_detail(const Scene& scene, Answerer answer) {
+  return [answer, scene](const Query& query, const oracle::Request& request) {
+    const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
+    if (!request.detail) return answer(query, max_time);
+    Answer result = answer(query, max_time);
+    if (result.outcome != Outcome::hit) return result;
+    const Detail detail = detail_of(result, query, scene);
+    // Beyond the range of binary64 there is none; the oracle has it.
+    if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
+      result.detail = detail;
+    return result;
+  };
+}
+
 }  // namespace
 
 std::vector<std::string> answerer_names() {
@@ -74,25 +91,16 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
       return certified->first_hit(query, request);
     };
   }
-  std::function<Answer(const Query&, double)> answer;
   if (name == "walk") {
     auto walk = std::make_shared<oracle::Walk>(scene);
-    answer = [walk](const Query& query, double max_time) {
+    return with_detail(scene, [walk](const Query& query, double max_time) {
       return limited(walk->first_hit(query), max_time);
-    };
-  } else {
-    std::shared_ptr<Engine> engine = make_engine(name, scene);
-    answer = [engine](const Query& query, double max_time) { return engine->first_hit(query, max_time); };
+    });
   }
-  return [answer, scene](const Query& query, const oracle::Request& request) {
-    Answer result = answer(query, request.max_time.value_or(std::numeric_limits<double>::infinity()));
-    if (!request.detail || result.outcome != Outcome::hit) return result;
-    const Detail detail = detail_of(result, query, scene);
-    // Beyond the range of binary64 there is none; the oracle has it.
-    if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
-      result.detail = detail;
-    return result;
-  };
+  std::shared_ptr<Engine> engine = make_engine(name, scene);
+  return with_detail(scene, [engine](const Query& query, double max_time) {
+    return engine->first_hit(query, max_time);
+  });
 }
 
 }  // namespace lorentz::cli

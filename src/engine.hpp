@@ -15,7 +15,7 @@ namespace lorentz {
 /// in [1, 2), and nothing overflows or underflows that need not.
 struct Ray {
   const Vec& x;
-  Vec v;
+  const Vec& v;
   const ObstacleId* from;  ///< or null
   bool tiny_component;     ///< of v, below kTinyComponent but not zero: it may have lost digits, even all
 };
@@ -52,7 +52,7 @@ struct ScaledVelocity {
   explicit ScaledVelocity(const Vec& v);
 };
 
-/// time * 2^exponent, fast where that is a normal number's business.
+/// A time or a length times 2^exponent, fast where the factor is a normal number.
 double scaled_time(double time, int exponent);
 
 /// The names that make_engine knows.

@@ -15,20 +15,11 @@ namespace lorentz {
 template <int D, bool kUnit>
 struct Aim {
   Octant octant;
-  Vec v;  ///< turned, components below kTinyComponent taken as zero
   std::conditional_t<D == 2, Direction2<kUnit>, Direction3<kUnit>> direction;
 
   template <class Arch>
-  Aim(Arch arch, const Bravais& lattice, const Vec& velocity)
-      : octant(kUnit ? Octant(D, velocity) : Octant()), v(searched(velocity)), direction(arch, lattice, v) {}
-
- private:
-  Vec searched(const Vec& velocity) {
-    Vec turned = velocity;
-    if constexpr (kUnit) octant.template apply<D>(velocity, turned);
-    for (double& component : turned) component = flushed(component);
-    return turned;
-  }
+  Aim(Arch arch, const Bravais& lattice, const Vec& v)
+      : octant(kUnit ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
 };
 
 /// The first of one atom's balls that is entered, with what its time needs.

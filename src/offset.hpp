@@ -11,6 +11,10 @@
 
 namespace lorentz {
 
+inline double flushed(double a) {
+  return std::fabs(a) < kTinyComponent ? 0 : a;
+}
+
 /// The ball of the home cell, seen from x: d = B home + p - x.
 template <int D>
 struct Offset {
@@ -22,10 +26,6 @@ struct Offset {
 /// Starts farther than this many cells from the atom's origin are beyond the general lattices; the unit
 /// lattices go to kMaxStart.
 inline constexpr double kMaxGeneralStart = 0x1p44;
-
-inline double flushed(double a) {
-  return std::fabs(a) < kTinyComponent ? 0 : a;
-}
 
 /// Reduces x to its home cell; false if x is too far away for that. On the unit lattices d is exact.
 template <class Arch, bool kUnit, int D>
@@ -83,9 +83,10 @@ struct Octant {
     for (int i = 0; i < dimension; ++i) sign[i] = std::copysign(1, v[axis[i]]);
   }
 
-  template <int D>
-  void apply(const Vec& here, Vec& there) const {
-    for (int i = 0; i < D; ++i) there[i] = here[axis[i]] * sign[i];
+  /// A velocity, without its tiny components. (Component by component: a copy as a whole would wait for them.)
+  template <bool kUnit>
+  void turn(const Vec& here, Vec& there) const {
+    for (int i = 0; i < 3; ++i) there[i] = flushed(kUnit ? here[axis[i]] * sign[i] : here[i]);
   }
   template <int D>
   void apply(const Wide (&here)[D], Wide (&there)[D]) const {

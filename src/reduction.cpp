@@ -55,10 +55,9 @@ bool share_an_aim(const Bravais& a, const Bravais& b) {
   return a.lattice == b.lattice && a.radius == b.radius;
 }
 
-Flight undecided(Flight flight) {
+void give_up(Flight& flight) {
   flight.outcome = Outcome::undecided;
   flight.stage = Stage::undecided;
-  return flight;
 }
 
 template <Time kTime, class Arch, int D, bool kUnit>
@@ -78,13 +77,12 @@ inline void set_time(const Finding<Arch, D, kUnit>& finding, const Bravais& latt
 
 /// One atom in the scene.
 template <Time kTime, class Arch, int D, bool kUnit>
-inline Flight fly_one(const Task& task) {
+inline void fly_one(const Task& task, Flight& flight) {
   const Bravais& lattice = task.scene.atoms[0];
-  Flight flight;
   Finding<Arch, D, kUnit> finding;
-  if (!finding.start(lattice, task.x)) return undecided(flight);
+  if (!finding.start(lattice, task.x)) return give_up(flight);
   const Decision inside = finding.inside(task.from);
-  if (inside == Decision::doubtful) return undecided(flight);
+  if (inside == Decision::doubtful) return give_up(flight);
   if (inside == Decision::no) {
     if (task.aims)
       finding.find(*static_cast<const Aim<D, kUnit>*>(task.aims), task.from, task.max_time);
@@ -95,13 +93,12 @@ inline Flight fly_one(const Task& task) {
     flight.outcome = Outcome::inside;
   }
   flight.stage = finding.stage;
-  if (flight.outcome == Outcome::hit || flight.outcome == Outcome::inside)
-    if (!finding.cell(flight.cell)) return undecided(flight);
+  const bool named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
+  if (named && !finding.cell(flight.cell)) return give_up(flight);
   if (flight.outcome == Outcome::hit) set_time<kTime>(finding, lattice, task, flight);
-  return flight;
 }
 
-/// Is one hit before the other? Binary64, then double-double.
+// Is one hit before the other? Binary64, then double-double.
 template <class Found>
 inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, Stage& stage) {
   double v2 = 0, error, other_error;
@@ -116,18 +113,18 @@ inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, St
 
 /// Several atoms, in one lattice or several: the earliest of their hits.
 template <Time kTime, class Arch, int D>
-inline Flight fly_several(const Task& task) {
-  Flight flight;
+inline void fly_several(const Task& task, Flight& flight) {
   Finding<Arch, D, false> finding;
   for (const Bravais& lattice : task.scene.atoms) {  // the smallest ball that contains x
-    if (!finding.start(lattice, task.x)) return undecided(flight);
+    if (!finding.start(lattice, task.x)) return give_up(flight);
     const Decision inside = finding.inside(task.from);
     flight.stage = std::max(flight.stage, finding.stage);
     if (inside == Decision::no) continue;
-    if (inside == Decision::doubtful) return undecided(flight);
+    if (inside == Decision::doubtful) return give_up(flight);
     flight.outcome = Outcome::inside;
     flight.lattice = lattice.lattice, flight.atom = lattice.atom;
-    return finding.cell(flight.cell) ? flight : undecided(flight);
+    if (!finding.cell(flight.cell)) give_up(flight);
+    return;
   }
   flight.outcome = Outcome::never;
   Finding<Arch, D, false> best;
@@ -144,25 +141,24 @@ inline Flight fly_several(const Task& task) {
     next.start(lattice, task.x);
     next.find(aim, task.from, limit);
     flight.stage = std::max(flight.stage, next.stage);
-    if (next.outcome == Outcome::undecided) return undecided(flight);
+    if (next.outcome == Outcome::undecided) return give_up(flight);
     if (next.outcome == Outcome::never) continue;
     const Decision sooner = best_lattice ? is_sooner(next, best, task.v, flight.stage) : Decision::yes;
-    if (sooner == Decision::doubtful) return undecided(flight);
+    if (sooner == Decision::doubtful) return give_up(flight);
     if (sooner == Decision::no) continue;
     best = next, best_lattice = &lattice;
     double error;
     const double time = next.rough_time(aim.direction.v2, error);
     limit = std::min(limit, time + error);
   }
-  if (!best_lattice) return flight;
+  if (!best_lattice) return;
   flight.outcome = Outcome::hit;
   flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
-  if (!best.cell(flight.cell)) return undecided(flight);
+  if (!best.cell(flight.cell)) return give_up(flight);
   set_time<kTime>(best, *best_lattice, task, flight);
-  return flight;
 }
 
-using Kernel = Flight (*)(const Task&);
+using Kernel = void (*)(const Task&, Flight&);
 using AimsKernel = std::shared_ptr<const void> (*)(const PreparedScene&, const Vec&);
 
 /// What runs for a scene, on this processor.
@@ -172,11 +168,11 @@ struct Kernels {
 };
 
 template <Time kTime, class Arch, int D, Model kModel>
-inline Flight fly_with(const Task& task) {
+inline void fly_with(const Task& task, Flight& flight) {
   if constexpr (kModel == Model::several)
-    return fly_several<kTime, Arch, D>(task);
+    fly_several<kTime, Arch, D>(task, flight);
   else
-    return fly_one<kTime, Arch, D, kModel == Model::unit>(task);
+    fly_one<kTime, Arch, D, kModel == Model::unit>(task, flight);
 }
 
 template <class Arch, int D, Model kModel>
@@ -189,13 +185,13 @@ std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
 
 // Inlined as a whole into functions for one kind of processor, so that an fma is one instruction or none.
 template <Time kTime, int D, Model kModel>
-[[gnu::target("fma"), gnu::flatten]] Flight fly_fma(const Task& task) {
-  return fly_with<kTime, HardwareFma, D, kModel>(task);
+[[gnu::target("fma"), gnu::flatten]] void fly_fma(const Task& task, Flight& flight) {
+  fly_with<kTime, HardwareFma, D, kModel>(task, flight);
 }
 
 template <Time kTime, int D, Model kModel>
-[[gnu::flatten]] Flight fly_split(const Task& task) {
-  return fly_with<kTime, SplitProduct, D, kModel>(task);
+[[gnu::flatten]] void fly_split(const Task& task, Flight& flight) {
+  fly_with<kTime, SplitProduct, D, kModel>(task, flight);
 }
 
 template <int D, Model kModel>
@@ -258,23 +254,25 @@ const char* Reduction::model() const {
   return "";
 }
 
-Flight Reduction::fly(const Ray& ray, const void* aims, double max_time, Time time) const {
+void Reduction::fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const {
   const int exponent = model_->scene.exponent;
   const Kernel kernel = time == Time::close ? model_->kernels.close : model_->kernels.rounded;
-  Vec x = ray.x;
-  if (exponent != 0)
-    for (double& component : x) component = std::scalbn(component, -exponent);
-  Flight flight = kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), aims});
-  rescale(flight, exponent);
-  if (flight.outcome == Outcome::never && ray.tiny_component) return undecided(flight);
-  return flight;
+  if (exponent == 0) {
+    kernel({model_->scene, ray.x, ray.v, ray.from, max_time, aims}, flight);
+  } else {
+    Vec x;
+    for (int i = 0; i < 3; ++i) x[i] = scaled_time(ray.x[i], -exponent);
+    kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), aims}, flight);
+    rescale(flight, exponent);
+  }
+  if (flight.outcome == Outcome::never && ray.tiny_component) give_up(flight);
 }
 
 Flight Reduction::fly(const Query& query, double max_time, Time time) const {
+  Flight flight;
   const ScaledVelocity velocity(query.v);
-  Flight flight =
-      fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
-          nullptr, scaled_time(max_time, velocity.exponent), time);
+  fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component}, nullptr,
+      scaled_time(max_time, velocity.exponent), time, flight);
   rescale(flight, -velocity.exponent);
   return flight;
 }
@@ -291,8 +289,9 @@ Reduction::Direction Reduction::direction(const Vec& v) const {
 
 Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
                       Time time) const {
-  Flight flight = fly(Ray{x, direction.scaled_v_, from, direction.tiny_component_}, direction.aims_.get(),
-                      scaled_time(max_time, direction.exponent_), time);
+  Flight flight;
+  fly(Ray{x, direction.scaled_v_, from, direction.tiny_component_}, direction.aims_.get(),
+      scaled_time(max_time, direction.exponent_), time, flight);
   rescale(flight, -direction.exponent_);
   return flight;
 }
@@ -309,7 +308,9 @@ Answer answer_of(const Flight& flight) {
 }
 
 Answer Reduction::first_hit_scaled(const Ray& ray, double max_time) const {
-  return answer_of(fly(ray, nullptr, max_time, Time::close));
+  Flight flight;
+  fly(ray, nullptr, max_time, Time::close, flight);
+  return answer_of(flight);
 }
 
 }  // namespace lorentz

@@ -47,7 +47,7 @@ class Reduction : public Engine {
 
  private:
   Answer first_hit_scaled(const Ray& ray, double max_time) const override;
-  Flight fly(const Ray& ray, const void* aims, double max_time, Time time) const;
+  void fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const;
   std::unique_ptr<const Model> model_;
 };
 

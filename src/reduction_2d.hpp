@@ -35,7 +35,7 @@ struct Arm2 {
 /// A lattice seen along one direction: all that does not depend on the start.
 template <bool kUnit>
 struct Direction2 {
-  Vec v{};
+  Vec v;  ///< turned, components below kTinyComponent taken as zero
   double v2 = 0, rho = 0;
   Wide H[2];      ///< heights v x B_i
   double M[2]{};  ///< the size of the terms of H_i
@@ -46,7 +46,8 @@ struct Direction2 {
   bool usable = true;
 
   template <class Arch>
-  Direction2(Arch, const Bravais& lattice, const Vec& velocity) : v(velocity) {
+  Direction2(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
+    octant.turn<kUnit>(velocity, v);
     v2 = speed_squared(v[0], v[1], 0.0);
     rho = lattice.radius * std::sqrt(v2);
     set_forms<Arch>(lattice);

@@ -46,7 +46,7 @@ struct Basis3 {
 /// A lattice seen along one direction: all that does not depend on the start.
 template <bool kUnit>
 struct Direction3 {
-  Vec v{};
+  Vec v;  ///< turned, components below kTinyComponent taken as zero
   double v2 = 0, rho = 0;
   double scale[2]{};  ///< across = scale * (form . n)
   double inverse_r = 0;
@@ -56,7 +56,8 @@ struct Direction3 {
   Basis3 basis;
 
   template <class Arch>
-  Direction3(Arch, const Bravais& lattice, const Vec& velocity) : v(velocity) {
+  Direction3(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
+    octant.turn<kUnit>(velocity, v);
     v2 = speed_squared(v[0], v[1], v[2]);
     const double speed = std::sqrt(v2), r = lattice.radius;
     rho = r * speed;
