@@ -147,15 +147,12 @@ struct Direction3 {
     }
   }
 
-  static void exchange(Arm3& a, Arm3& b, double& a2, double& b2) {
-    std::swap(a, b);
-    std::swap(a2, b2);
-  }
 
  public:
   /// Running coordinates err by their coefficients times the first rounding: beyond these they are computed
   /// anew.
   static constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100;
+  static constexpr int kMaxSteps = 300;
   static constexpr double kGoodRunning = 0x1p40;  ///< coefficients times 1/r: errors of 2^-12, in units of r
 
   /// The state of a reduction: how large the integers ever were, and whether the coordinates are running
@@ -171,13 +168,16 @@ struct Direction3 {
   template <class Arch>
   void reduce(Basis3& basis) const {
     Progress progress;
+    Arm3* order[3] = {&basis.b[0], &basis.b[1], &basis.b[2]};
     bool done = false;
     for (int round = 0; round < 60 && !done; ++round) {
-      done = greedy(basis.b, progress) && (progress.fresh || progress.largest * inverse_r < kGoodRunning);
+      done = greedy(order, progress) && (progress.fresh || progress.largest * inverse_r < kGoodRunning);
       for (Arm3& arm : basis.b) recompute<Arch>(arm, basis.length);
       progress.fresh = true;
       progress.limit = kNoLimit;
     }
+    const Arm3 sorted[3] = {*order[0], *order[1], *order[2]};
+    std::copy(sorted, sorted + 3, basis.b);
     set_dual(basis);
     basis.usable = basis.usable && done && progress.largest < kMaxCoefficient / 2;
   }
@@ -190,49 +190,55 @@ struct Direction3 {
 
   // Greedy reduction: the two shorter vectors by Lagrange's step, then the longest by the nearest point of
   // their plane. False if it was interrupted, because the coordinates have to be computed anew.
-  static bool greedy(Arm3 (&b)[3], Progress& progress) {
+  static bool greedy(Arm3* (&b)[3], Progress& progress) {
     double size[3];
-    for (int i = 0; i < 3; ++i) size[i] = product(b[i], b[i]);
-    const auto sort = [&] {
-      if (size[1] < size[0]) exchange(b[0], b[1], size[0], size[1]);
-      if (size[2] < size[1]) {
-        exchange(b[1], b[2], size[1], size[2]);
-        if (size[1] < size[0]) exchange(b[0], b[1], size[0], size[1]);
-      }
-    };
-    sort();
-    for (int step = 0; step < 300; ++step) {
-      double c01 = product(b[0], b[1]);
+    for (int i = 0; i < 3; ++i) size[i] = product(*b[i], *b[i]);
+    sort(b, size);
+    for (int step = 0; step < kMaxSteps; ++step) {
+      double c01 = product(*b[0], *b[1]);
       const double k = std::nearbyint(c01 / size[0]);
       if (k != 0) {
         if (std::fabs(k) > kRunningQuotient && !progress.fresh) return false;
-        subtract(b[1], k, b[0], progress);
+        subtract(*b[1], k, *b[0], progress);
         progress.fresh = false;
-        size[1] = product(b[1], b[1]);
+        size[1] = product(*b[1], *b[1]);
         if (size[1] < size[0]) {
-          exchange(b[0], b[1], size[0], size[1]);
+          std::swap(b[0], b[1]);
+          std::swap(size[0], size[1]);
           continue;
         }
-        c01 = product(b[0], b[1]);
+        c01 = product(*b[0], *b[1]);
       }
-      const double c02 = product(b[0], b[2]), c12 = product(b[1], b[2]);
+      const double c02 = product(*b[0], *b[2]), c12 = product(*b[1], *b[2]);
       const double inverse = 1 / (size[0] * size[1] - c01 * c01);
       const double k0 = std::nearbyint((c02 * size[1] - c12 * c01) * inverse);
       const double k1 = std::nearbyint((c12 * size[0] - c02 * c01) * inverse);
       if (k0 == 0 && k1 == 0) return true;
       if (std::max(std::fabs(k0), std::fabs(k1)) > kRunningQuotient && !progress.fresh) return false;
-      Arm3 next = b[2];
-      subtract(next, k0, b[0], progress);
-      subtract(next, k1, b[1], progress);
-      const double after = product(next, next);
-      if (!(after < size[2])) return true;
+      subtract(*b[2], k0, *b[0], progress);
+      subtract(*b[2], k1, *b[1], progress);
+      const double before = size[2];
+      size[2] = product(*b[2], *b[2]);
       progress.fresh = false;
-      b[2] = next, size[2] = after;
-      if (after >= size[1]) return true;
+      if (!(size[2] < before)) return true;
+      if (size[2] >= size[1]) return true;
       if (progress.largest > progress.limit) return false;
-      sort();
+      sort(b, size);
     }
     return false;
+  }
+
+  static void sort(Arm3* (&b)[3], double (&size)[3]) {
+    const auto order = [&](int i, int j) {  // without a branch
+      const bool swap = size[j] < size[i];
+      Arm3* const first = swap ? b[j] : b[i];
+      b[j] = swap ? b[i] : b[j], b[i] = first;
+      const double smaller = swap ? size[j] : size[i];
+      size[j] = swap ? size[i] : size[j], size[i] = smaller;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
   }
 
   void set_dual(Basis3& basis) const {
