@@ -97,9 +97,12 @@ struct Direction3 {
   void forms_of(const Wide (&d)[3], Wide (&f)[3]) const {
     using DD = DoubleDouble<Arch>;
     for (int i = 0; i < 3; ++i) {
-      DD sum = DD(d[0]) * DD(cartesian[i][0]);
-      for (int k = 1; k < 3; ++k) sum = sum + DD(d[k]) * DD(cartesian[i][k]);
-      f[i] = Wide(sum);
+      const auto& c = cartesian[i];
+      const DD x = DD::product(d[0].hi, c[0].hi), y = DD::product(d[1].hi, c[1].hi), z = DD::product(d[2].hi, c[2].hi);
+      const DD xy = DD::sum(x.hi, y.hi), all = DD::sum(xy.hi, z.hi);
+      double low = (x.lo + y.lo) + z.lo;
+      for (int k = 0; k < 3; ++k) low += d[k].hi * c[k].lo + d[k].lo * c[k].hi;
+      f[i] = Wide(DD::sum(all.hi, (xy.lo + all.lo) + low));
     }
   }
 
@@ -314,6 +317,7 @@ class Search3 {
   static constexpr int kMaxWindows = 200;
   static constexpr double kFarthest = 0x1p61;  ///< in s; the cells of a ball there still fit 64 bits
   static constexpr double kManyLines = 12;
+  static constexpr double kMiddle = 0.5;  ///< of a window
 
   /// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
   struct Point {
@@ -345,20 +349,18 @@ class Search3 {
   // A lattice point near the middle of the window; all others are counted from it, in small numbers.
   bool set_anchor() {
     for (Wide& n : anchor_) n = Wide();
-    const double middle = 0.5;
-    anchor_point_ = at(anchor_);
+    for (int i = 0; i < 2; ++i) anchor_point_.p[i] = to_.scale[i] * start_[i].hi;
+    anchor_point_.z = (start_[2].hi - begin_) / basis_->length;
     for (int pass = 0; pass < 3; ++pass) {
       double k[3], largest = 0;
-      const double z = anchor_point_.z - middle;
       for (int i = 0; i < 3; ++i) {
         const auto& g = basis_->dual[i];
-        k[i] = -std::nearbyint(g[0] * anchor_point_.p[0] + g[1] * anchor_point_.p[1] + g[2] * z);
+        k[i] = -std::nearbyint(g[0] * anchor_point_.p[0] + g[1] * anchor_point_.p[1] +
+                               g[2] * (anchor_point_.z - kMiddle));
         largest = std::max(largest, std::fabs(k[i]));
       }
-      if (largest == 0) break;
       if (!(largest < 0x1p60)) return false;
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) anchor_[j] = Wide(DD(anchor_[j]) + DD::product(k[i], basis_->b[i].n[j]));
+      move_anchor(k);
       anchor_point_ = at(anchor_);
       if (largest < 0x1p20) break;
     }
@@ -372,6 +374,22 @@ class Search3 {
     s_error_ = error + kRoundoff * begin_;
     z_first_ = -(s_error_ / basis_->length + 0x1p-48);
     return true;
+  }
+
+  // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice point too.
+  void move_anchor(const double (&k)[3]) {
+    for (int j = 0; j < 3; ++j) {
+      double sum = anchor_[j].hi, size = std::fabs(sum);
+      for (int i = 0; i < 3; ++i) {
+        const double step = k[i] * basis_->b[i].n[j];
+        sum += step, size += std::fabs(step);
+      }
+      if (size < kMaxCoefficient && anchor_[j].lo == 0) {
+        anchor_[j] = Wide(sum);
+        continue;
+      }
+      for (int i = 0; i < 3; ++i) anchor_[j] = anchor_[j] + Wide::product(k[i], basis_->b[i].n[j]);
+    }
   }
 
   Point at(const Wide (&N)[3]) const {
