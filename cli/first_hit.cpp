@@ -74,6 +74,7 @@ int act(const Options& options) {
   }
   QueryStream stream(options.queries, initial);
   Output output;
+  Answer answer;
   stream.lines().before_waiting([&] { output.flush(); });
   for (StreamItem item; stream.next(item); output.flush_if_due()) {
     const int dimension = stream.scene() ? stream.scene()->dimension : 0;
@@ -82,7 +83,8 @@ int act(const Options& options) {
         first_hit = make_first_hit(options.engine, item.scene);
         break;
       case StreamItem::Kind::query:
-        append_answer_line(output.buffer(), item.id, first_hit(item.query, request), dimension);
+        first_hit(item.query, request, answer);
+        append_answer_line(output.buffer(), item.id, answer, dimension);
         break;
       default:
         append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);

@@ -43,21 +43,17 @@ Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
   return detail;
 }
 
-// An answerer without details, and with details computed here if they are asked for. One call deep: what is timed
-// is the engine.
-template <class Answerer>
-FirstHit with_detail(const Scene& scene, Answerer answer) {
-  return [answer, scene](const Query& query, const oracle::Request& request) {
-    const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
-    if (!request.detail) return answer(query, max_time);
-    Answer result = answer(query, max_time);
-    if (result.outcome != Outcome::hit) return result;
-    const Detail detail = detail_of(result, query, scene);
-    // Beyond the range of binary64 there is none; the oracle has it.
-    if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
-      result.detail = detail;
-    return result;
-  };
+// Adds the detail to an engine's answer, where binary64 can compute it.
+void add_detail(const Query& query, const Scene& scene, Answer& answer) {
+  if (answer.outcome != Outcome::hit) return;
+  const Detail detail = detail_of(answer, query, scene);
+  // Beyond the range of binary64 there is none; the oracle has it.
+  if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
+    answer.detail = detail;
+}
+
+double limit_of(const oracle::Request& request) {
+  return request.max_time.value_or(std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
@@ -81,26 +77,28 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   check_name(name);
   if (name == "oracle") {
     auto truth = std::make_shared<oracle::Oracle>(scene);
-    return [truth](const Query& query, const oracle::Request& request) {
-      return truth->first_hit(query, request);
+    return [truth](const Query& query, const oracle::Request& request, Answer& answer) {
+      answer = truth->first_hit(query, request);
     };
   }
   if (name == "certified") {
     auto certified = std::make_shared<oracle::Certified>(scene);
-    return [certified](const Query& query, const oracle::Request& request) {
-      return certified->first_hit(query, request);
+    return [certified](const Query& query, const oracle::Request& request, Answer& answer) {
+      certified->first_hit(query, request, answer);
     };
   }
   if (name == "walk") {
     auto walk = std::make_shared<oracle::Walk>(scene);
-    return with_detail(scene, [walk](const Query& query, double max_time) {
-      return limited(walk->first_hit(query), max_time);
-    });
+    return [walk, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+      answer = limited(walk->first_hit(query), limit_of(request));
+      if (request.detail) add_detail(query, scene, answer);
+    };
   }
   std::shared_ptr<Engine> engine = make_engine(name, scene);
-  return with_detail(scene, [engine](const Query& query, double max_time) {
-    return engine->first_hit(query, max_time);
-  });
+  return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+    engine->first_hit(query, limit_of(request), answer);
+    if (request.detail) add_detail(query, scene, answer);
+  };
 }
 
 }  // namespace lorentz::cli

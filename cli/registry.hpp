@@ -10,9 +10,9 @@
 
 namespace lorentz::cli {
 
-/// Answers the queries of one scene. `digits` are the oracle's only; a detail that binary64 cannot compute is
+/// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a detail that binary64 cannot compute is
 /// left out.
-using FirstHit = std::function<Answer(const Query&, const oracle::Request&)>;
+using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
 
 /// All names, for help texts and checks.
 std::vector<std::string> answerer_names();

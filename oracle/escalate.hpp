@@ -20,8 +20,11 @@ class Certified {
   /// from several threads (each with its own tally).
   Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
 
+  /// The same into an answer that is there already; whatever it held is replaced.
+  void first_hit(const Query& query, const Request& request, Answer& answer, StageTally* tally = nullptr) const;
+
  private:
-  std::optional<Answer> fast_answer(const Query& query, const Request& request, StageTally* tally) const;
+  bool answer_fast(const Query& query, const Request& request, Answer& answer, StageTally* tally) const;
 
   Scene scene_;
   Oracle oracle_;

@@ -15,7 +15,7 @@ ObstacleId obstacle_of(const CellIndex& n) {
 
 }  // namespace
 
-Answer Classical::first_hit_scaled(const Ray& ray, double max_time) const {
+Answer Classical::flight_of(const Ray& ray, double max_time) const {
   const int d = scene().dimension;
   const double r = scene().lattices[0].atoms[0].radius;
   const Vec& v = ray.v;

@@ -18,7 +18,10 @@ class Classical : public Engine {
   explicit Classical(const Scene& scene) : Engine(scene) {}
 
  private:
-  Answer first_hit_scaled(const Ray& ray, double max_time) const override;
+  void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override {
+    answer = flight_of(ray, max_time);
+  }
+  Answer flight_of(const Ray& ray, double max_time) const;
 };
 
 }  // namespace lorentz

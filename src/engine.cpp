@@ -16,7 +16,9 @@ class Unsupported : public Engine {
   Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
 
  private:
-  Answer first_hit_scaled(const Ray&, double) const override { return Answer::unsupported_because(why_); }
+  void first_hit_scaled(const Ray&, double, Answer& answer) const override {
+    answer = Answer::unsupported_because(why_);
+  }
   std::string why_;
 };
 
@@ -40,15 +42,17 @@ double scaled_time(double time, int exponent) {
   return exponent > -500 && exponent < 500 ? time * factor : std::scalbn(time, exponent);
 }
 
-Answer Engine::first_hit(const Query& query, double max_time) const {
-  if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
+void Engine::first_hit(const Query& query, double max_time, Answer& answer) const {
+  answer.clear();
+  if (auto flaw = flaw_of(query, scene_)) {
+    answer = Answer::error(*flaw);
+    return;
+  }
   const ScaledVelocity velocity(query.v);
-  Answer answer = first_hit_scaled(
-      {query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
-      scaled_time(max_time, velocity.exponent));
+  first_hit_scaled({query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
+                   scaled_time(max_time, velocity.exponent), answer);
   if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
-  if (std::isfinite(max_time)) return limited(std::move(answer), max_time);
-  return answer;
+  if (std::isfinite(max_time)) answer = limited(std::move(answer), max_time);
 }
 
 namespace {

@@ -29,13 +29,20 @@ class Engine {
 
   /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an
   /// `error`.
-  Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const;
+  Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const {
+    Answer answer;
+    first_hit(query, max_time, answer);
+    return answer;
+  }
+
+  /// The same into an answer that is there already; whatever it held is replaced.
+  void first_hit(const Query& query, double max_time, Answer& answer) const;
 
  protected:
   explicit Engine(Scene scene) : scene_(std::move(scene)) {}
 
-  /// Called for a valid query. Times are in the units of the scaled velocity.
-  virtual Answer first_hit_scaled(const Ray& ray, double max_time) const = 0;
+  /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity.
+  virtual void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const = 0;
 
   const Scene& scene() const { return scene_; }
 

@@ -120,12 +120,12 @@ class Finding {
   }
 
   /// The time of entry within a few ulps.
-  double close_time(const Vec& v, double v2, double rho) const {
-    if (slack_ * 16 < rho * rho) {
+  double close_time(const Vec& v, double v2) const {
+    const double q = std::sqrt(slack_);
+    if (slack_error_ > 64 * kRoundoff * q * s_) {  // a grazing hit nearby
       double error;
       return wide_time(v, error).value();
     }
-    const double q = std::sqrt(slack_);
     if (s_ > 4 * q) {
       double s = 0;
       for (int k = 0; k < D; ++k) s += v[k] * distance(k);

@@ -27,6 +27,17 @@ std::string Integer::decimal() const {
   return fits_int64() ? std::to_string(value_) : *digits_;
 }
 
+void Answer::clear() {
+  outcome = Outcome::undecided;
+  obstacle.lattice = obstacle.atom = 0;
+  for (Integer& n : obstacle.cell) n = 0;
+  time.reset();
+  time_decimal.clear();
+  detail.reset();
+  message.clear();
+  unsupported = false;
+}
+
 Answer Answer::hit(ObstacleId obstacle, double time) {
   Answer answer;
   answer.outcome = Outcome::hit;

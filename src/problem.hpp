@@ -51,6 +51,11 @@ class Integer {
   Integer(Integer&&) noexcept = default;
   Integer& operator=(const Integer& other) { return *this = Integer(other); }
   Integer& operator=(Integer&&) noexcept = default;
+  Integer& operator=(std::int64_t value) {
+    value_ = value;
+    digits_.reset();
+    return *this;
+  }
   ~Integer() = default;
 
   /// Reads an optional '-' and decimal digits; nothing else is a number. Leading zeros are dropped.
@@ -115,6 +120,9 @@ struct Answer {
   std::optional<Detail> detail;  ///< of `hit`, if it was asked for
   std::string message;           ///< of `error`
   bool unsupported = false;      ///< of `error`: a valid query, outside what this engine does
+
+  /// As newly made, but what is allocated stays.
+  void clear();
 
   static Answer hit(ObstacleId obstacle, double time);
   static Answer inside(ObstacleId obstacle);

@@ -202,7 +202,7 @@ bool lies_inside(const Vec& x, double r, const Vec* from) {
 
 }  // namespace
 
-Answer Published::first_hit_scaled(const Ray& ray, double) const {
+Answer Published::flight_of(const Ray& ray, double) const {
   for (const double component : ray.x)
     if (!(std::fabs(component) < kMaxStart))
       return Answer::unsupported_because("start too far from the origin for binary64");

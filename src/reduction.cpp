@@ -61,12 +61,9 @@ void give_up(Flight& flight) {
 }
 
 template <Time kTime, class Arch, int D, bool kUnit>
-inline void set_time(const Finding<Arch, D, kUnit>& finding, const Bravais& lattice, const Task& task,
-                     Flight& flight) {
-  double v2 = 0;
-  for (int k = 0; k < D; ++k) v2 += task.v[k] * task.v[k];
+inline void set_time(const Finding<Arch, D, kUnit>& finding, const Task& task, Flight& flight) {
   if constexpr (kTime == Time::close) {
-    flight.time = finding.close_time(task.v, v2, lattice.radius * std::sqrt(v2));
+    flight.time = finding.close_time(task.v, speed_squared(task.v[0], task.v[1], task.v[2]));
   } else {
     double error;
     const auto t = finding.time(task.v, error);
@@ -95,7 +92,7 @@ inline void fly_one(const Task& task, Flight& flight) {
   flight.stage = finding.stage;
   const bool named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
   if (named && !finding.cell(flight.cell)) return give_up(flight);
-  if (flight.outcome == Outcome::hit) set_time<kTime>(finding, lattice, task, flight);
+  if (flight.outcome == Outcome::hit) set_time<kTime>(finding, task, flight);
 }
 
 // Is one hit before the other? Binary64, then double-double.
@@ -155,7 +152,7 @@ inline void fly_several(const Task& task, Flight& flight) {
   flight.outcome = Outcome::hit;
   flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
   if (!best.cell(flight.cell)) return give_up(flight);
-  set_time<kTime>(best, *best_lattice, task, flight);
+  set_time<kTime>(best, task, flight);
 }
 
 using Kernel = void (*)(const Task&, Flight&);
@@ -296,21 +293,25 @@ Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId
   return flight;
 }
 
-Answer answer_of(const Flight& flight) {
-  Answer answer;
+void set_answer(const Flight& flight, Answer& answer) {
   answer.outcome = flight.outcome;
-  if (flight.outcome != Outcome::hit && flight.outcome != Outcome::inside) return answer;
+  if (flight.outcome != Outcome::hit && flight.outcome != Outcome::inside) return;
   answer.obstacle.lattice = flight.lattice;
   answer.obstacle.atom = flight.atom;
-  for (int k = 0; k < 3; ++k) answer.obstacle.cell[k] = Integer(flight.cell[k]);
+  for (int k = 0; k < 3; ++k) answer.obstacle.cell[k] = flight.cell[k];
   if (flight.outcome == Outcome::hit) answer.time = flight.time;
+}
+
+Answer answer_of(const Flight& flight) {
+  Answer answer;
+  set_answer(flight, answer);
   return answer;
 }
 
-Answer Reduction::first_hit_scaled(const Ray& ray, double max_time) const {
+void Reduction::first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const {
   Flight flight;
   fly(ray, nullptr, max_time, Time::close, flight);
-  return answer_of(flight);
+  set_answer(flight, answer);
 }
 
 }  // namespace lorentz

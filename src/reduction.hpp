@@ -46,7 +46,7 @@ class Reduction : public Engine {
   struct Model;
 
  private:
-  Answer first_hit_scaled(const Ray& ray, double max_time) const override;
+  void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
   void fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const;
   std::unique_ptr<const Model> model_;
 };
@@ -60,7 +60,8 @@ class Reduction::Direction {
   std::shared_ptr<const void> aims_;  // what it points to depends on the scene's model
 };
 
-/// An answer of the interface that all engines share.
+/// An answer of the interface that all engines share; or into one that is there, and is as newly made.
 Answer answer_of(const Flight& flight);
+void set_answer(const Flight& flight, Answer& answer);
 
 }  // namespace lorentz
