@@ -48,12 +48,21 @@ struct Encounter {
 
   /// The time of entry, and the bound of its error. Required: the line meets the ball, which is ahead.
   DD time(const DD (&d)[D], double error, double r, double& time_error) const {
-    const DD q = sqrt(slack);
+    double q_rounding = 0;
+    DD q(std::sqrt(slack.hi));
+    if (s.hi > 0x1p14 * q.hi)
+      q_rounding = 2 * kRoundoff * q.hi;  // far away one roundoff of q does not count
+    else
+      q = sqrt(slack);
     // sqrt(slack + e) - sqrt(slack) is below e / sqrt(slack).
-    const double q_error = slack_error / q.hi + kStable * q.hi;
+    const double q_error = slack_error / q.hi + kStable * q.hi + q_rounding;
     if (s.hi > 2 * q.hi) {
-      const DD t = (s - q) / v2;
-      time_error = 2 * (s_error + q_error) / v2.hi + 2 * kStable * t.hi;
+      // One of Newton's steps from a quotient within a few ulps.
+      const DD difference = s - q;
+      const double inverse = 1 / v2.hi, rough = difference.hi * inverse;
+      const DD product = v2 * rough;
+      const DD t = DD::ordered_sum(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
+      time_error = 2 * (s_error + q_error) * inverse + 2 * kStable * t.hi;
       return t;
     }
     DD gap = -DD::product(r, r);
