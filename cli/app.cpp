@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
   add_compare(app, action);
   add_convergents(app, action);
   add_demo(app, action);
+  add_bench(app, action);
   const int status = parse_and_act(app, action, argc, argv);
   try {
     finish_output();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "progress.hpp"
 #include "table.hpp"
@@ -34,8 +35,26 @@ void Tally::count(const oracle::Judgement& judgement) {
   }
   if (!judgement.ulps) return;
   ++timed_hits;
+  ulps.push_back(*judgement.ulps);
   sum_ulp += *judgement.ulps;
   max_ulp = std::max(max_ulp, *judgement.ulps);
+}
+
+namespace {
+
+// The value that this share of the values does not exceed; 0 of none.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::lround(share * last));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace
+
+double Tally::ulp_at(double share) const {
+  return quantile(ulps, share);
 }
 
 std::vector<Answer> exact_answers(const CaseSet& set) {
@@ -55,20 +74,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kBlock = 16;
-constexpr int kRounds = 5;
 constexpr double kEnoughSeconds = 10;  // no further rounds after that
 
 struct Round {
   double total_ns = 0;
   std::vector<double> block_means;
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // One answerer over all cases; `look` sees each answer, outside the timed stretches.
 template <class Look>
@@ -95,7 +106,8 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong) {
+                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           int rounds_wanted) {
   std::vector<Tally> tallies(names.size());
   std::vector<std::vector<FirstHit>> answerers(names.size());
   std::vector<std::vector<Round>> rounds(names.size());
@@ -104,7 +116,7 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     for (const Scene& scene : set.scenes) answerers[e].push_back(make_first_hit(names[e], scene));
   }
   const auto start = Clock::now();
-  for (int r = 0; r < kRounds; ++r) {
+  for (int r = 0; r < rounds_wanted; ++r) {
     for (std::size_t e = 0; e < names.size(); ++e)
       rounds[e].push_back(run_round(set, names[e], answerers[e], [&](std::size_t i, const Answer& given) {
         if (r > 0) return;
@@ -126,7 +138,9 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     const Round& middle = of_engine[of_engine.size() / 2];
     if (set.cases.empty()) continue;
     tallies[e].ns_per_query = middle.total_ns / static_cast<double>(set.cases.size());
-    tallies[e].ns_median = median(middle.block_means);
+    tallies[e].ns_median = quantile(middle.block_means, 0.5);
+    tallies[e].ns_low = quantile(middle.block_means, 0.25);
+    tallies[e].ns_high = quantile(middle.block_means, 0.75);
   }
   return tallies;
 }

@@ -10,8 +10,8 @@
 
 namespace lorentz::cli {
 
-/// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a detail that binary64 cannot compute is
-/// left out.
+/// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a
+/// detail that binary64 cannot compute is left out.
 using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
 
 /// All names, for help texts and checks.

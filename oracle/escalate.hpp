@@ -21,7 +21,8 @@ class Certified {
   Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
 
   /// The same into an answer that is there already; whatever it held is replaced.
-  void first_hit(const Query& query, const Request& request, Answer& answer, StageTally* tally = nullptr) const;
+  void first_hit(const Query& query, const Request& request, Answer& answer,
+                 StageTally* tally = nullptr) const;
 
  private:
   bool answer_fast(const Query& query, const Request& request, Answer& answer, StageTally* tally) const;

@@ -61,7 +61,8 @@ struct Encounter {
       const DD difference = s - q;
       const double inverse = 1 / v2.hi, rough = difference.hi * inverse;
       const DD product = v2 * rough;
-      const DD t = DD::ordered_sum(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
+      const DD t =
+          DD::ordered_sum(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
       time_error = 2 * (s_error + q_error) * inverse + 2 * kStable * t.hi;
       return t;
     }

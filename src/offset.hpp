@@ -83,7 +83,8 @@ struct Octant {
     for (int i = 0; i < dimension; ++i) sign[i] = std::copysign(1, v[axis[i]]);
   }
 
-  /// A velocity, without its tiny components. (Component by component: a copy as a whole would wait for them.)
+  /// A velocity, without its tiny components. (Component by component: a copy as a whole would wait for
+  /// them.)
   template <bool kUnit>
   void turn(const Vec& here, Vec& there) const {
     for (int i = 0; i < 3; ++i) there[i] = flushed(kUnit ? here[axis[i]] * sign[i] : here[i]);

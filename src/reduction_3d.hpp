@@ -98,7 +98,8 @@ struct Direction3 {
     using DD = DoubleDouble<Arch>;
     for (int i = 0; i < 3; ++i) {
       const auto& c = cartesian[i];
-      const DD x = DD::product(d[0].hi, c[0].hi), y = DD::product(d[1].hi, c[1].hi), z = DD::product(d[2].hi, c[2].hi);
+      const DD x = DD::product(d[0].hi, c[0].hi), y = DD::product(d[1].hi, c[1].hi),
+               z = DD::product(d[2].hi, c[2].hi);
       const DD xy = DD::sum(x.hi, y.hi), all = DD::sum(xy.hi, z.hi);
       double low = (x.lo + y.lo) + z.lo;
       for (int k = 0; k < 3; ++k) low += d[k].hi * c[k].lo + d[k].lo * c[k].hi;
@@ -149,7 +150,6 @@ struct Direction3 {
       }
     }
   }
-
 
  public:
   /// Running coordinates err by their coefficients times the first rounding: beyond these they are computed
@@ -376,7 +376,8 @@ class Search3 {
     return true;
   }
 
-  // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice point too.
+  // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice
+  // point too.
   void move_anchor(const double (&k)[3]) {
     for (int j = 0; j < 3; ++j) {
       double sum = anchor_[j].hi, size = std::fabs(sum);

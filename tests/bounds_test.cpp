@@ -1,5 +1,6 @@
-// The constants of bounds.hpp, computed again: the formulas of predicates.hpp are run on numbers that carry a bound of
-// their error, and the predicates on cases at their boundary, with the bounds as they are and 50 times too small.
+// The constants of bounds.hpp, computed again: the formulas of predicates.hpp are run on numbers that carry a
+// bound of their error, and the predicates on cases at their boundary, with the bounds as they are and 50
+// times too small.
 #include "bounds.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -13,8 +14,8 @@ using lorentz::test::Draw;
 
 namespace {
 
-/// A number of at most this size that errs by at most this much (in units of the roundoff u), to first order. Each
-/// operation adds the rounding of its result to what its operands bring.
+/// A number of at most this size that errs by at most this much (in units of the roundoff u), to first order.
+/// Each operation adds the rounding of its result to what its operands bring.
 struct Carried {
   double size, error = 0;
 
@@ -48,8 +49,8 @@ using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_bac
 }  // namespace
 
 TEST_CASE("Height in a row: kHeight") {
-  // Relative to the sum of the terms' sizes, so the worst is the worst of one term alone. D_R and D_L are rounded
-  // sums: one roundoff each. What y brings besides its own roundings is accounted for apart.
+  // Relative to the sum of the terms' sizes, so the worst is the worst of one term alone. D_R and D_L are
+  // rounded sums: one roundoff each. What y brings besides its own roundings is accounted for apart.
   const Carried one = exact(1), none = exact(0), D{1, 1};
   const double of_y = height_in_row(one, none, none, none, none).error;
   const double of_R = height_in_row(none, one, D, none, none).error;
@@ -64,8 +65,8 @@ TEST_CASE("Position along the line: kAlong") {
 }
 
 TEST_CASE("Across the line in 3D: kAcross") {
-  // A coordinate is the anchor's plus at most four steps along the basis; each step rounds a product whose factor errs
-  // by 3 roundoffs (compensated sum, scale), and each sum rounds all before it.
+  // A coordinate is the anchor's plus at most four steps along the basis; each step rounds a product whose
+  // factor errs by 3 roundoffs (compensated sum, scale), and each sum rounds all before it.
   const Carried arm{1, 3};
   Carried first = exact(1) * arm;  // the term that passes all the sums
   for (int sums = 0; sums < 4; ++sums) first = first + exact(0);
@@ -90,14 +91,17 @@ TEST_CASE("At the boundary the predicate is never wrong; with a bound 50 times s
   Draw draw(17);
   long decided = 0, doubtful = 0, wrong_if_shrunk = 0;
   for (int i = 0; i < 400'000; ++i) {
-    const double y = draw.tiny(-3, 3), n = std::floor(draw.between(-100, 100)), m = std::floor(draw.between(-100, 100));
+    const double y = draw.tiny(-3, 3), n = std::floor(draw.between(-100, 100)),
+                 m = std::floor(draw.between(-100, 100));
     const double D_R = draw.tiny(-6, 0), D_L = draw.tiny(-6, 0);
     const Real height = abs(Real(y) + Real(n) * D_R - Real(m) * D_L);
-    const double h = height_in_row(y, n, D_R, m, D_L), rho = static_cast<double>(height) * (1 + draw.tiny(-56, -40));
+    const double h = height_in_row(y, n, D_R, m, D_L),
+                 rho = static_cast<double>(height) * (1 + draw.tiny(-56, -40));
     if (!(rho > 0)) continue;
     const double error = kHeight * kRoundoff * (std::fabs(y) + std::fabs(n * D_R) + std::fabs(m * D_L));
     const bool below = height < rho;
-    const Decision decision = is_below(h, rho, error), shrunk = is_below(h, rho, error / 50 - kRho * kRoundoff * rho * 0.98);
+    const Decision decision = is_below(h, rho, error),
+                   shrunk = is_below(h, rho, error / 50 - kRho * kRoundoff * rho * 0.98);
     if (decision == Decision::doubtful) {
       ++doubtful;
     } else {

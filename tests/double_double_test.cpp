@@ -1,4 +1,5 @@
-// Double-double arithmetic against MPFR: the stated bounds, and the same bits with and without the instruction.
+// Double-double arithmetic against MPFR: the stated bounds, and the same bits with and without the
+// instruction.
 #include "double_double.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -26,7 +27,8 @@ Wide drawn(Draw& draw) {
   return Wide::ordered_sum(hi, hi * draw.tiny(-60, -53));
 }
 
-// The largest relative error of an operation over many drawn pairs, some of them nearly cancelling, in units of u^2.
+// The largest relative error of an operation over many drawn pairs, some of them nearly cancelling, in units
+// of u^2.
 template <class Operation, class Truth>
 double worst(Operation operation, Truth truth) {
   Draw draw(11);
@@ -72,8 +74,8 @@ TEST_CASE("Double-double operations keep their bounds") {
   CHECK(worst([](auto a, auto b) { return a / b; }, [](Real a, Real b) { return Real(a / b); }) <= 15.01);
   CHECK(worst([](auto a, auto b) { return a * b.hi + decltype(a)(b.lo) * 0.0; },
               [](Real a, Real b) { return Real(a * Real(static_cast<double>(b))); }) <= 6.1);
-  CHECK(worst([](auto a, auto) { return sqrt(a.hi < 0 ? -a : a); }, [](Real a, Real) { return Real(sqrt(abs(a))); }) <=
-        3.126);
+  CHECK(worst([](auto a, auto) { return sqrt(a.hi < 0 ? -a : a); },
+              [](Real a, Real) { return Real(sqrt(abs(a))); }) <= 3.126);
 }
 
 TEST_CASE("Sums and products of binary64 are exact as double-doubles") {

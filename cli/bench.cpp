@@ -1,0 +1,186 @@
+// lorentz bench: speed against error, engines by radii by difficulty.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "app.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "hard_cases.hpp"
+#include "measure.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "scene_option.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> engines{"classical", "published", "reduction", "certified", "oracle"};
+  std::vector<std::string> scenes{"square", "cubic"}, radii{"0.3", "0.1", "0.01", "0.001", "1e-06"};
+  std::string count = "2000", seed = std::to_string(kDefaultSeed);
+  std::optional<std::string> csv;
+};
+
+constexpr double kSecondsPerRound = 0.1;  // an engine that would take longer does fewer queries, or none
+constexpr std::size_t kPilot = 16, kFewest = 32;
+constexpr int kRounds = 5;
+
+// What one engine did over all cells of the table, for the line that says what to conclude.
+struct Summary {
+  std::string engine;
+  std::size_t queries = 0, judged = 0, wrong = 0, undecided = 0, skipped = 0;
+  double fastest = 0, slowest = 0, max_ulp = 0;
+
+  void add(const Tally& t) {
+    queries += t.queries;
+    judged += t.agree + t.wrong;
+    wrong += t.wrong;
+    undecided += t.undecided;
+    max_ulp = std::max(max_ulp, t.max_ulp);
+    slowest = std::max(slowest, t.ns_median);
+    fastest = fastest == 0 ? t.ns_median : std::min(fastest, t.ns_median);
+  }
+
+  std::string conclusion() const {
+    if (queries == 0) return fmt::format("{}: too slow for every cell of this table", engine);
+    std::string text = fmt::format("{}: {:.0f} to {:.0f} ns, ", engine, fastest, slowest);
+    if (wrong > 0)
+      text += fmt::format("WRONG in {} of {} answers, without saying so", wrong, judged);
+    else
+      text += fmt::format("no wrong answer in {} (with 95 %: fewer than {:.2g} in all such)", judged,
+                          3.0 / static_cast<double>(std::max<std::size_t>(judged, 1)));
+    if (undecided > 0) text += fmt::format("; says 'undecided' in {} of {}", undecided, queries);
+    text += fmt::format("; times at worst {:.3g} ulps off", max_ulp);
+    if (skipped > 0) text += fmt::format("; too slow for {} cells", skipped);
+    return text;
+  }
+};
+
+std::string csv_header() {
+  return "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,"
+         "wrong,mean_ulp,"
+         "ulp_99_percent,max_ulp\n";
+}
+
+class Report {
+ public:
+  explicit Report(const Options& options) : options_(options) {
+    for (const std::string& name : options.engines) summaries_.push_back({name});
+  }
+
+  // One cell: all engines over the same queries, as many as the slowest of them can do in the time.
+  void cell(const std::string& scene_name, const std::string& radius, Difficulty difficulty,
+            const CaseSet& all) {
+    bool first = true;
+    for (Summary& summary : summaries_) {
+      const std::size_t count = affordable(all, summary.engine);
+      const std::string what =
+          first ? fmt::format("{}, r = {}, {}", scene_name, radius, name_of(difficulty)) : "";
+      first = false;
+      if (count < kFewest) {
+        ++summary.skipped;
+        table_.add({what, summary.engine, "-", "too slow", "", "", "", "", "", ""});
+        continue;
+      }
+      CaseSet set = all;
+      set.cases.resize(count);
+      const Tally t = measure(set, exact_answers(set), {summary.engine}, {}, kRounds).front();
+      summary.add(t);
+      table_.add({what, summary.engine, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
+                  fmt::format("{:.0f}-{:.0f}", t.ns_low, t.ns_high), std::to_string(t.undecided),
+                  std::to_string(t.wrong), fmt::format("{:.3g}", t.mean_ulp()),
+                  fmt::format("{:.3g}", t.ulp_at(0.99)), fmt::format("{:.3g}", t.max_ulp)});
+      csv_ +=
+          fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{:.4g},{:.4g},{:.4g}\n", scene_name,
+                      radius, name_of(difficulty), t.name, t.queries, t.ns_per_query, t.ns_median, t.ns_low,
+                      t.ns_high, t.undecided, t.wrong, t.mean_ulp(), t.ulp_at(0.99), t.max_ulp);
+    }
+  }
+
+  void show() const {
+    print(table_.text());
+    print(
+        "\nns: median over blocks of 16 queries of a block's mean, and its quartiles; error of the time of "
+        "right hits, "
+        "in ulps.\n\n");
+    for (const Summary& summary : summaries_) print(summary.conclusion() + "\n");
+  }
+
+  const std::string& csv() const { return csv_; }
+
+ private:
+  std::size_t affordable(const CaseSet& all, const std::string& engine) const {
+    CaseSet pilot = all;
+    pilot.cases.resize(std::min(all.cases.size(), kPilot));
+    const double ns = measure(pilot, {}, {engine}, {}, 1).front().ns_per_query;
+    return std::min(all.cases.size(), static_cast<std::size_t>(kSecondsPerRound * 1e9 / std::max(ns, 1.0)));
+  }
+
+  const Options& options_;
+  std::vector<Summary> summaries_;
+  Table table_{{"queries", "engine", "number", "ns", "quartiles", "undecided", "wrong", "mean ulp",
+                "99 % ulp", "max ulp"}};
+  std::string csv_ = csv_header();
+};
+
+int act(const Options& options) {
+  for (const std::string& name : options.engines) check_name(name);
+  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  const std::uint64_t count = whole_number(options.count, "--count", kFewest, 10'000'000);
+  std::ofstream csv;
+  if (options.csv) {
+    csv.open(*options.csv);
+    if (!csv) throw FileError(*options.csv + ": cannot be written");
+  }
+  Report report(options);
+  for (const std::string& name : options.scenes)
+    for (const std::string& radius : options.radii)
+      for (const Difficulty difficulty :
+           {Difficulty::drawn, Difficulty::near_rational, Difficulty::grazing}) {
+        CaseSet set;
+        set.scenes.push_back(load_scene(name, positive_number(radius, "--radius")));
+        const oracle::Oracle oracle(set.scenes[0]);
+        for (const Query& query : hard_queries(difficulty, set.scenes[0], oracle, seed, count))
+          set.cases.push_back({std::to_string(set.cases.size()), 0, query});
+        report.cell(name, radius, difficulty, set);
+      }
+  print(fmt::format("Speed against error, one thread (seed {}).\n\n", seed));
+  report.show();
+  if (options.csv && !(csv << report.csv()).flush()) throw FileError(*options.csv + ": cannot be written");
+  return kDone;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("bench", "Speed against error: engines by radii by difficulty.");
+  command->add_option("-e,--engine", options->engines, fmt::format("{}", fmt::join(answerer_names(), ", ")))
+      ->delimiter(',')
+      ->type_name("E");
+  command
+      ->add_option("--scene", options->scenes,
+                   "scene files, or names of the catalogue (default: square,cubic)")
+      ->delimiter(',')
+      ->type_name("S");
+  command->add_option("--radius", options->radii, "radii (default: 0.3,0.1,0.01,0.001,1e-06)")
+      ->delimiter(',')
+      ->type_name("R");
+  command->add_option("--count", options->count, "queries for each cell of the table")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "of the queries")->capture_default_str()->type_name("N");
+  command->add_option("--csv", options->csv, "write the figures there too, one line a row")
+      ->type_name("FILE");
+  command->footer(
+      "drawn: uniform starts, isotropic directions. near-rational: directions a few ulps from small "
+      "integers.\n"
+      "grazing: the first ball is passed or met within r 2^-10 to r 2^-50 of its edge.\n"
+      "Example:\n  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv "
+      "speed.csv");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli
