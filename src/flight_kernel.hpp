@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "reduction.hpp"
-#include "reduction_2d.hpp"
-#include "reduction_3d.hpp"
+#include "search_2d.hpp"
+#include "search_3d.hpp"
 
 namespace lorentz {
 

@@ -54,7 +54,7 @@ inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) 
     if (offset.home[i] == 0) continue;
     for (int k = 0; k < D; ++k) {
       const DD step(lattice.basis[i][k].hi, lattice.basis[i][k].lo);
-      d[k] = d[k] + step * offset.home[i];
+      d[k] = add_product(d[k], step, offset.home[i]);
       size += std::fabs(step.hi * offset.home[i]);
     }
     offset.error += std::fabs(offset.home[i]) * lattice.basis_error;

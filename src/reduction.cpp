@@ -135,7 +135,7 @@ inline void fly_several(const Task& task, Flight& flight) {
     const auto& aim =
         task.aims ? static_cast<const Aim<D, false>*>(task.aims)[&lattice - task.scene.atoms.data()] : *own;
     Finding<Arch, D, false> next;
-    next.start(lattice, task.x);
+    if (!next.start(lattice, task.x)) return give_up(flight);
     next.find(aim, task.from, limit);
     flight.stage = std::max(flight.stage, next.stage);
     if (next.outcome == Outcome::undecided) return give_up(flight);

@@ -1,0 +1,159 @@
+// The first ball of a 2D Bravais lattice that a line meets, in O(log 1/r). Private to the reduction engine.
+//
+// In coordinates (s, h), along the line and across it, the lattice points of the strip |h| < rho are wanted,
+// and of these the first with s > 0. Euclid's algorithm on the heights of two basis vectors on either side of
+// the line (the continued fraction of the slope) gives a basis R, L with heights D_R >= 0 >= -D_L and D_L < 2
+// rho; then every row { n R - m L : m } meets the strip, in one interval of m, and few rows come near the
+// start.
+#pragma once
+
+#include <algorithm>
+
+#include "offset.hpp"
+
+namespace lorentz {
+
+/// A lattice vector: integer coefficients in the lattice's short basis.
+struct Arm2 {
+  double n[2]{};
+  double D = 0, D_low = 0;  ///< |v x vector| as a sum; the first part is kept exact by Euclid's algorithm
+  double S = 0;             ///< v . vector >= 0
+
+  double D_error = 0;
+
+  template <class Arch>
+  void subtract(double k, const Arm2& other) {
+    D = Arch::remainder(D, k, other.D);
+    D_low -= k * other.D_low;
+    n[0] += k * other.n[0];
+    n[1] += k * other.n[1];
+  }
+};
+
+/// A lattice seen along one direction: all that does not depend on the start.
+template <bool kUnit>
+struct Direction2 {
+  Vec v;  ///< turned, components below kTinyComponent taken as zero
+  double v2 = 0, rho = 0;
+  Wide H[2];      ///< heights v x B_i
+  double M[2]{};  ///< the size of the terms of H_i
+  double S[2]{};  ///< v . B_i
+  Arm2 R, L;      ///< h = sigma D_R for R and -sigma D_L for L
+  double sigma = 1;
+  double inverse_A = 0, inverse_D_L = 0, inverse_S_L = 0;  ///< A = |v|^2 times the cell's area
+  bool usable = true;
+
+  template <class Arch>
+  Direction2(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
+    octant.turn<kUnit>(velocity, v);
+    v2 = speed_squared(v[0], v[1], 0.0);
+    rho = lattice.radius * std::sqrt(v2);
+    set_forms<Arch>(lattice);
+    set_first_arms();
+    euclid<Arch>();
+    if constexpr (!kUnit)
+      for (int round = 0; round < 8 && usable && renormalise(); ++round) euclid<Arch>();
+    finish(lattice);
+  }
+
+ private:
+  template <class Arch>
+  void set_forms(const Bravais& lattice) {
+    using DD = DoubleDouble<Arch>;
+    if constexpr (kUnit) {
+      H[0] = Wide(-v[1]), H[1] = Wide(v[0]);
+      M[0] = std::fabs(v[1]), M[1] = std::fabs(v[0]);
+      S[0] = v[0], S[1] = v[1];
+    } else {
+      for (int i = 0; i < 2; ++i) {
+        const DD x(lattice.basis[i][0]), y(lattice.basis[i][1]);
+        H[i] = Wide(add_product(add_product(DD(0.0), y, v[0]), x, -v[1]));
+        M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + 0x1p106 * 4 * lattice.basis_error;
+        S[i] = v[0] * x.hi + v[1] * y.hi;
+      }
+    }
+  }
+
+  // Two neighbours of the shortest lattice vectors with the line between them, both pointing forward.
+  void set_first_arms() {
+    if constexpr (kUnit) {  // v lies in the first octant
+      R.n[1] = L.n[0] = 1;
+      R.D = v[0], L.D = v[1];
+      return;
+    }
+    const double p = std::copysign(1, S[0]), q = std::copysign(1, S[1]);
+    double first = p * H[0].hi, second = q * H[1].hi;
+    R.n[0] = p, L.n[1] = q;
+    R.D_low = p * H[0].lo, L.D_low = q * H[1].lo;
+    if (first * second > 0) {  // the line lies outside their cone: the one farther off goes to the other side
+      Arm2& far = std::fabs(first) > std::fabs(second) ? R : L;
+      const Arm2& near = std::fabs(first) > std::fabs(second) ? L : R;
+      double& far_height = std::fabs(first) > std::fabs(second) ? first : second;
+      const double near_height = std::fabs(first) > std::fabs(second) ? second : first;
+      // near - far: forward, since the angle between the two is 60 to 90 degrees.
+      const Wide height = Wide(near_height, near.D_low) - Wide(far_height, far.D_low);
+      far_height = height.hi, far.D_low = height.lo;
+      far.n[0] = near.n[0] - far.n[0], far.n[1] = near.n[1] - far.n[1];
+    }
+    sigma = first > 0 || second < 0 ? 1 : -1;
+    R.D = sigma * first, R.D_low *= sigma;
+    L.D = -sigma * second, L.D_low *= -sigma;
+    usable = R.D >= 0 && L.D >= 0;
+    if (R.D < L.D) swap_arms();
+  }
+
+  void swap_arms() {
+    std::swap(R, L);
+    sigma = -sigma;
+  }
+
+  // The quotients are those of the continued fraction; on the unit lattices D_R and D_L are exact throughout.
+  // Two steps at a time, so that the arms need not change places at each.
+  template <class Arch>
+  void euclid() {
+    Arm2 larger = R, smaller = L;
+    while (goes_on(smaller)) {
+      larger.template subtract<Arch>(std::floor(larger.D / smaller.D), smaller);
+      if (!goes_on(larger)) {
+        R = smaller, L = larger, sigma = -sigma;
+        return;
+      }
+      smaller.template subtract<Arch>(std::floor(smaller.D / larger.D), larger);
+    }
+    R = larger, L = smaller;
+  }
+
+  bool goes_on(const Arm2& smaller) const {
+    return smaller.D >= 2 * rho && (kUnit || std::fabs(smaller.D_low) <= 0x1p-8 * smaller.D);
+  }
+
+  // Adds the low parts to the high ones; true if Euclid's algorithm has to go on from there.
+  bool renormalise() {
+    for (Arm2* arm : {&R, &L}) {
+      const Wide height = Wide::sum(arm->D, arm->D_low);
+      arm->D = height.hi, arm->D_low = height.lo;
+    }
+    if (L.D < 0) {  // the last quotient was one too large
+      const Wide height = Wide(L.D, L.D_low) + Wide(R.D, R.D_low);
+      L.D = height.hi, L.D_low = height.lo;
+      L.n[0] -= R.n[0], L.n[1] -= R.n[1];
+    }
+    usable = R.D >= 0 && L.D >= 0;
+    if (R.D < L.D) swap_arms();
+    return L.D >= 2 * rho;
+  }
+
+  void finish(const Bravais& lattice) {
+    for (Arm2* arm : {&R, &L}) {
+      arm->S = arm->n[0] * S[0] + arm->n[1] * S[1];
+      if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
+      usable = usable && arm->S >= 0 && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
+               std::fabs(arm->n[1]) < kMaxCoefficient;
+    }
+    inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);
+    inverse_D_L = 1 / L.D;
+    inverse_S_L = 1 / L.S;
+  }
+};
+
+}  // namespace lorentz
