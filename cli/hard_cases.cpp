@@ -61,8 +61,11 @@ std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const
       queries[i].v = near_rational_direction(random, scene.dimension);
       continue;
     }
-    const Query drawn = queries[i];
-    for (int tries = 0; tries < 100 && !make_grazing(random, scene, oracle, queries[i] = drawn); ++tries) {
+    for (int tries = 0; tries < 100; ++tries) {
+      Query moved = queries[i];
+      if (!make_grazing(random, scene, oracle, moved)) continue;
+      queries[i] = moved;
+      break;
     }
   }
   return queries;

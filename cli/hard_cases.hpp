@@ -10,7 +10,8 @@ enum class Difficulty {
   drawn,          ///< uniform starts, isotropic directions
   near_rational,  ///< directions a few ulps from small integers: corridors, and flights of 1e15 cells out of
                   ///< them
-  grazing         ///< the first ball is passed or met within r 2^-10 to r 2^-50 of its edge
+  grazing  ///< the first ball is passed or met within r 2^-10 to r 2^-50 of its edge; a few, where no start
+           ///< near the drawn one does that, stay as drawn
 };
 
 const char* name_of(Difficulty difficulty);

@@ -181,15 +181,24 @@ std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
 }
 
 // Inlined as a whole into functions for one kind of processor, so that an fma is one instruction or none.
+// (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
+#if defined(__SANITIZE_ADDRESS__)
+#define LORENTZ_FLATTEN
+#else
+#define LORENTZ_FLATTEN gnu::flatten
+#endif
+
 template <Time kTime, int D, Model kModel>
-[[gnu::target("fma"), gnu::flatten]] void fly_fma(const Task& task, Flight& flight) {
+[[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
   fly_with<kTime, HardwareFma, D, kModel>(task, flight);
 }
 
 template <Time kTime, int D, Model kModel>
-[[gnu::flatten]] void fly_split(const Task& task, Flight& flight) {
+[[LORENTZ_FLATTEN]] void fly_split(const Task& task, Flight& flight) {
   fly_with<kTime, SplitProduct, D, kModel>(task, flight);
 }
+
+#undef LORENTZ_FLATTEN
 
 template <int D, Model kModel>
 Kernels kernels_of(bool fma) {

@@ -392,3 +392,20 @@ TEST_CASE("convergents prints the expansion") {
   CHECK(folder.lorentz("convergents -- -1.5").status == 0);
   CHECK(contains(folder.lorentz("convergents 3.14159 --limit 3").out, "stopped after --limit 3"));
 }
+
+TEST_CASE("bench measures, concludes, and writes its figures") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("bench --scene square --radius 0.1 --count 64 --engine reduction,certified --csv " +
+                     folder.file("speed.csv"));
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, "square, r = 0.1, near-rational"));
+  CHECK(contains(run.out, "reduction: "));
+  CHECK(contains(run.out, "no wrong answer in 192"));
+  const std::string csv = folder.read("speed.csv");
+  CHECK(lines(csv) == 7);
+  CHECK(contains(csv, "scene,radius,difficulty,engine,queries,ns_mean"));
+  CHECK(folder.lorentz("bench --engine nobody").status == 2);
+  CHECK(folder.lorentz("bench --count 3").status == 2);
+  CHECK(folder.lorentz("bench --scene square --radius 0.1 --count 32 --csv /nowhere/speed.csv").status == 3);
+}
