@@ -149,8 +149,10 @@ class Search3 {
       const double tilt = basis.dual[2][2], kappa = plane_of(anchor_point_);
       const double steepest = std::fabs(tilt) + basis.tilt_error;
       // Planes at k + kappa - tilt z = 0 on the line; how far the nearest one ahead has to come.
-      const double here = tilt > 0 ? tilt - kappa : kappa - tilt;
-      const double gap = std::ceil(here + basis.g) - here - basis.g;
+      const auto gap_above = [&](double here) { return std::ceil(here + basis.g) - here - basis.g; };
+      const double up = gap_above(tilt - kappa), down = gap_above(kappa - tilt);
+      // Of a tilt that is below its error not even the sign is known.
+      const double gap = std::fabs(tilt) <= basis.tilt_error ? std::min(up, down) : tilt > 0 ? up : down;
       const double jump = 1 + (gap - kSlop) / steepest;
       step = std::min(std::max(step, jump), 0x1p70);
     }
