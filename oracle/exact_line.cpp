@@ -46,11 +46,11 @@ void offer_first_on_row(const Search<D>& search, const LatticePoint<D>& start, c
     const Z d = search.rho2 - (row.C + k * (2 * row.B + k * row.A));
     if (d <= 0) continue;
     if (row.cc + k * (2 * row.cg + k * row.gg) < search.view.radius2) continue;
-    if (search.earliest.beats(s, d)) continue;
+    if (search.earliest.beats(s, d, search.flight.v2)) continue;
     LatticePoint<D> centre = start;
     centre.add_multiple(k, step);
     if (search.from && centre.n == *search.from) continue;
-    search.earliest.offer({s, d, std::move(centre), search.lattice, search.atom});
+    search.earliest.offer({s, d, search.flight.v2, std::move(centre.n), search.lattice, search.atom});
   }
 }
 

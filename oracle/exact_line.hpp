@@ -1,6 +1,7 @@
 // The exact geometry of one flight and the obstacles of one atom. Private to oracle/.
 //
-// Symbols: c a centre relative to x; s = v.c (along), h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r
+// Everything here is in coordinates in which the atom's obstacles are balls (BallFrame). Symbols: c a centre
+// relative to x; s = v.c (along), h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r
 // |v|. The line meets the open ball iff |h| < rho, and then enters it at t = (s - sqrt(D)) / v^2, D = rho^2 -
 // |h|^2. It enters at t >= 0 iff besides s > 0 and |c| >= r (x outside or on the surface).
 #pragma once
@@ -13,18 +14,12 @@
 
 namespace lorentz::oracle {
 
-/// The flight: velocity v scaled to integers, and v^2.
-template <std::size_t D>
-struct Flight {
-  ZVec<D> v;
-  Z v2;
-};
-
-/// An entry at t v^2 = s - sqrt(d), of the obstacle with coordinates n whose centre is c.
+/// An entry at t = (s - sqrt(d)) / v2 into the obstacle with coordinates n. v2 differs from atom to atom if
+/// their obstacles are balls in different coordinates; t does not.
 template <std::size_t D>
 struct Entry {
-  Z s, d;
-  LatticePoint<D> centre;
+  Z s, d, v2;
+  ZVec<D> n;
   int lattice = 0, atom = 0;
 };
 
@@ -35,33 +30,35 @@ class Earliest {
   bool found() const { return entry_.has_value(); }
   const Entry<D>& entry() const { return *entry_; }
 
-  /// True if an entry at s - sqrt(d) would come after the earliest one.
-  bool beats(const Z& s, const Z& d) const {
-    return entry_ && compare_entries(entry_->s, entry_->d, s, d) < 0;
+  /// True if an entry at (s - sqrt(d)) / v2 would come after the earliest one.
+  bool beats(const Z& s, const Z& d, const Z& v2) const {
+    return entry_ && compare_entries(entry_->s, entry_->d, entry_->v2, s, d, v2) < 0;
   }
 
-  /// No obstacle whose centre has an s above this can be entered before or with the earliest one: such an
-  /// entry needs s - rho < s_best.
-  Z reach(const Z& rho_above) const { return entry_->s + rho_above; }
+  /// No obstacle whose centre has an s above this, in a view with this v2, can be entered before or with the
+  /// earliest one: such an entry needs (s - rho) / v2 < s_best / v2_best.
+  Z reach(const Z& rho_above, const Z& v2) const {
+    return (v2 == entry_->v2 ? entry_->s : ceil_div(entry_->s * v2, entry_->v2)) + rho_above;
+  }
 
   void offer(Entry<D> other) {
     if (entry_) {
-      const int order = compare_entries(other.s, other.d, entry_->s, entry_->d);
+      const int order = compare_entries(other.s, other.d, other.v2, entry_->s, entry_->d, entry_->v2);
       if (order > 0 || (order == 0 && key(*entry_) <= key(other))) return;
     }
     entry_ = std::move(other);
   }
 
  private:
-  static auto key(const Entry<D>& e) { return std::tie(e.lattice, e.atom, e.centre.n); }
+  static auto key(const Entry<D>& e) { return std::tie(e.lattice, e.atom, e.n); }
   std::optional<Entry<D>> entry_;
 };
 
 /// What the search for one atom's first obstacle needs throughout.
 template <std::size_t D>
 struct Search {
-  const Flight<D>& flight;
   const View<D>& view;
+  const Flight<D>& flight;  ///< the view's
   int lattice, atom;
   const ZVec<D>* from;  ///< coordinates of the obstacle to ignore, or null
   Z rho2;               ///< r^2 v^2

@@ -33,10 +33,39 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
+/// Rows of a linear map.
+template <std::size_t D>
+using ZMatrix = std::array<ZVec<D>, D>;
+
+template <std::size_t D>
+ZVec<D> operator*(const ZMatrix<D>& map, const ZVec<D>& a) {
+  ZVec<D> image;
+  for (std::size_t i = 0; i < D; ++i) image[i] = dot(map[i], a);
+  return image;
+}
+
+template <std::size_t D>
+ZMatrix<D> transposed(const ZMatrix<D>& map) {
+  ZMatrix<D> result;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) result[i][k] = map[k][i];
+  return result;
+}
+
+/// Coordinates in which an atom's ellipsoids { p + A y : |y| < 1 } are balls of radius |det A|: those of
+/// adj(A) = det(A) A^-1, which is an integer matrix like A. A linear map leaves lines, lattices and times
+/// what they are, so in these coordinates an ellipsoid is one more scene of balls, and nothing was rounded.
+template <std::size_t D>
+struct BallFrame {
+  ZMatrix<D> to_ball;  ///< adj(A)
+  Basis<D> reduced;    ///< a short basis of the lattice there
+};
+
 template <std::size_t D>
 struct ExactAtom {
   ZVec<D> position;
-  Z radius;
+  Z radius;                           ///< in the frame's coordinates, if there is a frame
+  std::optional<BallFrame<D>> frame;  ///< of an ellipsoid
 };
 
 template <std::size_t D>
@@ -55,9 +84,18 @@ struct ExactScene {
   explicit ExactScene(const Scene& scene);
 };
 
-/// One atom's obstacles seen from the particle: centres are offset + the lattice, relative to x.
+/// The flight: velocity v scaled to integers, and v^2.
+template <std::size_t D>
+struct Flight {
+  ZVec<D> v;
+  Z v2;
+};
+
+/// One atom's obstacles seen from the particle, in coordinates in which they are balls: centres are offset +
+/// the lattice, relative to x.
 template <std::size_t D>
 struct View {
+  Flight<D> flight;
   Basis<D> basis;          ///< reduced
   LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
   Z radius;
@@ -66,11 +104,17 @@ struct View {
 
 /// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, long exponent);
+View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, const Flight<D>& flight,
+                long exponent);
 
-/// The same lattice in its own primitive vectors, last one first: for answers in lexicographic order.
+/// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
 template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, long exponent);
+Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, long exponent);
+
+/// The centre of the obstacle (lattice, atom, n) relative to x, in the scene's own coordinates.
+template <std::size_t D>
+ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& n, const ZVec<D>& x,
+                  long exponent);
 
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);

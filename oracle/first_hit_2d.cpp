@@ -86,7 +86,7 @@ void search_first_hit(const Search<2>& search) {
   row.add_multiple(first, u.vector);
   for (Z a = first;; ++a) {
     if (search.earliest.found()) {
-      const Z reach = search.earliest.reach(rho_above);
+      const Z reach = search.earliest.reach(rho_above, search.flight.v2);
       if (a * det > spread + reach * D_w - home) return;
     }
     offer_first_on_row(search, row, w.vector);

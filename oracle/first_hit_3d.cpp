@@ -140,7 +140,8 @@ class Solver {
   void solve_many_rows(const Planes& planes, const Section& section);
   Z jump_beyond(const Planes& planes, const Z& home, const Z& high) const;
   Z limited(const Z& high) const {
-    return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_)) : high;
+    return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_, search_.flight.v2))
+                                    : high;
   }
 
   const Search<3>& search_;
@@ -218,7 +219,7 @@ std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<
 }
 
 int compare(const RealEntry& a, const RealEntry& b) {
-  return compare_entries(a.s * b.q, a.d * b.q * b.q, b.s * a.q, b.d * a.q * a.q);
+  return compare_entries(a.s, a.d, a.q, b.s, b.d, b.q);
 }
 
 // A plane so dense with obstacles (r many times their spacing) that even the shortest window has many rows.

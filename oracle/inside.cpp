@@ -133,13 +133,14 @@ std::optional<ZVec<D>> smallest_on_row(LatticePoint<D> first, const LatticePoint
 }  // namespace
 
 template <std::size_t D>
-std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, const View<D>& view,
+std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
                                        const ZVec<D>* from, long exponent) {
   // Few rows: look at all of them, in the short basis. A radius of many cells: take the rows in lexicographic
   // order, and the first point is the smallest. (Floating point here chooses the cheaper way, nothing more.)
   constexpr Estimate kFewRows = 64;
   const Estimate radius = estimate(view.radius), rows = rows_in_all<D>(view.basis, radius);
-  const Basis<D> ordered = rows > kFewRows ? lexicographic_basis<D>(scene, lattice, exponent) : view.basis;
+  const Basis<D> ordered =
+      rows > kFewRows ? lexicographic_basis<D>(scene, lattice, atom, exponent) : view.basis;
   const bool many = rows > kFewRows && rows_to_first<D>(ordered, radius) < rows;
   std::optional<ZVec<D>> smallest;
   const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
@@ -151,9 +152,9 @@ std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, 
   return smallest;
 }
 
-template std::optional<ZVec<2>> smallest_inside(const ExactScene<2>&, int, const View<2>&, const ZVec<2>*,
-                                                long);
-template std::optional<ZVec<3>> smallest_inside(const ExactScene<3>&, int, const View<3>&, const ZVec<3>*,
-                                                long);
+template std::optional<ZVec<2>> smallest_inside(const ExactScene<2>&, int, int, const View<2>&,
+                                                const ZVec<2>*, long);
+template std::optional<ZVec<3>> smallest_inside(const ExactScene<3>&, int, int, const View<3>&,
+                                                const ZVec<3>*, long);
 
 }  // namespace lorentz::oracle

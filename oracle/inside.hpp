@@ -21,7 +21,7 @@ bool visit_ball(const Basis<D>& basis, const LatticePoint<D>& offset, const Z& r
 
 /// The smallest n, in lexicographic order, of the obstacles that contain x, `from` excepted.
 template <std::size_t D>
-std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, const View<D>& view,
+std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
                                        const ZVec<D>* from, long exponent);
 
 }  // namespace lorentz::oracle

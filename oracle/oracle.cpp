@@ -48,30 +48,54 @@ struct ExactQuery {
 
   // t = (s - sqrt(d)) / v^2 in the query's own units.
   Quadratic time_of(const Entry<D>& entry) const {
-    return {entry.s, -1, entry.d, flight.v2, length_exponent - velocity_exponent};
+    return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
   }
-
-  Detail detail_of(const Entry<D>& entry, const Z& radius) const;
 };
 
-// component * (s - sqrt(d)) + shift * v^2, over `q`.
-Quadratic along_flight(const Z& component, const Z& shift, const Z& s, const Z& d, const Z& q,
-                       long exponent) {
-  return {component * s + shift, component > 0 ? -1 : +1, component * component * d, q, exponent};
+// (p - q sqrt(d)) / denominator.
+Quadratic surd(const Z& p, const Z& q, const Z& d, const Z& denominator, long exponent) {
+  return {p, q > 0 ? -1 : +1, q * q * d, denominator, exponent};
 }
 
+// A direction p - sqrt(d) q, not of unit length, made so. The square of a component of the unit vector is
+//   (p_i - sqrt(d) q_i)^2 / |p - sqrt(d) q|^2 = (a - b sqrt(d)) / (e - f sqrt(d)),
+// which times e + f sqrt(d) is a quadratic number again. (e + f sqrt(d) = |p + sqrt(d) q|^2 belongs to the
+// place where the line leaves the obstacle, and there is a normal there, too: it is not zero.)
 template <std::size_t D>
-Detail ExactQuery<D>::detail_of(const Entry<D>& entry, const Z& radius) const {
-  Detail detail;
+void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) {
+  const Z e = dot(p, p) + d * dot(q, q), f = 2 * dot(p, q);
+  const Z denominator = e * e - f * f * d;
   for (std::size_t i = 0; i < D; ++i) {
-    const Z& v = flight.v[i];
-    const Z relative = -entry.centre.p[i] * flight.v2;  // of x, from the centre
-    detail.point[i] =
-        round_to_binary64(along_flight(v, x[i] * flight.v2, entry.s, entry.d, flight.v2, length_exponent));
-    detail.normal[i] = round_to_binary64(along_flight(v, relative, entry.s, entry.d, flight.v2 * radius, 0));
+    const Z a = p[i] * p[i] + d * q[i] * q[i], b = 2 * p[i] * q[i];
+    const int sign = sign_of(p[i], q[i] > 0 ? -1 : 1, q[i] * q[i] * d);
+    unit[i] = round_root_to_binary64(surd(a * e - b * f * d, b * e - a * f, d, denominator, 0), sign);
   }
-  const Z across2 = radius * radius * flight.v2 - entry.d;  // |h|^2 = (impact parameter)^2 v^2
-  detail.impact_parameter = round_to_binary64({0, +1, across2 * flight.v2, flight.v2, length_exponent});
+}
+
+// The collision in the scene's own coordinates. The point is x + t v, seen from the centre c of the obstacle
+// w = t v - c; with v2 t = s - sqrt(d), v2 w = (s v - v2 c) - sqrt(d) v. The normal is along w for a ball,
+// along adj(A)^T adj(A) w for an ellipsoid.
+template <std::size_t D>
+Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const Entry<D>& entry) {
+  const ZVec<D>& v = query.flight.v;
+  const ZVec<D> c = centre_of(scene, entry.lattice, entry.atom, entry.n, query.x, query.length_exponent);
+  const ExactAtom<D>& atom = scene.lattices[entry.lattice].atoms[entry.atom];
+  Detail detail;
+  ZVec<D> p, q = v;
+  for (std::size_t i = 0; i < D; ++i) {
+    p[i] = entry.s * v[i] - entry.v2 * c[i];
+    detail.point[i] = round_to_binary64(
+        surd(entry.s * v[i] + entry.v2 * query.x[i], v[i], entry.d, entry.v2, query.length_exponent));
+  }
+  if (atom.frame) {
+    const ZMatrix<D>& to_ball = atom.frame->to_ball;
+    p = transposed(to_ball) * (to_ball * p);
+    q = transposed(to_ball) * (to_ball * q);
+  }
+  set_unit_vector(p, q, entry.d, detail.normal);
+  const Z& v2 = query.flight.v2;
+  const Z along = dot(v, c), across2 = v2 * dot(c, c) - along * along;  // (impact parameter)^2 v^2
+  detail.impact_parameter = round_to_binary64(Quadratic{0, +1, across2 * v2, v2, query.length_exponent});
   return detail;
 }
 
@@ -88,8 +112,8 @@ class Problem {
     auto view = views.begin();
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a, ++view) {
-        const Z rho2 = view->radius2 * exact.flight.v2;
-        search_first_hit(Search<D>{exact.flight, *view, l, a, exact.from_in(query, l, a), rho2,
+        const Z rho2 = view->radius2 * view->flight.v2;
+        search_first_hit(Search<D>{*view, view->flight, l, a, exact.from_in(query, l, a), rho2,
                                    root_below(rho2), earliest});
       }
     return answer_to(exact, earliest, request);
@@ -106,9 +130,9 @@ class Problem {
                                             std::vector<View<D>>& views) const {
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
-        views.push_back(view_of<D>(scene_, l, a, exact.x, exact.length_exponent));
+        views.push_back(view_of<D>(scene_, l, a, exact.x, exact.flight, exact.length_exponent));
         const auto n =
-            smallest_inside<D>(scene_, l, views.back(), exact.from_in(query, l, a), exact.length_exponent);
+            smallest_inside<D>(scene_, l, a, views.back(), exact.from_in(query, l, a), exact.length_exponent);
         if (n) return ObstacleId{l, a, to_cell(*n)};
       }
     return std::nullopt;
@@ -119,44 +143,26 @@ class Problem {
     const Entry<D>& entry = earliest.entry();
     const Quadratic time = exact.time_of(entry);
     if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
-    Answer answer =
-        Answer::hit({entry.lattice, entry.atom, to_cell(entry.centre.n)}, round_to_binary64(time));
+    Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
     if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
-    if (request.detail) {
-      const Z radius = shifted_left(scene_.lattices[entry.lattice].atoms[entry.atom].radius,
-                                    scene_.exponent - exact.length_exponent);
-      answer.detail = exact.detail_of(entry, radius);
-    }
+    if (request.detail) answer.detail = detail_of(scene_, exact, entry);
     return answer;
   }
 
   ExactScene<D> scene_;
 };
 
-bool has_semiaxes(const Scene& scene) {
-  for (const Lattice& lattice : scene.lattices)
-    for (const Atom& atom : lattice.atoms)
-      if (!atom.is_ball()) return true;
-  return false;
-}
-
 }  // namespace
 
 struct Oracle::Impl {
   Scene scene;
-  std::variant<std::monostate, Problem<2>, Problem<3>> problem;  // nothing: the scene is not supported
+  std::variant<Problem<2>, Problem<3>> problem;
 };
 
 Oracle::Oracle(const Scene& scene) {
-  auto impl = std::make_unique<Impl>();
-  impl->scene = scene;
-  if (!has_semiaxes(scene)) {
-    if (scene.dimension == 2)
-      impl->problem.emplace<Problem<2>>(scene);
-    else
-      impl->problem.emplace<Problem<3>>(scene);
-  }
-  impl_ = std::move(impl);
+  using Exact = std::variant<Problem<2>, Problem<3>>;
+  impl_ = std::make_unique<const Impl>(
+      Impl{scene, scene.dimension == 2 ? Exact(Problem<2>(scene)) : Exact(Problem<3>(scene))});
 }
 
 Oracle::Oracle(Oracle&&) noexcept = default;
@@ -165,17 +171,12 @@ Oracle::~Oracle() = default;
 
 Answer Oracle::first_hit(const Query& query, const Request& request) const {
   if (auto flaw = flaw_of(query, impl_->scene)) return Answer::error(*flaw);
-  if (const auto* problem = std::get_if<Problem<2>>(&impl_->problem))
-    return problem->first_hit(query, request);
-  if (const auto* problem = std::get_if<Problem<3>>(&impl_->problem))
-    return problem->first_hit(query, request);
-  return Answer::unsupported_because("the oracle does not do semiaxes yet; balls (radius) only");
+  return std::visit([&](const auto& problem) { return problem.first_hit(query, request); }, impl_->problem);
 }
 
 bool Oracle::is_free(const Vec& x) const {
   const Query query{x, {1, 0, 0}, {}};
-  if (const auto* problem = std::get_if<Problem<2>>(&impl_->problem)) return problem->is_free(query);
-  return std::get<Problem<3>>(impl_->problem).is_free(query);
+  return std::visit([&](const auto& problem) { return problem.is_free(query); }, impl_->problem);
 }
 
 std::string oracle_libraries() {

@@ -1,5 +1,5 @@
-// The exact oracle: the truth about first hits, for every scene of balls on any lattices, motifs and
-// superpositions in 2D and 3D. See README.md in this folder for why it can be trusted.
+// The exact oracle: the truth about first hits, for every scene of balls and ellipsoids on any lattices,
+// motifs and superpositions in 2D and 3D. See README.md in this folder for why it can be trusted.
 #pragma once
 
 #include <memory>
@@ -26,13 +26,13 @@ class Oracle {
   ~Oracle();
 
   /// The exact answer: `hit` (time correctly rounded to binary64), `inside`, `never`, or `later` if asked
-  /// for; `error` for a query that is none, and for scenes with semiaxes (unsupported). Never `undecided`.
+  /// for; `error` for a query that is none. Never `undecided`.
   /// Costs grow with the logarithms of 1/r, of the distance and of the numbers' range. The exception: which
   /// of very many obstacles around x is the smallest (10^10 of them, in a lattice both dense and skewed) can
   /// take long. Safe to call from several threads.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
-  /// True if x lies in no open obstacle. Requires a finite x and a scene of balls.
+  /// True if x lies in no open obstacle. Requires a finite x.
   bool is_free(const Vec& x) const;
 
  private:

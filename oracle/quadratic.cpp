@@ -25,6 +25,11 @@ int compare_entries(const Z& s1, const Z& d1, const Z& s2, const Z& d2) {
   return cmp(Z(4 * lead * lead * d2), Z(excess * excess));
 }
 
+int compare_entries(const Z& s1, const Z& d1, const Z& q1, const Z& s2, const Z& d2, const Z& q2) {
+  if (q1 == q2) return compare_entries(s1, d1, s2, d2);
+  return compare_entries(s1 * q2, d1 * q2 * q2, s2 * q1, d2 * q1 * q1);
+}
+
 int compare(const Quadratic& number, double value) {
   if (std::isinf(value)) return value > 0 ? -1 : 1;
   // number - m 2^e has the sign of (a - m q 2^(e - exponent)) + sign sqrt(d), scaled to integers.
@@ -90,19 +95,45 @@ Z round_half_even(const Floor& twice) {
 
 }  // namespace
 
+namespace {
+
+// The nearest binary64 to a number > 0, given `floor_at`: p -> floor(number / 2^p) and whether that is all,
+// and a guess of its exponent that is off by a few bits at most.
+template <class FloorAt>
+double rounded(long magnitude, FloorAt floor_at) {
+  // The unit of the last place is 2^p; the floor tells what the guess does not know.
+  constexpr long kSmallest = -1074;
+  long p = std::max(magnitude - 60, kSmallest - 1);
+  const long bits = bit_length(floor_at(p).value);
+  p = std::max(p + bits - 53, kSmallest);
+  const Z mantissa = round_half_even(floor_at(p - 1));
+  if (bit_length(mantissa) + p > 1024) return std::numeric_limits<double>::infinity();
+  return std::ldexp(mantissa.get_d(), static_cast<int>(p));  // mantissa <= 2^53: both steps are exact
+}
+
+// floor(sqrt(y)) = floor(sqrt(floor(y))).
+Floor root_of(const Floor& square) {
+  Floor root;
+  Z rest;
+  mpz_sqrtrem(root.value.get_mpz_t(), rest.get_mpz_t(), square.value.get_mpz_t());
+  root.exact = square.exact && rest == 0;
+  return root;
+}
+
+}  // namespace
+
 double round_to_binary64(const Quadratic& n) {
   const int sign = sign_of(n.a, n.sign, n.d);
   if (sign == 0) return 0.0;
   if (sign < 0) return -round_to_binary64(negated(n));
-  // The unit of the last place is 2^p; a guess from the magnitude is off by a few bits, so let the floor
-  // tell.
-  constexpr long kSmallest = -1074;
-  long p = std::max(binary_magnitude(n) - 60, kSmallest - 1);
-  const long bits = bit_length(floor_of(n, 1, -p).value);
-  p = std::max(p + bits - 53, kSmallest);
-  Z mantissa = round_half_even(floor_of(n, 1, 1 - p));
-  if (bit_length(mantissa) + p > 1024) return std::numeric_limits<double>::infinity();
-  return std::ldexp(mantissa.get_d(), static_cast<int>(p));  // mantissa <= 2^53: both steps are exact
+  return rounded(binary_magnitude(n), [&](long p) { return floor_of(n, 1, -p); });
+}
+
+double round_root_to_binary64(const Quadratic& square, int sign) {
+  if (sign_of(square.a, square.sign, square.d) == 0) return 0.0;
+  const double root =
+      rounded(binary_magnitude(square) / 2, [&](long p) { return root_of(floor_of(square, 1, -2 * p)); });
+  return sign * root;
 }
 
 namespace {

@@ -13,7 +13,7 @@ double ulp(double t) {
 }  // namespace
 
 Judgement judge(const Answer& exact, const Answer& given) {
-  if (exact.outcome == Outcome::error) return {Verdict::unsupported, {}};
+  if (exact.outcome == Outcome::error) return {Verdict::error, {}};
   switch (given.outcome) {
     case Outcome::undecided:
       return {Verdict::undecided, {}};

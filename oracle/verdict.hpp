@@ -11,7 +11,7 @@ enum class Verdict {
   agree,        ///< the same outcome and the same obstacle
   wrong,        ///< another outcome, or another obstacle
   undecided,    ///< it said that it does not know
-  unsupported,  ///< it said that it does not do this kind of query; or the oracle itself cannot judge it
+  unsupported,  ///< it said that it does not do this kind of query
   error,        ///< it said that the query is none, or broke
   missing       ///< there is no answer
 };

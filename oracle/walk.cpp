@@ -57,12 +57,13 @@ class AtomWalk {
       : dimension_(scene.dimension), lattice_(lattice), atom_(atom) {
     for (int i = 0; i < 3; ++i) u_[i] = exact(scene.lattices[lattice].vectors[i]);
     if (dimension_ == 2) u_[2] = {Real(0), Real(0), Real(1)};
-    const Atom& ball = scene.lattices[lattice].atoms[atom];
-    const Real r(ball.radius);
-    r2_ = r * r;
+    const Atom& obstacle = scene.lattices[lattice].atoms[atom];
+    Real r(obstacle.radius);
     v_ = exact(query.v);
+    for (int k = 0; k < 3; ++k) start_[k] = Real(obstacle.position[k]) - Real(query.x[k]);
+    if (!obstacle.is_ball()) r = make_balls(obstacle.semiaxes);
+    r2_ = r * r;
     v2_ = inner(v_, v_);
-    for (int k = 0; k < 3; ++k) start_[k] = Real(ball.position[k]) - Real(query.x[k]);
     if (query.from && query.from->lattice == lattice && query.from->atom == atom) from_ = query.from->cell;
     // y_i(t) = (Y_i + t W_i) / det.
     RealVec row[3] = {outer(u_[1], u_[2]), outer(u_[2], u_[0]), outer(u_[0], u_[1])};
@@ -121,6 +122,18 @@ class AtomWalk {
   }
 
  private:
+  // Stretches space so that the ellipsoids { A y : |y| < 1 } become balls: with det(A) A^-1, whose rows are
+  // the products of two columns of A. Their radius is then det(A). What is in the same places on line and
+  // lattice stays so: n and t are the same.
+  Real make_balls(const std::vector<Vec>& semiaxes) {
+    RealVec a[3] = {exact(semiaxes[0]), exact(semiaxes[1]), {Real(0), Real(0), Real(1)}};
+    if (dimension_ == 3) a[2] = exact(semiaxes[2]);
+    const RealVec row[3] = {outer(a[1], a[2]), outer(a[2], a[0]), outer(a[0], a[1])};
+    for (RealVec* place : {&u_[0], &u_[1], &u_[2], &v_, &start_})
+      *place = {inner(row[0], *place), inner(row[1], *place), inner(row[2], *place)};
+    return inner(row[0], a[0]);
+  }
+
   // floor(R + 1/2), R = r |row| / det: the smallest K with (K + 1/2) det > r |row|.
   int reach_of(const RealVec& row) const {
     const Real size2 = r2_ * inner(row, row);
@@ -262,8 +275,6 @@ Answer Walk::first_hit(const Query& query) const {
   std::vector<AtomWalk> walks;
   for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
     for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
-      if (!scene_.lattices[l].atoms[a].is_ball())
-        return Answer::unsupported_because("walk does not do semiaxes yet; balls (radius) only");
       walks.emplace_back(scene_, l, a, query);
       if (!walks.back().can_walk()) return Answer::undecided();
       if (auto n = walks.back().inside()) return Answer::inside({l, a, to_cell(*n)});

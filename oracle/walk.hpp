@@ -17,7 +17,7 @@ class Walk {
 
   /// The exact answer, time correctly rounded; `undecided` if the flight passes more than max_cells cells, or
   /// if a start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth trying; `error` for a
-  /// query that is none, and for semiaxes (unsupported).
+  /// query that is none.
   Answer first_hit(const Query& query) const;
 
  private:

@@ -101,6 +101,37 @@ inline Scene scene_of(Draw& draw, Style style, int dimension) {
   return scene;
 }
 
+/// Independent vectors of the obstacle's size: an ellipsoid in any position.
+inline std::vector<Vec> semiaxes_of(Draw& draw, Style style, int dimension) {
+  Lattice axes;
+  do
+    for (int i = 0; i < dimension; ++i) {
+      axes.vectors[i] = vec_of(draw, style, dimension, 1);
+      for (double& component : axes.vectors[i]) component /= 2;
+    }
+  while (std::fabs(determinant(axes, dimension)) < (dimension == 2 ? 0.02 : 0.004));
+  return {axes.vectors.begin(), axes.vectors.begin() + dimension};
+}
+
+/// The scene with ellipsoids in place of its balls: of all of them, or of some.
+inline Scene with_ellipsoids(Draw& draw, Style style, Scene scene) {
+  const bool all = draw.one_in(2);
+  for (Lattice& lattice : scene.lattices)
+    for (Atom& atom : lattice.atoms)
+      if (all || draw.one_in(2)) atom = {atom.position, 0, semiaxes_of(draw, style, scene.dimension)};
+  return scene;
+}
+
+/// A point about on the surface of the atom's obstacle, seen from its centre, for a unit vector y.
+inline Vec surface_point(const Atom& atom, const Vec& y) {
+  Vec point{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (atom.is_ball()) point[k] = atom.radius * y[k];
+    for (std::size_t i = 0; i < atom.semiaxes.size(); ++i) point[k] += atom.semiaxes[i][k] * y[i];
+  }
+  return point;
+}
+
 /// The centre of an obstacle in a small cell, in binary64.
 inline Vec centre_of(const Scene& scene, const ObstacleId& id) {
   const Lattice& lattice = scene.lattices[id.lattice];
@@ -131,11 +162,13 @@ inline Query query_of(Draw& draw, Style style, const Scene& scene) {
     const ObstacleId id = obstacle_of(draw, scene);
     if (draw.one_in(2)) query.from = id;
     if (draw.one_in(2)) {
-      const Vec centre = centre_of(scene, id), arm = vec_of(draw, style, d, 1);
-      const double length = std::hypot(arm[0], arm[1], arm[2]),
-                   r = scene.lattices[id.lattice].atoms[id.atom].radius;
+      const Vec centre = centre_of(scene, id);
+      Vec arm = vec_of(draw, style, d, 1);
+      const double length = std::hypot(arm[0], arm[1], arm[2]);
+      for (double& component : arm) component /= length;
+      const Vec place = surface_point(scene.lattices[id.lattice].atoms[id.atom], arm);
       if (length > 0)
-        for (int k = 0; k < d; ++k) query.x[k] = centre[k] + r * arm[k] / length;
+        for (int k = 0; k < d; ++k) query.x[k] = centre[k] + place[k];
     }
   }
   return query;

@@ -34,12 +34,15 @@ void hold_against_each_other(const Scene& scene, const Query& query, Counts& cou
   }
 }
 
-Counts campaign(std::uint64_t seed, Style style, int dimension, int cases) {
+enum class Shapes { balls, ellipsoids };
+
+Counts campaign(std::uint64_t seed, Style style, int dimension, int cases, Shapes shapes = Shapes::balls) {
   INFO("seed " << seed);
   Draw draw(seed);
   Counts counts;
   for (int i = 0; i < cases; ++i) {
-    const Scene scene = scene_of(draw, style, dimension);
+    Scene scene = scene_of(draw, style, dimension);
+    if (shapes == Shapes::ellipsoids) scene = with_ellipsoids(draw, style, scene);
     hold_against_each_other(scene, query_of(draw, style, scene), counts);
   }
   return counts;
@@ -71,6 +74,31 @@ TEST_CASE(
     "Oracle equals walk a little off the grid: near-rational slopes, nearly touching, nearly parallel") {
   require_variety(campaign(301, Style::near_grid, 2, 3000), 3000);
   require_variety(campaign(302, Style::near_grid, 3, 1500), 1500);
+}
+
+TEST_CASE("Oracle equals walk on ellipsoids, alone and mixed with balls") {
+  std::uint64_t seed = 350;
+  for (const Style style : {Style::generic, Style::grid, Style::near_grid}) {
+    require_variety(campaign(++seed, style, 2, 2000, Shapes::ellipsoids), 2000);
+    require_variety(campaign(++seed, style, 3, 1000, Shapes::ellipsoids), 1000);
+  }
+}
+
+TEST_CASE("Oracle equals walk on slender ellipsoids") {
+  Draw draw(371);
+  Counts counts;
+  for (int i = 0; i < 300; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    Scene scene = with_ellipsoids(draw, Style::generic, scene_of(draw, Style::generic, dimension));
+    for (Lattice& lattice : scene.lattices)
+      for (Atom& atom : lattice.atoms)
+        for (std::size_t axis = 0; axis < atom.semiaxes.size(); ++axis) {
+          const double stretch = axis == 0 ? draw.between(0.5, 5) : draw.between(0.02, 0.3);
+          for (double& component : atom.semiaxes[axis]) component *= stretch;
+        }
+    hold_against_each_other(scene, query_of(draw, Style::near_grid, scene), counts);
+  }
+  CHECK(counts.hit > 200);
 }
 
 TEST_CASE("Oracle equals walk on small obstacles") {
@@ -123,5 +151,7 @@ TEST_CASE("Walls so dense that their obstacles cannot be told apart by size") {
 TEST_CASE("Oracle equals walk, long campaign", "[long]") {
   std::uint64_t seed = 1000;
   for (const Style style : {Style::generic, Style::grid, Style::near_grid})
-    for (const int dimension : {2, 3}) require_variety(campaign(++seed, style, dimension, 60'000), 60'000);
+    for (const int dimension : {2, 3})
+      for (const Shapes shapes : {Shapes::balls, Shapes::ellipsoids})
+        require_variety(campaign(++seed, style, dimension, 60'000, shapes), 60'000);
 }
