@@ -50,10 +50,6 @@ Vec Random::direction(int dimension) {
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count) {
   constexpr int kTries = 10'000;
-  for (const Lattice& lattice : scene.lattices)
-    for (const Atom& atom : lattice.atoms)
-      if (!atom.is_ball())
-        throw InputError("queries cannot be drawn in scenes with semiaxes yet; give some with --queries");
   const bool superposition = scene.lattices.size() > 1;
   const Vec one_cell{1, 1, 1}, box = scene.dimension == 2 ? Vec{40, 25, 0} : Vec{10, 10, 10};
   const Vec& cells = superposition ? box : one_cell;

@@ -26,7 +26,7 @@ class Random {
 };
 
 /// `count` queries; of a superposition, in a box of 1000 cells of the first lattice. Throws InputError if the
-/// obstacles leave no free part to be found, or are no balls.
+/// obstacles leave no free part to be found.
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count);
 

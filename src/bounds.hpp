@@ -19,6 +19,9 @@ inline constexpr double kHeight = 8;
 /// |d|^2 - r^2, relative to |d|^2 + r^2.
 inline constexpr double kInside = 6;
 
+/// d . G d - r^2 for an ellipsoid, relative to |G| |d|^2 + r^2.
+inline constexpr double kInsideEllipsoid = 16;
+
 /// The height of an anchor, from the compensated sum of its terms: relative to it, and to the terms.
 inline constexpr double kAnchor = 3, kAnchorTerms = 0x1p-100;
 
@@ -29,7 +32,7 @@ inline constexpr double kAlong = 8;
 inline constexpr double kRho = 6;
 
 /// 3D, across in units of r: a point's coordinates as sums along the basis, relative to the sizes of the
-/// terms; and the scale of the coordinates.
+/// terms; and the scale of the coordinates (of ellipsoids: times the condition of the shape).
 inline constexpr double kAcross = 8, kScale = 32;
 
 /// 3D, where a lattice line enters the cylinder: relative to the sizes of the terms.

@@ -23,15 +23,33 @@ double length(const Vec& a) {
   return std::sqrt(dot(a, a));
 }
 
+Vec times(const Vec (&rows)[3], const Vec& a) {
+  return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)};
+}
+
+// What is short: in the metric of a shape, in which its ellipsoids are balls, or without one as usual.
+struct Metric {
+  const Shape* shape = nullptr;
+
+  Vec operator()(const Vec& a) const { return shape ? times(shape->to_ball, a) : a; }
+
+  // Of a linear form: its largest value on the unit ball.
+  double length_of_form(const Vec& g) const {
+    return shape ? length(times(shape->cofactor, g)) / shape->volume : length(g);
+  }
+};
+
 // A basis while it is made shorter: integer combinations of the primitive vectors, recomputed from these at
 // each step, so that no error accumulates.
 struct Shortening {
   int dimension;
   std::array<Vec, 3> primitive;
+  Metric metric;
   double T[3][3]{};
   WideVec B[3];
 
-  Shortening(const Lattice& lattice, int d, double scale) : dimension(d), primitive(lattice.vectors) {
+  Shortening(const Lattice& lattice, int d, double scale, Metric in)
+      : dimension(d), primitive(lattice.vectors), metric(in) {
     for (int i = 0; i < d; ++i)
       for (double& component : primitive[i]) component *= scale;
     for (int i = d; i < 3; ++i) primitive[i] = Vec{double(i == 0), double(i == 1), double(i == 2)};
@@ -62,12 +80,14 @@ struct Shortening {
     return true;
   }
 
+  Vec seen(int i) const { return metric(rounded(B[i])); }
+
   // B_i minus the nearest integer combination of the shorter ones; true if that shortens it.
   bool shorten(int i) {
     bool changed = false;
     for (int j = 0; j < dimension; ++j) {
       if (j == i) continue;
-      const Vec a = rounded(B[i]), b = rounded(B[j]);
+      const Vec a = seen(i), b = seen(j);
       if (dot(b, b) > dot(a, a)) continue;
       const double k = std::nearbyint(dot(a, b) / dot(b, b));
       if (k == 0) continue;
@@ -75,7 +95,7 @@ struct Shortening {
       const WideVec old = B[i];
       for (int c = 0; c < 3; ++c) T[i][c] -= k * T[j][c];
       recompute(i);
-      if (dot(rounded(B[i]), rounded(B[i])) < dot(a, a)) {
+      if (dot(seen(i), seen(i)) < dot(a, a)) {
         changed = true;
       } else {
         std::copy(before.begin(), before.end(), T[i]);
@@ -93,7 +113,7 @@ struct Shortening {
     }
     for (int i = 0; i < dimension; ++i)  // shortest first
       for (int j = i + 1; j < dimension; ++j)
-        if (length(rounded(B[j])) < length(rounded(B[i]))) {
+        if (length(seen(j)) < length(seen(i))) {
           std::swap(B[i], B[j]);
           std::swap(T[i], T[j]);
         }
@@ -124,10 +144,10 @@ void set_inverse(Bravais& bravais) {
 
 // A lower bound of the shortest lattice vector: a vector with a coefficient of 2 or more in absolute value is
 // at least 2/|dual_i| long; the others are tried.
-double shortest_vector(const Bravais& bravais) {
+double shortest_vector(const Bravais& bravais, const Metric& metric) {
   const int d = bravais.dimension;
   double shortest = 0x1p1000;
-  for (int i = 0; i < d; ++i) shortest = std::min(shortest, 2 / length(bravais.dual[i]));
+  for (int i = 0; i < d; ++i) shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
   for (int a = 0; a <= 1; ++a)
     for (int b = -1; b <= 1; ++b)
       for (int c = d == 3 ? -1 : 0; c <= (d == 3 ? 1 : 0); ++c) {
@@ -135,7 +155,7 @@ double shortest_vector(const Bravais& bravais) {
         Vec sum{};
         for (int k = 0; k < 3; ++k)
           sum[k] = a * bravais.basis[0][k].hi + b * bravais.basis[1][k].hi + c * bravais.basis[2][k].hi;
-        shortest = std::min(shortest, length(sum));
+        shortest = std::min(shortest, length(metric(sum)));
       }
   return shortest;
 }
@@ -148,11 +168,14 @@ bool is_too_skewed(const Shortening& shortening) {
 }
 
 // Why this atom is beyond the engine, or nothing.
-std::string beyond(const Bravais& bravais) {
+std::string beyond(const Bravais& bravais, const Metric& metric) {
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
-  const double shortest = bravais.unit ? 1 : shortest_vector(bravais) * (1 - 0x1p-40);
+  const double shortest =
+      bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - 0x1p-40);
   if (!(shortest > 0x1p-60 && shortest < 0x1p60))
     return "does not do lattices of so different spacings, or so flat a cell";
+  if (metric.shape && !(2 * bravais.radius <= shortest))
+    return "does ellipsoids only that do not overlap their own translates";
   if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
   if (!(bravais.radius >= smallest * shortest))
     return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
@@ -160,16 +183,7 @@ std::string beyond(const Bravais& bravais) {
   return "";
 }
 
-Bravais bravais_of(const Scene& scene, int l, int a, const Shortening& shortening, double scale) {
-  const Lattice& lattice = scene.lattices[l];
-  Bravais bravais;
-  bravais.dimension = scene.dimension;
-  bravais.lattice = l;
-  bravais.atom = a;
-  bravais.unit = lattice.vectors == unit_scene(scene.dimension, 1).lattices[0].vectors &&
-                 lattice.atoms[a].position == Vec{} && scale == 1;
-  bravais.radius = lattice.atoms[a].radius * scale;
-  for (int k = 0; k < 3; ++k) bravais.position[k] = lattice.atoms[a].position[k] * scale;
+void set_basis(Bravais& bravais, const Shortening& shortening) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
     bravais.basis[i] = shortening.B[i];
@@ -183,44 +197,135 @@ Bravais bravais_of(const Scene& scene, int l, int a, const Shortening& shortenin
   bravais.basis_error = bravais.exact ? 0 : 32 * 0x1p-106 * largest;  // three sums of 3 u^2 each, generously
   set_inverse(bravais);
   set_dual(bravais);
-  for (int i = 0; i < 3; ++i) bravais.reach[i] = bravais.radius * length(bravais.dual[i]) * (1 + 0x1p-40);
-  return bravais;
+}
+
+// One lattice, in the scale of the scene.
+class LatticePreparation {
+ public:
+  LatticePreparation(const Scene& scene, int lattice, double scale)
+      : scene_(scene),
+        lattice_(scene.lattices[lattice]),
+        index_(lattice),
+        scale_(scale),
+        short_(shortened({})) {
+    is_unit_ = lattice_.vectors == unit_scene(scene.dimension, 1).lattices[0].vectors && scale == 1;
+  }
+
+  /// Adds the atoms; why it cannot, or nothing.
+  std::string add_to(PreparedScene& prepared) {
+    if (is_too_skewed(short_)) return "does not do cells as skewed as this one";
+    for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
+      Bravais bravais;
+      bravais.dimension = scene_.dimension;
+      bravais.lattice = index_;
+      bravais.atom = a;
+      const std::string why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
+      if (!why.empty()) return why;
+      prepared.atoms.push_back(bravais);
+    }
+    return "";
+  }
+
+ private:
+  Shortening shortened(Metric metric) const {
+    Shortening shortening(lattice_, scene_.dimension, scale_, metric);
+    shortening.run();
+    return shortening;
+  }
+
+  std::string set_ball(Bravais& bravais) const {
+    const Atom& atom = lattice_.atoms[bravais.atom];
+    set_place(bravais);
+    bravais.unit = is_unit_ && atom.position == Vec{};
+    bravais.radius = atom.radius * scale_;
+    set_basis(bravais, short_);
+    return finish(bravais, {});
+  }
+
+  // A short basis in the metric of the shape; that of the atom before, if it has the same shape.
+  std::string set_ellipsoid(Bravais& bravais) {
+    const Atom& atom = lattice_.atoms[bravais.atom];
+    std::vector<Vec> semiaxes = atom.semiaxes;
+    for (int i = 0; i < scene_.dimension && atom.is_ball(); ++i) {
+      semiaxes.emplace_back();
+      semiaxes.back()[i] = atom.radius;
+    }
+    for (Vec& axis : semiaxes)
+      for (double& component : axis) component *= scale_;
+    if (last_semiaxes_ != semiaxes) {
+      shape_ = shape_of(semiaxes);
+      if (!shape_) return "does not do ellipsoids as slender as this one, or as small";
+      shaped_ = shortened({&*shape_});
+      last_semiaxes_ = std::move(semiaxes);
+    }
+    if (is_too_skewed(*shaped_)) return "does not do cells as skewed as this one";
+    set_place(bravais);
+    bravais.shape = *shape_;
+    bravais.radius = shape_->radius;
+    set_basis(bravais, *shaped_);
+    std::string why = finish(bravais, {&*shape_});
+    if (is_unit_ && atom.position == Vec{} && why.empty()) use_axes(bravais);
+    return why;
+  }
+
+  // The unit lattice's own vectors, which are exact, instead of shorter ones: as long as no obstacle reaches
+  // so far that one step along each axis does not lead to all that can contain a point.
+  void use_axes(Bravais& bravais) const {
+    Bravais axes = bravais;
+    set_basis(axes, short_);
+    set_reach(axes, {&bravais.shape});
+    axes.unit = std::max({axes.reach[0], axes.reach[1], scene_.dimension == 3 ? axes.reach[2] : 0}) < 0.99;
+    if (axes.unit) bravais = axes;
+  }
+
+  void set_place(Bravais& bravais) const {
+    for (int k = 0; k < 3; ++k) bravais.position[k] = lattice_.atoms[bravais.atom].position[k] * scale_;
+  }
+
+  static void set_reach(Bravais& bravais, const Metric& metric) {
+    for (int i = 0; i < 3; ++i)
+      bravais.reach[i] = bravais.radius * metric.length_of_form(bravais.dual[i]) * (1 + 0x1p-30);
+  }
+
+  static std::string finish(Bravais& bravais, const Metric& metric) {
+    set_reach(bravais, metric);
+    return beyond(bravais, metric);
+  }
+
+  const Scene& scene_;
+  const Lattice& lattice_;
+  int index_;
+  double scale_;
+  bool is_unit_ = false;
+  Shortening short_;
+  std::vector<Vec> last_semiaxes_;
+  std::optional<Shape> shape_;
+  std::optional<Shortening> shaped_;
+};
+
+bool has_ellipsoids(const Scene& scene) {
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms)
+      if (!atom.is_ball()) return true;
+  return false;
 }
 
 }  // namespace
 
 PreparedScene prepare(const Scene& scene) {
   PreparedScene prepared;
-  double scale = 1;
-  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {
-    if (l == 0) {
-      Shortening unscaled(scene.lattices[0], scene.dimension, 1);
-      unscaled.run();
-      const double first = length(rounded(unscaled.B[0]));
-      if (!(first > 0x1p-400 && first < 0x1p400)) {
-        prepared.beyond = "does lattice vectors between 2^-400 and 2^400 only";
-        return prepared;
-      }
-      prepared.exponent = std::ilogb(first);
-      scale = std::ldexp(1, -prepared.exponent);
-    }
-    Shortening shortening(scene.lattices[l], scene.dimension, scale);
-    shortening.run();
-    if (is_too_skewed(shortening)) {
-      prepared.beyond = "does not do cells as skewed as this one";
-      return prepared;
-    }
-    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
-      if (!scene.lattices[l].atoms[a].is_ball()) {
-        prepared.beyond = "does balls only, no semiaxes";
-        return prepared;
-      }
-      const Bravais bravais = bravais_of(scene, l, a, shortening, scale);
-      prepared.beyond = beyond(bravais);
-      if (!prepared.beyond.empty()) return prepared;
-      prepared.atoms.push_back(bravais);
-    }
+  prepared.ellipsoids = has_ellipsoids(scene);
+  Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});
+  unscaled.run();
+  const double first = length(rounded(unscaled.B[0]));
+  if (!(first > 0x1p-400 && first < 0x1p400)) {
+    prepared.beyond = "does lattice vectors between 2^-400 and 2^400 only";
+    return prepared;
   }
+  prepared.exponent = std::ilogb(first);
+  const double scale = std::ldexp(1, -prepared.exponent);
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()) && prepared.beyond.empty(); ++l)
+    prepared.beyond = LatticePreparation(scene, l, scale).add_to(prepared);
   return prepared;
 }
 

@@ -1,5 +1,5 @@
-// One atom of one lattice, prepared for the reduction engine: balls of one radius on a Bravais lattice, with
-// a short basis of it. What is here is computed once a scene.
+// One atom of one lattice, prepared for the reduction engine: balls of one radius, or ellipsoids of one
+// shape, on a Bravais lattice, with a short basis of it. What is here is computed once a scene.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "double_double.hpp"
 #include "problem.hpp"
+#include "shape.hpp"
 
 namespace lorentz {
 
@@ -19,18 +20,19 @@ inline constexpr double kMaxCoefficient = 0x1p53;
 struct Bravais {
   int dimension = 0;
   int lattice = 0, atom = 0;  ///< which of the scene
-  bool unit = false;          ///< square or cubic, spacing 1, a ball at the origin: everything here is exact
-  double radius = 0;
+  bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
+  double radius = 0;  ///< of an ellipsoid: the shape's
   Vec position{};
   WideVec
       basis[3];  ///< a short basis B_i = sum_j transform[i][j] u_j; columns beyond the dimension: the axes
   std::int64_t transform[3][3]{};
   Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64
-  Vec reach{};                   ///< a ball that contains x has coordinates within reach_i of those of x
+  Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
   double volume = 0;             ///< of a cell (2D: area)
   double basis_error = 0;        ///< of each component of a basis vector, at most
   bool exact = false;            ///< the basis vectors are binary64, without error
   std::int64_t inverse[3][3]{};  ///< of transform: u_i = sum_j inverse[i][j] B_j
+  Shape shape;                   ///< only in scenes that have ellipsoids, there of balls too
 };
 
 /// All lengths are scaled by 2^-exponent, so that the shortest lattice vector of the first lattice lies in
@@ -38,14 +40,16 @@ struct Bravais {
 struct PreparedScene {
   int exponent = 0;
   std::vector<Bravais> atoms;  ///< in the order of (lattice, atom)
+  bool ellipsoids = false;     ///< there are some
   std::string beyond;          ///< why the reduction engine does not do the scene; empty if it does
 };
 
 /// For a scene without flaws.
 PreparedScene prepare(const Scene& scene);
 
-/// Radii that the engine does, in units of the shortest lattice vector: at most 1/2 (then the balls of one
-/// atom do not overlap, and are entered in the order of their centres), at least this (see docs/bounds.md).
+/// Radii that the engine does, in units of the shortest lattice vector (of ellipsoids: both in the metric of
+/// their shape): at most 1/2 (then the obstacles of one atom do not overlap, and are entered in the order of
+/// their centres), at least this (see docs/bounds.md).
 inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
 
 }  // namespace lorentz

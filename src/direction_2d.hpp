@@ -19,7 +19,7 @@ struct Arm2 {
   double D = 0, D_low = 0;  ///< |v x vector| as a sum; the first part is kept exact by Euclid's algorithm
   double S = 0;             ///< v . vector >= 0
 
-  double D_error = 0;
+  double D_error = 0, S_error = 0;
 
   template <class Arch>
   void subtract(double k, const Arm2& other) {
@@ -31,57 +31,87 @@ struct Arm2 {
 };
 
 /// A lattice seen along one direction: all that does not depend on the start.
-template <bool kUnit>
+template <bool kUnit, bool kBall>
 struct Direction2 {
-  Vec v;  ///< turned, components below kTinyComponent taken as zero
-  double v2 = 0, rho = 0;
-  Wide H[2];      ///< heights v x B_i
-  double M[2]{};  ///< the size of the terms of H_i
-  double S[2]{};  ///< v . B_i
-  Arm2 R, L;      ///< h = sigma D_R for R and -sigma D_L for L
+  static constexpr bool kTurned = kUnit && kBall;
+
+  Vec v;                   ///< turned, components below kTinyComponent taken as zero
+  double v2 = 0;           ///< in the metric of the shape
+  double rho = 0;          ///< the line meets the obstacle iff |v x d| < rho
+  double s_rho = 0;        ///< r |v|: entries are at s - s_rho at the earliest
+  Wide along[2];           ///< s = along . d; not used for balls, whose s is v . d
+  double along_size = 1;   ///< its largest component, at least 1
+  double slack_scale = 1;  ///< the slack is (rho^2 - h^2) times this
+  Wide H[2];               ///< heights v x B_i
+  double M[2]{};           ///< the size of the terms of H_i
+  double S[2]{};           ///< v . B_i
+  Arm2 R, L;               ///< h = sigma D_R for R and -sigma D_L for L
   double sigma = 1;
   double inverse_A = 0, inverse_D_L = 0, inverse_S_L = 0;  ///< A = |v|^2 times the cell's area
   bool usable = true;
 
   template <class Arch>
   Direction2(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
-    octant.turn<kUnit>(velocity, v);
-    v2 = speed_squared(v[0], v[1], 0.0);
-    rho = lattice.radius * std::sqrt(v2);
+    octant.turn<kTurned>(velocity, v);
+    set_width<Arch>(lattice);
     set_forms<Arch>(lattice);
     set_first_arms();
     euclid<Arch>();
     if constexpr (!kUnit)
       for (int round = 0; round < 8 && usable && renormalise(); ++round) euclid<Arch>();
+    if constexpr (kUnit && !kBall) go_forward<Arch>();
     finish(lattice);
   }
 
  private:
+  template <class Arch>
+  void set_width(const Bravais& lattice) {
+    if constexpr (kBall) {
+      v2 = speed_squared(v[0], v[1], 0.0);
+      s_rho = rho = lattice.radius * std::sqrt(v2);
+    } else {
+      using DD = DoubleDouble<Arch>;
+      apply_metric<Arch>(lattice.shape, v, along);
+      v2 = add_product(add_product(DD(0.0), DD(along[0]), v[0]), DD(along[1]), v[1]).hi;
+      const double height_scale = std::fabs(lattice.shape.cofactor[2][2]);
+      s_rho = lattice.radius * std::sqrt(v2);
+      rho = s_rho / height_scale;
+      slack_scale = height_scale * height_scale;
+      along_size = std::max({1.0, std::fabs(along[0].hi), std::fabs(along[1].hi)});
+    }
+  }
+
+  double along_of(int k) const {
+    if constexpr (kBall) return v[k];
+    return along[k].hi;
+  }
+
   template <class Arch>
   void set_forms(const Bravais& lattice) {
     using DD = DoubleDouble<Arch>;
     if constexpr (kUnit) {
       H[0] = Wide(-v[1]), H[1] = Wide(v[0]);
       M[0] = std::fabs(v[1]), M[1] = std::fabs(v[0]);
-      S[0] = v[0], S[1] = v[1];
+      S[0] = along_of(0), S[1] = along_of(1);
     } else {
       for (int i = 0; i < 2; ++i) {
         const DD x(lattice.basis[i][0]), y(lattice.basis[i][1]);
         H[i] = Wide(add_product(add_product(DD(0.0), y, v[0]), x, -v[1]));
         M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + 0x1p106 * 4 * lattice.basis_error;
-        S[i] = v[0] * x.hi + v[1] * y.hi;
+        S[i] = along_of(0) * x.hi + along_of(1) * y.hi;
       }
     }
   }
 
   // Two neighbours of the shortest lattice vectors with the line between them, both pointing forward.
   void set_first_arms() {
-    if constexpr (kUnit) {  // v lies in the first octant
+    if constexpr (kTurned) {  // v lies in the first octant
       R.n[1] = L.n[0] = 1;
       R.D = v[0], L.D = v[1];
       return;
     }
-    const double p = std::copysign(1, S[0]), q = std::copysign(1, S[1]);
+    // Among ellipsoids on the unit lattice: forward by v itself, with the line always in between.
+    const double p = std::copysign(1, kUnit ? v[0] : S[0]), q = std::copysign(1, kUnit ? v[1] : S[1]);
     double first = p * H[0].hi, second = q * H[1].hi;
     R.n[0] = p, L.n[1] = q;
     R.D_low = p * H[0].lo, L.D_low = q * H[1].lo;
@@ -123,6 +153,20 @@ struct Direction2 {
     R = larger, L = smaller;
   }
 
+  // An arm that points forward by v may point backward in the metric of a shape. If it is L, one more of
+  // Euclid's steps: S_R D_L + S_L D_R = A > 0 is the same for every basis, so the vector that replaces it, R'
+  // with S_R' D_L = A - S_L D_R', points forward.
+  template <class Arch>
+  void go_forward() {
+    if (!(along_arm(L) < 0)) return;
+    const double k = std::floor(R.D / L.D);
+    usable = k < 0x1p40;
+    R.subtract<Arch>(k, L);
+    swap_arms();
+  }
+
+  double along_arm(const Arm2& arm) const { return arm.n[0] * S[0] + arm.n[1] * S[1]; }
+
   bool goes_on(const Arm2& smaller) const {
     return smaller.D >= 2 * rho && (kUnit || std::fabs(smaller.D_low) <= 0x1p-8 * smaller.D);
   }
@@ -145,9 +189,12 @@ struct Direction2 {
 
   void finish(const Bravais& lattice) {
     for (Arm2* arm : {&R, &L}) {
-      arm->S = arm->n[0] * S[0] + arm->n[1] * S[1];
+      arm->S = along_arm(*arm);
+      if (!kBall)
+        arm->S_error = kAlong * kRoundoff * (std::fabs(arm->n[0] * S[0]) + std::fabs(arm->n[1] * S[1]));
       if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
-      usable = usable && arm->S >= 0 && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
+      const bool forward = arm->S >= 0 || (kUnit && !kBall && arm == &R);
+      usable = usable && forward && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
                std::fabs(arm->n[1]) < kMaxCoefficient;
     }
     inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);

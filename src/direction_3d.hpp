@@ -42,23 +42,32 @@ struct Basis3 {
 };
 
 /// A lattice seen along one direction: all that does not depend on the start.
-template <bool kUnit>
+template <bool kUnit, bool kBall>
 struct Direction3 {
-  Vec v;  ///< turned, components below kTinyComponent taken as zero
-  double v2 = 0, rho = 0;
-  double scale[2]{};  ///< across = scale * (form . n)
-  double inverse_r = 0;
-  Wide cartesian[3][3]{};  ///< across 0, across 1, along: of the axes
-  Wide form[3][3]{};       ///< the same of each vector of the short basis
-  double size_of[3]{};     ///< the size of each vector of the short basis
+  static constexpr bool kTurned = kUnit && kBall;
+
+  Vec v;                   ///< turned, components below kTinyComponent taken as zero
+  double v2 = 0, rho = 0;  ///< in the metric of the shape: |v|^2, r |v|
+  double s_rho = 0;        ///< rho, by the name that it has in 2D
+  double scale[2]{};       ///< across = scale * (form . n)
+  double inverse_r = 0;    ///< a vector of this size has an across of 1 at most, and its terms
+  double scale_error = kScale * kRoundoff;  ///< of |across|^2, relative, from the scale
+  double along_size = 1;                    ///< a vector of size 1 has an s of 4 times this at most
+  Wide along[3];                            ///< s = along . d; not used for balls, whose s is v . d
+  Wide cartesian[3][3]{};                   ///< across 0, across 1, along: of the axes
+  Wide form[3][3]{};                        ///< the same of each vector of the short basis
+  double size_of[3]{};                      ///< the size of each vector of the short basis
   Basis3 basis;
 
   template <class Arch>
   Direction3(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
-    octant.turn<kUnit>(velocity, v);
-    v2 = speed_squared(v[0], v[1], v[2]);
+    octant.turn<kTurned>(velocity, v);
+    if constexpr (kBall)
+      set_frame<Arch>(lattice);
+    else
+      set_frame_of_shape<Arch>(lattice);
     const double speed = std::sqrt(v2), r = lattice.radius;
-    rho = r * speed;
+    s_rho = rho = r * speed;
     set_forms<Arch>(lattice);
     constexpr double kWindowCells = 2;  // expected number of balls in a window
     basis.length = kWindowCells * lattice.volume / (3.14 * r * r) * speed;
@@ -117,14 +126,14 @@ struct Direction3 {
  private:
   // Two vectors across the line, exactly perpendicular to it and to each other, and v itself.
   template <class Arch>
-  void set_forms(const Bravais& lattice) {
+  void set_frame(const Bravais& lattice) {
     using DD = DoubleDouble<Arch>;
+    v2 = speed_squared(v[0], v[1], v[2]);
     int c = 0;
-    if constexpr (kUnit)
+    if constexpr (kTurned)
       c = 2;  // the first octant
     else
-      for (int i = 1; i < 3; ++i)
-        if (std::fabs(v[i]) < std::fabs(v[c])) c = i;
+      c = smallest_component(v);
     const int a = (c + 1) % 3, b = (c + 2) % 3;
     const double across2 = v[a] * v[a] + v[b] * v[b], across = std::sqrt(across2);
     scale[0] = 1 / (across * lattice.radius);
@@ -134,6 +143,58 @@ struct Direction3 {
     cartesian[1][c] = Wide(DD::product(v[a], v[a]) + DD::product(v[b], v[b]));
     for (int k = 0; k < 3; ++k) cartesian[2][k] = Wide(v[k]);
     inverse_r = 1 / lattice.radius;
+  }
+
+  // The same in the metric of a shape. With f_i orthonormal and perpendicular to w = N v, across is
+  //   f_i . C (v x d) / (r |w|) = ((C^T f_i) x v) . d / (r |w|),
+  // where f_i and C^T f_i need not be exact: whatever g = C^T f_i is rounded to, g x v is perpendicular to v,
+  // so that errors do not grow with the distance.
+  template <class Arch>
+  void set_frame_of_shape(const Bravais& lattice) {
+    using DD = DoubleDouble<Arch>;
+    const Shape& shape = lattice.shape;
+    Wide image[3];
+    apply_metric<Arch>(shape, v, image);
+    DD square(0.0);
+    for (int k = 0; k < 3; ++k) {
+      cartesian[2][k] = along[k] = image[k];
+      square = add_product(square, DD(image[k]), v[k]);
+    }
+    v2 = square.hi;
+    Vec w{}, f[2]{};
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) w[i] += shape.to_ball[i][k] * v[k];
+    const int c = smallest_component(w), a = (c + 1) % 3, b = (c + 2) % 3;
+    const double across2 = w[a] * w[a] + w[b] * w[b], across = std::sqrt(across2);
+    f[0][a] = -w[b], f[0][b] = w[a];
+    f[1][a] = -(w[a] * w[c]), f[1][b] = -(w[b] * w[c]), f[1][c] = across2;
+    scale[0] = 1 / (across * lattice.radius * std::sqrt(v2));
+    scale[1] = scale[0] / std::sqrt(across2 + w[c] * w[c]);
+    for (int i = 0; i < 2; ++i) {
+      Vec g{};
+      for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j) g[k] += shape.cofactor[j][k] * f[i][j];
+      for (int k = 0; k < 3; ++k) {
+        const int j = (k + 1) % 3, l = (k + 2) % 3;
+        cartesian[i][k] = Wide(DD::product(g[j], v[l]) - DD::product(g[l], v[j]));
+      }
+    }
+    const double size = std::sqrt(shape.metric_size);
+    inverse_r = size * shape.condition / lattice.radius;
+    along_size = std::max(1.0, shape.metric_size);
+    scale_error *= shape.condition;
+  }
+
+  static int smallest_component(const Vec& a) {
+    int c = 0;
+    for (int i = 1; i < 3; ++i)
+      if (std::fabs(a[i]) < std::fabs(a[c])) c = i;
+    return c;
+  }
+
+  // What each vector of the short basis has across and along.
+  template <class Arch>
+  void set_forms(const Bravais& lattice) {
     for (int i = 0; i < 3; ++i) {
       if constexpr (kUnit) {
         for (int k = 0; k < 3; ++k) form[k][i] = cartesian[k][i];

@@ -1,5 +1,5 @@
-// One flight among one atom's balls, or several atoms': from the query to a Flight. Private to the reduction
-// engine, which compiles it twice, with and without the fused multiply-add.
+// One flight among one atom's obstacles, or several atoms': from the query to a Flight. Private to the
+// reduction engine, which compiles it twice, with and without the fused multiply-add.
 #pragma once
 
 #include <type_traits>
@@ -10,23 +10,24 @@
 
 namespace lorentz {
 
-/// One atom's lattice seen along a velocity. The unit lattices are turned so that it lies in the first
-/// octant.
-template <int D, bool kUnit>
+/// One atom's lattice seen along a velocity. The unit lattices of balls are turned so that it lies in the
+/// first octant.
+template <int D, bool kUnit, bool kBall>
 struct Aim {
   Octant octant;
-  std::conditional_t<D == 2, Direction2<kUnit>, Direction3<kUnit>> direction;
+  std::conditional_t<D == 2, Direction2<kUnit, kBall>, Direction3<kUnit, kBall>> direction;
 
   template <class Arch>
   Aim(Arch arch, const Bravais& lattice, const Vec& v)
-      : octant(kUnit ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
+      : octant(kUnit && kBall ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
 };
 
-/// The first of one atom's balls that is entered, with what its time needs.
-template <class Arch, int D, bool kUnit>
+/// The first of one atom's obstacles that is entered, with what its time needs.
+template <class Arch, int D, bool kUnit, bool kBall>
 class Finding {
+  static constexpr bool kTurned = kUnit && kBall;
   using DD = DoubleDouble<Arch>;
-  using Search = std::conditional_t<D == 2, Search2<Arch, kUnit>, Search3<Arch, kUnit>>;
+  using Search = std::conditional_t<D == 2, Search2<Arch, kUnit, kBall>, Search3<Arch, kUnit, kBall>>;
 
  public:
   Outcome outcome = Outcome::undecided;
@@ -48,9 +49,9 @@ class Finding {
     for (Wide& n : N) n = Wide();
     double other[D]{};
     int others = 0;
-    if constexpr (!kUnit) others = neighbours(other);
+    if constexpr (!kTurned) others = neighbours(other);
     if (others == 0) {  // nearly always
-      const Decision decision = is_inside(offset_.d, offset_.error, lattice_->radius, stage);
+      const Decision decision = is_inside<kBall>(offset_.d, offset_.error, *lattice_, stage);
       if (decision == Decision::no) return decision;
     }
     Wide leaving[D];
@@ -63,7 +64,7 @@ class Finding {
         choose(which, other);
         error = place_of<SplitProduct, kUnit, D>(*lattice_, offset_, N, d);
       }
-      const Decision decision = is_inside(d, error, lattice_->radius, stage);
+      const Decision decision = is_inside<kBall>(d, error, *lattice_, stage);
       if (decision == Decision::no || (has_from && same(leaving, N))) continue;
       return decision;
     }
@@ -71,16 +72,18 @@ class Finding {
   }
 
   /// Balls that are entered after max_time need not be found.
-  void find(const Aim<D, kUnit>& aim, const ObstacleId* from, double max_time) {
-    const double s_limit = (max_time * aim.direction.v2 + aim.direction.rho) * (1 + 0x1p-40);
+  void find(const Aim<D, kUnit, kBall>& aim, const ObstacleId* from, double max_time) {
+    const double s_limit = (max_time * aim.direction.v2 + aim.direction.s_rho) * (1 + 0x1p-40);
+    v2_ = aim.direction.v2;
+    if constexpr (!kBall) std::copy(aim.direction.along, aim.direction.along + D, along_);
     Offset<D> turned;
-    if constexpr (kUnit) aim.octant.apply(offset_.d, turned.d);
-    Search search(*lattice_, aim.direction, kUnit ? turned : offset_);
+    if constexpr (kTurned) aim.octant.apply(offset_.d, turned.d);
+    Search search(*lattice_, aim.direction, kTurned ? turned : offset_);
     Wide leaving[D];
     if (from && find_from(from, leaving)) {
       Wide there[D];
-      if constexpr (kUnit) aim.octant.apply(leaving, there);
-      outcome = search.run(kUnit ? there : leaving, s_limit);
+      if constexpr (kTurned) aim.octant.apply(leaving, there);
+      outcome = search.run(kTurned ? there : leaving, s_limit);
     } else {
       outcome = search.run(nullptr, s_limit);
     }
@@ -89,7 +92,7 @@ class Finding {
     if (outcome != Outcome::hit) return;
     s_ = search.best_s, s_error_ = search.best_s_error;
     slack_ = search.best_slack, slack_error_ = search.best_slack_error;
-    if constexpr (kUnit)
+    if constexpr (kTurned)
       aim.octant.undo(search.best, N);
     else
       std::copy(search.best, search.best + D, N);
@@ -121,6 +124,7 @@ class Finding {
 
   /// The time of entry within a few ulps.
   double close_time(const Vec& v, double v2) const {
+    if constexpr (!kBall) return close_time_of_ellipsoid(v);
     const double q = std::sqrt(slack_);
     if (slack_error_ > 64 * kRoundoff * q * s_) {  // a grazing hit nearby
       double error;
@@ -146,9 +150,9 @@ class Finding {
   }
 
   /// The time in binary64 and the bound of its error, from the search alone.
-  double rough_time(double v2, double& error) const {
-    const double q = std::sqrt(slack_), t = (s_ - q) / v2;
-    error = 2 * (s_error_ + slack_error_ / q) / v2 + 16 * kRoundoff * s_ / v2;
+  double rough_time(double& error) const {
+    const double q = std::sqrt(slack_), t = (s_ - q) / v2_;
+    error = 2 * (s_error_ + slack_error_ / q) / v2_ + 16 * kRoundoff * s_ / v2_;
     return t;
   }
 
@@ -157,18 +161,33 @@ class Finding {
     DD d[D], N_here[D];
     for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
     const double d_error = place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
-    const Encounter<Arch, D> encounter(v, d, d_error, lattice_->radius);
-    return encounter.time(d, d_error, lattice_->radius, error);
+    const Encounter<Arch, D, kBall> encounter(v, d, d_error, *lattice_);
+    return encounter.time(d, d_error, *lattice_, error);
   }
 
   [[gnu::noinline]] Wide wide_time(const Vec& v, double& error) const {
     Wide d[D];
     const double d_error = place_of<SplitProduct, kUnit, D>(*lattice_, offset_, N, d);
-    const Encounter<SplitProduct, D> encounter(v, d, d_error, lattice_->radius);
-    return encounter.time(d, d_error, lattice_->radius, error);
+    const Encounter<SplitProduct, D, kBall> encounter(v, d, d_error, *lattice_);
+    return encounter.time(d, d_error, *lattice_, error);
   }
 
  private:
+  // The terms of w . d are larger than their sum: in double-double.
+  double close_time_of_ellipsoid(const Vec& v) const {
+    const double q = std::sqrt(slack_);
+    double error;
+    if (slack_error_ > 64 * kRoundoff * q * s_) return wide_time(v, error).value();
+    DD d[D], N_here[D], s(0.0);
+    for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
+    place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
+    for (int k = 0; k < D; ++k) s = s + DD(along_[k]) * d[k];
+    if (s.hi > 4 * q) return (s.hi - q) / v2_;
+    const DD square = square_in(lattice_->shape, d, 0.0, error);
+    const DD gap = square - DD::product(lattice_->radius, lattice_->radius);
+    return std::max(gap.value(), 0.0) / (s.hi + q);
+  }
+
   // Component k of the ball's place seen from x, to some ulps of |d|.
   double distance(int k) const {
     if constexpr (kUnit) return N[k].hi + offset_.d[k].hi;
@@ -225,7 +244,8 @@ class Finding {
 
   const Bravais* lattice_ = nullptr;
   Offset<D> offset_;
-  double s_, s_error_, slack_, slack_error_;
+  double s_, s_error_, slack_, slack_error_, v2_;
+  Wide along_[kBall ? 1 : D];  ///< of ellipsoids
 };
 
 }  // namespace lorentz

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bravais.hpp"
+#include "encounter.hpp"
 #include "engine.hpp"
 #include "flight.hpp"
 #include "predicates.hpp"
@@ -64,7 +65,8 @@ inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) 
   return true;
 }
 
-/// The symmetry of the unit lattices that brings a velocity into the first octant, v_0 >= v_1 >= v_2 >= 0.
+/// The symmetry of the unit lattices of balls that brings a velocity into the first octant, v_0 >= v_1 >= v_2
+/// >= 0.
 struct Octant {
   int axis[3]{0, 1, 2};  ///< component i there is component axis[i] here, times sign[i]
   double sign[3]{1, 1, 1};
@@ -85,9 +87,9 @@ struct Octant {
 
   /// A velocity, without its tiny components. (Component by component: a copy as a whole would wait for
   /// them.)
-  template <bool kUnit>
+  template <bool kTurned>
   void turn(const Vec& here, Vec& there) const {
-    for (int i = 0; i < 3; ++i) there[i] = flushed(kUnit ? here[axis[i]] * sign[i] : here[i]);
+    for (int i = 0; i < 3; ++i) there[i] = flushed(kTurned ? here[axis[i]] * sign[i] : here[i]);
   }
   template <int D>
   void apply(const Wide (&here)[D], Wide (&there)[D]) const {
@@ -146,25 +148,40 @@ inline double place_of(const Bravais& lattice, const Offset<D>& offset, const Do
   return true;
 }
 
-/// Is |d| < r, so that x lies in this ball? In double-double.
-template <int D>
-[[gnu::noinline]] Decision is_inside_closely(const Wide (&d)[D], double error, double r) {
+/// Is |d| < r, so that x lies in this ball (ellipsoid: in its metric)? In double-double.
+template <bool kBall, int D>
+[[gnu::noinline]] Decision is_inside_closely(const Wide (&d)[D], double error, const Bravais& lattice) {
+  const double r = lattice.radius;
   Wide gap = -Wide::product(r, r);
-  for (const Wide& component : d) gap = gap + component * component;
-  const double spread = kStable * r * r + 4 * error * (r + error) + kFlushed;
+  double spread = kStable * r * r + 4 * error * (r + error) + kFlushed;
+  if constexpr (kBall) {
+    for (const Wide& component : d) gap = gap + component * component;
+  } else {
+    double square_error;
+    gap = gap + square_in(lattice.shape, d, error, square_error);
+    spread = 2 * kStable * r * r + square_error + kFlushed;
+  }
   return is_positive(-gap.hi, spread);
 }
 
 /// The same, in binary64 if that is certain.
-template <int D>
-inline Decision is_inside(const Wide (&d)[D], double error, double r, Stage& stage) {
-  double square = 0, limit = r * r;
+template <bool kBall, int D>
+inline Decision is_inside(const Wide (&d)[D], double error, const Bravais& lattice, Stage& stage) {
+  const double r = lattice.radius, limit = r * r;
+  double square = 0, form = 0;
   for (const Wide& component : d) square += component.hi * component.hi;
-  const double spread = kInside * kRoundoff * (square + limit) + 4 * error * (r + error);
-  const Decision decision = is_positive(limit - square, spread);
+  double spread = kInside * kRoundoff * (square + limit) + 4 * error * (r + error);
+  if constexpr (!kBall) {
+    const Shape& shape = lattice.shape;
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k) form += shape.metric[i][k].hi * d[i].hi * d[k].hi;
+    spread = kInsideEllipsoid * kRoundoff * (shape.metric_size * square + limit) +
+             4 * shape.metric_size * error * (std::sqrt(square) + error);
+  }
+  const Decision decision = is_positive(limit - (kBall ? square : form), spread);
   if (decision != Decision::doubtful) return decision;
   stage = Stage::double_double;
-  return is_inside_closely(d, error, r);
+  return is_inside_closely<kBall>(d, error, lattice);
 }
 
 }  // namespace lorentz

@@ -23,10 +23,10 @@ struct Task {
 
 using Time = Reduction::Time;
 
-/// The smallest model that serves a scene.
+/// The smallest model that serves a scene; each for balls, and for scenes with ellipsoids.
 enum class Model {
-  unit,      ///< one square or cubic lattice of spacing 1, a ball at the origin
-  one_atom,  ///< one ball in any cell
+  unit,      ///< one square or cubic lattice of spacing 1, an obstacle at the origin
+  one_atom,  ///< one obstacle in any cell
   several    ///< several atoms, in one lattice or several
 };
 
@@ -50,9 +50,10 @@ void rescale(Flight& flight, int exponent) {
   if (flight.time != 0 && !std::isnormal(flight.time)) flight.time_is_rounded = false;
 }
 
-// Atoms of one lattice and one radius look the same along a direction.
+// Atoms of one lattice and one shape look the same along a direction.
+template <bool kBall>
 bool share_an_aim(const Bravais& a, const Bravais& b) {
-  return a.lattice == b.lattice && a.radius == b.radius;
+  return a.lattice == b.lattice && a.radius == b.radius && (kBall || a.shape == b.shape);
 }
 
 void give_up(Flight& flight) {
@@ -60,8 +61,8 @@ void give_up(Flight& flight) {
   flight.stage = Stage::undecided;
 }
 
-template <Time kTime, class Arch, int D, bool kUnit>
-inline void set_time(const Finding<Arch, D, kUnit>& finding, const Task& task, Flight& flight) {
+template <Time kTime, class Arch, int D, bool kUnit, bool kBall>
+inline void set_time(const Finding<Arch, D, kUnit, kBall>& finding, const Task& task, Flight& flight) {
   if constexpr (kTime == Time::close) {
     flight.time = finding.close_time(task.v, speed_squared(task.v[0], task.v[1], task.v[2]));
   } else {
@@ -73,18 +74,18 @@ inline void set_time(const Finding<Arch, D, kUnit>& finding, const Task& task, F
 }
 
 /// One atom in the scene.
-template <Time kTime, class Arch, int D, bool kUnit>
+template <Time kTime, class Arch, int D, bool kUnit, bool kBall>
 inline void fly_one(const Task& task, Flight& flight) {
   const Bravais& lattice = task.scene.atoms[0];
-  Finding<Arch, D, kUnit> finding;
+  Finding<Arch, D, kUnit, kBall> finding;
   if (!finding.start(lattice, task.x)) return give_up(flight);
   const Decision inside = finding.inside(task.from);
   if (inside == Decision::doubtful) return give_up(flight);
   if (inside == Decision::no) {
     if (task.aims)
-      finding.find(*static_cast<const Aim<D, kUnit>*>(task.aims), task.from, task.max_time);
+      finding.find(*static_cast<const Aim<D, kUnit, kBall>*>(task.aims), task.from, task.max_time);
     else
-      finding.find(Aim<D, kUnit>(Arch{}, lattice, task.v), task.from, task.max_time);
+      finding.find(Aim<D, kUnit, kBall>(Arch{}, lattice, task.v), task.from, task.max_time);
     flight.outcome = finding.outcome;
   } else {
     flight.outcome = Outcome::inside;
@@ -98,9 +99,8 @@ inline void fly_one(const Task& task, Flight& flight) {
 // Is one hit before the other? Binary64, then double-double.
 template <class Found>
 inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, Stage& stage) {
-  double v2 = 0, error, other_error;
-  for (const double component : v) v2 += component * component;
-  const double difference = other.rough_time(v2, other_error) - one.rough_time(v2, error);
+  double error, other_error;
+  const double difference = other.rough_time(other_error) - one.rough_time(error);
   const Decision decision = is_positive(difference, error + other_error);
   if (decision != Decision::doubtful) return decision;
   stage = std::max(stage, Stage::double_double);
@@ -109,9 +109,9 @@ inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, St
 }
 
 /// Several atoms, in one lattice or several: the earliest of their hits.
-template <Time kTime, class Arch, int D>
+template <Time kTime, class Arch, int D, bool kBall>
 inline void fly_several(const Task& task, Flight& flight) {
-  Finding<Arch, D, false> finding;
+  Finding<Arch, D, false, kBall> finding;
   for (const Bravais& lattice : task.scene.atoms) {  // the smallest ball that contains x
     if (!finding.start(lattice, task.x)) return give_up(flight);
     const Decision inside = finding.inside(task.from);
@@ -124,17 +124,18 @@ inline void fly_several(const Task& task, Flight& flight) {
     return;
   }
   flight.outcome = Outcome::never;
-  Finding<Arch, D, false> best;
+  Finding<Arch, D, false, kBall> best;
   const Bravais* best_lattice = nullptr;
-  std::optional<Aim<D, false>> own;
+  std::optional<Aim<D, false, kBall>> own;
   double limit = task.max_time;
   for (const Bravais& lattice : task.scene.atoms) {
     const Bravais* before = &lattice - 1;
-    if (!task.aims && (&lattice == task.scene.atoms.data() || !share_an_aim(*before, lattice)))
+    if (!task.aims && (&lattice == task.scene.atoms.data() || !share_an_aim<kBall>(*before, lattice)))
       own.emplace(Arch{}, lattice, task.v);
     const auto& aim =
-        task.aims ? static_cast<const Aim<D, false>*>(task.aims)[&lattice - task.scene.atoms.data()] : *own;
-    Finding<Arch, D, false> next;
+        task.aims ? static_cast<const Aim<D, false, kBall>*>(task.aims)[&lattice - task.scene.atoms.data()]
+                  : *own;
+    Finding<Arch, D, false, kBall> next;
     if (!next.start(lattice, task.x)) return give_up(flight);
     next.find(aim, task.from, limit);
     flight.stage = std::max(flight.stage, next.stage);
@@ -145,7 +146,7 @@ inline void fly_several(const Task& task, Flight& flight) {
     if (sooner == Decision::no) continue;
     best = next, best_lattice = &lattice;
     double error;
-    const double time = next.rough_time(aim.direction.v2, error);
+    const double time = next.rough_time(error);
     limit = std::min(limit, time + error);
   }
   if (!best_lattice) return;
@@ -164,17 +165,17 @@ struct Kernels {
   AimsKernel aims = nullptr;
 };
 
-template <Time kTime, class Arch, int D, Model kModel>
+template <Time kTime, class Arch, int D, Model kModel, bool kBall>
 inline void fly_with(const Task& task, Flight& flight) {
   if constexpr (kModel == Model::several)
-    fly_several<kTime, Arch, D>(task, flight);
+    fly_several<kTime, Arch, D, kBall>(task, flight);
   else
-    fly_one<kTime, Arch, D, kModel == Model::unit>(task, flight);
+    fly_one<kTime, Arch, D, kModel == Model::unit, kBall>(task, flight);
 }
 
-template <class Arch, int D, Model kModel>
+template <class Arch, int D, Model kModel, bool kBall>
 std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
-  using Item = Aim<D, kModel == Model::unit>;
+  using Item = Aim<D, kModel == Model::unit, kBall>;
   auto aims = std::make_shared<std::vector<Item>>();
   for (const Bravais& lattice : scene.atoms) aims->emplace_back(Arch{}, lattice, v);
   return std::shared_ptr<const void>(aims, aims->data());
@@ -188,38 +189,44 @@ std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
 #define LORENTZ_FLATTEN gnu::flatten
 #endif
 
-template <Time kTime, int D, Model kModel>
+template <Time kTime, int D, Model kModel, bool kBall>
 [[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
-  fly_with<kTime, HardwareFma, D, kModel>(task, flight);
+  fly_with<kTime, HardwareFma, D, kModel, kBall>(task, flight);
 }
 
-template <Time kTime, int D, Model kModel>
+template <Time kTime, int D, Model kModel, bool kBall>
 [[LORENTZ_FLATTEN]] void fly_split(const Task& task, Flight& flight) {
-  fly_with<kTime, SplitProduct, D, kModel>(task, flight);
+  fly_with<kTime, SplitProduct, D, kModel, kBall>(task, flight);
 }
 
 #undef LORENTZ_FLATTEN
 
-template <int D, Model kModel>
+template <int D, Model kModel, bool kBall>
 Kernels kernels_of(bool fma) {
   if (fma)
-    return {fly_fma<Time::close, D, kModel>, fly_fma<Time::rounded, D, kModel>,
-            aims_for<SplitProduct, D, kModel>};
-  return {fly_split<Time::close, D, kModel>, fly_split<Time::rounded, D, kModel>,
-          aims_for<SplitProduct, D, kModel>};
+    return {fly_fma<Time::close, D, kModel, kBall>, fly_fma<Time::rounded, D, kModel, kBall>,
+            aims_for<SplitProduct, D, kModel, kBall>};
+  return {fly_split<Time::close, D, kModel, kBall>, fly_split<Time::rounded, D, kModel, kBall>,
+          aims_for<SplitProduct, D, kModel, kBall>};
 }
 
-template <int D>
+template <int D, bool kBall>
 Kernels kernels_of(Model model, bool fma) {
   switch (model) {
     case Model::unit:
-      return kernels_of<D, Model::unit>(fma);
+      return kernels_of<D, Model::unit, kBall>(fma);
     case Model::one_atom:
-      return kernels_of<D, Model::one_atom>(fma);
+      return kernels_of<D, Model::one_atom, kBall>(fma);
     case Model::several:
-      return kernels_of<D, Model::several>(fma);
+      return kernels_of<D, Model::several, kBall>(fma);
   }
   return {};
+}
+
+Kernels kernels_for(const PreparedScene& scene, Model model, bool fma) {
+  if (scene.atoms[0].dimension == 2)
+    return scene.ellipsoids ? kernels_of<2, false>(model, fma) : kernels_of<2, true>(model, fma);
+  return scene.ellipsoids ? kernels_of<3, false>(model, fma) : kernels_of<3, true>(model, fma);
 }
 
 }  // namespace
@@ -236,7 +243,7 @@ Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
   if (!model->scene.beyond.empty()) throw std::invalid_argument("reduction " + model->scene.beyond);
   model->model = model_of(model->scene);
   const bool fma = processor == Processor::this_one && has_fma();
-  model->kernels = scene.dimension == 2 ? kernels_of<2>(model->model, fma) : kernels_of<3>(model->model, fma);
+  model->kernels = kernels_for(model->scene, model->model, fma);
   model_ = std::move(model);
 }
 
@@ -249,13 +256,14 @@ std::optional<std::string> Reduction::beyond(const Scene& scene) {
 }
 
 const char* Reduction::model() const {
+  const bool ellipsoids = model_->scene.ellipsoids;
   switch (model_->model) {
     case lorentz::Model::unit:
-      return "unit";
+      return ellipsoids ? "unit, ellipsoid" : "unit";
     case lorentz::Model::one_atom:
-      return "one atom";
+      return ellipsoids ? "one atom, ellipsoid" : "one atom";
     case lorentz::Model::several:
-      return "several atoms";
+      return ellipsoids ? "several atoms, ellipsoids" : "several atoms";
   }
   return "";
 }

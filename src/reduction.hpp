@@ -22,7 +22,8 @@ class Reduction : public Engine {
   /// Why the engine does not do a scene without flaws, or nothing.
   static std::optional<std::string> beyond(const Scene& scene);
 
-  /// Which model serves the scene: "unit", "one atom" or "several atoms" (docs/reduction.md).
+  /// Which model serves the scene: "unit", "one atom" or "several atoms", each also with ", ellipsoid"
+  /// (docs/reduction.md).
   const char* model() const;
 
   /// How exact a time is asked for: within a few ulps, or correctly rounded (where `time_is_rounded` says

@@ -11,12 +11,12 @@
 namespace lorentz {
 
 /// The search for one start.
-template <class Arch, bool kUnit>
+template <class Arch, bool kUnit, bool kBall>
 class Search2 {
   using DD = DoubleDouble<Arch>;
 
  public:
-  Search2(const Bravais& lattice, const Direction2<kUnit>& direction, const Offset<2>& offset)
+  Search2(const Bravais& lattice, const Direction2<kUnit, kBall>& direction, const Offset<2>& offset)
       : lattice_(lattice), to_(direction), offset_(offset) {}
 
   Stage stage = Stage::binary64;
@@ -31,13 +31,15 @@ class Search2 {
     if (!to_.usable || !set_anchor()) return give_up();
     const Arm2 &R = to_.R, &L = to_.L;
     const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = L.S * to_.rho * to_.inverse_A;
+    if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
     for (double n = std::ceil(nu - reach - kSlop);; ++n) {
       const double farthest = std::min(best_s, s_limit);
       const double last =
           L.D > 0 ? nu + reach + kSlop + farthest * (L.D * to_.inverse_A) : nu + reach + kSlop;
       if (!(n <= last)) break;
       if (!look_in_row(n)) return give_up();
-      if (best_s < std::numeric_limits<double>::infinity() && R.D > 2 * to_.rho * (1 + kSlop))
+      if (best_s < std::numeric_limits<double>::infinity() && R.D > 2 * to_.rho * (1 + kSlop) &&
+          (kBall || R.S >= 0))
         break;  // rows come one after the other
     }
     if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
@@ -63,8 +65,8 @@ class Search2 {
     const double size = std::fabs(offset_.d[0].hi) + std::fabs(offset_.d[1].hi);
     y_ = to_.sigma * h.hi;
     y_error_ = kRoundoff * std::fabs(y_) + 4 * offset_.error + kAnchorTerms * size + kFlushed;
-    s_ = to_.v[0] * offset_.d[0].hi + to_.v[1] * offset_.d[1].hi;
-    s_error_ = kAlong * kRoundoff * size + 4 * offset_.error;
+    s_ = along(0) * offset_.d[0].hi + along(1) * offset_.d[1].hi;
+    s_error_ = to_.along_size * (kAlong * kRoundoff * size + 4 * offset_.error);
     if (to_.rho > 0x1p-20) return true;
     const double n = std::nearbyint(-(L.S * y_ + L.D * s_) * to_.inverse_A);
     const double m = std::nearbyint((R.S * y_ - R.D * s_) * to_.inverse_A);
@@ -84,6 +86,11 @@ class Search2 {
     s_ += anchor_[0] * to_.S[0] + anchor_[1] * to_.S[1];
     s_error_ += kAlong * kRoundoff * along;
     return true;
+  }
+
+  double along(int k) const {
+    if constexpr (kBall) return to_.v[k];
+    return to_.along[k].hi;
   }
 
   // h + anchor_0 H_0 + anchor_1 H_1, its large terms cancelling exactly.
@@ -129,7 +136,8 @@ class Search2 {
     const double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) +
                          y_error_ + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
     const double s = sum_along(s_, n, R.S, m, L.S);
-    const double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
+    double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
+    if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;
     const Decision meets = is_below(h, to_.rho, error);
     if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;
     if (s < -s_error) return Look::before;
@@ -142,9 +150,14 @@ class Search2 {
     if (from_ && N[0] == from_[0].hi && N[1] == from_[1].hi && from_[0].lo == 0 && from_[1].lo == 0)
       return Look::before;
     if (meets == Decision::yes && s > s_error)
-      return offer(N, s, s_error, (to_.rho - h) * (to_.rho + h),
-                   4 * to_.rho * (error + kRho * kRoundoff * to_.rho));
+      return offer(N, s, s_error, slack_scale() * ((to_.rho - h) * (to_.rho + h)),
+                   slack_scale() * (4 * to_.rho * (error + kRho * kRoundoff * to_.rho)));
     return look_closely(N, h);
+  }
+
+  double slack_scale() const {
+    if constexpr (kBall) return 1;
+    return to_.slack_scale;
   }
 
   Look offer(const double* N, double s, double s_error, double slack, double slack_error) {
@@ -160,7 +173,7 @@ class Search2 {
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
-    const Encounter<SplitProduct, 2> encounter(to_.v, d, error, lattice_.radius);
+    const Encounter<SplitProduct, 2, kBall> encounter(to_.v, d, error, lattice_);
     const Decision meets = encounter.meets();
     if (meets == Decision::doubtful) return Look::doubtful;
     if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look::beyond : Look::before;
@@ -183,12 +196,16 @@ class Search2 {
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
-    const Encounter<SplitProduct, 2> start(to_.v, d, error, lattice_.radius);
-    const Wide h = (d[1] * to_.v[0] - d[0] * to_.v[1]) * to_.sigma,
-               rho = Wide(lattice_.radius) * sqrt(start.v2);
+    const Encounter<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
+    const Wide h = (d[1] * to_.v[0] - d[0] * to_.v[1]) * to_.sigma;
+    Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
+    if constexpr (!kBall) {
+      const Wide& scale = lattice_.shape.wide_cofactor[2][2];
+      rho = rho / (scale.hi < 0 ? -scale : scale);
+    }
     const Wide m = (h - rho) / Wide(L.D, L.D_low);
     const double unsure =
-        (start.s_error + kStable * (std::fabs(h.hi) + rho.hi) + std::fabs(m.hi) * L.D_error) / L.D +
+        (start.across_error + kStable * (std::fabs(h.hi) + rho.hi) + std::fabs(m.hi) * L.D_error) / L.D +
         kStable * std::fabs(m.hi) + kSlop;
     if (!(unsure < 0.25)) return false;
     const double first =
@@ -197,7 +214,7 @@ class Search2 {
   }
 
   const Bravais& lattice_;
-  const Direction2<kUnit>& to_;
+  const Direction2<kUnit, kBall>& to_;
   const Offset<2>& offset_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;

@@ -11,12 +11,12 @@
 namespace lorentz {
 
 /// The search for one start.
-template <class Arch, bool kUnit>
+template <class Arch, bool kUnit, bool kBall>
 class Search3 {
   using DD = DoubleDouble<Arch>;
 
  public:
-  Search3(const Bravais& lattice, const Direction3<kUnit>& direction, const Offset<3>& offset)
+  Search3(const Bravais& lattice, const Direction3<kUnit, kBall>& direction, const Offset<3>& offset)
       : lattice_(lattice), to_(direction), offset_(offset), basis_(&direction.basis) {}
 
   Stage stage = Stage::binary64;
@@ -81,7 +81,7 @@ class Search3 {
     for (Wide& n : anchor_) n = Wide();
     for (int i = 0; i < 2; ++i) anchor_point_.p[i] = to_.scale[i] * start_[i].hi;
     anchor_point_.z = (start_[2].hi - begin_) / basis_->length;
-    for (int pass = 0; pass < 3; ++pass) {
+    for (int pass = 0; pass < 4; ++pass) {
       double k[3], largest = 0;
       for (int i = 0; i < 3; ++i) {
         const auto& g = basis_->dual[i];
@@ -93,6 +93,7 @@ class Search3 {
       move_anchor(k);
       anchor_point_ = at(anchor_);
       if (largest < 0x1p20) break;
+      if (pass == 3) return false;
     }
     double terms = start_size_;
     for (int j = 0; j < 3; ++j) {
@@ -101,7 +102,8 @@ class Search3 {
     }
     const double error = 4 * (kAnchorTerms * terms + offset_.error) + kFlushed;
     p_error_ = error * to_.inverse_r;
-    s_error_ = error + kRoundoff * begin_;
+    s_error_ = to_.along_size * error + kRoundoff * begin_;
+    if constexpr (!kBall) s_error_ += 4 * lattice_.shape.metric_error * terms;
     z_first_ = -(s_error_ / basis_->length + 0x1p-48);
     return true;
   }
@@ -179,6 +181,11 @@ class Search3 {
     return g[0] * point.p[0] + g[1] * point.p[1] + g[2] * point.z;
   }
 
+  // Can one count from low to high by ones?
+  static bool are_countable(double low, double high) {
+    return std::fabs(low) < kMaxCoefficient && std::fabs(high) < kMaxCoefficient;
+  }
+
   double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop; }
 
   // The planes k b_2 + (b_0, b_1) that meet the window.
@@ -187,6 +194,7 @@ class Search3 {
     const double kappa = plane_of(anchor_point_), tilt = basis.dual[2][2];
     const double low = std::min(0.0, tilt) - basis.g - kappa - kSlop,
                  high = std::max(0.0, tilt) + basis.g - kappa + kSlop;
+    if (!are_countable(low, high)) return false;
     for (double k = std::ceil(low); k <= high; ++k) {
       const Point point(anchor_point_, k, basis.b[2]);
       if (!scan_plane(point, kappa + k)) return false;
@@ -222,6 +230,7 @@ class Search3 {
     const double spread = kSlop * (1 + std::fabs(basis.g1_e) + std::fabs(g1[2]));
     const double low = std::ceil(std::min(a, b) - half - here - spread),
                  high = std::max(a, b) + half - here + spread;
+    if (!are_countable(low, high)) return false;
     if (high - low > kManyLines) return scan_plane_finely(point, z_first, z_last, kappa);
     for (double k = low; k <= high; ++k)
       if (!scan_line(Point(point, k, basis.b[1]), basis.b[0], z_first, z_last)) return false;
@@ -255,14 +264,19 @@ class Search3 {
         const double dz = middle - base.z, dh = -eta(base.p);
         const double k0 = std::nearbyint((dz * eta(c[1].p) - c[1].z * dh) * inverse);
         const double k1 = std::nearbyint((c[0].z * dh - dz * eta(c[0].p)) * inverse);
-        base = recomputed(Point(Point(base, k0, c[0]), k1, c[1]));
+        const Point moved(Point(base, k0, c[0]), k1, c[1]);
+        for (int i = 0; i < 3; ++i)  // or the integers were rounded
+          if (!(std::fabs(base.n[i]) + std::fabs(k0 * c[0].n[i]) + std::fabs(k1 * c[1].n[i]) <
+                kMaxCoefficient))
+            return false;
+        base = recomputed(moved);
       }
       // k_1 = (c_0 x (point - base)) / (c_0 x c_1)
       const double centre = (c[0].z * -eta(base.p) - (middle - base.z) * eta(c[0].p)) * inverse;
       const double reach =
           (std::fabs(c[0].z) * width + 0.5 * (z_next - z) * std::fabs(eta(c[0].p))) * std::fabs(inverse) +
           kSlop;
-      if (!(reach < 64)) return false;
+      if (!(reach < 64 && are_countable(centre - reach, centre + reach))) return false;
       for (double k = std::ceil(centre - reach); k <= centre + reach; ++k)
         if (!scan_line(Point(base, k, c[1]), c[0], z - kSlop * part, z_next + kSlop * part)) return false;
     }
@@ -305,7 +319,7 @@ class Search3 {
     const double a = arm.p[0] * arm.p[0] + arm.p[1] * arm.p[1];
     const double b = q.p[0] * arm.p[0] + q.p[1] * arm.p[1];
     const double moment = q.p[0] * arm.p[1] - q.p[1] * arm.p[0];
-    const double unsure = kLine * kRoundoff * (1 + q.size) + p_error_;
+    const double unsure = line_error(q);
     const double discriminant = a * (1 + 8 * unsure) - moment * moment;  // rounded up
     if (discriminant < 0) return true;
     const double inverse = 1 / a, half = std::sqrt(discriminant) * inverse;
@@ -321,6 +335,10 @@ class Search3 {
     return scan_stretch(q, arm, std::ceil(k_first), k_last);
   }
 
+  double line_error(const Point& q) const {
+    return kLine * kRoundoff * (1 + q.size) + p_error_ + (kBall ? 0 : to_.scale_error);
+  }
+
   // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder;
   // `estimate` is about there.
   [[gnu::noinline]] bool scan_line_closely(const Point& q, const Arm3& arm, double z_first, double z_last,
@@ -331,7 +349,7 @@ class Search3 {
     const Point first(q, k_first, arm);
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
     const double distance = std::hypot(first.p[0], first.p[1]);
-    const double unsure = 8 * (kLine * kRoundoff * (1 + first.size) + p_error_);
+    const double unsure = 8 * line_error(first);
     if (distance - drift > 1 + unsure) return true;
     if (distance < 1 - unsure || k_last - k_first < 16 || !(estimate > k_first))
       return scan_stretch(q, arm, k_first, k_last);
@@ -349,7 +367,7 @@ class Search3 {
       N[i] = anchor_[i] + Wide(there.n[i]);
     }
     stage = std::max(stage, Stage::double_double);
-    const Encounter<SplitProduct, 3> encounter = encounter_at(N);
+    const Encounter<SplitProduct, 3, kBall> encounter = encounter_at(N);
     const double rho2 = to_.rho * to_.rho, outside = -encounter.slack.hi / rho2;  // |p|^2 - 1
     const double inward = -2 * (there.p[0] * arm.p[0] + there.p[1] * arm.p[1]);
     const double speed = std::fabs(arm.p[0]) + std::fabs(arm.p[1]), step = outside / inward;
@@ -362,6 +380,7 @@ class Search3 {
   }
 
   bool scan_stretch(const Point& q, const Arm3& arm, double k_first, double k_last) {
+    if (k_first <= k_last && !are_countable(k_first, k_last)) return false;
     int steps = 0;
     for (double k = k_first; k <= k_last; ++k) {
       if (++steps > 64) return false;
@@ -377,7 +396,7 @@ class Search3 {
   Look look_at(const Point& point) {
     const double square = point.p[0] * point.p[0] + point.p[1] * point.p[1];
     const double error = kAcross * kRoundoff * point.size + p_error_;
-    const double spread = (1 + square) * (2 * error + kScale * kRoundoff);
+    const double spread = (1 + square) * (2 * error + scale_error());
     const Decision meets = is_positive(1 - square, spread);
     if (meets == Decision::no) return Look::missed;
     const double s = begin_ + point.z * basis_->length;
@@ -395,6 +414,11 @@ class Search3 {
     return look_closely(N);
   }
 
+  double scale_error() const {
+    if constexpr (kBall) return kScale * kRoundoff;
+    return to_.scale_error;
+  }
+
   Look offer(const Wide* N, double s, double s_error, double slack, double slack_error) {
     if (!(s + s_error < best_s - best_s_error)) return same(N, best) ? Look::missed : Look::doubtful;
     for (int i = 0; i < 3; ++i) best[i] = N[i];
@@ -408,16 +432,16 @@ class Search3 {
     return true;
   }
 
-  Encounter<SplitProduct, 3> encounter_at(const Wide (&N)[3]) const {
+  Encounter<SplitProduct, 3, kBall> encounter_at(const Wide (&N)[3]) const {
     Wide d[3];
     const double error = place_of<SplitProduct, kUnit, 3>(lattice_, offset_, N, d);
-    return {to_.v, d, error, lattice_.radius};
+    return {to_.v, d, error, lattice_};
   }
 
   // The same decisions in double-double.
   [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
     stage = std::max(stage, Stage::double_double);
-    const Encounter<SplitProduct, 3> encounter = encounter_at(N);
+    const Encounter<SplitProduct, 3, kBall> encounter = encounter_at(N);
     const Decision meets = encounter.meets();
     if (meets == Decision::doubtful) return Look::doubtful;
     if (meets == Decision::no) return Look::missed;
@@ -429,7 +453,7 @@ class Search3 {
   }
 
   const Bravais& lattice_;
-  const Direction3<kUnit>& to_;
+  const Direction3<kUnit, kBall>& to_;
   const Offset<3>& offset_;
   const Basis3* basis_;
   Basis3 longer_;

@@ -194,13 +194,13 @@ TEST_CASE("Output that does not arrive is a failure, in every subcommand") {
 
 TEST_CASE("Counts and seeds out of range, scenes that cannot be drawn from") {
   const Folder folder;
-  const auto semiaxes = folder.write("s",
-                                     "dimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], atoms = "
-                                     "[{position = [0, 0], semiaxes = [[0.1, 0], [0, 0.2]]}]}]\n");
+  const auto full = folder.write("s",
+                                 "dimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], atoms = "
+                                 "[{position = [0, 0], semiaxes = [[1, 0], [0, 2]]}]}]\n");
   for (const std::string& arguments :
        {std::string("compare --count -1"), std::string("compare --count 99999999999999999999999"),
         std::string("compare --count 1.5"), std::string("compare --seed -1"),
-        std::string("compare --seed 18446744073709551616"), "compare --count 5 --scene " + semiaxes,
+        std::string("compare --seed 18446744073709551616"), "compare --count 5 --scene " + full,
         std::string("compare --radius 0.75 --count 5"), std::string("convergents 1.5 --limit 0")}) {
     const Run run = folder.lorentz(arguments);
     INFO(arguments << run.err);

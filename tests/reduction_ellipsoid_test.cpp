@@ -1,0 +1,175 @@
+// The reduction engine among ellipsoids: it keeps the scene's coordinates and changes the metric, so what is
+// to be shown is that no decision is lost on the way, whatever the shape.
+#include <boost/multiprecision/mpfr.hpp>
+
+#include "escalate.hpp"
+#include "reduction_support.hpp"
+#include "shape.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<60>>;
+
+void scale_semiaxes(Atom& atom, double factor) {
+  atom.radius *= factor;
+  for (Vec& axis : atom.semiaxes)
+    for (double& component : axis) component *= factor;
+}
+
+// Ellipsoids, alone or mixed with balls, in any cells; some much smaller than the cell, some slender.
+Scene supported_scene(Draw& draw, Style style, int dimension) {
+  for (;;) {
+    Scene scene = scene_of(draw, style, dimension);
+    if (draw.one_in(3)) scene = unit_scene(dimension, 0.3);
+    scene = with_ellipsoids(draw, style, scene);
+    const double shrink = draw.one_in(3)   ? 0.5
+                          : draw.one_in(2) ? 0.2
+                                           : std::exp2(draw.between(dimension == 2 ? -36 : -20, -1));
+    const bool slender = draw.one_in(4);
+    for (Lattice& lattice : scene.lattices)
+      for (Atom& atom : lattice.atoms) {
+        scale_semiaxes(atom, shrink);
+        if (slender && !atom.is_ball()) {
+          const double thin = std::exp2(draw.between(-9, 0));
+          for (double& component : atom.semiaxes[draw.below(dimension)]) component *= thin;
+        }
+      }
+    bool flat = false;
+    for (const Lattice& lattice : scene.lattices) flat |= std::fabs(determinant(lattice, dimension)) < 0.05;
+    if (!flat && !Reduction::beyond(scene)) return scene;
+  }
+}
+
+Count campaign(std::uint64_t seed, long cases) {
+  Count count;
+  for (const int dimension : {2, 3})
+    for (const Style style : {Style::generic, Style::grid, Style::near_grid}) {
+      Draw draw(seed + 10 * dimension + static_cast<int>(style));
+      for (long i = 0; i < cases; ++i) {
+        const Scene scene = supported_scene(draw, style, dimension);
+        check(scene, hard_query(draw, style, scene), count);
+      }
+    }
+  return count;
+}
+
+// How far from the centre the line passes, the ellipsoid's surface being at 1.
+double relative_distance(const Scene& scene, const Query& query, const ObstacleId& id) {
+  const Lattice& lattice = scene.lattices[id.lattice];
+  const Atom& atom = lattice.atoms[id.atom];
+  Real d[3], axes[3][3], v[3];
+  for (int k = 0; k < 3; ++k) {
+    v[k] = query.v[k], d[k] = Real(atom.position[k]) - Real(query.x[k]);
+    for (int i = 0; i < 3; ++i) {
+      axes[i][k] = i < scene.dimension ? atom.semiaxes[i][k] : double(i == k);
+      d[k] += Real(id.cell[i].int64()) * Real(lattice.vectors[i][k]);
+    }
+  }
+  Real w[3], c[3];  // v and d in coordinates in which the ellipsoid is the unit ball
+  const auto inner = [](const Real* a, const Real* b) {
+    return Real(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    Real dual[3];
+    for (int l = 0; l < 3; ++l) {
+      const int m = (l + 1) % 3, n = (l + 2) % 3;
+      dual[l] = axes[j][m] * axes[k][n] - axes[j][n] * axes[k][m];
+    }
+    const Real volume = inner(dual, axes[i]);
+    w[i] = inner(dual, v) / volume, c[i] = inner(dual, d) / volume;
+  }
+  const Real along = inner(w, c), w2 = inner(w, w);
+  return static_cast<double>(sqrt(Real(inner(c, c) - along * along / w2)));
+}
+
+// Grazing hits: the ellipsoid scaled so that the line passes within 2^-52 to 2^-20 of its surface,
+// relatively.
+Count grazing_campaign(std::uint64_t seed, long cases, double smallest_2d, double smallest_3d) {
+  Count count;
+  Draw draw(seed);
+  while (count.cases < cases) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    Scene scene = unit_scene(dimension, 1);
+    if (draw.one_in(2)) scene.lattices[0] = lattice_of(draw, Style::generic, dimension);
+    scene.lattices[0].atoms.resize(1);
+    Atom& atom = scene.lattices[0].atoms[0];
+    atom = {atom.position, 0, semiaxes_of(draw, Style::generic, dimension)};
+    scale_semiaxes(atom, std::exp2(draw.between(dimension == 2 ? smallest_2d : smallest_3d, -1)));
+    if (Reduction::beyond(scene)) continue;
+    const Query query{draw.vec(dimension, 0, 1), draw.vec(dimension, -1, 1), {}};
+    const Answer larger = oracle::Oracle(scene).first_hit(query);
+    if (larger.outcome != Outcome::hit) continue;
+    scale_semiaxes(atom, relative_distance(scene, query, larger.obstacle) * (1 + draw.tiny(-52, -20)));
+    if (!Reduction::beyond(scene)) check(scene, query, count);
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases") {
+  const Count count = campaign(20'161'116, 4000);
+  CHECK(count.hit > 10'000);
+  CHECK(count.never > 1'500);
+  CHECK(count.inside > 1'500);
+  CHECK(count.stages.binary64 > 14'000);
+  CHECK(count.stages.double_double > 500);
+  CHECK(count.stages.undecided > 500);
+  CHECK(count.stages.undecided < 2'000);
+}
+
+TEST_CASE("Grazing hits of ellipsoids: every stage decides, and none wrongly") {
+  const Count count = grazing_campaign(17, 12'000, -12, -8);
+  CHECK(count.stages.binary64 > 6'000);
+  CHECK(count.stages.double_double > 500);
+  CHECK(count.stages.undecided == 0);
+  const Count tiny = grazing_campaign(18, 3'000, -34, -19);
+  CHECK(tiny.stages.undecided < 500);
+}
+
+TEST_CASE("Among ellipsoids the reduction engine agrees with the oracle, long", "[long]") {
+  const Count drawn = campaign(3, 100'000), grazing = grazing_campaign(4, 200'000, -34, -19);
+  CHECK(drawn.stages.undecided < static_cast<std::uint64_t>(drawn.cases) / 10);
+  CHECK(grazing.stages.double_double > 5'000);
+}
+
+TEST_CASE("The model of a scene of ellipsoids") {
+  const auto model = [](const Scene& scene) { return std::string(Reduction(scene).model()); };
+  Scene scene = unit_scene(2, 0.1);
+  Atom& atom = scene.lattices[0].atoms[0];
+  atom = {{}, 0, {Vec{0.3, 0.1}, Vec{0, 0.2}}};
+  CHECK(model(scene) == "unit, ellipsoid");
+  atom.semiaxes = {Vec{1.2, 0.4}, Vec{-0.016, 0.048}};  // longer than the cell
+  CHECK(model(scene) == "one atom, ellipsoid");
+  atom.semiaxes = {Vec{0.3, 0.1}, Vec{0, 0.2}};
+  scene.lattices[0].atoms.push_back({{0.5, 0.5}, 0.1, {}});
+  CHECK(model(scene) == "several atoms, ellipsoids");
+  scene.lattices[0].atoms = {{{}, 0, {Vec{0.7, 0}, Vec{0, 0.1}}}};  // overlaps its translate
+  CHECK(Reduction::beyond(scene)->find("overlap") != std::string::npos);
+  scene.lattices[0].atoms = {{{}, 0, {Vec{0.3, 0}, Vec{0, 1e-6}}}};
+  CHECK(Reduction::beyond(scene)->find("slender") != std::string::npos);
+}
+
+TEST_CASE("certified is exact among ellipsoids, whatever the engine says of them") {
+  Draw draw(19);
+  INFO("seed 19");
+  StageTally tally;
+  for (int i = 0; i < 1500; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    const Style style = draw.one_in(2) ? Style::generic : Style::near_grid;
+    const Scene scene = with_ellipsoids(draw, style, scene_of(draw, style, dimension));
+    const oracle::Certified certified(scene);
+    const oracle::Oracle exact(scene);
+    for (int k = 0; k < 4; ++k) {
+      const Query query = hard_query(draw, style, scene);
+      INFO(stream(scene, query));
+      REQUIRE(same(certified.first_hit(query, {}, &tally), exact.first_hit(query)));
+    }
+  }
+  CHECK(tally.binary64 > 1'500);
+  CHECK(tally.undecided > 300);
+}
