@@ -30,22 +30,47 @@ struct Arm2 {
   }
 };
 
+/// What an ellipsoid changes. With w = N v in the notation of shape.hpp, s = along . d, along = N^T w; c
+/// stands for the shape's condition. |N| |v| <= c |w|, so w errs by at most 3 c u |w|, rho by (3 c + 5) u
+/// rho, and s by 16 c u |N| |w| |d|, all steps of its sum included.
+struct WidthOfShape {
+  double along[2]{};
+  double along_error = 0;  ///< of s for a vector of size 1
+  double rho_error = 0;    ///< of rho, relative
+  double slack_scale = 1;  ///< the slack is (rho^2 - h^2) times this
+  double skew = 0;         ///< s = (v . d) v2 / v.v + h skew
+  double euclidean_v2 = 0;
+
+  /// Returns |w|^2.
+  double set(const Shape& ellipsoid, const Vec& v) {
+    const Vec* N = ellipsoid.to_ball;
+    const double w0 = N[0][0] * v[0] + N[0][1] * v[1], w1 = N[1][0] * v[0] + N[1][1] * v[1];
+    along[0] = N[0][0] * w0 + N[1][0] * w1, along[1] = N[0][1] * w0 + N[1][1] * w1;
+    const double v2 = w0 * w0 + w1 * w1, height_scale = ellipsoid.cofactor[2][2];
+    along_error = 16 * ellipsoid.condition * kRoundoff * std::sqrt(ellipsoid.metric_size * v2);
+    rho_error = (kRho + 4 * ellipsoid.condition) * kRoundoff;
+    slack_scale = height_scale * height_scale;
+    euclidean_v2 = speed_squared(v[0], v[1], 0.0);
+    skew = (along[1] * v[0] - along[0] * v[1]) / euclidean_v2;
+    return v2;
+  }
+};
+
 /// A lattice seen along one direction: all that does not depend on the start.
 template <bool kUnit, bool kBall>
 struct Direction2 {
   static constexpr bool kTurned = kUnit && kBall;
 
-  Vec v;                   ///< turned, components below kTinyComponent taken as zero
-  double v2 = 0;           ///< in the metric of the shape
-  double rho = 0;          ///< the line meets the obstacle iff |v x d| < rho
-  double s_rho = 0;        ///< r |v|: entries are at s - s_rho at the earliest
-  Wide along[2];           ///< s = along . d; not used for balls, whose s is v . d
-  double along_size = 1;   ///< its largest component, at least 1
-  double slack_scale = 1;  ///< the slack is (rho^2 - h^2) times this
-  Wide H[2];               ///< heights v x B_i
-  double M[2]{};           ///< the size of the terms of H_i
-  double S[2]{};           ///< v . B_i
-  Arm2 R, L;               ///< h = sigma D_R for R and -sigma D_L for L
+  Vec v;                    ///< turned, components below kTinyComponent taken as zero
+  double v2 = 0;            ///< in the metric of the shape
+  double rho = 0;           ///< the line meets the obstacle iff |v x d| < rho
+  double s_rho = 0;         ///< r |v|: entries are at s - s_rho at the earliest
+  WidthOfShape shape;       ///< not used for balls
+  Wide H[2];                ///< heights v x B_i
+  double M[2]{};            ///< the size of the terms of H_i
+  double S[2]{};            ///< s of B_i
+  double size_of[2]{1, 1};  ///< at least |B_i|; not used for balls
+  Arm2 R, L;                ///< h = sigma D_R for R and -sigma D_L for L
   double sigma = 1;
   double inverse_A = 0, inverse_D_L = 0, inverse_S_L = 0;  ///< A = |v|^2 times the cell's area
   bool usable = true;
@@ -53,7 +78,7 @@ struct Direction2 {
   template <class Arch>
   Direction2(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
     octant.turn<kTurned>(velocity, v);
-    set_width<Arch>(lattice);
+    set_width(lattice);
     set_forms<Arch>(lattice);
     set_first_arms();
     euclid<Arch>();
@@ -64,26 +89,20 @@ struct Direction2 {
   }
 
  private:
-  template <class Arch>
   void set_width(const Bravais& lattice) {
     if constexpr (kBall) {
       v2 = speed_squared(v[0], v[1], 0.0);
       s_rho = rho = lattice.radius * std::sqrt(v2);
     } else {
-      using DD = DoubleDouble<Arch>;
-      apply_metric<Arch>(lattice.shape, v, along);
-      v2 = add_product(add_product(DD(0.0), DD(along[0]), v[0]), DD(along[1]), v[1]).hi;
-      const double height_scale = std::fabs(lattice.shape.cofactor[2][2]);
+      v2 = shape.set(lattice.shape, v);
       s_rho = lattice.radius * std::sqrt(v2);
-      rho = s_rho / height_scale;
-      slack_scale = height_scale * height_scale;
-      along_size = std::max({1.0, std::fabs(along[0].hi), std::fabs(along[1].hi)});
+      rho = s_rho / std::fabs(lattice.shape.cofactor[2][2]);
     }
   }
 
   double along_of(int k) const {
     if constexpr (kBall) return v[k];
-    return along[k].hi;
+    return shape.along[k];
   }
 
   template <class Arch>
@@ -99,6 +118,7 @@ struct Direction2 {
         H[i] = Wide(add_product(add_product(DD(0.0), y, v[0]), x, -v[1]));
         M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + 0x1p106 * 4 * lattice.basis_error;
         S[i] = along_of(0) * x.hi + along_of(1) * y.hi;
+        if constexpr (!kBall) size_of[i] = std::fabs(x.hi) + std::fabs(y.hi);
       }
     }
   }
@@ -191,7 +211,8 @@ struct Direction2 {
     for (Arm2* arm : {&R, &L}) {
       arm->S = along_arm(*arm);
       if (!kBall)
-        arm->S_error = kAlong * kRoundoff * (std::fabs(arm->n[0] * S[0]) + std::fabs(arm->n[1] * S[1]));
+        arm->S_error =
+            shape.along_error * (std::fabs(arm->n[0]) * size_of[0] + std::fabs(arm->n[1]) * size_of[1]);
       if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
       const bool forward = arm->S >= 0 || (kUnit && !kBall && arm == &R);
       usable = usable && forward && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&

@@ -75,7 +75,7 @@ class Finding {
   void find(const Aim<D, kUnit, kBall>& aim, const ObstacleId* from, double max_time) {
     const double s_limit = (max_time * aim.direction.v2 + aim.direction.s_rho) * (1 + 0x1p-40);
     v2_ = aim.direction.v2;
-    if constexpr (!kBall) std::copy(aim.direction.along, aim.direction.along + D, along_);
+    if constexpr (!kBall && D == 3) std::copy(aim.direction.along, aim.direction.along + D, along_);
     Offset<D> turned;
     if constexpr (kTurned) aim.octant.apply(offset_.d, turned.d);
     Search search(*lattice_, aim.direction, kTurned ? turned : offset_);
@@ -92,6 +92,10 @@ class Finding {
     if (outcome != Outcome::hit) return;
     s_ = search.best_s, s_error_ = search.best_s_error;
     slack_ = search.best_slack, slack_error_ = search.best_slack_error;
+    if constexpr (!kBall && D == 2) {
+      euclidean_v2_ = aim.direction.shape.euclidean_v2;
+      across_ = search.best_h * aim.direction.shape.skew;
+    }
     if constexpr (kTurned)
       aim.octant.undo(search.best, N);
     else
@@ -173,19 +177,22 @@ class Finding {
   }
 
  private:
-  // The terms of w . d are larger than their sum: in double-double.
+  // The terms of along . d are larger than their sum. In 2D it is (v . d) v2 / v.v + h skew, and h is known;
+  // in 3D it is computed in double-double. Nearby s - q would cancel: all in double-double.
   double close_time_of_ellipsoid(const Vec& v) const {
     const double q = std::sqrt(slack_);
     double error;
     if (slack_error_ > 64 * kRoundoff * q * s_) return wide_time(v, error).value();
-    DD d[D], N_here[D], s(0.0);
-    for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
-    place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
-    for (int k = 0; k < D; ++k) s = s + DD(along_[k]) * d[k];
-    if (s.hi > 4 * q) return (s.hi - q) / v2_;
-    const DD square = square_in(lattice_->shape, d, 0.0, error);
-    const DD gap = square - DD::product(lattice_->radius, lattice_->radius);
-    return std::max(gap.value(), 0.0) / (s.hi + q);
+    if (!(s_ > 4 * q)) return std::max(time(v, error).value(), 0.0);
+    if constexpr (D == 2) {
+      return (v[0] * distance(0) + v[1] * distance(1)) / euclidean_v2_ + (across_ - q) / v2_;
+    } else {
+      DD d[D], N_here[D], s(0.0);
+      for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
+      place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
+      for (int k = 0; k < D; ++k) s = s + DD(along_[k]) * d[k];
+      return (s.hi - q) / v2_;
+    }
   }
 
   // Component k of the ball's place seen from x, to some ulps of |d|.
@@ -245,7 +252,9 @@ class Finding {
   const Bravais* lattice_ = nullptr;
   Offset<D> offset_;
   double s_, s_error_, slack_, slack_error_, v2_;
-  Wide along_[kBall ? 1 : D];  ///< of ellipsoids
+  // Of ellipsoids, for the time: in 2D v.v, and h skew; in 3D the form that s is.
+  double euclidean_v2_, across_;
+  Wide along_[kBall || D == 2 ? 1 : D];
 };
 
 }  // namespace lorentz

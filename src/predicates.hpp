@@ -30,9 +30,9 @@ T speed_squared(const T& a, const T& b, const T& c) {
   return (a * a + b * b) + c * c;
 }
 
-/// Is |value| < limit, where value errs by at most error and limit by kRho units?
-inline Decision is_below(double value, double limit, double error) {
-  const double size = std::fabs(value), spread = error + kRho * kRoundoff * limit;
+/// Is |value| < limit, where value errs by at most error and limit by limit_error, relatively?
+inline Decision is_below(double value, double limit, double error, double limit_error = kRho * kRoundoff) {
+  const double size = std::fabs(value), spread = error + limit_error * limit;
   if (size + spread < limit) return Decision::yes;
   if (size - spread > limit) return Decision::no;
   return Decision::doubtful;

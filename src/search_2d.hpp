@@ -23,6 +23,7 @@ class Search2 {
   Wide best[2];  ///< coefficients of the ball found, from the home cell, in the short basis
   double best_s = std::numeric_limits<double>::infinity(), best_slack = 0, best_s_error = 0,
          best_slack_error = 0;
+  double best_h = 0;  ///< v x d; of ellipsoids only
 
   /// `from`: coefficients of the ball that is being left, or null. Entered after s_limit: need not be found.
   Outcome run(const Wide* from, double s_limit) {
@@ -66,7 +67,10 @@ class Search2 {
     y_ = to_.sigma * h.hi;
     y_error_ = kRoundoff * std::fabs(y_) + 4 * offset_.error + kAnchorTerms * size + kFlushed;
     s_ = along(0) * offset_.d[0].hi + along(1) * offset_.d[1].hi;
-    s_error_ = to_.along_size * (kAlong * kRoundoff * size + 4 * offset_.error);
+    s_error_ = kAlong * kRoundoff * size + 4 * offset_.error;
+    if constexpr (!kBall)
+      s_error_ =
+          to_.shape.along_error * size + 4 * offset_.error * (std::fabs(along(0)) + std::fabs(along(1)));
     if (to_.rho > 0x1p-20) return true;
     const double n = std::nearbyint(-(L.S * y_ + L.D * s_) * to_.inverse_A);
     const double m = std::nearbyint((R.S * y_ - R.D * s_) * to_.inverse_A);
@@ -79,7 +83,10 @@ class Search2 {
         return false;
       anchor_[i] = sum.hi;
       terms += std::fabs(anchor_[i]) * to_.M[i];
-      along += std::fabs(anchor_[i] * to_.S[i]);
+      if constexpr (kBall)
+        along += std::fabs(anchor_[i] * to_.S[i]);
+      else
+        s_error_ += to_.shape.along_error * std::fabs(anchor_[i]) * to_.size_of[i];
     }
     y_ = to_.sigma * compensated(h);
     y_error_ += kAnchor * kRoundoff * std::fabs(y_) + kAnchorTerms * terms;
@@ -90,7 +97,7 @@ class Search2 {
 
   double along(int k) const {
     if constexpr (kBall) return to_.v[k];
-    return to_.along[k].hi;
+    return to_.shape.along[k];
   }
 
   // h + anchor_0 H_0 + anchor_1 H_1, its large terms cancelling exactly.
@@ -138,7 +145,7 @@ class Search2 {
     const double s = sum_along(s_, n, R.S, m, L.S);
     double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
     if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;
-    const Decision meets = is_below(h, to_.rho, error);
+    const Decision meets = is_below(h, to_.rho, error, rho_error());
     if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;
     if (s < -s_error) return Look::before;
     if (s - s_error > std::min(best_s + best_s_error, s_limit_)) return Look::beyond;
@@ -151,19 +158,25 @@ class Search2 {
       return Look::before;
     if (meets == Decision::yes && s > s_error)
       return offer(N, s, s_error, slack_scale() * ((to_.rho - h) * (to_.rho + h)),
-                   slack_scale() * (4 * to_.rho * (error + kRho * kRoundoff * to_.rho)));
+                   slack_scale() * (4 * to_.rho * (error + rho_error() * to_.rho)), h);
     return look_closely(N, h);
+  }
+
+  double rho_error() const {
+    if constexpr (kBall) return kRho * kRoundoff;
+    return to_.shape.rho_error;
   }
 
   double slack_scale() const {
     if constexpr (kBall) return 1;
-    return to_.slack_scale;
+    return to_.shape.slack_scale;
   }
 
-  Look offer(const double* N, double s, double s_error, double slack, double slack_error) {
+  Look offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
     if (!(s + s_error < best_s - best_s_error)) return Look::doubtful;
     best[0] = Wide(N[0]), best[1] = Wide(N[1]);
     best_s = s, best_s_error = s_error, best_slack = slack, best_slack_error = slack_error;
+    if constexpr (!kBall) best_h = to_.sigma * h;
     return Look::taken;
   }
 
@@ -181,7 +194,7 @@ class Search2 {
     if (ahead == Decision::doubtful) return Look::doubtful;
     if (ahead == Decision::no) return Look::before;
     return offer(N, encounter.s.hi, encounter.s_error + kRoundoff * encounter.s.hi, encounter.slack.hi,
-                 encounter.slack_error + kRoundoff * encounter.slack.hi);
+                 encounter.slack_error + kRoundoff * encounter.slack.hi, h);
   }
 
   // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
