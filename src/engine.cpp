@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cell_walk.hpp"
 #include "classical.hpp"
 #include "published.hpp"
 #include "reduction.hpp"
@@ -64,6 +65,20 @@ std::optional<std::string> beyond_unit_lattices(const Scene& scene) {
   return std::nullopt;
 }
 
+// One ball in the middle of each unit cell, and nothing of any other in it.
+bool is_one_ball_a_cell(const Scene& scene) {
+  return is_unit_scene(scene) && scene.lattices[0].atoms[0].radius <= 0.5;
+}
+
+std::optional<std::string> beyond_classical(const Scene& scene) {
+  return is_one_ball_a_cell(scene) ? std::nullopt : CellWalk::beyond(scene);
+}
+
+std::unique_ptr<Engine> make_classical(const Scene& scene) {
+  if (is_one_ball_a_cell(scene)) return std::make_unique<Classical>(scene);
+  return std::make_unique<CellWalk>(scene);
+}
+
 template <class E>
 std::unique_ptr<Engine> make(const Scene& scene) {
   return std::make_unique<E>(scene);
@@ -77,7 +92,7 @@ struct Entry {
 };
 
 constexpr Entry kEngines[] = {
-    {"classical", beyond_unit_lattices, make<Classical>},
+    {"classical", beyond_classical, make_classical},
     {"published", beyond_unit_lattices, make<Published>},
     {"reduction", Reduction::beyond, make<Reduction>},
 };
