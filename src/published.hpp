@@ -10,10 +10,11 @@ namespace lorentz {
 
 class PublishedBravais;
 
-/// What the search came up with on the way to an answer.
+/// What the search came up with on the way to an answer. Of 3D proposals some are in neither of the false
+/// ones and no hit: spheres that the search had passed already.
 struct Proposals {
-  long long made = 0;               ///< discs; spheres that the three planes agree on
-  long long false_ellipse = 0;      ///< of these: the line meets the circumscribed ball, but not the obstacle
+  long long made = 0;           ///< discs; spheres that the three planes agree on
+  long long false_ellipse = 0;  ///< of these: the flight meets the circumscribed ball, but not the obstacle
   long long false_tricylinder = 0;  ///< 3D, of these: the line misses even the circumscribed ball
 };
 

@@ -121,7 +121,7 @@ Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& prop
     const bool is_ahead = near > dot(true_arm, ray.v) / dot(ray.v, ray.v);
     if (entry && is_ahead && !(has_from && centre == from))
       return Answer::hit(obstacle_of(centre), std::max(near + *entry, 0.0));
-    if (!entry) ++proposals.false_ellipse;
+    ++proposals.false_ellipse;
     const double leaves_after = exit_time(arm, v, circumscribed_);
     if (!(leaves_after > 0) && leaving && last == result.disc) return Answer::undecided();  // no way on
     for (int i = 0; i < 2; ++i) x[i] += std::max(leaves_after, 0.0) * v[i];
