@@ -126,6 +126,35 @@ TEST_CASE("Classical through cells that are much smaller than the obstacles, and
   CHECK(counts.worst < 1e-9);
 }
 
+TEST_CASE("An obstacle that begins at a cell's wall is met, on this side of it or on that") {
+  Draw draw(1405);
+  INFO("seed 1405");
+  Counts counts;
+  for (int i = 0; i < 3000; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    Scene scene = unit_scene(dimension, 0.1);
+    Lattice& lattice = scene.lattices[0];
+    if (draw.one_in(2)) do
+        for (int k = 0; k < dimension; ++k) lattice.vectors[k] = draw.vec(dimension, -1.5, 1.5);
+      while (std::fabs(determinant(lattice, dimension)) < 0.3);
+    Vec y = draw.vec(dimension, -0.5, 0.5), v = draw.vec(dimension, -1, 1);
+    y[0] = 0.5;
+    const Vec wall = mapped(lattice.vectors, y);
+    const double speed = std::sqrt(dot(v, v));
+    Query query{wall, v, {}};
+    for (int k = 0; k < dimension; ++k) {  // head on, from up to some cells away
+      lattice.atoms[0].position[k] = wall[k] + 0.1 * v[k] / speed;
+      query.x[k] -= v[k] * static_cast<double>(i % 3);
+    }
+    INFO(stream(scene, query));
+    const Answer exact = oracle::Oracle(scene).first_hit(query);
+    if (exact.outcome == Outcome::inside || *exact.time < 1e-9) continue;  // on which side is rounding's
+    counts.add(exact, CellWalk(scene).first_hit(query));
+    REQUIRE(counts.wrong == 0);
+  }
+  CHECK(counts.hit > 1500);
+}
+
 TEST_CASE("An ellipsoid is entered when the ball behind it is") {
   for (const int dimension : {2, 3}) {
     Draw draw(1410 + static_cast<std::uint64_t>(dimension));
@@ -186,6 +215,8 @@ TEST_CASE("Classical far from the origin, in other units, with other speeds") {
     const Answer exact = oracle::Oracle(scene).first_hit(query), given = CellWalk(scene).first_hit(query);
     INFO(line(exact, dimension) << line(given, dimension));
     REQUIRE(oracle::judge(exact, given).verdict == oracle::Verdict::agree);
+    // The start's digits within the cell are all kept.
+    if (given.time) CHECK(*given.time == Approx(*exact.time).epsilon(0).margin(1e-11 * (1 + *exact.time)));
     const int length = 200 - static_cast<int>(draw.below(400));
     for (Lattice& lattice : scene.lattices) {
       for (Vec& vector : lattice.vectors)
