@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 
+#include "collision.hpp"
 #include "engine.hpp"
 #include "escalate.hpp"
 #include "exchange.hpp"
@@ -16,37 +16,10 @@
 namespace lorentz::cli {
 namespace {
 
-// Collision point, normal and impact parameter of a hit, in binary64.
-Detail detail_of(const Answer& answer, const Query& query, const Scene& scene) {
-  const Lattice& lattice = scene.lattices[answer.obstacle.lattice];
-  const Atom& atom = lattice.atoms[answer.obstacle.atom];
-  Vec centre = atom.position;
-  for (int i = 0; i < scene.dimension; ++i)
-    for (int k = 0; k < scene.dimension; ++k)
-      centre[k] += std::strtod(answer.obstacle.cell[i].decimal().c_str(), nullptr) * lattice.vectors[i][k];
-  Detail detail;
-  const double speed = std::hypot(query.v[0], query.v[1], query.v[2]);
-  double along = 0;
-  Vec arm{};
-  for (int k = 0; k < 3; ++k) {
-    detail.point[k] = query.x[k] + *answer.time * query.v[k];
-    arm[k] = detail.point[k] - centre[k];
-    along += arm[k] * (query.v[k] / speed);
-  }
-  const double length = std::hypot(arm[0], arm[1], arm[2]);
-  Vec across{};
-  for (int k = 0; k < 3; ++k) {
-    detail.normal[k] = arm[k] / length;
-    across[k] = arm[k] - along * (query.v[k] / speed);
-  }
-  detail.impact_parameter = std::hypot(across[0], across[1], across[2]);
-  return detail;
-}
-
 // Adds the detail to an engine's answer, where binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   if (answer.outcome != Outcome::hit) return;
-  const Detail detail = detail_of(answer, query, scene);
+  const Detail detail = collision_detail(scene, query, answer);
   // Beyond the range of binary64 there is none; the oracle has it.
   if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
     answer.detail = detail;

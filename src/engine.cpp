@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cell_walk.hpp"
 #include "classical.hpp"
 #include "published.hpp"
 #include "reduction.hpp"
@@ -43,25 +44,24 @@ double scaled_time(double time, int exponent) {
 }
 
 void Engine::first_hit(const Query& query, double max_time, Answer& answer) const {
-  answer.clear();
-  if (auto flaw = flaw_of(query, scene_)) {
-    answer = Answer::error(*flaw);
-    return;
-  }
-  const ScaledVelocity velocity(query.v);
-  first_hit_scaled({query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
-                   scaled_time(max_time, velocity.exponent), answer);
-  if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
-  if (std::isfinite(max_time)) answer = limited(std::move(answer), max_time);
+  first_hit_by(query, max_time, answer,
+               [this](const Ray& ray, double limit, Answer& given) { first_hit_scaled(ray, limit, given); });
 }
 
 namespace {
 
-// Why the two known algorithms do not do a scene, or nothing.
-std::optional<std::string> beyond_unit_lattices(const Scene& scene) {
-  if (!is_unit_scene(scene)) return "does the unit square and cubic lattice with one ball at the origin only";
-  if (scene.lattices[0].atoms[0].radius > 0.5) return "does radii up to half the spacing only";
-  return std::nullopt;
+// One ball in the middle of each unit cell, and nothing of any other in it.
+bool is_one_ball_a_cell(const Scene& scene) {
+  return is_unit_scene(scene) && scene.lattices[0].atoms[0].radius <= 0.5;
+}
+
+std::optional<std::string> beyond_classical(const Scene& scene) {
+  return is_one_ball_a_cell(scene) ? std::nullopt : CellWalk::beyond(scene);
+}
+
+std::unique_ptr<Engine> make_classical(const Scene& scene) {
+  if (is_one_ball_a_cell(scene)) return std::make_unique<Classical>(scene);
+  return std::make_unique<CellWalk>(scene);
 }
 
 template <class E>
@@ -77,8 +77,8 @@ struct Entry {
 };
 
 constexpr Entry kEngines[] = {
-    {"classical", beyond_unit_lattices, make<Classical>},
-    {"published", beyond_unit_lattices, make<Published>},
+    {"classical", beyond_classical, make_classical},
+    {"published", Published::beyond, make<Published>},
     {"reduction", Reduction::beyond, make<Reduction>},
 };
 

@@ -1,6 +1,7 @@
 // The common interface of the binary64 engines, and what they share: the scaling of the velocity.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -21,6 +22,18 @@ struct Ray {
 };
 
 inline constexpr double kTinyComponent = 0x1p-450;
+
+/// A velocity v other than zero, scaled to a Ray's; v = scaled * 2^exponent.
+struct ScaledVelocity {
+  Vec scaled;
+  int exponent;
+  bool tiny_component = false;  ///< as in Ray
+
+  explicit ScaledVelocity(const Vec& v);
+};
+
+/// A time or a length times 2^exponent, fast where the factor is a normal number.
+double scaled_time(double time, int exponent);
 
 /// A first-hit engine for one scene. Const and without hidden state: safe to call from several threads.
 class Engine {
@@ -44,23 +57,26 @@ class Engine {
   /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity.
   virtual void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const = 0;
 
+  /// What first_hit does, with `fly(ray, max_time, answer)` in place of first_hit_scaled.
+  template <class Fly>
+  void first_hit_by(const Query& query, double max_time, Answer& answer, const Fly& fly) const {
+    answer.clear();
+    if (auto flaw = flaw_of(query, scene_)) {
+      answer = Answer::error(*flaw);
+      return;
+    }
+    const ScaledVelocity velocity(query.v);
+    fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
+        scaled_time(max_time, velocity.exponent), answer);
+    if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
+    if (std::isfinite(max_time)) answer = limited(std::move(answer), max_time);
+  }
+
   const Scene& scene() const { return scene_; }
 
  private:
   Scene scene_;
 };
-
-/// A velocity v other than zero, scaled to a Ray's; v = scaled * 2^exponent.
-struct ScaledVelocity {
-  Vec scaled;
-  int exponent;
-  bool tiny_component = false;  ///< as in Ray
-
-  explicit ScaledVelocity(const Vec& v);
-};
-
-/// A time or a length times 2^exponent, fast where the factor is a normal number.
-double scaled_time(double time, int exponent);
 
 /// The names that make_engine knows.
 std::vector<std::string> engine_names();

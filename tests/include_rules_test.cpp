@@ -58,6 +58,33 @@ TEST_CASE("src sees no big numbers, no oracle, no program") {
       // Only the exchange library may use more than the standard library.
       if (!file.filename().string().starts_with("exchange"))
         CHECK_FALSE(starts_with_any(name, {"simdjson", "toml++", "fmt/"}));
+      // Eigen stays inside one engine's source files, so that the engines' users need no more than these.
+      if (!file.filename().string().starts_with("published") || file.extension() != ".cpp")
+        CHECK_FALSE(starts_with_any(name, {"Eigen/", "eigen3/", "unsupported/Eigen"}));
+    }
+}
+
+TEST_CASE("src beside the exchange and published*.cpp uses the standard library only") {
+  const auto own = own_headers("src");
+  for (const fs::path& file : sources("src")) {
+    const std::string source = file.filename();
+    if (source.starts_with("exchange") || source == "line_reader.cpp") continue;
+    if (source.starts_with("published") && file.extension() == ".cpp") continue;
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      CHECK((own.contains(name) || name.find_first_of("/.") == std::string::npos));
+    }
+  }
+}
+
+TEST_CASE("The published algorithm's own headers are private to it") {
+  for (const char* folder : {"src", "oracle", "cli", "bench"})
+    for (const fs::path& file : sources(folder)) {
+      if (file.filename().string().starts_with("published")) continue;
+      for (const std::string& name : includes_of(file)) {
+        INFO(file << " includes " << name);
+        CHECK_FALSE(starts_with_any(name, {"published_", "Eigen/"}));
+      }
     }
 }
 

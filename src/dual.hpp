@@ -1,0 +1,38 @@
+// Dual vectors, in plain binary64: a lattice's for coordinates, an ellipsoid's for the unit ball behind it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ball.hpp"
+
+namespace lorentz {
+
+/// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
+/// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.
+inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
+  double largest = 0;
+  for (int i = 0; i < dimension; ++i)
+    for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
+  const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  for (int i = 0; i < dimension; ++i)
+    for (double& component : vectors[i]) component = std::scalbn(component, -exponent);
+  for (int i = dimension; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
+  std::array<Vec, 3> dual;
+  for (int i = 0; i < 3; ++i) {
+    const Vec &a = vectors[(i + 1) % 3], &b = vectors[(i + 2) % 3];
+    dual[i] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+  const double volume = dot(vectors[0], dual[0]);
+  for (int i = 0; i < dimension; ++i)
+    for (double& component : dual[i]) component = std::scalbn(component / volume, -exponent);
+  for (int i = dimension; i < 3; ++i) dual[i] = Vec{0, 0, 1};
+  return dual;
+}
+
+/// (dual_1 . a, dual_2 . a, dual_3 . a): the coordinates of a.
+inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
+  return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};
+}
+
+}  // namespace lorentz
