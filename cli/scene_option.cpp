@@ -76,8 +76,14 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
 }
 
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
-  if (auto pair = oracle::overlap_in(scene))
-    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place, *pair);
+  const oracle::Contacts contacts = oracle::contacts_in(scene, 1, oracle::Pairs::within_lattices);
+  if (!contacts.found.empty())
+    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place,
+        oracle::description_of(contacts.found[0]));
+  else if (contacts.end == oracle::SearchEnd::budget)
+    say("{}: whether obstacles overlap was not checked: there are too many pairs to look at; answers stay "
+        "exact",
+        place);
 }
 
 }  // namespace lorentz::cli

@@ -12,7 +12,8 @@ namespace lorentz::cli {
 /// Throws InputError or FileError.
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
 
-/// Warns on stderr if obstacles overlap or touch: a radius above half the spacing is mostly a typing error.
+/// Warns on stderr if obstacles of one lattice overlap or touch: a radius above half the spacing is mostly a
+/// typing error. (Those of two lattices nearly always do, somewhere.)
 void warn_of_overlaps(const Scene& scene, const std::string& place);
 
 }  // namespace lorentz::cli
