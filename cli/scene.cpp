@@ -146,7 +146,7 @@ std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
                 complete ? "none touch, none overlap" : "not checked for overlaps: too many pairs");
   const auto overlaps = static_cast<std::size_t>(
       std::count_if(contacts.found.begin(), contacts.found.end(), [](const auto& c) { return c.overlap; }));
-  std::string out = line("obstacles", fmt::format("{}{} pairs a cell overlap, {} touch",
+  std::string out = line("obstacles", fmt::format("{}{} overlap, {} touch (pairs, up to translations)",
                                                   complete ? "" : "at least ", overlaps, count - overlaps));
   for (std::size_t i = 0; i < count && i < kContactsShown; ++i)
     out += line("", contact_in_words(contacts.found[i], dimension));

@@ -209,24 +209,30 @@ std::string name_of(const Scene& scene, const Placed& obstacle) {
 double add_legend(Svg& svg, const Scene& scene, double top, bool flights,
                   const std::vector<std::string>& notes) {
   constexpr std::size_t kMostEntries = 12;
-  constexpr double kRow = 22, kColumn = 250;
-  std::size_t slot = 0, atoms = 0;
+  constexpr double kRow = 22, kLetter = 7;
+  std::vector<Placed> entries;
+  std::size_t atoms = 0, longest = 24, slot = 0;
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
+      if (++atoms > kMostEntries) continue;
+      entries.push_back({l, a, {}});
+      longest = std::max(longest, name_of(scene, entries.back()).size());
+    }
+  const double space = kPictureWidth - 2 * kMargin;
+  const auto columns = static_cast<std::size_t>(space / (28 + kLetter * static_cast<double>(longest)));
   const auto place = [&] {
-    const Point at{kMargin + 8 + static_cast<double>(slot % 3) * kColumn,
-                   top + 8 + static_cast<double>(slot / 3) * kRow};
+    const Point at{kMargin + 8 + static_cast<double>(slot % columns) * space / static_cast<double>(columns),
+                   top + 8 + static_cast<double>(slot / columns) * kRow};
     ++slot;
     return at;
   };
   const auto label = [&](Point at, const std::string& words) { svg.text({at.x + 16, at.y + 4.5}, words); };
-  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
-    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
-      if (++atoms > kMostEntries) continue;
-      const Placed obstacle{l, a, {}};
-      const Colour& c = colour(colour_index(scene, obstacle));
-      const Point at = place();
-      svg.ellipse(at, {7, 7, 0}, fmt::format("fill=\"{}\" stroke=\"{}\"", c.fill, c.dark));
-      label(at, name_of(scene, obstacle));
-    }
+  for (const Placed& obstacle : entries) {
+    const Colour& c = colour(colour_index(scene, obstacle));
+    const Point at = place();
+    svg.ellipse(at, {7, 7, 0}, fmt::format("fill=\"{}\" stroke=\"{}\"", c.fill, c.dark));
+    label(at, name_of(scene, obstacle));
+  }
   if (atoms > kMostEntries) label(place(), fmt::format("and {} more atoms", atoms - kMostEntries));
   const Point cell = place();
   svg.polygon({{cell.x - 7, cell.y + 5},
@@ -245,7 +251,7 @@ double add_legend(Svg& svg, const Scene& scene, double top, bool flights,
     svg.arrow({goes_on.x - 9, goes_on.y}, {goes_on.x + 9, goes_on.y}, 9, kFlightColour, 1.6);
     label(goes_on, "goes on, or never hits");
   }
-  double bottom = top + 8 + static_cast<double>((slot + 2) / 3) * kRow;
+  double bottom = top + 8 + static_cast<double>((slot + columns - 1) / columns) * kRow;
   for (const std::string& note : notes) {
     svg.text({kMargin, bottom + 4}, note, "fill=\"#555555\" font-size=\"12\"");
     bottom += 18;

@@ -33,16 +33,18 @@ Window window_for(const Scene& scene, const Vec& corner, const std::vector<Line>
   for (const Lattice& lattice : scene.lattices)
     expected += static_cast<double>(lattice.atoms.size()) * 16 * cell * cell / cell_volume(lattice, 2);
   const double half = 2 * cell * std::min(1.0, std::sqrt(static_cast<double>(kMostDrawn) / expected));
-  const Vec middle = plus(plus(corner, u[0], 0.5), u[1], 0.5);
+  const Vec diagonal = plus(u[0], u[1]);
+  const bool needle =
+      std::hypot(diagonal[0], diagonal[1]) > 6 * cell;  // the cell reaches far beyond the picture
+  const Vec middle = plus(corner, diagonal, needle ? 0 : 0.5);
   Window window;
   window.box = {middle, middle};
   if (lines.empty())
     window.box.include(middle, half);
   else
     window.box.include(middle, 0.75 * cell);
-  // The cell itself, unless it is a needle.
   for (const Vec& p : {corner, plus(corner, u[0]), plus(corner, u[1]), plus(plus(corner, u[0]), u[1])})
-    if (std::hypot(p[0] - middle[0], p[1] - middle[1]) < 3 * cell) window.box.include(p, 0.1 * cell);
+    if (std::hypot(p[0] - middle[0], p[1] - middle[1]) < 3.01 * cell) window.box.include(p, 0.1 * cell);
   for (const Line& line : lines) {
     window.box.include(line.from, 0.6 * cell);
     window.box.include(line.to, 0.6 * cell);
@@ -84,7 +86,7 @@ void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& cor
 
 void add_obstacle(Svg& svg, const Scene& scene, const Window& window, const Placed& obstacle, bool hit,
                   bool& enlarged) {
-  constexpr double kSmallest = 1.4;
+  constexpr double kSmallest = 2;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
   const auto columns = matrix_of(atom, 2);
   EllipseShape shape = ellipse_of({columns[0][0], columns[1][0], 0}, {columns[0][1], columns[1][1], 0});

@@ -131,7 +131,15 @@ void Picture::choose_obstacles() {
 
 void Picture::fit() {
   box_.low = box_.high = eye_(corner_);
-  for (const Seen& seen : seen_) box_.include(seen.view, seen.shape.rx);
+  for (const Seen& seen : seen_) {
+    const auto [rx, ry, angle] = seen.shape;
+    const double half[] = {std::hypot(rx * std::cos(angle), ry * std::sin(angle)),
+                           std::hypot(rx * std::sin(angle), ry * std::cos(angle))};
+    for (int k = 0; k < 2; ++k) {
+      box_.low[k] = std::min(box_.low[k], seen.view[k] - half[k]);
+      box_.high[k] = std::max(box_.high[k], seen.view[k] + half[k]);
+    }
+  }
   for (const Line& line : lines_) {
     box_.include(eye_(line.from));
     box_.include(eye_(line.to));
@@ -178,7 +186,7 @@ bool Picture::is_hidden(const Vec& point) const {
 void Picture::add_line(const Vec& from, const Vec& to, const std::string& colour, double width, bool arrow) {
   const Vec way = plus(to, from, -1);
   const double length = scale_ * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
-  const int pieces = std::clamp(static_cast<int>(length / 3), 8, 600);
+  const int pieces = std::clamp(static_cast<int>(length / 3), 8, lines_.size() > 50 ? 100 : 600);
   const auto point = [&](int i) { return plus(from, way, static_cast<double>(i) / pieces); };
   for (int i = 0; i < pieces;) {
     const auto hidden_in = [&](int k) { return is_hidden(plus(from, way, (k + 0.5) / pieces)); };
@@ -187,7 +195,7 @@ void Picture::add_line(const Vec& from, const Vec& to, const std::string& colour
     while (end < pieces && hidden_in(end) == hidden) ++end;
     svg_.polyline({at(eye_(point(i))), at(eye_(point(end)))},
                   fmt::format("stroke=\"{}\" stroke-width=\"{}\"{}", colour, width,
-                              hidden ? " stroke-opacity=\"0.3\" stroke-dasharray=\"2 3\"" : ""));
+                              hidden ? " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"" : ""));
     i = end;
   }
   if (arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, colour, width);

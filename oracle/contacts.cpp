@@ -279,7 +279,8 @@ void ContactSearch<D>::check_pair(const Body<D>& a, const Body<D>& b) {
   const Nearness<D> near = nearness_of<D>(a, b);
   std::optional<Contact> somewhere;  // of two lattices
   lattice_in(near.q).visit_near(offset, near.bound, budget_, [&](const LatticePoint<D>& c, const Z& length2) {
-    if (itself && !(c.n > ZVec<D>{})) return false;  // itself, or the same pair seen from the other side
+    // Of an atom with itself each pair is seen from both sides, before and after c = 0.
+    if (itself && c.p == ZVec<D>{}) return true;
     const Relation relation = this->relation(near, a, b, c, length2);
     if (relation == Relation::apart) return false;
     Contact contact{a.lattice, a.atom, b.lattice, b.atom, std::nullopt, relation == Relation::overlap};
@@ -288,7 +289,8 @@ void ContactSearch<D>::check_pair(const Body<D>& a, const Body<D>& b) {
       return contact.overlap;
     }
     contact.cell.emplace();
-    for (std::size_t k = 0; k < D; ++k) (*contact.cell)[k] = to_integer(c.n[k]);
+    const int side = itself && c.n < ZVec<D>{} ? -1 : 1;
+    for (std::size_t k = 0; k < D; ++k) (*contact.cell)[k] = to_integer(side * c.n[k]);
     contacts_.found.push_back(std::move(contact));
     return contacts_.found.size() >= limit_;
   });

@@ -254,6 +254,10 @@ TEST_CASE("Ten thousand atoms are checked in seconds; what would take too long i
   CHECK(contacts.found[0].other_atom == 22 * 22 * 22);
   CHECK(contacts_in(scene, 10, oracle::Pairs::all, 1000).end == SearchEnd::budget);
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
+  // A lattice so dense that 10^8 translates of a disc overlap it: the first few are found at once.
+  Scene dense = unit_scene(2, 0.1);
+  dense.lattices[0].vectors = {Vec{1e-9, 0}, Vec{1e9, 1}};
+  CHECK(contacts_in(dense, 10).found.size() == 10);
   // A needle through 10^8 cells is no more work than a disc.
   Scene needle = unit_scene(2, 1e-9);
   needle.lattices[0].atoms.push_back({{0.5, 0.5}, 0, {Vec{1e8, 1}, Vec{-1e-9, 1e-9}}});
