@@ -543,6 +543,15 @@ TEST_CASE("scene draw: flights end at the exact first hit") {
   CHECK(x2 - x1 == Approx((cell2 - cell1) / 4).margin(0.02));
   CHECK(x1 - cell1 == Approx((cell2 - cell1) / 2).margin(0.02));
   CHECK(y1 == y2);
+  const Run up =
+      folder.lorentz("scene draw --queries " + folder.write("q1", kScene + R"({"x":[0,0.5],"v":[0,1]})"
+                                                                           "\n"));
+  const auto upwards = up.out.find("stroke=\"#c0182b\" stroke-width=\"1.4\"/>");
+  REQUIRE(upwards != std::string::npos);
+  REQUIRE(std::sscanf(up.out.c_str() + up.out.rfind("points=\"", upwards), "points=\"%lf,%lf %lf,%lf", &x1,
+                      &y1, &x2, &y2) == 4);
+  CHECK(x1 == x2);
+  CHECK(y2 < y1 - 20);
 
   const Run never = folder.lorentz("scene draw cubic --queries " +
                                    folder.write("q2", R"({"x":[0.5,0.5,0.5],"v":[0,0,1]})"

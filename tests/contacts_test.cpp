@@ -236,6 +236,52 @@ TEST_CASE("Touching balls are counted once a pair, and told from overlapping one
   CHECK(contacts_in(unit_scene(3, 1e9), 10).end == SearchEnd::limit);
 }
 
+TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all pairs finds") {
+  Draw draw(64);
+  std::size_t contacts = 0;
+  for (int n = 0; n < 12; ++n) {
+    const int dimension = 2 + n % 2;
+    Scene scene = unit_scene(dimension, 1);
+    Lattice& lattice = scene.lattices[0];
+    do
+      for (int i = 0; i < dimension; ++i) lattice.vectors[i] = draw.vec(dimension, -10, 10);
+    while (std::fabs(test::determinant(lattice, dimension)) < (dimension == 2 ? 50 : 300));
+    lattice.atoms.clear();
+    for (int a = 0; a < 250; ++a) {
+      Vec x{};
+      for (int i = 0; i < dimension; ++i) {
+        const double share = draw.between(-2, 2);
+        for (int k = 0; k < dimension; ++k) x[k] += share * lattice.vectors[i][k];
+      }
+      lattice.atoms.push_back({x, draw.between(0.02, dimension == 2 ? 0.12 : 0.5), {}});
+    }
+    // Differences of fractional coordinates brought to within 1/2; cells around are looked at too.
+    const auto inverse_columns =
+        inverse(matrix(Axes(lattice.vectors.begin(), lattice.vectors.begin() + dimension)));
+    std::size_t expected = 0;
+    for (std::size_t a = 0; a < lattice.atoms.size(); ++a)
+      for (std::size_t b = a + 1; b < lattice.atoms.size(); ++b) {
+        Vec c{}, home{};
+        for (int k = 0; k < 3; ++k) c[k] = lattice.atoms[b].position[k] - lattice.atoms[a].position[k];
+        const Vec n = image(inverse_columns, c);
+        for (int k = 0; k < 3; ++k) home[k] = n[k] - (k < dimension ? std::round(n[k]) : 0);
+        for (int i = -2; i <= 2; ++i)
+          for (int k = -2; k <= 2; ++k)
+            for (int m = -2; m <= 2; ++m) {
+              if (dimension == 2 && m != 0) continue;
+              const Vec at =
+                  image(lattice.vectors, {home[0] + i, home[1] + k, dimension == 3 ? home[2] + m : 0});
+              expected += norm(at) <= lattice.atoms[a].radius + lattice.atoms[b].radius;
+            }
+      }
+    const auto found = contacts_in(scene, 100'000);
+    REQUIRE(found.end == SearchEnd::complete);
+    REQUIRE(found.found.size() == expected);
+    contacts += expected;
+  }
+  CHECK(contacts > 300);
+}
+
 TEST_CASE("Ten thousand atoms are checked in seconds; what would take too long is given up, and said so") {
   Scene scene = unit_scene(3, 0.4 / 22);
   auto& atoms = scene.lattices[0].atoms;
