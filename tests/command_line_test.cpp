@@ -220,6 +220,8 @@ TEST_CASE("A scene whose obstacles overlap or touch is answered, with a warning"
   CHECK(contains(run("0.5").err, "touch"));
   CHECK(contains(run("0.6").err, "overlap"));
   CHECK(run("0.5").status == 0);
+  // Obstacles of two lattices always overlap somewhere.
+  CHECK(folder.lorentz("first-hit --scene superposition-pi-5 " + folder.write("q", kGood)).err.empty());
   CHECK(run("0.5").out ==
         "{\"id\":\"good\",\"outcome\":\"hit\",\"lattice\":0,\"atom\":0,\"cell\":[1,0],\"time\":0}\n");
 }
