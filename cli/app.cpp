@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_convergents(app, action);
   add_demo(app, action);
   add_bench(app, action);
+  add_scene(app, action);
   const int status = parse_and_act(app, action, argc, argv);
   try {
     finish_output();

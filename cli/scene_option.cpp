@@ -33,14 +33,23 @@ std::vector<fs::path> catalogue_folders() {
 
 std::string catalogue_names() {
   std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<CatalogueEntry> catalogue() {
+  std::vector<CatalogueEntry> entries;
   for (const fs::path& folder : catalogue_folders()) {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
-    if (!names.empty()) break;
+    for (const auto& file : fs::directory_iterator(folder, error))
+      if (file.path().extension() == ".toml")
+        entries.push_back({file.path().stem(), fs::weakly_canonical(file.path(), error)});
+    if (!entries.empty()) break;
   }
-  std::sort(names.begin(), names.end());
-  return fmt::format("{}", fmt::join(names, ", "));
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return entries;
 }
 
 std::string find_scene(const std::string& name_or_file) {
@@ -57,11 +66,8 @@ std::string find_scene(const std::string& name_or_file) {
                               name_or_file.substr(0, 200), catalogue_names()));
 }
 
-}  // namespace
-
-Scene load_scene(const std::string& name_or_file, std::optional<double> radius) {
-  const std::string file = find_scene(name_or_file);
-  Scene scene = read_scene_file(file);
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius) {
+  Scene scene = read_scene_file(find_scene(name_or_file));
   if (radius) {
     for (Lattice& lattice : scene.lattices)
       for (Atom& atom : lattice.atoms) {
@@ -71,13 +77,24 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
       }
   }
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
+  return scene;
+}
+
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius) {
+  Scene scene = read_scene(name_or_file, radius);
   warn_of_overlaps(scene, name_or_file);
   return scene;
 }
 
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
-  if (auto pair = oracle::overlap_in(scene))
-    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place, *pair);
+  const oracle::Contacts contacts = oracle::contacts_in(scene, 1, oracle::Pairs::within_lattices);
+  if (!contacts.found.empty())
+    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place,
+        oracle::description_of(contacts.found[0]));
+  else if (contacts.end == oracle::SearchEnd::budget)
+    say("{}: whether obstacles overlap was not checked: there are too many pairs to look at; answers stay "
+        "exact",
+        place);
 }
 
 }  // namespace lorentz::cli

@@ -3,16 +3,32 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "problem.hpp"
 
 namespace lorentz::cli {
 
+/// A scene that has a name.
+struct CatalogueEntry {
+  std::string name, file;
+};
+
+/// The catalogue, by name.
+std::vector<CatalogueEntry> catalogue();
+
+/// The file of a scene of the catalogue, or the file itself. Throws FileError, listing the catalogue.
+std::string find_scene(const std::string& name_or_file);
+
 /// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius.
 /// Throws InputError or FileError.
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius);
+
+/// The same, with a warning of overlaps.
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
 
-/// Warns on stderr if obstacles overlap or touch: a radius above half the spacing is mostly a typing error.
+/// Warns on stderr if obstacles of one lattice overlap or touch: a radius above half the spacing is mostly a
+/// typing error. (Those of two lattices nearly always do, somewhere.)
 void warn_of_overlaps(const Scene& scene, const std::string& place);
 
 }  // namespace lorentz::cli

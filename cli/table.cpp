@@ -13,8 +13,11 @@ std::string Table::text() const {
   std::string out;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     for (std::size_t i = 0; i < rows_[r].size(); ++i)
-      out += i == 0 ? fmt::format("{:<{}}", rows_[r][i], width[i])
-                    : fmt::format("  {:>{}}", rows_[r][i], width[i]);
+      if (prose_ && i + 1 == rows_[r].size())
+        out += "  " + rows_[r][i];
+      else
+        out += i == 0 ? fmt::format("{:<{}}", rows_[r][i], width[i])
+                      : fmt::format("  {:>{}}", rows_[r][i], width[i]);
     out += '\n';
     if (r > 0) continue;
     for (std::size_t i = 0; i < width.size(); ++i) out += (i == 0 ? "" : "  ") + std::string(width[i], '-');

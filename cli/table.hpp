@@ -11,10 +11,17 @@ class Table {
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
+  /// The last column is prose: to the left.
+  Table& with_prose() {
+    prose_ = true;
+    return *this;
+  }
+
   /// The first column to the left, the others to the right, a rule under the header.
   std::string text() const;
 
  private:
+  bool prose_ = false;
   std::vector<std::vector<std::string>> rows_;
 };
 

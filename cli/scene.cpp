@@ -1,0 +1,336 @@
+// lorentz scene: the catalogue, what is known of a scene, and its picture.
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "app.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "query_stream.hpp"
+#include "registry.hpp"
+#include "scene_check.hpp"
+#include "scene_drawing.hpp"
+#include "scene_geometry.hpp"
+#include "scene_option.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::optional<std::string> scene, radius, queries;
+  std::string output = "-";
+  bool json = false;
+};
+
+// The first comment of a scene file: what the scene is.
+std::string description_in(const std::string& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line) && line.size() < 4096;) {
+    if (line.empty()) continue;
+    if (line[0] != '#') break;
+    const auto start = line.find_first_not_of("# \t"), end = line.find_last_not_of(" \t\r");
+    if (start != std::string::npos) return line.substr(start, end + 1 - start);
+  }
+  return "";
+}
+
+std::size_t atoms_in(const Scene& scene) {
+  std::size_t atoms = 0;
+  for (const Lattice& lattice : scene.lattices) atoms += lattice.atoms.size();
+  return atoms;
+}
+
+int list(const Options& options) {
+  Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
+  table.with_prose();
+  std::string json;
+  bool bad = false;
+  const std::vector<CatalogueEntry> entries = catalogue();
+  if (entries.empty())
+    throw FileError("no catalogue: it is data/scenes/ beside the build folder, or $LORENTZ_DATA/scenes/");
+  for (const CatalogueEntry& entry : entries) {
+    try {
+      const Scene scene = read_scene(entry.file, std::nullopt);
+      const std::string what = description_in(entry.file);
+      table.add({entry.name, std::to_string(scene.dimension), std::to_string(scene.lattices.size()),
+                 std::to_string(atoms_in(scene)), what});
+      json += fmt::format(
+          "{}{{\"name\":{},\"dimension\":{},\"lattices\":{},\"atoms\":{},\"description\":{},\"file\":{}}}",
+          json.empty() ? "" : ",", json_quoted(entry.name), scene.dimension, scene.lattices.size(),
+          atoms_in(scene), json_quoted(what), json_quoted(entry.file));
+    } catch (const InputError& error) {
+      say("{}", error.what());
+      bad = true;
+    }
+  }
+  print(options.json ? "{\"scenes\":[" + json + "]}\n" : table.text());
+  return bad ? kBadInput : kDone;
+}
+
+// Whether free flights are bounded.
+std::string horizon_verdict(const Scene&) {
+  return "see `lorentz horizon`";
+}
+
+// What is known of a scene.
+struct Findings {
+  oracle::Contacts contacts;
+  std::optional<Filling> filling;  // nothing overlaps, and that is certain
+  std::string no_filling;          // why it is not there
+};
+
+constexpr std::size_t kMostContacts = 1000, kContactsShown = 10;
+
+Findings findings_on(const Scene& scene) {
+  Findings findings;
+  findings.contacts = oracle::contacts_in(scene, kMostContacts);
+  for (const oracle::Contact& contact : findings.contacts.found)
+    if (contact.overlap && findings.no_filling.empty())
+      findings.no_filling =
+          contact.cell ? "not given, for obstacles overlap"
+                       : "not given, for obstacles of two lattices overlap, as in superpositions they do";
+  if (findings.no_filling.empty() && findings.contacts.end != oracle::SearchEnd::complete)
+    findings.no_filling = "not given, for obstacles may overlap: not every pair was looked at";
+  if (findings.no_filling.empty()) findings.filling = filling_of(scene);
+  return findings;
+}
+
+std::string coordinates(const Vec& a, int dimension) {
+  return dimension == 2 ? fmt::format("({:.6g}, {:.6g})", a[0], a[1])
+                        : fmt::format("({:.6g}, {:.6g}, {:.6g})", a[0], a[1], a[2]);
+}
+
+std::string shape_in_words(const Atom& atom, int dimension) {
+  if (atom.is_ball())
+    return fmt::format("{} of radius {:.6g}", dimension == 2 ? "disc" : "sphere", atom.radius);
+  const auto [a, b, c] = principal_semiaxes(atom, dimension);
+  return dimension == 2 ? fmt::format("ellipse of semiaxes {:.6g}, {:.6g}", a, b)
+                        : fmt::format("ellipsoid of semiaxes {:.6g}, {:.6g}, {:.6g}", a, b, c);
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return fmt::format("{:<15}{}\n", name, value);
+}
+
+std::string lattice_in_words(const Scene& scene, std::size_t l) {
+  constexpr std::size_t kAtomsShown = 20;
+  const Lattice& lattice = scene.lattices[l];
+  const int d = scene.dimension;
+  std::string out = fmt::format("lattice {}\n", l);
+  for (int i = 0; i < d; ++i) out += line(fmt::format("  u{}", i + 1), coordinates(lattice.vectors[i], d));
+  out += line(d == 2 ? "  cell area" : "  cell volume", fmt::format("{:.6g}", cell_volume(lattice, d)));
+  for (std::size_t a = 0; a < lattice.atoms.size() && a < kAtomsShown; ++a)
+    out += line(fmt::format("  atom {}", a), fmt::format("{} at {}", shape_in_words(lattice.atoms[a], d),
+                                                         coordinates(lattice.atoms[a].position, d)));
+  if (lattice.atoms.size() > kAtomsShown)
+    out += fmt::format("  and {} more atoms\n", lattice.atoms.size() - kAtomsShown);
+  return out;
+}
+
+std::string contact_in_words(const oracle::Contact& contact, int dimension) {
+  if (!contact.cell) return oracle::description_of(contact) + " somewhere";
+  std::string cell;
+  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + (*contact.cell)[i].decimal();
+  return fmt::format("lattice {}: atom {} {} atom {} of cell ({})", contact.lattice, contact.atom,
+                     contact.overlap ? "overlaps" : "touches", contact.other_atom, cell);
+}
+
+std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
+  const std::size_t count = contacts.found.size();
+  const bool complete = contacts.end == oracle::SearchEnd::complete;
+  if (count == 0)
+    return line("obstacles",
+                complete ? "none touch, none overlap" : "not checked for overlaps: too many pairs");
+  const auto overlaps = static_cast<std::size_t>(
+      std::count_if(contacts.found.begin(), contacts.found.end(), [](const auto& c) { return c.overlap; }));
+  std::string out = line("obstacles", fmt::format("{}{} overlap, {} touch (pairs, up to translations)",
+                                                  complete ? "" : "at least ", overlaps, count - overlaps));
+  for (std::size_t i = 0; i < count && i < kContactsShown; ++i)
+    out += line("", contact_in_words(contacts.found[i], dimension));
+  if (count > kContactsShown) out += line("", fmt::format("and {} more", count - kContactsShown));
+  return out;
+}
+
+void show_text(const std::string& name, const std::string& file, const Scene& scene,
+               const Findings& findings) {
+  const int d = scene.dimension;
+  std::string out = line("scene", name);
+  if (const std::string what = description_in(file); !what.empty()) out += line("what it is", what);
+  out += line("file", file) + line("dimension", std::to_string(d));
+  for (std::size_t l = 0; l < scene.lattices.size(); ++l) out += lattice_in_words(scene, l);
+  out += contacts_in_words(findings.contacts, d);
+  if (findings.filling) {
+    const Filling& filling = *findings.filling;
+    out += line("filling", fmt::format("{:.10g} of {} is taken by obstacles", filling.fraction,
+                                       d == 2 ? "the plane" : "space"));
+    out += line("mean free path",
+                fmt::format("{:.10g} between hits: {} (1 - filling) / ({} {:.6g})", filling.mean_free_path,
+                            d == 2 ? "pi" : "4", d == 2 ? "perimeter per area" : "surface per volume",
+                            filling.surface));
+  } else {
+    out += line("filling", findings.no_filling) + line("mean free path", findings.no_filling);
+  }
+  print(out + line("horizon", horizon_verdict(scene)));
+}
+
+std::string json_number(const std::optional<double>& value) {
+  if (!value) return "null";
+  std::string out;
+  append_number(out, *value);
+  return out;
+}
+
+std::string json_contact(const oracle::Contact& contact, int dimension) {
+  std::string cell;
+  for (int i = 0; contact.cell && i < dimension; ++i) {
+    cell += i ? "," : "[";
+    append_integer(cell, (*contact.cell)[i]);
+  }
+  return fmt::format(
+      "{{\"lattice\":{},\"atom\":{},\"other_lattice\":{},\"other_atom\":{},\"cell\":{},\"kind\":\"{}\"}}",
+      contact.lattice, contact.atom, contact.other_lattice, contact.other_atom,
+      contact.cell ? cell + "]" : "null", contact.overlap ? "overlap" : "touch");
+}
+
+void show_json(const std::string& name, const std::string& file, const Scene& scene,
+               const Findings& findings) {
+  std::string cells, contacts, scene_line;
+  for (const Lattice& lattice : scene.lattices)
+    cells += (cells.empty() ? "" : ",") + json_number(cell_volume(lattice, scene.dimension));
+  const std::size_t count = findings.contacts.found.size();
+  for (std::size_t i = 0; i < count && i < kContactsShown; ++i)
+    contacts += (i ? "," : "") + json_contact(findings.contacts.found[i], scene.dimension);
+  append_scene_line(scene_line, scene);
+  scene_line = scene_line.substr(1, scene_line.rfind('}') - 1);  // "scene":{..}
+  const auto& filling = findings.filling;
+  print(fmt::format(
+      "{{\"name\":{},\"description\":{},\"file\":{},{},\"cell_volumes\":[{}],\"contacts\":{{\"count\":{},"
+      "\"complete\":{},"
+      "\"first\":[{}]}},\"filling\":{},\"surface_per_volume\":{},\"mean_free_path\":{},\"horizon\":{}}}\n",
+      json_quoted(name), json_quoted(description_in(file)), json_quoted(file), scene_line, cells, count,
+      findings.contacts.end == oracle::SearchEnd::complete, contacts,
+      json_number(filling ? std::optional(filling->fraction) : std::nullopt),
+      json_number(filling ? std::optional(filling->surface) : std::nullopt),
+      json_number(filling ? std::optional(filling->mean_free_path) : std::nullopt),
+      json_quoted(horizon_verdict(scene))));
+}
+
+int show(const Options& options) {
+  const Scene scene = read_scene(*options.scene, positive_number(options.radius, "--radius"));
+  const Findings findings = findings_on(scene);
+  (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings);
+  return kDone;
+}
+
+// The flights of a query stream, up to the first query of another scene than the first one's.
+std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
+  constexpr std::size_t kMostFlights = 1000;
+  std::vector<Flight> flights;
+  FirstHit first_hit;
+  std::size_t refused = 0;
+  std::string reason;
+  for (StreamItem item; stream.next(item);) {
+    if (item.kind == StreamItem::Kind::scene) {
+      if (!flights.empty() || refused > 0) {
+        say("the picture shows the first scene of the queries; what follows the second is left out");
+        break;
+      }
+      scene = item.scene;
+      first_hit = nullptr;
+    } else if (item.kind == StreamItem::Kind::query) {
+      if (flights.size() >= kMostFlights) {
+        say("the picture shows the first {} flights", kMostFlights);
+        break;
+      }
+      if (!first_hit) first_hit = make_first_hit("certified", *scene);
+      Flight flight{item.query, {}};
+      first_hit(item.query, {}, flight.answer);
+      if (flight.answer.outcome == Outcome::error) {
+        ++refused;
+        reason = flight.answer.message;
+      } else {
+        flights.push_back(std::move(flight));
+      }
+    }
+  }
+  if (refused > 0) say("flights left out: {} ({})", refused, reason);
+  return flights;
+}
+
+void write_to(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    print(text);
+    return;
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw FileError(file + ": " + std::strerror(errno));
+}
+
+int draw(const Options& options) {
+  const auto radius = positive_number(options.radius, "--radius");
+  if (!options.scene && !options.queries)
+    throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
+  if (radius && !options.scene)
+    throw InputError("--radius: needs a scene (those of a stream say their radii themselves)");
+  std::optional<Scene> scene;
+  std::string title = options.scene.value_or(options.queries.value_or(""));
+  if (options.scene) scene = load_scene(*options.scene, radius);
+  if (radius) title += " --radius " + *options.radius;
+  std::vector<Flight> flights;
+  bool bad = false;
+  if (options.queries) {
+    QueryStream stream(*options.queries, scene);
+    flights = flights_of(stream, scene);
+    bad = stream.had_bad_input();
+  }
+  if (!scene) throw InputError(*options.queries + ": has no scene; give one by name or file");
+  const Drawing drawing = draw_scene(*scene, title, flights);
+  for (const std::string& remark : drawing.remarks) say("{}", remark);
+  write_to(options.output, drawing.svg);
+  return bad ? kBadInput : kDone;
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("scene", "The catalogue of scenes, what is known of one, and its picture.");
+  command->require_subcommand(1);
+  command->footer("Example:\n  lorentz scene show fcc --radius 0.35");
+
+  CLI::App* list_command = command->add_subcommand("list", "The catalogue.");
+  list_command->add_flag("--json", options->json, "as one JSON object");
+  list_command->callback([options, &action] { action = [options] { return list(*options); }; });
+  list_command->footer("Example:\n  lorentz scene list");
+
+  CLI::App* show_command = command->add_subcommand(
+      "show", "Cell, obstacles, which of them touch or overlap, filling fraction and mean free path.");
+  show_command->add_option("scene", options->scene, "a name of the catalogue, or a file")->required();
+  show_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  show_command->add_flag("--json", options->json, "as one JSON object");
+  show_command->callback([options, &action] { action = [options] { return show(*options); }; });
+  show_command->footer("Example:\n  lorentz scene show fcc --radius 0.35");
+
+  CLI::App* draw_command =
+      command->add_subcommand("draw", "A picture (SVG), with flights if queries are given.");
+  draw_command->add_option("scene", options->scene,
+                           "a name of the catalogue, or a file; without it, the first scene of the queries");
+  draw_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  draw_command->add_option(
+      "--queries", options->queries,
+      "query stream (NDJSON): its flights to their first hits, exactly; - is standard input");
+  draw_command->add_option("-o,--output", options->output, "file to write; - is standard output")
+      ->capture_default_str();
+  draw_command->callback([options, &action] { action = [options] { return draw(*options); }; });
+  draw_command->footer(
+      "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "
+      "flights.svg");
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,42 @@
+// Volumes, surfaces and the mean free path of a scene, in binary64. In 2D a volume is an area and a surface a
+// perimeter.
+#pragma once
+
+#include <array>
+
+#include "problem.hpp"
+
+namespace lorentz::cli {
+
+double dot(const Vec& a, const Vec& b);
+Vec cross(const Vec& a, const Vec& b);
+
+/// The columns of A in { position + A y : |y| < 1 }; a 2D obstacle has the third column zero.
+std::array<Vec, 3> matrix_of(const Atom& atom, int dimension);
+
+/// The rows of the inverse of a lattice's (u_1 | .. | u_d), or of any such matrix: fractional coordinates are
+/// their products with a point. In 2D the third row is zero.
+std::array<Vec, 3> inverse_rows(const std::array<Vec, 3>& columns, int dimension);
+
+/// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
+/// values of its matrix.
+std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
+
+double cell_volume(const Lattice& lattice, int dimension);
+double volume_of(const Atom& atom, int dimension);
+double surface_of(const Atom& atom, int dimension);
+
+/// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0.
+double carlson_rf(double x, double y, double z);
+double carlson_rd(double x, double y, double z);
+
+/// Of a scene without overlaps: the share of space that the obstacles take, their surface per volume, and the
+/// mean free path between hits by Santalo's formula, which follows from these: pi (1 - filling) / surface in
+/// 2D, 4 (1 - filling) / surface in 3D.
+struct Filling {
+  double fraction = 0, surface = 0, mean_free_path = 0;
+};
+
+Filling filling_of(const Scene& scene);
+
+}  // namespace lorentz::cli
