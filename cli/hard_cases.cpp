@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dual.hpp"
+
 namespace lorentz::cli {
 namespace {
 
@@ -17,23 +19,37 @@ Vec near_rational_direction(Random& random, int dimension) {
   return v;
 }
 
-// Moves the start across the line, so that the ball that is hit is passed at its edge. False: the start is
-// then in a ball, or nothing was hit.
+// The matrix A of an obstacle { position + A y : |y| < 1 }, by columns; a third one in 2D is not used.
+std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
+  std::array<Vec, 3> axes{};
+  for (int i = 0; i < dimension; ++i) {
+    if (atom.is_ball())
+      axes[i][i] = atom.radius;
+    else
+      axes[i] = atom.semiaxes[i];
+  }
+  return axes;
+}
+
+// Moves the start across the line, so that the obstacle that is hit is passed at its edge. False: the start
+// is then in an obstacle, or nothing was hit. In coordinates y in which the obstacle is the unit ball: the
+// normal n of the collision stands at y ~ A^T n, the line passes the centre at the part of y across it, and
+// is moved along that.
 bool make_grazing(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
   oracle::Request request;
   request.detail = true;
   const Answer answer = oracle.first_hit(query, request);
   if (answer.outcome != Outcome::hit || !answer.detail) return false;
-  const double r = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom].radius;
-  const Detail& detail = *answer.detail;
-  const double speed = std::hypot(query.v[0], query.v[1], query.v[2]), b = detail.impact_parameter;
-  double along = 0;
-  for (int k = 0; k < 3; ++k) along += detail.normal[k] * query.v[k] / speed;
+  const auto axes =
+      semiaxes_of(scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom], scene.dimension);
+  Vec y = coordinates(axes, answer.detail->normal), w = coordinates(dual_of(axes, scene.dimension), query.v);
+  if (scene.dimension == 2) y[2] = w[2] = 0;
+  const double length = std::sqrt(dot(y, y)), along = dot(y, w) / length / dot(w, w);
+  for (int i = 0; i < 3; ++i) y[i] = y[i] / length - along * w[i];
+  const double distance = std::sqrt(dot(y, y));
   const double off_edge = std::exp2(-10 - 40 * random.uniform()) * (random.bits() & 1 ? 1 : -1);
-  for (int k = 0; k < 3; ++k) {  // the unit vector across, from the centre to the line
-    const double across = (detail.normal[k] - along * query.v[k] / speed) * r / b;
-    query.x[k] += across * (r * (1 + off_edge) - b);
-  }
+  for (int i = 0; i < scene.dimension; ++i)
+    for (int k = 0; k < 3; ++k) query.x[k] += axes[i][k] * y[i] / distance * (1 + off_edge - distance);
   return std::isfinite(query.x[0] + query.x[1] + query.x[2]) && oracle.is_free(query.x);
 }
 

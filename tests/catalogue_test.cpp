@@ -13,18 +13,12 @@
 
 using namespace lorentz;
 using std::numbers::pi;
+using test::all_scenes;
 namespace fs = std::filesystem;
 
 namespace {
 
 const fs::path kData = fs::path(LORENTZ_SOURCE_DIR) / "data";
-
-std::map<std::string, Scene> all_scenes() {
-  std::map<std::string, Scene> scenes;
-  for (const auto& file : fs::directory_iterator(kData / "scenes"))
-    scenes[file.path().stem()] = read_scene_file(file.path());
-  return scenes;
-}
 
 Scene scene(const std::string& name) {
   return read_scene_file(kData / "scenes" / (name + ".toml"));

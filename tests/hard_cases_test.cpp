@@ -42,3 +42,23 @@ TEST_CASE("Grazing queries pass a ball near its edge: a radius changed by 2^-9 c
   }
   CHECK(by_chance < 30);
 }
+
+TEST_CASE("Grazing queries pass ellipsoids near their edge") {
+  for (const int dimension : {2, 3}) {
+    Scene scene = unit_scene(dimension, 1);
+    std::vector<Vec>& axes = scene.lattices[0].atoms[0].semiaxes;
+    axes = {Vec{0.3, 0.1}, Vec{-0.05, 0.15}};
+    if (dimension == 3) axes = {Vec{0.3, 0.1, 0}, Vec{-0.05, 0.15, 0.1}, Vec{0, 0.1, 0.2}};
+    const auto scaled = [&](double factor) {
+      Scene other = scene;
+      for (Vec& axis : other.lattices[0].atoms[0].semiaxes)
+        for (double& component : axis) component *= factor;
+      return other;
+    };
+    const oracle::Oracle oracle(scene), smaller(scaled(1 - 0x1p-9)), larger(scaled(1 + 0x1p-9));
+    long changed = 0;
+    for (const Query& query : hard_queries(Difficulty::grazing, scene, oracle, 7, 300))
+      changed += !(smaller.first_hit(query).obstacle == larger.first_hit(query).obstacle);
+    CHECK(changed > 200);
+  }
+}

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 #include <random>
 #include <string>
 
@@ -18,6 +20,14 @@ inline std::string temporary_file() {
   char name[] = "/tmp/lorentz-test-XXXXXX";
   close(mkstemp(name));
   return name;
+}
+
+/// The catalogue, by name.
+inline std::map<std::string, Scene> all_scenes() {
+  std::map<std::string, Scene> scenes;
+  for (const auto& file : std::filesystem::directory_iterator(LORENTZ_SOURCE_DIR "/data/scenes"))
+    scenes[file.path().stem()] = read_scene_file(file.path());
+  return scenes;
 }
 
 class Draw {
