@@ -97,6 +97,20 @@ TEST_CASE("Digits, detail and a time limit") {
         "{\"id\":\"good\",\"outcome\":\"later\"}\n");
 }
 
+TEST_CASE("The detail of a hit on an ellipse") {
+  const Folder folder;
+  const auto queries = folder.write(
+      "q",
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"semiaxes":[[0.25,0],[0,0.1]]}]}]}})"
+      "\n"
+      R"({"id":1,"x":[0.15,0.5],"v":[0,-1]})");
+  const Run run = folder.lorentz("first-hit --detail --engine classical " + queries);
+  INFO(run.out);  // entered at (0.15, 0.08): the normal is along (0.15 / 0.0625, 0.08 / 0.01) = (2.4, 8)
+  CHECK(contains(run.out, R"("cell":[0,0],"time":0.4)"));
+  CHECK(contains(run.out, R"("normal":[0.28734)"));
+  CHECK(contains(run.out, R"("impact_parameter":0.15)"));
+}
+
 TEST_CASE("Bad lines get an error in their place, and the good ones around them their answers") {
   const Folder folder;
   const std::string huge(100'000'000, '1');

@@ -218,6 +218,26 @@ TEST_CASE("`from` is left alone in a stretched cell, wherever the flight begins"
   CHECK(Published(scene).first_hit({{1.1, 0.05}, {1, 0.01}, one}).obstacle.cell[0] == Integer(2));
 }
 
+TEST_CASE("`from` is left alone in a stretched cell also where it is far ahead") {
+  Draw draw(97);
+  INFO("seed 97");
+  int right = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Scene scene = draw.one_in(2) ? triangular(0.05) : fcc(0.1);
+    Query query{draw.vec(scene.dimension, -2, 2), draw.vec(scene.dimension, -1, 1), {}};
+    const Answer first = Published(scene).first_hit(query);
+    if (first.outcome != Outcome::hit) continue;
+    query.from = first.obstacle;
+    const Answer next = Published(scene).first_hit(query);
+    INFO(stream(scene, query) << line(next, scene.dimension));
+    REQUIRE(next.outcome == Outcome::hit);
+    REQUIRE_FALSE(next.obstacle == first.obstacle);
+    right += oracle::judge(oracle::Oracle(scene).first_hit(query), next).verdict == oracle::Verdict::agree;
+  }
+  INFO(right << " right");
+  CHECK(right > 500);
+}
+
 TEST_CASE("What published does not do beyond the unit lattices, it says") {
   const Query query{{0.5, 0.4}, {1, 0.3}, {}};
   using Catch::Contains;
