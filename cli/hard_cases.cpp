@@ -19,18 +19,6 @@ Vec near_rational_direction(Random& random, int dimension) {
   return v;
 }
 
-// The matrix A of an obstacle { position + A y : |y| < 1 }, by columns; a third one in 2D is not used.
-std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
-  std::array<Vec, 3> axes{};
-  for (int i = 0; i < dimension; ++i) {
-    if (atom.is_ball())
-      axes[i][i] = atom.radius;
-    else
-      axes[i] = atom.semiaxes[i];
-  }
-  return axes;
-}
-
 // Moves the start across the line, so that the obstacle that is hit is passed at its edge. False: the start
 // is then in an obstacle, or nothing was hit. In coordinates y in which the obstacle is the unit ball: the
 // normal n of the collision stands at y ~ A^T n, the line passes the centre at the part of y across it, and

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "drawing_parts.hpp"
+#include "dual.hpp"
 #include "errors.hpp"
 
 namespace lorentz::cli {
@@ -46,7 +47,7 @@ void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>
   const int d = scene.dimension;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
   const double reach = reach_of(atom, d);
-  const std::array<Vec, 3> rows = inverse_rows(u, d);
+  const std::array<Vec, 3> rows = dual_of(u, d);
   const Vec middle = box.centre();
   std::array<std::int64_t, 3> first{}, last{};
   double cells = 1;
@@ -126,7 +127,7 @@ double cell_size(const Scene& scene) {
 
 Vec cell_at(const Scene& scene, const Vec& point) {
   const auto& u = scene.lattices[0].vectors;
-  const auto rows = inverse_rows(u, scene.dimension);
+  const auto rows = dual_of(u, scene.dimension);
   Vec corner{};
   for (int i = 0; i < scene.dimension; ++i)
     for (int k = 0; k < 3; ++k) corner[k] += std::floor(dot(rows[i], point)) * u[i][k];

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drawing_parts.hpp"
+#include "dual.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -66,7 +67,7 @@ Window window_for(const Scene& scene, const Vec& corner, const std::vector<Line>
 // The first lattice's cells, faint, unless there are too many to tell apart.
 void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
-  const auto rows = inverse_rows(u, 2);
+  const auto rows = dual_of(u, 2);
   const double reach =
       std::hypot(window.box.high[0] - window.box.low[0], window.box.high[1] - window.box.low[1]);
   constexpr double kMostLines = 100;
@@ -88,7 +89,7 @@ void add_obstacle(Svg& svg, const Scene& scene, const Window& window, const Plac
                   bool& enlarged) {
   constexpr double kSmallest = 2;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
-  const auto columns = matrix_of(atom, 2);
+  const auto columns = semiaxes_of(atom, 2);
   EllipseShape shape = ellipse_of({columns[0][0], columns[1][0], 0}, {columns[0][1], columns[1][1], 0});
   shape = {shape.rx * window.scale, shape.ry * window.scale, -shape.angle};
   if (shape.rx < kSmallest) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drawing_parts.hpp"
+#include "dual.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -88,7 +89,7 @@ void Picture::choose_obstacles() {
   }
   bool cut = false;
   std::vector<Placed> obstacles = obstacles_in(scene_, box, cut);
-  const auto rows = inverse_rows(u, 3);
+  const auto rows = dual_of(u, 3);
   std::erase_if(obstacles, [&](const Placed& obstacle) {
     constexpr double kSlack = 1e-6;
     for (const Vec& row : rows) {
@@ -112,7 +113,7 @@ void Picture::choose_obstacles() {
   };
   std::erase_if(obstacles, is_hit);
   const auto see = [&](const Placed& placed, bool is_hit) {
-    const auto columns = matrix_of(scene_.lattices[placed.lattice].atoms[placed.atom], 3);
+    const auto columns = semiaxes_of(scene_.lattices[placed.lattice].atoms[placed.atom], 3);
     Vec m1{}, m2{};
     for (int i = 0; i < 3; ++i) {
       m1[i] = dot(columns[i], eye_.right);
@@ -125,7 +126,7 @@ void Picture::choose_obstacles() {
   std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) { return a.view[2] < b.view[2]; });
   for (const Lattice& lattice : scene_.lattices) {
     inverses_.emplace_back();
-    for (const Atom& atom : lattice.atoms) inverses_.back().push_back(inverse_rows(matrix_of(atom, 3), 3));
+    for (const Atom& atom : lattice.atoms) inverses_.back().push_back(dual_of(semiaxes_of(atom, 3), 3));
   }
 }
 

@@ -4,44 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "dual.hpp"
+
 namespace lorentz::cli {
 
 using std::numbers::pi;
-
-double dot(const Vec& a, const Vec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-std::array<Vec, 3> matrix_of(const Atom& atom, int dimension) {
-  std::array<Vec, 3> columns{};
-  for (int i = 0; i < dimension; ++i) {
-    if (atom.is_ball())
-      columns[i][i] = atom.radius;
-    else
-      columns[i] = atom.semiaxes[i];
-  }
-  return columns;
-}
-
-std::array<Vec, 3> inverse_rows(const std::array<Vec, 3>& columns, int dimension) {
-  std::array<Vec, 3> u = columns;
-  if (dimension == 2) u[2] = {0, 0, 1};
-  std::array<Vec, 3> rows{cross(u[1], u[2]), cross(u[2], u[0]), cross(u[0], u[1])};
-  const double det = dot(rows[2], u[2]);
-  for (Vec& row : rows)
-    for (double& component : row) component /= det;
-  if (dimension == 2) rows[2] = {};
-  return rows;
-}
-
 // One-sided Jacobi (Hestenes 1958): columns are turned in pairs until all are perpendicular; their lengths
 // are the singular values then.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
-  std::array<Vec, 3> a = matrix_of(atom, dimension);
+  std::array<Vec, 3> a = semiaxes_of(atom, dimension);
   constexpr int kSweeps = 60;
   bool turned = true;
   for (int sweep = 0; sweep < kSweeps && turned; ++sweep) {

@@ -8,15 +8,7 @@
 
 namespace lorentz::cli {
 
-double dot(const Vec& a, const Vec& b);
 Vec cross(const Vec& a, const Vec& b);
-
-/// The columns of A in { position + A y : |y| < 1 }; a 2D obstacle has the third column zero.
-std::array<Vec, 3> matrix_of(const Atom& atom, int dimension);
-
-/// The rows of the inverse of a lattice's (u_1 | .. | u_d), or of any such matrix: fractional coordinates are
-/// their products with a point. In 2D the third row is zero.
-std::array<Vec, 3> inverse_rows(const std::array<Vec, 3>& columns, int dimension);
 
 /// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
 /// values of its matrix.

@@ -29,30 +29,30 @@ bool all_finite(const Vec& a) {
 }
 
 // The obstacle's own coordinates, in which it is the unit ball: A^-1 a. Balls need none.
-using Shape = std::array<Vec, 3>;
+using OwnCoordinates = std::array<Vec, 3>;
 
 struct Obstacle {
   Vec centre;
   double radius;
-  const Shape* shape;  // or null: a ball
+  const OwnCoordinates* own;  // or null: a ball
   int atom;
   CellIndex n;  // its cell, counted from the one it reaches into
 
   // The time at which the line enters it; before the start counts as never.
   std::optional<double> entry(const Vec& x, const Vec& v) const {
     const Vec arm = minus(x, centre);
-    if (!shape) {
+    if (!own) {
       if (dot(arm, v) >= 0) return std::nullopt;
       return entry_time(arm, v, radius);
     }
-    const Vec place = coordinates(*shape, arm), velocity = coordinates(*shape, v);
+    const Vec place = coordinates(*own, arm), velocity = coordinates(*own, v);
     if (dot(place, velocity) >= 0) return std::nullopt;
     return entry_time(place, velocity, 1);
   }
 
   bool contains(const Vec& x) const {
-    const Vec arm = minus(x, centre), place = shape ? coordinates(*shape, arm) : arm;
-    return dot(place, place) < (shape ? 1 : radius * radius);
+    const Vec arm = minus(x, centre), place = own ? coordinates(*own, arm) : arm;
+    return dot(place, place) < (own ? 1 : radius * radius);
   }
 };
 
@@ -96,7 +96,7 @@ struct Walked {
 struct CellWalk::CellLattice {
   int dimension = 0, index = 0, exponent = 0;
   std::array<Vec, 3> vectors{}, dual{};
-  std::vector<Shape> shapes;
+  std::vector<OwnCoordinates> own_coordinates;
   std::vector<Obstacle> obstacles;  // that reach into the cell around the origin, in the order of (atom, n)
 
   CellLattice(const Scene& scene, int l);
@@ -110,7 +110,7 @@ struct CellWalk::CellLattice {
   std::optional<std::string> range_of(const Atom& atom, Range& range) const;
   double scaled(double length) const { return std::scalbn(length, -exponent); }
   Vec scaled(const Vec& a) const { return {scaled(a[0]), scaled(a[1]), scaled(a[2])}; }
-  Shape scaled_axes(const Atom& atom) const;
+  std::array<Vec, 3> scaled_axes(const Atom& atom) const;
 
   void list(const std::vector<Atom>& atoms);
   Vec relative(const Vec& x, const Vec& n) const;
@@ -144,17 +144,17 @@ std::optional<std::string> CellWalk::CellLattice::beyond() const {
   return std::nullopt;
 }
 
-Shape CellWalk::CellLattice::scaled_axes(const Atom& atom) const {
-  Shape axes{};
-  for (int i = 0; i < dimension; ++i) axes[i] = scaled(atom.semiaxes[i]);
+std::array<Vec, 3> CellWalk::CellLattice::scaled_axes(const Atom& atom) const {
+  std::array<Vec, 3> axes = semiaxes_of(atom, dimension);
+  for (Vec& axis : axes) axis = scaled(axis);
   return axes;
 }
 
 // Of n in |y_i(position) + n_i| <= 1/2 + reach_i; the reach along dual_i is the obstacle's support |A^T
 // dual_i|.
 std::optional<std::string> CellWalk::CellLattice::range_of(const Atom& atom, Range& range) const {
-  const Shape axes = atom.is_ball() ? Shape{} : scaled_axes(atom);
-  const Shape own = atom.is_ball() ? Shape{} : dual_of(axes, dimension);
+  const std::array<Vec, 3> axes = scaled_axes(atom);
+  const OwnCoordinates own = atom.is_ball() ? OwnCoordinates{} : dual_of(axes, dimension);
   const double radius = scaled(atom.radius);
   if (atom.is_ball() && radius < kSmallest) return "does not do radii as small as this, 2^-500 of the cell";
   for (int i = 0; i < dimension; ++i) {
@@ -162,7 +162,7 @@ std::optional<std::string> CellWalk::CellLattice::range_of(const Atom& atom, Ran
       if (!(std::fabs(own[i][k]) < 1 / kSmallest)) return "does not do semiaxes as short or as flat as these";
     double support2 = 0;
     for (const Vec& axis : axes) support2 += dot(axis, dual[i]) * dot(axis, dual[i]);
-    const double reach = atom.is_ball() ? radius * std::sqrt(dot(dual[i], dual[i])) : std::sqrt(support2);
+    const double reach = std::sqrt(support2);
     const double y = dot(dual[i], scaled(atom.position)),
                  half = 0.5 + reach * (1 + kListMargin) + kListMargin;
     if (!(std::fabs(y) < kMaxStart)) return "does not do atoms that far from the origin";
@@ -194,19 +194,19 @@ std::optional<std::string> CellWalk::beyond(const Scene& scene) {
 }
 
 void CellWalk::CellLattice::list(const std::vector<Atom>& atoms) {
-  shapes.reserve(atoms.size());  // the obstacles point there
+  own_coordinates.reserve(atoms.size());  // the obstacles point there
   for (int a = 0; a < static_cast<int>(atoms.size()); ++a) {
     Range range;
     range_of(atoms[a], range);
-    const Shape* shape = nullptr;
-    if (!atoms[a].is_ball()) shape = &shapes.emplace_back(dual_of(scaled_axes(atoms[a]), dimension));
+    const OwnCoordinates* own = nullptr;
+    if (!atoms[a].is_ball()) own = &own_coordinates.emplace_back(dual_of(scaled_axes(atoms[a]), dimension));
     const Vec position = scaled(atoms[a].position);
     CellIndex n;
     for (n[0] = range.first[0]; n[0] <= range.last[0]; ++n[0])
       for (n[1] = range.first[1]; n[1] <= range.last[1]; ++n[1])
         for (n[2] = range.first[2]; n[2] <= range.last[2]; ++n[2]) {
           const Vec minus_n{-double(n[0]), -double(n[1]), -double(n[2])};
-          obstacles.push_back({relative(position, minus_n), scaled(atoms[a].radius), shape, a, n});
+          obstacles.push_back({relative(position, minus_n), scaled(atoms[a].radius), own, a, n});
         }
   }
 }

@@ -23,9 +23,7 @@ Vec centre_of(const Scene& scene, const ObstacleId& id) {
 // The gradient of |A^-1 a|^2 / 2 at a, which is A^-T A^-1 a; for a ball, a itself.
 Vec gradient(const Atom& atom, int dimension, const Vec& a) {
   if (atom.is_ball()) return a;
-  std::array<Vec, 3> axes{};
-  for (int i = 0; i < dimension; ++i) axes[i] = atom.semiaxes[i];
-  const std::array<Vec, 3> dual = dual_of(axes, dimension);
+  const std::array<Vec, 3> dual = dual_of(semiaxes_of(atom, dimension), dimension);
   Vec sum{};
   for (int i = 0; i < dimension; ++i)
     for (int k = 0; k < 3; ++k) sum[k] += dot(dual[i], a) * dual[i][k];

@@ -30,6 +30,19 @@ inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
   return dual;
 }
 
+/// The columns of A of an obstacle { position + A y : |y| < 1 }; a ball's are its radius times the axes. In
+/// 2D the third is zero.
+inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
+  std::array<Vec, 3> columns{};
+  for (int i = 0; i < dimension; ++i) {
+    if (atom.is_ball())
+      columns[i][i] = atom.radius;
+    else
+      columns[i] = atom.semiaxes[i];
+  }
+  return columns;
+}
+
 /// (dual_1 . a, dual_2 . a, dual_3 . a): the coordinates of a.
 inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
   return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};

@@ -61,15 +61,8 @@ Query leaving_query(Draw& draw, const Scene& scene) {
   const double which = all * draw.uniform();
   const std::size_t i = std::lower_bound(surfaces.begin(), surfaces.end(), which) - surfaces.begin();
   const Atom& atom = scene.lattices[atoms[i].lattice].atoms[atoms[i].atom];
-  std::array<Vec, 3> axes{};
-  for (int k = 0; k < d; ++k) {
-    if (atom.is_ball())
-      axes[k][k] = atom.radius;
-    else
-      axes[k] = atom.semiaxes[k];
-  }
   // y on the unit sphere; the surface there is stretched by |det A| |A^-T y|.
-  const std::array<Vec, 3> dual = dual_of(axes, d);
+  const std::array<Vec, 3> dual = dual_of(semiaxes_of(atom, d), d);
   double most = 0;
   for (int k = 0; k < d; ++k) most += dot(dual[k], dual[k]);
   for (;;) {

@@ -69,4 +69,19 @@ inline Query hard_query(Draw& draw, Style style, const Scene& scene) {
   return query.v == Vec{} ? Query{query.x, {1, 0, 0}, query.from} : query;
 }
 
+/// Hard queries in drawn scenes, all dimensions and styles: scene_maker(draw, style, dimension).
+template <class SceneMaker>
+Count campaign(std::uint64_t seed, long cases, SceneMaker scene_maker) {
+  Count count;
+  for (const int dimension : {2, 3})
+    for (const Style style : {Style::generic, Style::grid, Style::near_grid}) {
+      Draw draw(seed + 10 * dimension + static_cast<int>(style));
+      for (long i = 0; i < cases; ++i) {
+        const Scene scene = scene_maker(draw, style, dimension);
+        check(scene, hard_query(draw, style, scene), count);
+      }
+    }
+  return count;
+}
+
 }  // namespace lorentz::test
