@@ -173,9 +173,10 @@ TEST_CASE("Published with several atoms is the earliest of each alone") {
         alone.lattices[0].atoms = {scene.lattices[l].atoms[a]};
         Answer answer = Published(alone).first_hit(query);
         answer.obstacle.lattice = l, answer.obstacle.atom = a;
+        if (expected.outcome == Outcome::inside) continue;  // the first of them
         const bool sooner = answer.outcome == Outcome::inside || expected.outcome == Outcome::never ||
                             *answer.time < *expected.time;
-        if (expected.outcome != Outcome::inside && sooner) expected = answer;
+        if (sooner) expected = answer;
       }
     const Answer given = Published(scene).first_hit(query);
     INFO(line(expected, dimension) << line(given, dimension));
