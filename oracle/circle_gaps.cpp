@@ -77,14 +77,15 @@ std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period,
   return blocks;
 }
 
-bool only_touch(std::vector<Block> blocks, const Z& period) {
-  bool touch = false, gap = false;
+Cover cover_of(std::vector<Block> blocks, const Z& period) {
+  bool touch = false, gap = blocks.empty();
   const bool done = sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
     const int order = end_against_start(reach, reach2, block.start, block.start2);
     touch |= order == 0;
     gap |= order < 0;
   });
-  return done && touch && !gap;
+  if (!done) return Cover::full;
+  return gap ? Cover::gaps : touch ? Cover::touching : Cover::full;
 }
 
 }  // namespace lorentz::oracle

@@ -29,7 +29,8 @@ std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period);
 /// The blocks between gaps, `copies` periods of them.
 std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
 
-/// True if the closed intervals of the blocks cover the circle and yet the open ones do not.
-bool only_touch(std::vector<Block> blocks, const Z& period);
+/// How blocks cover a circle: leaving gaps, touching somewhere so that points stay free, or all of it.
+enum class Cover { gaps, touching, full };
+Cover cover_of(std::vector<Block> blocks, const Z& period);
 
 }  // namespace lorentz::oracle
