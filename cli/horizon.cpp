@@ -15,7 +15,7 @@ namespace {
 struct Options {
   std::optional<std::string> name, scene, radius, min_width;
   std::string limit = "20";
-  bool json = false;
+  bool no_cylinders = false, json = false;
 };
 
 using Indices = std::array<Integer, 3>;
@@ -217,7 +217,7 @@ int act(const Options& options) {
   const std::size_t limit = whole_number(options.limit, "--limit", 0, 1'000'000'000);
   const Scene scene = load_scene(name, positive_number(options.radius, "--radius"));
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, min_width.value_or(0));
+    const oracle::Horizon horizon = oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders);
     print(options.json ? json_text(horizon, name, min_width.has_value())
                        : human_text(horizon, limit, min_width.has_value()));
   } catch (const oracle::TooManyChannels& error) {
@@ -246,6 +246,7 @@ void add_horizon(CLI::App& app, Action& action) {
   command->add_option("--limit", options->limit, "print N rows of a table at most")
       ->capture_default_str()
       ->type_name("N");
+  command->add_flag("--no-cylinders", options->no_cylinders, "leave out the search for cylindrical channels");
   command->add_flag("--json", options->json, "one JSON object, with all channels");
   command->footer("Example:\n  lorentz horizon square --radius 0.4");
   command->callback([options, &action] { action = [options] { return act(*options); }; });

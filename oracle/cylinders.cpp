@@ -14,8 +14,9 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr double kMostPlanes = 20'000;
-constexpr double kMostInPlane = 20'000;        // directions
-constexpr std::size_t kMostWork = 30'000'000;  // blocks placed, points and discs compared
+constexpr double kMostInPlane = 5'000;  // directions
+constexpr std::size_t kMostWork =
+    20'000'000;  // blocks placed, points and discs compared: some microseconds each
 
 // How the blocks of the first few balls cover, or if they leave anything, of all.
 template <class BlockOf>
@@ -53,6 +54,10 @@ Cover shrunk_cover(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, uns
     return Block{centre, half2 * normal2, centre, half2 * normal2};
   };
   return cover_by_balls(lattice, shifted_left(lattice.period(normal), bits), work, block_of);
+}
+
+double length_of(const Vec& a) {
+  return std::hypot(a[0], a[1], a[2]);
 }
 
 struct Plane {
@@ -209,7 +214,7 @@ class Search {
     const auto count = [&] { return std::exp2(log2_of(bound()) - log2_of(normal2) / 2) * 0.955; };
     if (count() > kMostInPlane) {
       horizon_.families.push_back({named(plane.indices), false, count()});
-      while (m > 1 && count() > kMostInPlane / 10) --m;
+      while (m > 1 && count() > kMostInPlane / 5) --m;
     }
     visit_directions(plane_basis(lattice_, plane.indices), bound());
   }
@@ -229,7 +234,7 @@ class Search {
   }
 
   void look_along(const PlaneBasis& basis, const Z& i, const Z& j) {
-    ++work_;
+    work_ += 10;
     LatticePoint<3> g, next;
     g.add_multiple(i, basis.in_plane[0]);
     g.add_multiple(j, basis.in_plane[1]);
@@ -249,6 +254,7 @@ class Search {
   }
 
   void add(const LatticePoint<3>& g, const Shadow& shadow, const HolePoint& hole) {
+    work_ += shadow.discs.size() > 1 ? 200 : 10;
     const HoleCentre centre = centre_of(shadow, hole);
     Cylinder cylinder;
     cylinder.direction = named(g.n);
@@ -320,6 +326,10 @@ void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon) {
   const BallScene balls = balls_of(scene);
   horizon.no_cylinders = balls.unsupported;
   if (balls.unsupported.empty()) Search(scene, balls, horizon).run();
+  std::stable_sort(horizon.cylinders.begin(), horizon.cylinders.end(), [](const auto& a, const auto& b) {
+    return std::tuple(-a.radius, length_of(a.vector), b.vector) <
+           std::tuple(-b.radius, length_of(b.vector), a.vector);
+  });
 }
 
 }  // namespace lorentz::oracle

@@ -1,5 +1,6 @@
 #include "hole_centre.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,18 +40,52 @@ struct FlatDisc {
   double x, y, radius;
 };
 
-double clearance(const std::vector<FlatDisc>& discs, double x, double y) {
+// The clearance at a point if it is above `floor`, else something not above it.
+double clearance(const std::vector<FlatDisc>& discs, double x, double y, double floor) {
   double least = std::numeric_limits<double>::infinity();
-  for (const FlatDisc& disc : discs)
-    least = std::min(least, std::hypot(x - disc.x, y - disc.y) - disc.radius);
+  for (const FlatDisc& disc : discs) {
+    const double dx = x - disc.x, dy = y - disc.y;
+    least = std::min(least, std::sqrt(dx * dx + dy * dy) - disc.radius);
+    if (least <= floor) break;
+  }
   return least;
 }
 
-}  // namespace
+struct FlatPoint {
+  double x, y, clearance;
+};
 
-HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
-  const Frame frame(shadow);
+// From the start in ever smaller steps, as long as the clearance grows. A start on the boundary may be in a
+// sharp corner: the way out of that takes more looking for.
+FlatPoint climb(std::vector<FlatDisc>& discs, double start_x, double start_y, double limit) {
+  const auto distance = [&](const FlatDisc& disc) {
+    return std::hypot(disc.x - start_x, disc.y - start_y) - disc.radius;
+  };
+  std::sort(discs.begin(), discs.end(),
+            [&](const FlatDisc& a, const FlatDisc& b) { return distance(a) < distance(b); });
+  double x = start_x, y = start_y, best = 0;
+  for (double step = limit / 8; step > limit * (best > 0 ? 1e-8 : 1e-14);) {
+    const int ways = best > 0 ? 12 : 96;
+    bool better = false;
+    for (int i = 0; i < ways && !better; ++i) {
+      const double angle = 2 * M_PI * i / ways;
+      const double to_x = x + step * std::cos(angle), to_y = y + step * std::sin(angle);
+      const double there = clearance(discs, to_x, to_y, best);
+      if (there <= best || std::hypot(to_x - start_x, to_y - start_y) > limit) continue;
+      best = there;
+      x = to_x;
+      y = to_y;
+      better = true;
+    }
+    if (!better) step /= 2;
+  }
+  return {x, y, best};
+}
+
+FlatPoint centre_in_plane(const Shadow& shadow, const HolePoint& hole, const Frame& frame) {
   const auto start = frame.coordinates(hole.offset);
+  // Of one disc and its translates the point is the one furthest from all centres already.
+  if (shadow.discs.size() == 1) return {start[0], start[1], std::hypot(start[0], start[1]) - 1};
   // No point is further from all centres than half |b1| + |b2|: within twice that is all that matters.
   const Z r = shadow.discs[0].radius, b11 = dot(shadow.basis[0].p, shadow.basis[0].p),
           b22 = dot(shadow.basis[1].p, shadow.basis[1].p);
@@ -67,27 +102,19 @@ HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
     const auto [x, y] = frame.coordinates(fine);
     discs.push_back({x, y, quotient(disc.radius, r)});
   }
-  const double limit = quotient(reach, r) / 2;
-  double x = start[0], y = start[1], best = clearance(discs, x, y);
-  for (double step = limit / 8; step > limit * 1e-14;) {
-    bool better = false;
-    for (int i = 0; i < 16; ++i) {
-      const double to_x = x + step * std::cos(i * M_PI / 8), to_y = y + step * std::sin(i * M_PI / 8);
-      const double there = clearance(discs, to_x, to_y);
-      if (there <= best || std::hypot(to_x - start[0], to_y - start[1]) > limit) continue;
-      best = there;
-      x = to_x;
-      y = to_y;
-      better = true;
-      break;
-    }
-    if (!better) step /= 2;
-  }
+  return climb(discs, start[0], start[1], quotient(reach, r) / 2);
+}
+
+}  // namespace
+
+HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
+  const Frame frame(shadow);
+  const FlatPoint point = centre_in_plane(shadow, hole, frame);
   // Back from X = x cross g: the projection is (g cross X) / g^2.
   const auto first = frame.direction(0), second = frame.direction(1);
   HoleCentre result;
-  for (int k = 0; k < 3; ++k) result.offset[k] = x * second[k] - y * first[k];
-  result.clearance = best;
+  for (int k = 0; k < 3; ++k) result.offset[k] = point.x * second[k] - point.y * first[k];
+  result.clearance = point.clearance;
   return result;
 }
 

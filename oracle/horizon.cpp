@@ -144,7 +144,7 @@ double tail_constant(const Scene& scene, const std::vector<Channel>& channels) {
 }
 
 template <std::size_t D>
-Horizon horizon_in(const Scene& scene, double min_width) {
+Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders) {
   const ChannelScene<D> exact(scene, min_width);
   Slabs<D> slabs = free_slabs(exact);
   if (!slabs.refusal.empty()) throw TooManyChannels(slabs.refusal);
@@ -172,7 +172,9 @@ Horizon horizon_in(const Scene& scene, double min_width) {
       horizon.no_tail_constant = "the volumes are beyond binary64";
     }
   }
-  if constexpr (D == 3) find_cylinders(exact, horizon);
+  if (D == 3 && !with_cylinders) horizon.no_cylinders = "not asked for";
+  if constexpr (D == 3)
+    if (with_cylinders) find_cylinders(exact, horizon);
   return horizon;
 }
 
@@ -187,8 +189,9 @@ bool Horizon::is_finite() const {
   return !is_infinite() && undecided.empty() && families.empty() && no_cylinders.empty();
 }
 
-Horizon horizon_of(const Scene& scene, double min_width) {
-  return scene.dimension == 2 ? horizon_in<2>(scene, min_width) : horizon_in<3>(scene, min_width);
+Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders) {
+  return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false)
+                              : horizon_in<3>(scene, min_width, with_cylinders);
 }
 
 }  // namespace lorentz::oracle

@@ -71,7 +71,8 @@ struct TooManyChannels : std::runtime_error {
 };
 
 /// All open channels of a scene without flaws (flaw_of, dependence_in); with `min_width` above 0 the
-/// corridors and planar channels at least that wide. Throws TooManyChannels.
-Horizon horizon_of(const Scene& scene, double min_width = 0);
+/// corridors and planar channels at least that wide. The search for cylinders can be left out: among small
+/// obstacles it is the longer one. Throws TooManyChannels.
+Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true);
 
 }  // namespace lorentz::oracle

@@ -144,6 +144,13 @@ struct Search {
     result.open.push_back({normal, gap, count});
   }
 
+  // Where binary64 is finest.
+  static Gap near_origin(Gap gap, const Z& period) {
+    const Z twice_middle = gap.low + gap.high + floor_sqrt(gap.low2) - floor_sqrt(gap.high2);
+    gap.shift(-period * ceil_div(twice_middle - period, 2 * period));
+    return gap;
+  }
+
   // One class for each period; none if one of them leaves nothing free.
   std::vector<Class> classes_of(const ZVec<D>& normal) {
     std::vector<Class> classes;
@@ -226,7 +233,7 @@ struct Search {
     if (classes.empty()) return;
     if (classes.size() > 1 && !merge(classes)) return;
     if (classes.size() == 1) {
-      for (const Gap& gap : classes[0].gaps) add(normal, gap, 1);
+      for (const Gap& gap : classes[0].gaps) add(normal, near_origin(gap, classes[0].period), 1);
     } else if (classes.size() == 2) {
       add_meetings(normal, classes[0], classes[1]);
     } else if (!any_pair_closed(classes)) {
