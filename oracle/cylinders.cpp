@@ -16,7 +16,7 @@ namespace {
 constexpr double kMostPlanes = 20'000;
 constexpr double kMostInPlane = 5'000;  // directions
 constexpr std::size_t kMostWork =
-    20'000'000;  // blocks placed, points and discs compared: some microseconds each
+    10'000'000;  // blocks placed, points and discs compared: some microseconds each
 
 // How the blocks of the first few balls cover, or if they leave anything, of all.
 template <class BlockOf>
@@ -242,15 +242,25 @@ class Search {
     bezout(i, j, s, t);
     next.add_multiple(-t, basis.in_plane[0]);
     next.add_multiple(s, basis.in_plane[1]);
-    const Shadow shadow(lattice_, g.p, next.p, basis.out.p);
+    Shadow shadow(lattice_, g.p, next.p, basis.out.p);
     std::optional<HolePoint> hole = hole_of_largest(shadow);
     if (!hole) return;
     for (const ZVec<3>& taken : taken_)
       if (dot(taken, g.n) == 0) return;
     if (g.n < ZVec<3>{}) g.negate();
     if (!seen_.insert(g.n).second) return;
-    if (shadow.discs.size() > 1) hole = hole_of_all(shadow, work_);
+    if (lattice_.obstacles.size() > 1) hole = hole_among_all(shadow);
     if (hole) add(g, shadow, *hole);
+  }
+
+  // Of many balls the first few mostly cover everything already.
+  std::optional<HolePoint> hole_among_all(Shadow& shadow) {
+    for (std::size_t count = 4;; count *= 4) {
+      count = std::min(count, lattice_.obstacles.size());
+      shadow.see(lattice_, count);
+      const std::optional<HolePoint> hole = hole_of_all(shadow, work_);
+      if (!hole || count == lattice_.obstacles.size()) return hole;
+    }
   }
 
   void add(const LatticePoint<3>& g, const Shadow& shadow, const HolePoint& hole) {

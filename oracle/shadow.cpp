@@ -164,8 +164,14 @@ Shadow::Shadow(const ObstacleLattice<3>& lattice, const ZVec<3>& g, const ZVec<3
       along2(dot(g, g)),
       basis{LatticePoint<3>{cross(e1, g), {}}, LatticePoint<3>{cross(e2, g), {}}} {
   reduce(basis, EuclideanForm<3>{});
-  for (const Obstacle<3>& ball : lattice.obstacles)
-    discs.push_back({cross(ball.position, g), ball.axes[0][0]});
+  see(lattice, 1);
+}
+
+void Shadow::see(const ObstacleLattice<3>& lattice, std::size_t count) {
+  while (discs.size() < count) {
+    const Obstacle<3>& ball = lattice.obstacles[discs.size()];
+    discs.push_back({cross(ball.position, along), ball.axes[0][0]});
+  }
 }
 
 std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, bool add_radius) const {
@@ -197,8 +203,10 @@ std::optional<HolePoint> hole_of_largest(const Shadow& shadow) {
 }
 
 std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work) {
-  for (std::size_t i = 0; i < shadow.discs.size(); ++i)
+  for (std::size_t i = 0; i < shadow.discs.size(); ++i) {
+    work += shadow.discs.size();
     if (auto point = Circle(shadow, i, work).border()) return point;
+  }
   return std::nullopt;
 }
 

@@ -25,8 +25,12 @@ struct Shadow {
   std::array<LatticePoint<3>, 2> basis;  ///< of the plane lattice, reduced
   std::vector<Disc> discs;               ///< one for each ball of the motif, the largest first
 
-  /// Of the balls of `lattice` along a lattice vector; e1 and e2 complete it to a basis of the lattice.
+  /// Of the largest ball of `lattice` along a lattice vector; e1 and e2 complete it to a basis of the
+  /// lattice.
   Shadow(const ObstacleLattice<3>& lattice, const ZVec<3>& along, const ZVec<3>& e1, const ZVec<3>& e2);
+
+  /// Takes in the first `count` balls.
+  void see(const ObstacleLattice<3>& lattice, std::size_t count);
 
   /// The discs, with all their translates, whose centres are at most `reach` times |g| from `point`; centres
   /// relative to it. (That of a disc's own is among them.)

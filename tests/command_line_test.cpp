@@ -409,3 +409,34 @@ TEST_CASE("bench measures, concludes, and writes its figures") {
   CHECK(folder.lorentz("bench --count 3").status == 2);
   CHECK(folder.lorentz("bench --scene square --radius 0.1 --count 32 --csv /nowhere/speed.csv").status == 3);
 }
+
+TEST_CASE("horizon: verdicts, tables, JSON and refusals") {
+  const Folder folder;
+  const Run square = folder.lorentz("horizon square --radius 0.4");
+  CHECK(square.status == 0);
+  CHECK(square.err.empty());
+  CHECK(square.out.starts_with("infinite horizon: 2 corridor directions\n"));
+  CHECK(contains(square.out, "C = 0.0512014"));
+  CHECK(folder.lorentz("horizon --scene square --radius 0.4").out == square.out);
+  CHECK(folder.lorentz("horizon square --radius 0.5").out.starts_with("finite horizon"));
+  CHECK(contains(folder.lorentz("horizon square --limit 3").out, "... and 17 more (--limit 20 shows them)"));
+  CHECK(contains(folder.lorentz("horizon square --radius 0.4 --min-width 0.3").out, "no channel is so wide"));
+  const std::string json = folder.lorentz("horizon square --radius 0.4 --json").out;
+  CHECK(contains(json, R"("horizon":"infinite","directions":2)"));
+  CHECK(contains(
+      json,
+      R"({"direction":[1,0],"vector":[1,0],"width":0.19999999999999996,"point":[0,0.5],"point_inside":true,"count":1})"));
+  const Run small = folder.lorentz("horizon square --radius 1e-9");
+  CHECK(small.status == 2);
+  CHECK(small.out.empty());
+  CHECK(contains(small.err, "--min-width W"));
+  CHECK(folder.lorentz("horizon square --radius 1e-9 --min-width 0.2").status == 0);
+  CHECK(contains(folder.lorentz("horizon cubic --no-cylinders").out, "193 normals of planar channels"));
+  CHECK(contains(folder.lorentz("horizon cubic --radius 0.45 --json").out, R"("direction":[1,1,1])"));
+  for (const char* bad : {"horizon", "horizon square --scene cubic", "horizon square --min-width 0",
+                          "horizon square --radius x", "horizon square --limit -1"}) {
+    INFO(bad);
+    CHECK(folder.lorentz(bad).status == 2);
+  }
+  CHECK(folder.lorentz("horizon nowhere").status == 3);
+}

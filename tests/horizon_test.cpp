@@ -262,7 +262,7 @@ TEST_CASE("Horizon: drawn motifs against sorted intervals") {
 TEST_CASE("Horizon: a superposition is the lattice of its common cell") {
   Draw draw(74);
   std::size_t channels = 0, several = 0;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < 20; ++round) {
     // Spacings p/4 and q/4 along x, common cell p q / 4; the same along y.
     const int p = 2 + static_cast<int>(draw.below(5)), q = 2 + static_cast<int>(draw.below(5));
     const double r1 = 0.015625 * static_cast<double>(1 + draw.below(8)), r2 = r1 / 2;
@@ -288,7 +288,7 @@ TEST_CASE("Horizon: a superposition is the lattice of its common cell") {
     several += directions.size() < seen.size();
   }
   CHECK(channels > 100);
-  CHECK(several > 3);
+  CHECK(several > 1);
 }
 
 TEST_CASE("Horizon: two lattices whose common period is long, by counting all shifts") {
@@ -345,7 +345,7 @@ TEST_CASE("Horizon: ellipses and ellipsoids are affine images of balls") {
   std::size_t channels = 0, cylinders = 0, inside = 0;
   for (int round = 0; round < 60; ++round) {
     const int d = 2 + static_cast<int>(draw.below(2));
-    Scene balls = short_scene(draw, d, 2, d == 2 ? 0.1 : 0.25, 0.4), image = balls;
+    Scene balls = short_scene(draw, d, 2, d == 2 ? 0.1 : 0.4, d == 2 ? 0.4 : 0.7), image = balls;
     for (Atom& atom : balls.lattices[0].atoms) atom.radius = balls.lattices[0].atoms[0].radius;
     const Lattice map = short_lattice(draw, d);
     const auto mapped = [&](const Vec& a) {
@@ -397,7 +397,7 @@ TEST_CASE("Horizon: the oracle flies for ever in a channel, and nowhere else") {
   std::size_t in_channels = 0, in_cylinders = 0, never = 0, hits = 0, finite = 0;
   for (int round = 0; round < 60; ++round) {
     const int d = 2 + static_cast<int>(draw.below(2));
-    const Scene scene = short_scene(draw, d, 3, d == 2 ? 0.1 : 0.25, 0.6);
+    const Scene scene = short_scene(draw, d, 3, d == 2 ? 0.1 : 0.3, 0.6);
     const oracle::Oracle oracle(scene);
     const Horizon horizon = horizon_of(scene);
     std::string line;
@@ -515,7 +515,8 @@ TEST_CASE("Horizon: shadows whose discs just touch, or just close") {
   const auto hole = [](std::array<Vec, 3> vectors, std::vector<Atom> atoms) {
     const oracle::ChannelScene<3> exact(scene_with(3, vectors, std::move(atoms)), 0);
     const auto& lattice = exact.lattices[0];
-    const oracle::Shadow shadow(lattice, lattice.vectors[2], lattice.vectors[0], lattice.vectors[1]);
+    oracle::Shadow shadow(lattice, lattice.vectors[2], lattice.vectors[0], lattice.vectors[1]);
+    shadow.see(lattice, lattice.obstacles.size());
     std::size_t work = 0;
     return oracle::hole_of_all(shadow, work).has_value();
   };
@@ -556,7 +557,7 @@ TEST_CASE("Horizon: what is not done is said, and nothing hangs") {
     Scene crowd = unit_scene(d, 0.01);
     crowd.lattices[0].atoms.resize(10000);
     for (Atom& atom : crowd.lattices[0].atoms) atom = {draw.vec(d, 0, 1), d == 2 ? 0.01 : 0.05, {}};
-    CHECK(horizon_of(crowd).channels.empty());
+    CHECK(horizon_of(crowd, 0, false).channels.empty());
   }
   const Scene sliver = scene_with(2, {Vec{1, 1}, Vec{1 + 0x1p-40, 1}}, {{{}, 0.1, {}}});
   CHECK(horizon_of(sliver).channels.size() == 1);
