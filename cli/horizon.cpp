@@ -174,8 +174,7 @@ std::string json_channel(const oracle::Channel& c, int dimension) {
 }
 
 std::string json_cylinders(const oracle::Horizon& h) {
-  if (!h.no_cylinders.empty())
-    return fmt::format("{{\"searched\":false,\"reason\":{}}}", json_quoted(h.no_cylinders));
+  const std::string reason = h.no_cylinders.empty() ? "" : ",\"reason\":" + json_quoted(h.no_cylinders);
   const auto list = json_list(h.cylinders, [](const oracle::Cylinder& c) {
     return fmt::format("{{\"direction\":{},\"vector\":{},\"point\":{},\"point_inside\":{},\"radius\":{}}}",
                        json_indices(c.direction, 3), json_vec(c.vector, 3), json_vec(c.point, 3), c.inside,
@@ -186,7 +185,8 @@ std::string json_cylinders(const oracle::Horizon& h) {
     return fmt::format("{{\"planes\":{},\"infinite\":{}{}}}", json_indices(family.indices, 3),
                        family.infinite, directions);
   });
-  return fmt::format("{{\"searched\":true,\"open\":{},\"families\":{}}}", list, families);
+  return fmt::format("{{\"complete\":{}{},\"open\":{},\"families\":{}}}", reason.empty(), reason, list,
+                     families);
 }
 
 std::string json_text(const oracle::Horizon& h, const std::string& scene, bool limited) {

@@ -95,10 +95,9 @@ void set_cofactors(ObstacleLattice<D>& lattice) {
     columns = {ZVec<2>{u[1][1], Z(-u[1][0])}, ZVec<2>{Z(-u[0][1]), u[0][0]}};
   else
     columns = {cross(u[1], u[2]), cross(u[2], u[0]), cross(u[0], u[1])};
-  const bool negative = determinant_of<D>(u) < 0;
   for (std::size_t i = 0; i < D; ++i)
     for (std::size_t k = 0; k < D; ++k) {
-      lattice.cofactors[i].p[k] = negative ? Z(-columns[i][k]) : columns[i][k];
+      lattice.cofactors[i].p[k] = columns[i][k];
       lattice.cofactors[i].n[k] = i == k ? 1 : 0;
     }
   lattice.volume = abs(determinant_of<D>(u));

@@ -26,7 +26,7 @@ template <std::size_t D>
 struct ObstacleLattice {
   std::array<ZVec<D>, D> vectors;
   Z volume;  ///< |determinant|
-  /// cofactors[i].vectors[k] = volume or 0: a normal with integer coefficients n in these stands on the
+  /// cofactors[i].vectors[k] = determinant or 0: a normal with integer coefficients n in these stands on the
   /// planes with the reciprocal indices n. Coefficients come with each (LatticePoint::n).
   Basis<D> cofactors;
   std::vector<Obstacle<D>> obstacles;  ///< the largest first

@@ -533,6 +533,8 @@ TEST_CASE("Horizon: shadows whose discs just touch, or just close") {
   CHECK_FALSE(hole(unit, {{{}, 0.5, {}}, {{0.5, 0.5, 0}, 0.5, {}}}));
   CHECK_FALSE(hole(unit, {{{}, 0.75, {}}, {{0.25, 0, 0}, 0.5, {}}}));
   CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}}));
+  // All corners of the hole are on three circles.
+  CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}, {{0, 0.25, 0}, 0.25, {}}}));
   // The same ball twice in one line of sight.
   CHECK(hole(unit, {{{}, 0.5, {}}, {{0, 0, 0.5}, 0.5, {}}}));
   CHECK_FALSE(hole(seven, {{{}, 5, {}}, {{0, 0, 0.5}, 5, {}}}));
