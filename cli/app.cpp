@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
   add_first_hit(app, action);
   add_compare(app, action);
   add_convergents(app, action);
+  add_horizon(app, action);
   add_demo(app, action);
   add_bench(app, action);
   add_scene(app, action);

@@ -6,6 +6,7 @@
 #include "app.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "horizon_verdict.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "query_stream.hpp"
@@ -71,8 +72,13 @@ int list(const Options& options) {
 }
 
 // Whether free flights are bounded.
-std::string horizon_verdict(const Scene&) {
-  return "see `lorentz horizon`";
+std::string horizon_verdict(const Scene& scene) {
+  try {
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);  // cylinders: only if they matter
+    return verdict_of(horizon.is_infinite() ? horizon : oracle::horizon_of(scene), false);
+  } catch (const oracle::TooManyChannels& error) {
+    return std::string("not searched: ") + error.what() + "; see `lorentz horizon --min-width`";
+  }
 }
 
 // What is known of a scene.

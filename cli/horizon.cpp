@@ -1,0 +1,259 @@
+// lorentz horizon: the infinite channels that a scene leaves open.
+#include "horizon_verdict.hpp"
+
+#include "app.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "scene_option.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+std::string number(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string verdict_of(const oracle::Horizon& h, bool limited) {
+  if (h.is_finite() && !limited) return "finite horizon: every path ends";
+  if (!h.is_infinite())
+    return limited && h.is_finite() ? "no channel is so wide" : "no open channel found, but not all is known";
+  std::vector<std::string> parts;
+  if (!h.channels.empty())
+    parts.push_back(h.dimension == 2 ? number(h.normals, "corridor direction")
+                                     : number(h.normals, "normal") + " of planar channels");
+  if (h.channels.size() > h.normals) parts.back() += ", " + number(h.channels.size(), "channel");
+  if (!h.cylinders.empty())
+    parts.push_back(number(h.cylinders.size(), "direction") + " of cylindrical channels");
+  std::size_t infinite = 0;
+  for (const auto& family : h.families) infinite += family.infinite;
+  if (infinite) parts.push_back("infinitely many cylindrical channels in " + number(infinite, "plane"));
+  return fmt::format("infinite horizon: {}", fmt::join(parts, "; "));
+}
+
+namespace {
+
+struct Options {
+  std::optional<std::string> name, scene, radius, min_width;
+  std::string limit = "20";
+  bool no_cylinders = false, json = false;
+};
+
+using Indices = std::array<Integer, 3>;
+
+std::string text_of(const Indices& indices, int dimension) {
+  std::string out;
+  for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
+  return out;
+}
+
+std::string text_of(const Vec& a, int dimension) {
+  std::string out;
+  for (int i = 0; i < dimension; ++i) out += fmt::format("{}{:.6g}", i ? " " : "", a[i]);
+  return out;
+}
+
+std::string rest_of(std::size_t all, std::size_t shown) {
+  return all > shown ? fmt::format("... and {} more (--limit {} shows them)\n", all - shown, all) : "";
+}
+
+// A * behind points that rounding took out of the channel.
+std::string point_text(const Vec& point, bool inside, int dimension) {
+  return text_of(point, dimension) + (inside ? "" : " *");
+}
+
+std::string channel_table(const oracle::Horizon& h, std::size_t limit) {
+  const bool flat = h.dimension == 2;
+  bool counts = false;
+  for (const auto& channel : h.channels) counts |= !(channel.count == Integer(1));
+  std::vector<std::string> header{flat ? "direction" : "planes", "width", flat ? "vector" : "normal",
+                                  "through"};
+  if (counts) header.push_back("count");
+  Table table(header);
+  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) {
+    const auto& c = h.channels[i];
+    const std::string indices = text_of(c.indices, h.dimension);
+    std::vector<std::string> row{flat ? "[" + indices + "]" : "(" + indices + ")",
+                                 fmt::format("{:.10g}", c.width), text_of(c.vector, h.dimension),
+                                 point_text(c.point, c.inside, h.dimension)};
+    if (counts) row.push_back(c.count.decimal());
+    table.add(row);
+  }
+  return table.text() + rest_of(h.channels.size(), limit);
+}
+
+std::string cylinder_table(const oracle::Horizon& h, std::size_t limit) {
+  Table table({"cylinder", "radius", "vector", "through"});
+  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) {
+    const auto& c = h.cylinders[i];
+    table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("about {:.4g}", c.radius),
+               text_of(c.vector, 3), point_text(c.point, c.inside, 3)});
+  }
+  return table.text() + rest_of(h.cylinders.size(), limit);
+}
+
+std::string families_text(const oracle::Horizon& h, std::size_t limit) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(limit, h.families.size()); ++i) {
+    const auto& family = h.families[i];
+    const std::string planes = text_of(family.indices, 3);
+    if (family.infinite)
+      out += fmt::format(
+          "planes ({}): the obstacles just touch; cylindrical channels in all but finitely many directions\n",
+          planes);
+    else
+      out += fmt::format(
+          "planes ({}): the obstacles overlap by little; of about {:.2g} directions only the shortest "
+          "searched\n",
+          planes, family.directions);
+  }
+  return out + rest_of(h.families.size(), limit);
+}
+
+std::string human_text(const oracle::Horizon& h, std::size_t limit, bool limited) {
+  std::string out = verdict_of(h, limited) + "\n";
+  bool outside = false;
+  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) outside |= !h.channels[i].inside;
+  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
+  if (!h.channels.empty()) out += "\n" + channel_table(h, limit);
+  if (!h.cylinders.empty()) out += "\n" + cylinder_table(h, limit);
+  if (!h.families.empty()) out += "\n" + families_text(h, limit);
+  if (outside) out += "* too narrow there: the rounded point is not inside\n";
+  if (!h.undecided.empty())
+    out += fmt::format("\nundecided: {}, three lattices or more with long common periods\n",
+                       number(h.undecided.size(), h.dimension == 2 ? "direction" : "normal"));
+  if (h.tail_constant)
+    out +=
+        fmt::format("\ntail: P(free path > t) ~ C / t from a uniform start, C = {:.6g}\n", *h.tail_constant);
+  else
+    out += fmt::format("\ntail constant: not given ({})\n", h.no_tail_constant);
+  if (!h.no_cylinders.empty()) out += "cylinders: undecided (" + h.no_cylinders + ")\n";
+  return out;
+}
+
+std::string json_vec(const Vec& a, int dimension) {
+  std::string out = "[";
+  for (int i = 0; i < dimension; ++i) {
+    if (i) out += ',';
+    append_number(out, a[i]);
+  }
+  return out + "]";
+}
+
+std::string json_indices(const Indices& indices, int dimension) {
+  std::string out = "[";
+  for (int i = 0; i < dimension; ++i) {
+    if (i) out += ',';
+    append_integer(out, indices[i]);
+  }
+  return out + "]";
+}
+
+std::string json_number(double value) {
+  std::string out;
+  append_number(out, value);
+  return out;
+}
+
+// "[" + each item as text + "]"
+template <class Items, class TextOf>
+std::string json_list(const Items& items, TextOf text_of_item) {
+  std::string out = "[";
+  for (const auto& item : items) out += (out.size() > 1 ? ",\n " : "\n ") + text_of_item(item);
+  return out + "]";
+}
+
+std::string json_channel(const oracle::Channel& c, int dimension) {
+  const bool flat = dimension == 2;
+  std::string count;
+  append_integer(count, c.count);
+  return fmt::format("{{\"{}\":{},\"{}\":{},\"width\":{},\"point\":{},\"point_inside\":{},\"count\":{}}}",
+                     flat ? "direction" : "planes", json_indices(c.indices, dimension),
+                     flat ? "vector" : "normal", json_vec(c.vector, dimension), json_number(c.width),
+                     json_vec(c.point, dimension), c.inside, count);
+}
+
+std::string json_cylinders(const oracle::Horizon& h) {
+  const std::string reason = h.no_cylinders.empty() ? "" : ",\"reason\":" + json_quoted(h.no_cylinders);
+  const auto list = json_list(h.cylinders, [](const oracle::Cylinder& c) {
+    return fmt::format("{{\"direction\":{},\"vector\":{},\"point\":{},\"point_inside\":{},\"radius\":{}}}",
+                       json_indices(c.direction, 3), json_vec(c.vector, 3), json_vec(c.point, 3), c.inside,
+                       json_number(c.radius));
+  });
+  const auto families = json_list(h.families, [](const oracle::CylinderFamily& family) {
+    const std::string directions = family.infinite ? "" : ",\"directions\":" + json_number(family.directions);
+    return fmt::format("{{\"planes\":{},\"infinite\":{}{}}}", json_indices(family.indices, 3),
+                       family.infinite, directions);
+  });
+  return fmt::format("{{\"complete\":{}{},\"open\":{},\"families\":{}}}", reason.empty(), reason, list,
+                     families);
+}
+
+std::string json_text(const oracle::Horizon& h, const std::string& scene, bool limited) {
+  const int d = h.dimension;
+  std::string out = fmt::format("{{\"scene\":{},\"dimension\":{},\"horizon\":\"{}\",\"directions\":{}",
+                                json_quoted(scene), d,
+                                h.is_infinite()             ? "infinite"
+                                : h.is_finite() && !limited ? "finite"
+                                                            : "undecided",
+                                h.normals);
+  out += ",\"channels\":" +
+         json_list(h.channels, [d](const oracle::Channel& channel) { return json_channel(channel, d); });
+  out += ",\"undecided\":" +
+         json_list(h.undecided, [d](const Indices& indices) { return json_indices(indices, d); });
+  if (d == 3) out += ",\"cylinders\":" + json_cylinders(h);
+  out += h.tail_constant ? ",\"tail_constant\":" + json_number(*h.tail_constant)
+                         : ",\"no_tail_constant\":" + json_quoted(h.no_tail_constant);
+  return out + "}\n";
+}
+
+int act(const Options& options) {
+  if (options.name && options.scene)
+    throw InputError("--scene: the scene is given twice, as " + *options.name + " and " + *options.scene);
+  if (!options.name && !options.scene)
+    throw InputError("which scene? give a file, or a name of the catalogue");
+  const std::string& name = options.name ? *options.name : *options.scene;
+  const auto min_width = positive_number(options.min_width, "--min-width");
+  const std::size_t limit = whole_number(options.limit, "--limit", 0, 1'000'000'000);
+  const Scene scene = load_scene(name, positive_number(options.radius, "--radius"));
+  try {
+    const oracle::Horizon horizon = oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders);
+    print(options.json ? json_text(horizon, name, min_width.has_value())
+                       : human_text(horizon, limit, min_width.has_value()));
+  } catch (const oracle::TooManyChannels& error) {
+    throw InputError(fmt::format("{}: {}; --min-width W restricts the search to channels {}", name,
+                                 error.what(), min_width ? "wider than that" : "at least W wide"));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_horizon(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "horizon",
+      "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
+      "channels (3D).");
+  command->add_option("name", options->name, "the scene: a file, or a name of the catalogue")
+      ->type_name("SCENE");
+  command->add_option("--scene", options->scene, "the same");
+  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  command
+      ->add_option("--min-width", options->min_width,
+                   "only corridors and planar channels at least W wide (for small obstacles)")
+      ->type_name("W");
+  command->add_option("--limit", options->limit, "print N rows of a table at most")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag("--no-cylinders", options->no_cylinders, "leave out the search for cylindrical channels");
+  command->add_flag("--json", options->json, "one JSON object, with all channels");
+  command->footer("Example:\n  lorentz horizon square --radius 0.4");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,69 @@
+// Runs the program as its users call it, in a folder of its own.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace lorentz::test {
+
+namespace fs = std::filesystem;
+
+struct Run {
+  int status;
+  std::string out, err;
+};
+
+// A folder of its own for each test case, gone at its end.
+class Folder {
+ public:
+  Folder() {
+    char name[] = "/tmp/lorentz-test-XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ / name; }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  std::string read(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(path_ / name).rdbuf();
+    return text.str();
+  }
+  Run lorentz(const std::string& arguments) const {
+    const std::string command =
+        std::string(LORENTZ_PROGRAM) + " " + arguments + " >" + file("out") + " 2>" + file("err");
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
+  }
+
+ private:
+  fs::path path_;
+};
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+inline std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+inline const std::string kScene =
+    R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})"
+    "\n";
+inline const std::string kGood = R"({"id":"good","x":[0.5,0],"v":[1,0]})"
+                                 "\n";
+inline const std::string kGoodAnswer =
+    R"({"id":"good","outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.25})"
+    "\n";
+
+}  // namespace lorentz::test
