@@ -285,6 +285,7 @@ class LatticePreparation {
   static void set_reach(Bravais& bravais, const Metric& metric) {
     for (int i = 0; i < 3; ++i)
       bravais.reach[i] = bravais.radius * metric.length_of_form(bravais.dual[i]) * (1 + 0x1p-30);
+    bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < 0.499);
   }
 
   static std::string finish(Bravais& bravais, const Metric& metric) {

@@ -28,6 +28,7 @@ struct Bravais {
   std::int64_t transform[3][3]{};
   Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64
   Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
+  bool reaches_out = true;       ///< some reach is so large that x may lie in an obstacle of another cell
   double volume = 0;             ///< of a cell (2D: area)
   double basis_error = 0;        ///< of each component of a basis vector, at most
   bool exact = false;            ///< the basis vectors are binary64, without error

@@ -38,21 +38,22 @@ struct WidthOfShape {
   double along_error = 0;  ///< of s for a vector of size 1
   double rho_error = 0;    ///< of rho, relative
   double slack_scale = 1;  ///< the slack is (rho^2 - h^2) times this
-  double skew = 0;         ///< s = (v . d) v2 / v.v + h skew
+  double skew = 0;         ///< s v.v = (v . d) v2 + h skew
   double euclidean_v2 = 0;
+  double v2 = 0, rho = 0, s_rho = 0;  ///< as in Direction2
 
-  /// Returns |w|^2.
-  double set(const Shape& ellipsoid, const Vec& v) {
+  void set(const Shape& ellipsoid, const Vec& v) {
     const Vec* N = ellipsoid.to_ball;
     const double w0 = N[0][0] * v[0] + N[0][1] * v[1], w1 = N[1][0] * v[0] + N[1][1] * v[1];
     along[0] = N[0][0] * w0 + N[1][0] * w1, along[1] = N[0][1] * w0 + N[1][1] * w1;
-    const double v2 = w0 * w0 + w1 * w1, height_scale = ellipsoid.cofactor[2][2];
-    along_error = 16 * ellipsoid.condition * kRoundoff * std::sqrt(ellipsoid.metric_size * v2);
+    v2 = w0 * w0 + w1 * w1;
+    s_rho = ellipsoid.radius * std::sqrt(v2);
+    rho = s_rho * ellipsoid.inverse_height_scale;
+    along_error = ellipsoid.along_error * s_rho;
     rho_error = (kRho + 4 * ellipsoid.condition) * kRoundoff;
-    slack_scale = height_scale * height_scale;
+    slack_scale = ellipsoid.cofactor[2][2] * ellipsoid.cofactor[2][2];
     euclidean_v2 = speed_squared(v[0], v[1], 0.0);
-    skew = (along[1] * v[0] - along[0] * v[1]) / euclidean_v2;
-    return v2;
+    skew = along[1] * v[0] - along[0] * v[1];
   }
 };
 
@@ -94,9 +95,8 @@ struct Direction2 {
       v2 = speed_squared(v[0], v[1], 0.0);
       s_rho = rho = lattice.radius * std::sqrt(v2);
     } else {
-      v2 = shape.set(lattice.shape, v);
-      s_rho = lattice.radius * std::sqrt(v2);
-      rho = s_rho / std::fabs(lattice.shape.cofactor[2][2]);
+      shape.set(lattice.shape, v);
+      v2 = shape.v2, rho = shape.rho, s_rho = shape.s_rho;
     }
   }
 
@@ -130,8 +130,15 @@ struct Direction2 {
       R.D = v[0], L.D = v[1];
       return;
     }
-    // Among ellipsoids on the unit lattice: forward by v itself, with the line always in between.
-    const double p = std::copysign(1, kUnit ? v[0] : S[0]), q = std::copysign(1, kUnit ? v[1] : S[1]);
+    if constexpr (kUnit) {  // the axes that point forward by v, with the line in between
+      const double forward[2] = {std::copysign(1, v[0]), std::copysign(1, v[1])};
+      const int k = std::fabs(v[0]) < std::fabs(v[1]);
+      R.n[1 - k] = forward[1 - k], L.n[k] = forward[k];
+      R.D = std::fabs(v[k]), L.D = std::fabs(v[1 - k]);
+      sigma = forward[0] * forward[1] * (1 - 2 * k);
+      return;
+    }
+    const double p = std::copysign(1, S[0]), q = std::copysign(1, S[1]);
     double first = p * H[0].hi, second = q * H[1].hi;
     R.n[0] = p, L.n[1] = q;
     R.D_low = p * H[0].lo, L.D_low = q * H[1].lo;

@@ -168,8 +168,9 @@ struct Direction3 {
     const double across2 = w[a] * w[a] + w[b] * w[b], across = std::sqrt(across2);
     f[0][a] = -w[b], f[0][b] = w[a];
     f[1][a] = -(w[a] * w[c]), f[1][b] = -(w[b] * w[c]), f[1][c] = across2;
-    scale[0] = 1 / (across * lattice.radius * std::sqrt(v2));
-    scale[1] = scale[0] / std::sqrt(across2 + w[c] * w[c]);
+    const double speed = std::sqrt(v2);
+    scale[0] = 1 / (across * lattice.radius * speed);
+    scale[1] = scale[0] / speed;
     for (int i = 0; i < 2; ++i) {
       Vec g{};
       for (int k = 0; k < 3; ++k)

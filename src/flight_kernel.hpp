@@ -49,7 +49,8 @@ class Finding {
     for (Wide& n : N) n = Wide();
     double other[D]{};
     int others = 0;
-    if constexpr (!kTurned) others = neighbours(other);
+    if constexpr (!kTurned)
+      if (lattice_->reaches_out) others = neighbours(other);
     if (others == 0) {  // nearly always
       const Decision decision = is_inside<kBall>(offset_.d, offset_.error, *lattice_, stage);
       if (decision == Decision::no) return decision;
@@ -177,21 +178,26 @@ class Finding {
   }
 
  private:
-  // The terms of along . d are larger than their sum. In 2D it is (v . d) v2 / v.v + h skew, and h is known;
-  // in 3D it is computed in double-double. Nearby s - q would cancel: all in double-double.
+  // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
+  // known; in 3D it is computed in double-double. Nearby s - q would cancel: all in double-double.
   double close_time_of_ellipsoid(const Vec& v) const {
     const double q = std::sqrt(slack_);
     double error;
     if (slack_error_ > 64 * kRoundoff * q * s_) return wide_time(v, error).value();
     if (!(s_ > 4 * q)) return std::max(time(v, error).value(), 0.0);
     if constexpr (D == 2) {
-      return (v[0] * distance(0) + v[1] * distance(1)) / euclidean_v2_ + (across_ - q) / v2_;
+      return (v[0] * distance(0) + v[1] * distance(1)) / euclidean_v2_ +
+             (across_ - q * euclidean_v2_) / (euclidean_v2_ * v2_);
     } else {
       DD d[D], N_here[D], s(0.0);
       for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
       place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
-      for (int k = 0; k < D; ++k) s = s + DD(along_[k]) * d[k];
-      return (s.hi - q) / v2_;
+      double low = 0;
+      for (int k = 0; k < D; ++k) {
+        s = add_product(s, d[k], along_[k].hi);
+        low += along_[k].lo * d[k].hi;
+      }
+      return (s.hi + low - q) / v2_;
     }
   }
 

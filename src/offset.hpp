@@ -168,15 +168,15 @@ template <bool kBall, int D>
 template <bool kBall, int D>
 inline Decision is_inside(const Wide (&d)[D], double error, const Bravais& lattice, Stage& stage) {
   const double r = lattice.radius, limit = r * r;
-  double square = 0, form = 0;
-  for (const Wide& component : d) square += component.hi * component.hi;
+  double square = 0, form = 0, size = 0;
+  for (const Wide& component : d) square += component.hi * component.hi, size += std::fabs(component.hi);
   double spread = kInside * kRoundoff * (square + limit) + 4 * error * (r + error);
   if constexpr (!kBall) {
     const Shape& shape = lattice.shape;
     for (int i = 0; i < D; ++i)
       for (int k = 0; k < D; ++k) form += shape.metric[i][k].hi * d[i].hi * d[k].hi;
     spread = kInsideEllipsoid * kRoundoff * (shape.metric_size * square + limit) +
-             4 * shape.metric_size * error * (std::sqrt(square) + error);
+             4 * shape.metric_size * error * (size + error);
   }
   const Decision decision = is_positive(limit - (kBall ? square : form), spread);
   if (decision != Decision::doubtful) return decision;

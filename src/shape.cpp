@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ball.hpp"
+#include "bounds.hpp"
 
 namespace lorentz {
 namespace {
@@ -79,6 +80,8 @@ std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes) {
   shape.cofactor_size = frobenius(shape.wide_cofactor);
   shape.cofactor_error = shape.cofactor_size * (det_error + 64 * 0x1p-106);
   shape.condition = size * shape.cofactor_size / shape.volume * (1 + 0x1p-40);
+  shape.inverse_height_scale = 1 / std::fabs(shape.cofactor[2][2]);
+  shape.along_error = 16 * shape.condition * kRoundoff * size / r;
   // So that in binary64 the metric's own error never counts.
   const double worst = shape.metric_error / shape.metric_size * shape.condition * shape.condition;
   if (!(shape.condition < kMaxCondition && worst < 0x1p-62)) return std::nullopt;

@@ -28,6 +28,8 @@ struct Shape {
   Wide wide_cofactor[3][3];
   double metric_size = 0, cofactor_size = 0;    ///< at least |G|, |C| (2-norms)
   double metric_error = 0, cofactor_error = 0;  ///< |computed - exact| at most, in the 2-norm
+  double inverse_height_scale = 1;              ///< 2D: 1 / |C|
+  double along_error = 0;                       ///< 2D: 16 c u |N| / r, c the condition (direction_2d.hpp)
   double condition = 1;  ///< at least |N| |N^-1|: the longest semiaxis of the ellipsoid over the shortest
 
   friend bool operator==(const Shape& a, const Shape& b) {
