@@ -50,6 +50,7 @@ struct Direction3 {
   double v2 = 0, rho = 0;  ///< in the metric of the shape: |v|^2, r |v|
   double s_rho = 0;        ///< rho, by the name that it has in 2D
   double scale[2]{};       ///< across = scale * (form . n)
+  double across_ = 0;      ///< of a ball's frame: the length of the first vector
   double inverse_r = 0;    ///< a vector of this size has an across of 1 at most, and its terms
   double scale_error = kScale * kRoundoff;  ///< of |across|^2, relative, from the scale
   double along_size = 1;                    ///< a vector of size 1 has an s of 4 times this at most
@@ -66,17 +67,29 @@ struct Direction3 {
       set_frame<Arch>(lattice);
     else
       set_frame_of_shape<Arch>(lattice);
-    const double speed = std::sqrt(v2), r = lattice.radius;
-    s_rho = rho = r * speed;
+    s_rho = rho = lattice.radius * std::sqrt(v2);
     set_forms<Arch>(lattice);
-    constexpr double kWindowCells = 2;  // expected number of balls in a window
-    basis.length = kWindowCells * lattice.volume / (3.14 * r * r) * speed;
+    basis.length = first_length(lattice);
     const double along = 1 / basis.length;
     for (int i = 0; i < 3; ++i) {
       Arm3& arm = basis.b[i];
       arm.n[i] = 1;
       arm.p[0] = scale[0] * form[0][i].hi, arm.p[1] = scale[1] * form[1][i].hi, arm.z = along * form[2][i].hi;
     }
+    reduce<Arch>(basis);
+  }
+
+  /// Another atom of the same lattice, with balls of another radius: only the scales differ, and the basis is
+  /// reduced on from where it is.
+  template <class Arch>
+  void retarget(const Bravais& lattice) {
+    static_assert(kBall);
+    const double before = inverse_r, length_before = basis.length;
+    s_rho = rho = lattice.radius * std::sqrt(v2);
+    set_scale(lattice);
+    basis.length = first_length(lattice);
+    const double wider = inverse_r / before, longer = length_before / basis.length;
+    for (Arm3& arm : basis.b) arm.p[0] *= wider, arm.p[1] *= wider, arm.z *= longer;
     reduce<Arch>(basis);
   }
 
@@ -136,13 +149,24 @@ struct Direction3 {
       c = smallest_component(v);
     const int a = (c + 1) % 3, b = (c + 2) % 3;
     const double across2 = v[a] * v[a] + v[b] * v[b], across = std::sqrt(across2);
-    scale[0] = 1 / (across * lattice.radius);
-    scale[1] = scale[0] / std::sqrt(v2);
+    across_ = across;
+    set_scale(lattice);
     cartesian[0][a] = Wide(-v[b]), cartesian[0][b] = Wide(v[a]);
     cartesian[1][a] = Wide(-DD::product(v[a], v[c])), cartesian[1][b] = Wide(-DD::product(v[b], v[c]));
     cartesian[1][c] = Wide(DD::product(v[a], v[a]) + DD::product(v[b], v[b]));
     for (int k = 0; k < 3; ++k) cartesian[2][k] = Wide(v[k]);
+  }
+
+  void set_scale(const Bravais& lattice) {
+    scale[0] = 1 / (across_ * lattice.radius);
+    scale[1] = scale[0] / std::sqrt(v2);
     inverse_r = 1 / lattice.radius;
+  }
+
+  // Of a window in which two balls are expected.
+  double first_length(const Bravais& lattice) const {
+    constexpr double kWindowCells = 2;
+    return kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius) * std::sqrt(v2);
   }
 
   // The same in the metric of a shape. With f_i orthonormal and perpendicular to w = N v, across is

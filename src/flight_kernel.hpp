@@ -2,6 +2,7 @@
 // reduction engine, which compiles it twice, with and without the fused multiply-add.
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "reduction.hpp"
@@ -20,6 +21,17 @@ struct Aim {
   template <class Arch>
   Aim(Arch arch, const Bravais& lattice, const Vec& v)
       : octant(kUnit && kBall ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
+
+  /// The same for the next atom along the same velocity, from the aim at the atom `before`.
+  template <class Arch>
+  static void set(std::optional<Aim>& aim, Arch arch, const Bravais* before, const Bravais& lattice,
+                  const Vec& v) {
+    const bool same_lattice = before && before->lattice == lattice.lattice;
+    if (same_lattice && before->radius == lattice.radius && (kBall || before->shape == lattice.shape)) return;
+    if constexpr (D == 3 && kBall)
+      if (same_lattice) return aim->direction.template retarget<Arch>(lattice);
+    aim.emplace(arch, lattice, v);
+  }
 };
 
 /// The first of one atom's obstacles that is entered, with what its time needs.

@@ -50,12 +50,6 @@ void rescale(Flight& flight, int exponent) {
   if (flight.time != 0 && !std::isnormal(flight.time)) flight.time_is_rounded = false;
 }
 
-// Atoms of one lattice and one shape look the same along a direction.
-template <bool kBall>
-bool share_an_aim(const Bravais& a, const Bravais& b) {
-  return a.lattice == b.lattice && a.radius == b.radius && (kBall || a.shape == b.shape);
-}
-
 void give_up(Flight& flight) {
   flight.outcome = Outcome::undecided;
   flight.stage = Stage::undecided;
@@ -108,45 +102,63 @@ inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, St
   return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
 }
 
+/// The findings of several atoms: those of the first few are kept from the inside tests for the searches.
+template <class Found>
+class Findings {
+ public:
+  /// The finding of this atom, started; null if the start is too far away.
+  Found* started(std::size_t atom, const Task& task) {
+    Found& found = atom < kKept ? kept_[atom] : other_;
+    return atom < started_ || found.start(task.scene.atoms[atom], task.x) ? &found : nullptr;
+  }
+  /// From now on those that are kept need not be started again.
+  void keep() { started_ = kKept; }
+
+ private:
+  static constexpr std::size_t kKept = 6;
+  Found kept_[kKept], other_;
+  std::size_t started_ = 0;
+};
+
 /// Several atoms, in one lattice or several: the earliest of their hits.
 template <Time kTime, class Arch, int D, bool kBall>
 inline void fly_several(const Task& task, Flight& flight) {
-  Finding<Arch, D, false, kBall> finding;
-  for (const Bravais& lattice : task.scene.atoms) {  // the smallest ball that contains x
-    if (!finding.start(lattice, task.x)) return give_up(flight);
-    const Decision inside = finding.inside(task.from);
-    flight.stage = std::max(flight.stage, finding.stage);
+  using Found = Finding<Arch, D, false, kBall>;
+  const std::vector<Bravais>& atoms = task.scene.atoms;
+  Findings<Found> findings;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {  // the smallest obstacle that contains x
+    Found* finding = findings.started(a, task);
+    if (!finding) return give_up(flight);
+    const Decision inside = finding->inside(task.from);
+    flight.stage = std::max(flight.stage, finding->stage);
     if (inside == Decision::no) continue;
     if (inside == Decision::doubtful) return give_up(flight);
     flight.outcome = Outcome::inside;
-    flight.lattice = lattice.lattice, flight.atom = lattice.atom;
-    if (!finding.cell(flight.cell)) give_up(flight);
+    flight.lattice = atoms[a].lattice, flight.atom = atoms[a].atom;
+    if (!finding->cell(flight.cell)) give_up(flight);
     return;
   }
+  findings.keep();
   flight.outcome = Outcome::never;
-  Finding<Arch, D, false, kBall> best;
+  Found best;
   const Bravais* best_lattice = nullptr;
   std::optional<Aim<D, false, kBall>> own;
   double limit = task.max_time;
-  for (const Bravais& lattice : task.scene.atoms) {
-    const Bravais* before = &lattice - 1;
-    if (!task.aims && (&lattice == task.scene.atoms.data() || !share_an_aim<kBall>(*before, lattice)))
-      own.emplace(Arch{}, lattice, task.v);
-    const auto& aim =
-        task.aims ? static_cast<const Aim<D, false, kBall>*>(task.aims)[&lattice - task.scene.atoms.data()]
-                  : *own;
-    Finding<Arch, D, false, kBall> next;
-    if (!next.start(lattice, task.x)) return give_up(flight);
-    next.find(aim, task.from, limit);
-    flight.stage = std::max(flight.stage, next.stage);
-    if (next.outcome == Outcome::undecided) return give_up(flight);
-    if (next.outcome == Outcome::never) continue;
-    const Decision sooner = best_lattice ? is_sooner(next, best, task.v, flight.stage) : Decision::yes;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    if (!task.aims) Aim<D, false, kBall>::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
+    const auto& aim = task.aims ? static_cast<const Aim<D, false, kBall>*>(task.aims)[a] : *own;
+    Found* next = findings.started(a, task);
+    if (!next) return give_up(flight);
+    next->find(aim, task.from, limit);
+    flight.stage = std::max(flight.stage, next->stage);
+    if (next->outcome == Outcome::undecided) return give_up(flight);
+    if (next->outcome == Outcome::never) continue;
+    const Decision sooner = best_lattice ? is_sooner(*next, best, task.v, flight.stage) : Decision::yes;
     if (sooner == Decision::doubtful) return give_up(flight);
     if (sooner == Decision::no) continue;
-    best = next, best_lattice = &lattice;
+    best = *next, best_lattice = &atoms[a];
     double error;
-    const double time = next.rough_time(error);
+    const double time = next->rough_time(error);
     limit = std::min(limit, time + error);
   }
   if (!best_lattice) return;
