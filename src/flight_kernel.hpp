@@ -191,26 +191,52 @@ class Finding {
 
  private:
   // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
-  // known; in 3D it is computed in double-double. Nearby s - q would cancel: all in double-double.
+  // known; in 3D it is computed in double-double. Nearby s - q would cancel: then t = (d . G d - r^2) / (s +
+  // q).
   double close_time_of_ellipsoid(const Vec& v) const {
     const double q = std::sqrt(slack_);
     double error;
-    if (slack_error_ > 64 * kRoundoff * q * s_) return wide_time(v, error).value();
-    if (!(s_ > 4 * q)) return std::max(time(v, error).value(), 0.0);
+    const double unsure =
+        (64 + 32 * lattice_->shape.condition) * kRoundoff;  // its bounds are larger by so much
+    if (slack_error_ > unsure * q * s_) return wide_time(v, error).value();
+    const bool near = !(s_ > 4 * q);
     if constexpr (D == 2) {
-      return (v[0] * distance(0) + v[1] * distance(1)) / euclidean_v2_ +
-             (across_ - q * euclidean_v2_) / (euclidean_v2_ * v2_);
+      const double along = v[0] * distance(0) + v[1] * distance(1);
+      if (near) return close_gap() / ((along * v2_ + across_) / euclidean_v2_ + q);
+      return along / euclidean_v2_ + (across_ - q * euclidean_v2_) / (euclidean_v2_ * v2_);
     } else {
-      DD d[D], N_here[D], s(0.0);
-      for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
-      place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
-      double low = 0;
-      for (int k = 0; k < D; ++k) {
-        s = add_product(s, d[k], along_[k].hi);
-        low += along_[k].lo * d[k].hi;
-      }
-      return (s.hi + low - q) / v2_;
+      DD d[D];
+      place(d);
+      const double s = close_product(along_, d).hi;
+      return near ? close_gap() / (s + q) : (s - q) / v2_;
     }
+  }
+
+  void place(DD (&d)[D]) const {
+    DD N_here[D];
+    for (int i = 0; i < D; ++i) N_here[i] = DD(N[i]);
+    place_of<Arch, kUnit, D>(*lattice_, offset_, N_here, d);
+  }
+
+  // a . d, to some roundoffs of the result and some squares of the terms.
+  template <class A>
+  static DD close_product(const A& a, const DD (&d)[D]) {
+    DD sum(0.0);
+    double low = 0;
+    for (int k = 0; k < D; ++k) {
+      sum = add_product(sum, DD(a[k]), d[k].hi);
+      low += a[k].hi * d[k].lo;
+    }
+    return DD::sum(sum.hi, sum.lo + low);
+  }
+
+  // d . G d - r^2, at least 0.
+  double close_gap() const {
+    DD d[D], image[D];
+    place(d);
+    for (int i = 0; i < D; ++i) image[i] = close_product(lattice_->shape.metric[i], d);
+    const DD square = close_product(image, d), limit = DD::product(lattice_->radius, lattice_->radius);
+    return std::max((square.hi - limit.hi) + (square.lo - limit.lo), 0.0);
   }
 
   // Component k of the ball's place seen from x, to some ulps of |d|.
