@@ -74,8 +74,12 @@ int list(const Options& options) {
 // Whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);  // cylinders: only if they matter
-    return verdict_of(horizon.is_infinite() ? horizon : oracle::horizon_of(scene), false);
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);
+    const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
+    std::string verdict = verdict_of(all ? horizon : oracle::horizon_of(scene), false);
+    const std::string word = " horizon";  // said by the row's name
+    if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
+    return verdict;
   } catch (const oracle::TooManyChannels& error) {
     return std::string("not searched: ") + error.what() + "; see `lorentz horizon --min-width`";
   }

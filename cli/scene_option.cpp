@@ -87,10 +87,14 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius) 
 }
 
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
-  const oracle::Contacts contacts = oracle::contacts_in(scene, 1, oracle::Pairs::within_lattices);
-  if (!contacts.found.empty())
-    say("warning: {}: {}; answers stay exact, but is the radius what you meant?", place,
-        oracle::description_of(contacts.found[0]));
+  const oracle::Contacts contacts = oracle::contacts_in(scene, 20, oracle::Pairs::within_lattices);
+  const oracle::Contact* worst = nullptr;  // one that touches, unless some overlap
+  for (const oracle::Contact& contact : contacts.found)
+    if (!worst || (contact.overlap && !worst->overlap)) worst = &contact;
+  if (worst)
+    say("warning: {}: {}; answers stay exact, but is {} what you meant?", place,
+        oracle::description_of(*worst),
+        scene.lattices[worst->lattice].atoms[worst->atom].is_ball() ? "the radius" : "that");
   else if (contacts.end == oracle::SearchEnd::budget)
     say("{}: whether obstacles overlap was not checked: there are too many pairs to look at; answers stay "
         "exact",
