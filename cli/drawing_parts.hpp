@@ -48,8 +48,8 @@ struct Line {
 std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
                            std::vector<std::string>& remarks);
 
-/// The obstacle that a flight hits or starts in, if any.
-bool obstacle_of(const Scene& scene, const Flight& flight, Placed& obstacle);
+/// The obstacles that the flights hit or start in, each once.
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines);
 
 /// The size of a cell of the first lattice: the d-th root of its volume.
 double cell_size(const Scene& scene);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <set>
+#include <tuple>
 
 #include "drawing_parts.hpp"
 #include "dual.hpp"
@@ -170,6 +172,9 @@ std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flight
   return lines;
 }
 
+namespace {
+
+// The obstacle that a flight hits or starts in, if any.
 bool obstacle_of(const Scene& scene, const Flight& flight, Placed& obstacle) {
   if (flight.answer.outcome == Outcome::never) return false;
   const ObstacleId& id = flight.answer.obstacle;
@@ -179,6 +184,19 @@ bool obstacle_of(const Scene& scene, const Flight& flight, Placed& obstacle) {
     for (int k = 0; k < 3; ++k)
       obstacle.centre[k] += std::strtod(id.cell[i].decimal().c_str(), nullptr) * lattice.vectors[i][k];
   return true;
+}
+
+}  // namespace
+
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines) {
+  std::vector<Placed> hits;
+  std::set<std::tuple<int, int, Vec>> seen;
+  Placed hit;
+  for (const Line& line : lines)
+    if (line.ends && obstacle_of(scene, *line.flight, hit) &&
+        seen.emplace(hit.lattice, hit.atom, hit.centre).second)
+      hits.push_back(hit);
+  return hits;
 }
 
 std::size_t colour_index(const Scene& scene, const Placed& obstacle) {

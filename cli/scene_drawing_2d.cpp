@@ -99,7 +99,7 @@ void add_obstacle(Svg& svg, const Scene& scene, const Window& window, const Plac
   const Colour& c = colour(colour_index(scene, obstacle));
   const double line = std::min(1.2, 0.25 * shape.rx + 0.1);
   svg.ellipse(window(obstacle.centre), shape,
-              hit ? fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"", c.dark, kFlightColour)
+              hit ? fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"", c.fill, kFlightColour)
                   : fmt::format("fill=\"{}\" fill-opacity=\"0.7\" stroke=\"{}\" stroke-width=\"{:.2f}\"",
                                 c.fill, c.dark, line));
 }
@@ -142,13 +142,9 @@ Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::v
   const Vec corner = lines.empty() ? Vec{} : cell_at(scene, lines[0].from);
   const Window window = window_for(scene, corner, lines);
   bool cut = false, enlarged = false;
-  std::vector<Placed> obstacles = obstacles_in(scene, window.box, cut), hits;
+  std::vector<Placed> obstacles = obstacles_in(scene, window.box, cut);
   thin_out(obstacles, lines.empty() ? window.box.centre() : lines[0].from, drawing.remarks);
   if (cut) drawing.remarks.push_back("some lattices are too fine for this picture and left out");
-  Placed hit;
-  for (const Line& line : lines)
-    if (obstacle_of(scene, *line.flight, hit) && line.ends) hits.push_back(hit);
-
   Svg svg;
   svg.text({kMargin, 25}, title, "font-size=\"16\" font-weight=\"bold\"");
   svg.raw(
@@ -158,7 +154,8 @@ Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::v
   svg.open("clip-path=\"url(#window)\"");
   add_grid(svg, scene, window, corner);
   for (const Placed& obstacle : obstacles) add_obstacle(svg, scene, window, obstacle, false, enlarged);
-  for (const Placed& obstacle : hits) add_obstacle(svg, scene, window, obstacle, true, enlarged);
+  for (const Placed& obstacle : hits_of(scene, lines))
+    add_obstacle(svg, scene, window, obstacle, true, enlarged);
   add_cell(svg, scene, window, corner);
   for (const Line& line : lines) add_flight(svg, window, line);
   svg.close();

@@ -100,10 +100,7 @@ void Picture::choose_obstacles() {
   });
   thin_out(obstacles, plus(corner_, plus(plus(u[0], u[1]), u[2]), cells / 2), drawing_.remarks);
   if (cut) drawing_.remarks.push_back("some lattices are too fine for this picture and left out");
-  std::vector<Placed> hits;
-  Placed hit;
-  for (const Line& line : lines_)
-    if (line.ends && obstacle_of(scene_, *line.flight, hit)) hits.push_back(hit);
+  const std::vector<Placed> hits = hits_of(scene_, lines_);
   const auto is_hit = [&](const Placed& a) {
     return std::any_of(hits.begin(), hits.end(), [&](const Placed& b) {
       const Vec arm = plus(a.centre, b.centre, -1);

@@ -261,7 +261,9 @@ Slabs<D> free_slabs(const ChannelScene<D>& scene) {
                            }) &&
         search.work <= kMostWork;
   }
-  if (!complete) search.result.refusal = "too many planes could leave a channel open";
+  if (!complete)
+    search.result.refusal = D == 2 ? "too many directions could leave a corridor open"
+                                   : "too many planes could leave a channel open";
   return search.result;
 }
 
