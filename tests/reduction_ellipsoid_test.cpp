@@ -109,6 +109,35 @@ TEST_CASE("Among ellipsoids the reduction engine agrees with the oracle on drawn
   CHECK(count.stages.undecided < 2'000);
 }
 
+TEST_CASE("Motifs of many atoms: balls of few or many radii, ellipsoids of few or many shapes") {
+  const auto many_atoms = [](Draw& draw, Style, int dimension) {
+    for (;;) {
+      Scene scene = unit_scene(dimension, 0.1);
+      if (draw.one_in(3)) scene.lattices.push_back(lattice_of(draw, Style::generic, dimension));
+      for (Lattice& lattice : scene.lattices) {
+        lattice.atoms.resize(1 + draw.below(10));
+        for (Atom& atom : lattice.atoms) {
+          if (&atom != &lattice.atoms[0] && draw.one_in(2))
+            atom = *(&atom - 1);
+          else if (draw.one_in(3))
+            atom = {{}, 0, semiaxes_of(draw, Style::generic, dimension)};
+          else
+            atom = {{}, draw.between(0.02, 0.3), {}};
+          atom.position = draw.vec(dimension, 0, 1);
+        }
+        if (draw.one_in(2))
+          for (Atom& atom : lattice.atoms) atom = {atom.position, draw.one_in(2) ? 0.05 : 0.15, {}};
+      }
+      for (Lattice& lattice : scene.lattices)
+        for (Atom& atom : lattice.atoms) scale_semiaxes(atom, 0.4);
+      if (!Reduction::beyond(scene)) return scene;
+    }
+  };
+  const Count count = campaign(20'161'117, 400, many_atoms);
+  CHECK(count.hit > 1'000);
+  CHECK(count.inside > 200);
+}
+
 TEST_CASE("Grazing hits of ellipsoids: every stage decides, and none wrongly") {
   const Count count = grazing_campaign(17, 12'000, -12, -8);
   CHECK(count.stages.binary64 > 6'000);
