@@ -146,7 +146,7 @@ TEST_CASE("Compounds: neighbours by kind") {
 
 TEST_CASE("Superpositions are turned by the angles they are called after") {
   const auto turned = [](const std::string& name, std::size_t lattice, long double angle) {
-    const auto& u = scene(name).lattices[lattice].vectors;
+    const auto u = scene(name).lattices[lattice].vectors;
     const auto c = static_cast<double>(std::cos(angle)), s = static_cast<double>(std::sin(angle));
     CHECK(u == std::array<Vec, 3>{Vec{c, s}, Vec{-s, c}, Vec{}});
   };
