@@ -123,6 +123,7 @@ TEST_CASE("A linear map moves scene and flight together: the same obstacle at th
     Scene scene = scene_of(draw, style, dimension);
     if (draw.one_in(2)) scene = with_ellipsoids(draw, style, scene);
     if (draw.one_in(3)) scene = unit_scene(dimension, std::exp2(draw.between(-20, -2)));
+    if (draw.one_in(8)) scene = unit_scene(dimension, draw.between(40, 1000));  // which of many contains x?
     scene = short_numbers(scene);
     Query query = query_of(draw, style, scene);
     query.x = short_vec(query.x), query.v = short_vec(query.v);
