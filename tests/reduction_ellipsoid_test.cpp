@@ -187,6 +187,30 @@ TEST_CASE("Among slender ellipses on the unit lattice nothing drawn is undecided
   CHECK(slanted > 3'000);
 }
 
+TEST_CASE("Times of near hits among large ellipsoids: no cancellation") {
+  Draw draw(21);
+  INFO("seed 21");
+  for (const int dimension : {2, 3}) {
+    Scene scene = unit_scene(dimension, 1);
+    scene.lattices[0].vectors[0][1] = 0.25;
+    std::vector<Vec>& axes = scene.lattices[0].atoms[0].semiaxes;
+    axes = {Vec{0.4, 0.1}, Vec{-0.1, 0.3}};
+    if (dimension == 3) axes = {Vec{0.4, 0.1, 0.05}, Vec{-0.1, 0.3, 0}, Vec{0, 0.1, 0.45}};
+    const Reduction engine(scene);
+    const oracle::Oracle exact(scene);
+    double worst = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const Query query{draw.vec(dimension, 0, 1), draw.vec(dimension, -1, 1), {}};
+      const Flight flight = engine.fly(query);
+      if (flight.outcome != Outcome::hit) continue;
+      const double time = *exact.first_hit(query).time;
+      worst = std::max(worst, std::fabs(flight.time - time) / (std::nextafter(time, 1e300) - time));
+    }
+    CAPTURE(dimension);
+    CHECK(worst < 24);
+  }
+}
+
 TEST_CASE("The model of a scene of ellipsoids") {
   const auto model = [](const Scene& scene) { return std::string(Reduction(scene).model()); };
   Scene scene = unit_scene(2, 0.1);
