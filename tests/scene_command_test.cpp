@@ -65,6 +65,9 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   for (const char* part : {"cell volume  0.25", "sphere of radius 0.28", "none touch, none overlap",
                            "0.3678092903", "0.6416854364", "horizon"})
     CHECK(contains(fcc.out, part));
+  CHECK(contains(fcc.out, "infinite: 4 normals of planar channels"));
+  CHECK(contains(folder.lorentz("scene show cesium-chloride").out, "infinite: 25 directions of cylindrical"));
+  CHECK(contains(folder.lorentz("scene show triangular").out, "finite: every path ends"));
   const Run touching = folder.lorentz("scene show square --radius 0.5");
   CHECK(contains(touching.out, "0 overlap, 2 touch"));
   CHECK(contains(touching.out, "atom 0 touches atom 0 of cell (1, 0)"));
