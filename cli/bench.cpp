@@ -18,10 +18,13 @@ namespace {
 
 struct Options {
   std::vector<std::string> engines{"classical", "published", "reduction", "certified", "oracle"};
-  std::vector<std::string> scenes{"square", "cubic"}, radii{"0.3", "0.1", "0.01", "0.001", "1e-06"};
+  std::vector<std::string> scenes{"square", "cubic"};
+  std::vector<std::string> radii;  // none: radii_of
   std::string count = "2000", seed = std::to_string(kDefaultSeed);
   std::optional<std::string> csv;
 };
+
+constexpr const char* kOwnSize = "own";  // instead of a radius
 
 constexpr double kSecondsPerRound = 0.1;  // an engine that would take longer does fewer queries, or none
 constexpr std::size_t kPilot = 16, kFewest = 32;
@@ -125,6 +128,15 @@ class Report {
   std::string csv_ = csv_header();
 };
 
+// The radii to run a scene at: those asked for, or some; a scene with semiaxes at its own size.
+std::vector<std::string> radii_of(const Options& options, const std::string& scene_name) {
+  if (!options.radii.empty()) return options.radii;
+  for (const Lattice& lattice : read_scene(scene_name, {}).lattices)
+    for (const Atom& atom : lattice.atoms)
+      if (!atom.is_ball()) return {kOwnSize};
+  return {"0.3", "0.1", "0.01", "0.001", "1e-06"};
+}
+
 int act(const Options& options) {
   for (const std::string& name : options.engines) check_name(name);
   const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
@@ -136,11 +148,12 @@ int act(const Options& options) {
   }
   Report report(options);
   for (const std::string& name : options.scenes)
-    for (const std::string& radius : options.radii)
+    for (const std::string& radius : radii_of(options, name))
       for (const Difficulty difficulty :
            {Difficulty::drawn, Difficulty::near_rational, Difficulty::grazing}) {
         CaseSet set;
-        set.scenes.push_back(load_scene(name, positive_number(radius, "--radius")));
+        const bool own = radius == kOwnSize;
+        set.scenes.push_back(load_scene(name, own ? std::nullopt : positive_number(radius, "--radius")));
         const oracle::Oracle oracle(set.scenes[0]);
         for (const Query& query : hard_queries(difficulty, set.scenes[0], oracle, seed, count))
           set.cases.push_back({std::to_string(set.cases.size()), 0, query});
@@ -165,7 +178,9 @@ void add_bench(CLI::App& app, Action& action) {
                    "scene files, or names of the catalogue (default: square,cubic)")
       ->delimiter(',')
       ->type_name("S");
-  command->add_option("--radius", options->radii, "radii (default: 0.3,0.1,0.01,0.001,1e-06)")
+  command
+      ->add_option("--radius", options->radii,
+                   "radii (default: 0.3,0.1,0.01,0.001,1e-06; scenes with semiaxes at their own size)")
       ->delimiter(',')
       ->type_name("R");
   command->add_option("--count", options->count, "queries for each cell of the table")

@@ -104,7 +104,9 @@ Findings findings_on(const Scene& scene) {
                        : "not given, for obstacles of two lattices overlap, as in superpositions they do";
   if (findings.no_filling.empty() && findings.contacts.end != oracle::SearchEnd::complete)
     findings.no_filling = "not given, for obstacles may overlap: not every pair was looked at";
-  if (findings.no_filling.empty()) findings.filling = filling_of(scene);
+  if (!findings.no_filling.empty()) return findings;
+  findings.filling = filling_of(scene);
+  if (!findings.filling) findings.no_filling = "not given, for it is beyond the range of binary64";
   return findings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dual.hpp"
@@ -96,20 +97,58 @@ double surface_of(const Atom& atom, int dimension) {
   if (dimension == 2) return 4 * a * std::comp_ellint_2(std::sqrt((1 - b / a) * (1 + b / a)));
   const double p = b / a, q = c / a;  // 1 >= p >= q
   const double x = p * p, y = p * p * q * q, z = q * q;
+  if (!(z > 1e-300)) return std::numeric_limits<double>::quiet_NaN();  // too slender for the integrals
   return 2 * pi * a * a *
          (z * carlson_rf(x, y, z) - (x - z) * (y - z) * carlson_rd(x, y, z) / 3 + std::sqrt(x * y / z));
 }
 
-Filling filling_of(const Scene& scene) {
-  Filling filling;
-  for (const Lattice& lattice : scene.lattices) {
-    const double cell = cell_volume(lattice, scene.dimension);
-    for (const Atom& atom : lattice.atoms) {
-      filling.fraction += volume_of(atom, scene.dimension) / cell;
-      filling.surface += surface_of(atom, scene.dimension) / cell;
+namespace {
+
+// A power of two of about the cell's size, by the exponents alone: the cell's volume may be beyond binary64.
+int size_exponent(const Lattice& lattice, int dimension) {
+  int sum = 0;
+  for (int i = 0; i < dimension; ++i) {
+    double largest = 0;
+    for (const double component : lattice.vectors[i]) largest = std::max(largest, std::fabs(component));
+    sum += std::ilogb(largest);
+  }
+  return sum / dimension;
+}
+
+Scene scaled(Scene scene, int exponent) {
+  const auto scale = [exponent](Vec& a) {
+    for (double& component : a) component = std::scalbn(component, exponent);
+  };
+  for (Lattice& lattice : scene.lattices) {
+    for (Vec& u : lattice.vectors) scale(u);
+    for (Atom& atom : lattice.atoms) {
+      atom.radius = std::scalbn(atom.radius, exponent);
+      for (Vec& axis : atom.semiaxes) scale(axis);
     }
   }
-  filling.mean_free_path = (scene.dimension == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
+  return scene;
+}
+
+}  // namespace
+
+std::optional<Filling> filling_of(const Scene& given) {
+  const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
+  Filling filling;
+  for (const Lattice& lattice : scaled(given, -exponent).lattices) {
+    const double cell = cell_volume(lattice, d);
+    for (const Atom& atom : lattice.atoms) {
+      for (int i = 0; i < d; ++i)
+        if (!std::isnormal(principal_semiaxes(atom, d)[i])) return std::nullopt;
+      filling.fraction += volume_of(atom, d) / cell;
+      filling.surface += surface_of(atom, d) / cell;
+    }
+  }
+  filling.mean_free_path = (d == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
+  filling.surface = std::scalbn(filling.surface, -exponent);
+  filling.mean_free_path = std::scalbn(filling.mean_free_path, exponent);
+  const bool in_range = std::isnormal(filling.fraction) && std::isnormal(filling.surface) &&
+                        std::isfinite(filling.mean_free_path);
+  if (!in_range) return std::nullopt;
   return filling;
 }
 

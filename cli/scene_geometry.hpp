@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "problem.hpp"
 
@@ -29,6 +30,7 @@ struct Filling {
   double fraction = 0, surface = 0, mean_free_path = 0;
 };
 
-Filling filling_of(const Scene& scene);
+/// Nothing if it is beyond the range of binary64.
+std::optional<Filling> filling_of(const Scene& scene);
 
 }  // namespace lorentz::cli

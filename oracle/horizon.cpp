@@ -137,14 +137,31 @@ std::string no_simple_volume(const Scene& scene) {
 // directions in 2D (there are two ways along a corridor), w / (2 t) in 3D. Of a cell's volume V the part w
 // |k| is in the channel, 1 / |k| being the distance of the planes.
 double tail_constant(const Scene& scene, const std::vector<Channel>& channels) {
-  const double volume = volume_of(scene.lattices[0].vectors, scene.dimension);
-  double sum = 0, free = volume;
-  for (const Atom& atom : scene.lattices[0].atoms) free -= volume_of(atom, scene.dimension);
-  for (const Channel& channel : channels) {
-    const double length = std::hypot(channel.vector[0], channel.vector[1], channel.vector[2]);
-    sum += (scene.dimension == 2 ? length : volume * length) * channel.width * channel.width;
+  // In units of a power of two near the cell's size, for its volume may be beyond binary64. C is a length.
+  const int d = scene.dimension;
+  int unit = 0;
+  for (int i = 0; i < d; ++i) {
+    double largest = 0;
+    for (const double component : scene.lattices[0].vectors[i])
+      largest = std::max(largest, std::fabs(component));
+    unit += std::ilogb(largest);
   }
-  return sum / ((scene.dimension == 2 ? M_PI : 2) * free);
+  unit /= d;
+  const auto scaled = [unit](auto vectors) {
+    for (Vec& a : vectors)
+      for (double& component : a) component = std::scalbn(component, -unit);
+    return vectors;
+  };
+  const double volume = volume_of(scaled(scene.lattices[0].vectors), d);
+  double sum = 0, free = volume;
+  for (const Atom& atom : scene.lattices[0].atoms)
+    free -= volume_of(Atom{{}, std::scalbn(atom.radius, -unit), scaled(atom.semiaxes)}, d);
+  for (const Channel& channel : channels) {
+    const double length = std::hypot(channel.vector[0], channel.vector[1], channel.vector[2]),
+                 width = std::scalbn(channel.width, -unit);
+    sum += (d == 2 ? std::scalbn(length, -unit) : volume * std::scalbn(length, unit)) * width * width;
+  }
+  return std::scalbn(sum / ((d == 2 ? M_PI : 2) * free), unit);
 }
 
 template <std::size_t D>

@@ -184,6 +184,7 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
   std::string flaw;  // the first; reading goes on, for the id may follow
   for (auto field : open(line)) {
     const std::string_view key = field.unescaped_key();
+    item.bad_scene |= key == "scene";  // should its value turn out to be no JSON
     try {
       read_query_field(key, field.value(), item.id, fields);
     } catch (const InputError& error) {
@@ -205,6 +206,21 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
   }
 }
 
+namespace {
+
+// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not for
+// the scene before it.
+bool begins_as_scene(std::string_view text) {
+  for (const std::string_view part : {"{", "\"scene\"", ":"}) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    if (!text.starts_with(part)) return false;
+    text.remove_prefix(part.size());
+  }
+  return true;
+}
+
+}  // namespace
+
 void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   item.kind = StreamItem::Kind::nothing;
   item.id = "null";
@@ -213,6 +229,7 @@ void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* 
   const auto bad = [&](std::string message) {
     item.kind = StreamItem::Kind::bad;
     item.message = std::move(message);
+    item.bad_scene |= begins_as_scene(line.text);
     if (item.bad_scene) item.id = "null";
   };
   try {

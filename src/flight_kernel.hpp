@@ -190,12 +190,16 @@ class Finding {
   }
 
  private:
+  static constexpr double kSlender = 12;
+
   // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
   // known; in 3D it is computed in double-double. Nearby s - q would cancel: then t = (d . G d - r^2) / (s +
   // q).
   double close_time_of_ellipsoid(const Vec& v) const {
     const double q = std::sqrt(slack_);
     double error;
+    // What the last bits of h do to the time of a slender one is more than some ulps.
+    if (lattice_->shape.condition > kSlender) return std::max(time(v, error).value(), 0.0);
     const double unsure =
         (64 + 32 * lattice_->shape.condition) * kRoundoff;  // its bounds are larger by so much
     if (slack_error_ > unsure * q * s_) return wide_time(v, error).value();

@@ -134,7 +134,7 @@ TEST_CASE("The mean free path of every scene without overlaps is Santalo's") {
     if (overlaps(scene)) continue;
     CAPTURE(name);
     ++scenes;
-    const double expected = cli::filling_of(scene).mean_free_path;
+    const double expected = cli::filling_of(scene)->mean_free_path;
     constexpr int kFlights = 20'000;
     const oracle::Certified certified(scene);
     Draw draw(7);

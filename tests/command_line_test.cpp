@@ -87,6 +87,29 @@ TEST_CASE("After a bad scene every query is an error, until the next good one") 
   CHECK(run.out.ends_with(kGoodAnswer));
 }
 
+TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one before it is over") {
+  const Folder folder;
+  for (
+      const std::string& bad :
+      {std::string(
+           R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":NaN}]}]}})"),
+       std::string(R"({"scene":{"dimension":2,"lattices":[{"vec)"), std::string(R"( { "scene" : )"),
+       std::string(R"({"id":3,"scene":NaN})"), std::string(R"({"scene":{}} x)")}) {
+    const Run run = folder.lorentz("first-hit " +
+                                   folder.write("q", kScene + kGood + bad + "\n" + kGood + kScene + kGood));
+    INFO(bad << "\n" << run.out);
+    CHECK(run.status == 2);
+    CHECK(lines(run.out) == 4);
+    CHECK(run.out.starts_with(kGoodAnswer + R"({"id":null,"outcome":"error")"));
+    CHECK(contains(run.out, R"({"id":"good","outcome":"error","message":"the scene in line 3 was bad)"));
+    CHECK(run.out.ends_with(kGoodAnswer));
+  }
+  // A bad query is none.
+  const Run query = folder.lorentz(
+      "first-hit " + folder.write("q2", kScene + R"({"id":1,"x":[NaN,0],"v":[1,0]})" + "\n" + kGood));
+  CHECK(query.out.ends_with(kGoodAnswer));
+}
+
 TEST_CASE("Files that are not there, folders, empty files, a full disk") {
   const Folder folder;
   CHECK(folder.lorentz("first-hit /no/such/file").status == 3);
@@ -357,4 +380,14 @@ TEST_CASE("bench measures, concludes, and writes its figures") {
   CHECK(folder.lorentz("bench --engine nobody").status == 2);
   CHECK(folder.lorentz("bench --count 3").status == 2);
   CHECK(folder.lorentz("bench --scene square --radius 0.1 --count 32 --csv /nowhere/speed.csv").status == 3);
+}
+
+TEST_CASE("bench takes scenes with semiaxes at their own size") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("bench --scene ellipse --engine reduction --count 32 --csv " + folder.file("c"));
+  INFO(run.out << run.err);
+  CHECK(run.status == 0);
+  CHECK(contains(folder.read("c"), "ellipse,own,drawn,reduction,"));
+  CHECK(folder.lorentz("bench --scene ellipse --radius 0.1 --engine reduction --count 32").status == 2);
 }

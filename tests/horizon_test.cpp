@@ -81,6 +81,18 @@ Outcome outcome_along(const oracle::Oracle& oracle, const Vec& x, const Vec& v) 
 
 }  // namespace
 
+TEST_CASE("Horizon: the tail constant is a length, up to the ends of binary64") {
+  for (const int dimension : {2, 3})
+    for (const int exponent : {-500, 500}) {
+      Scene scene = unit_scene(dimension, 0.3);
+      for (Vec& u : scene.lattices[0].vectors)
+        for (double& component : u) component = std::scalbn(component, exponent);
+      scene.lattices[0].atoms[0].radius = std::scalbn(0.3, exponent);
+      CHECK(horizon_of(scene, 0, false).tail_constant ==
+            std::scalbn(*horizon_of(unit_scene(dimension, 0.3), 0, false).tail_constant, exponent));
+    }
+}
+
 TEST_CASE("Horizon: square and cubic lattices by their closed forms") {
   struct Known {
     double radius, tail;

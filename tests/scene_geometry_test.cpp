@@ -96,7 +96,7 @@ TEST_CASE("General ellipsoids: principal axes from any description, the surface 
 
 TEST_CASE("Filling and mean free path: the square and the cubic gas, motifs, superpositions") {
   for (const double r : {0.001, 0.1, 0.4, 0.5}) {
-    const Filling square = filling_of(unit_scene(2, r)), cubic = filling_of(unit_scene(3, r));
+    const Filling square = *filling_of(unit_scene(2, r)), cubic = *filling_of(unit_scene(3, r));
     CHECK(square.fraction == Approx(pi * r * r).epsilon(1e-14));
     CHECK(square.mean_free_path == Approx((1 - pi * r * r) / (2 * r)).epsilon(1e-13));
     CHECK(cubic.fraction == Approx(4 * pi / 3 * r * r * r).epsilon(1e-14));
@@ -107,6 +107,22 @@ TEST_CASE("Filling and mean free path: the square and the cubic gas, motifs, sup
   motif.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.2, {}});
   two.lattices.push_back(two.lattices[0]);
   two.lattices[1].atoms[0] = {{0.5, 0.5, 0.5}, 0.2, {}};
-  CHECK(filling_of(two).mean_free_path == Approx(filling_of(motif).mean_free_path).epsilon(1e-14));
-  CHECK(filling_of(motif).fraction == Approx(4 * pi / 3 * (0.027 + 0.008)).epsilon(1e-14));
+  CHECK(filling_of(two)->mean_free_path == Approx(filling_of(motif)->mean_free_path).epsilon(1e-14));
+  CHECK(filling_of(motif)->fraction == Approx(4 * pi / 3 * (0.027 + 0.008)).epsilon(1e-14));
+}
+
+TEST_CASE("Filling does not depend on the unit of length, up to the ends of binary64") {
+  for (const int exponent : {-1000, -530, 530, 1000}) {
+    Scene scene = unit_scene(2, 0.125);
+    for (Vec& u : scene.lattices[0].vectors)
+      for (double& component : u) component = std::scalbn(component, exponent);
+    scene.lattices[0].atoms[0].radius = std::scalbn(0.125, exponent);
+    const auto filling = filling_of(scene);
+    REQUIRE(filling.has_value());
+    CHECK(filling->fraction == filling_of(unit_scene(2, 0.125))->fraction);
+    CHECK(filling->mean_free_path == std::scalbn(filling_of(unit_scene(2, 0.125))->mean_free_path, exponent));
+  }
+  Scene needle = unit_scene(3, 1);
+  needle.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-170}}};
+  CHECK_FALSE(filling_of(needle).has_value());
 }
