@@ -11,35 +11,11 @@ namespace lorentz::oracle {
 namespace {
 
 template <std::size_t D>
-ZVec<D> scaled_vector(const Vec& a, long exponent) {
-  ZVec<D> result;
-  for (std::size_t k = 0; k < D; ++k) result[k] = scaled(a[k], exponent);
-  return result;
-}
-
-template <std::size_t D>
 Z determinant_of(const std::array<ZVec<D>, D>& a) {
   if constexpr (D == 2)
     return cross(a[0], a[1]);
   else
     return dot(cross(a[0], a[1]), a[2]);
-}
-
-CommonExponent common_exponent(const Scene& scene, double unit) {
-  CommonExponent common;
-  common.see(unit);
-  const auto see = [&](const Vec& a) {
-    for (double component : a) common.see(component);
-  };
-  for (const Lattice& lattice : scene.lattices) {
-    for (const Vec& u : lattice.vectors) see(u);
-    for (const Atom& atom : lattice.atoms) {
-      see(atom.position);
-      common.see(atom.radius);
-      for (const Vec& axis : atom.semiaxes) see(axis);
-    }
-  }
-  return common;
 }
 
 template <std::size_t D>

@@ -54,17 +54,7 @@ struct ExactLatticeBodies {
 
 template <std::size_t D>
 std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
-  CommonExponent common;
-  for (const Lattice& lattice : scene.lattices) {
-    for (const Vec& u : lattice.vectors)
-      for (double component : u) common.see(component);
-    for (const Atom& atom : lattice.atoms) {
-      for (double component : atom.position) common.see(component);
-      common.see(atom.radius);
-      for (const Vec& axis : atom.semiaxes)
-        for (double component : axis) common.see(component);
-    }
-  }
+  const CommonExponent common = common_exponent(scene);
   std::vector<ExactLatticeBodies<D>> result(scene.lattices.size());
   for (std::size_t l = 0; l < result.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];

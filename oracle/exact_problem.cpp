@@ -33,13 +33,6 @@ Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
 }
 
 template <std::size_t D>
-ZVec<D> scaled_vector(const Vec& a, long exponent) {
-  ZVec<D> result;
-  for (std::size_t k = 0; k < D; ++k) result[k] = scaled(a[k], exponent);
-  return result;
-}
-
-template <std::size_t D>
 ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent) {
   ExactAtom<D> exact;
   exact.position = scaled_vector<D>(atom.position, exponent);
@@ -57,8 +50,11 @@ ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent
   return exact;
 }
 
-CommonExponent common_exponent(const Scene& scene) {
+}  // namespace
+
+CommonExponent common_exponent(const Scene& scene, double other) {
   CommonExponent common;
+  common.see(other);
   const auto see = [&](const Vec& a) {
     for (const double component : a) common.see(component);
   };
@@ -72,8 +68,6 @@ CommonExponent common_exponent(const Scene& scene) {
   }
   return common;
 }
-
-}  // namespace
 
 template <std::size_t D>
 ExactScene<D>::ExactScene(const Scene& scene) {

@@ -75,6 +75,16 @@ struct ExactLattice {
   std::vector<ExactAtom<D>> atoms;
 };
 
+/// That of all lengths in a scene, and of one other.
+CommonExponent common_exponent(const Scene& scene, double other = 0);
+
+template <std::size_t D>
+ZVec<D> scaled_vector(const Vec& a, long exponent) {
+  ZVec<D> result;
+  for (std::size_t k = 0; k < D; ++k) result[k] = scaled(a[k], exponent);
+  return result;
+}
+
 /// The scene with every length multiplied by 2^-exponent.
 template <std::size_t D>
 struct ExactScene {
