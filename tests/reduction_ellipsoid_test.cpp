@@ -171,6 +171,7 @@ TEST_CASE("Among slender ellipses on the unit lattice nothing drawn is undecided
     const Reduction engine(scene);
     if (std::string(engine.model()) != "unit, ellipsoid") continue;
     const oracle::Oracle exact(scene);
+    const Shape shape = prepare(scene).atoms[0].shape;
     for (int i = 0; i < 20; ++i, ++flights) {
       const Query query{draw.vec(2, 0, 1), draw.vec(2, -1, 1), {}};
       const Flight flight = engine.fly(query);
@@ -179,7 +180,6 @@ TEST_CASE("Among slender ellipses on the unit lattice nothing drawn is undecided
       const Answer truth = exact.first_hit(query);
       REQUIRE(flight.outcome == truth.outcome);
       if (truth.outcome == Outcome::hit) REQUIRE(answer_of(flight).obstacle == truth.obstacle);
-      const Shape& shape = prepare(scene).atoms[0].shape;
       for (int k = 0; k < 2; ++k)  // w . v_k e_k < 0
         slanted += (shape.metric[0][k].hi * query.v[0] + shape.metric[1][k].hi * query.v[1]) * query.v[k] < 0;
     }
