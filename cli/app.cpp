@@ -20,13 +20,16 @@ std::string versions() {
                      CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
-// The subcommand that was meant must exist; the parser itself would only say that one is required.
+// The subcommand that was meant must exist, and so must its own; the parser itself would only say that one is
+// required.
 void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+  const auto commands = app.get_subcommands({});
+  if (argc < 2 || argv[1][0] == '-' || commands.empty()) return;
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  for (const std::string& name : names)
-    if (name == argv[1]) return;
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == argv[1]) return check_subcommand(*command, argc - 1, argv + 1);
+    names.push_back(command->get_name());
+  }
   throw InputError(
       fmt::format("no subcommand is called {}; there are {}", json_quoted(argv[1]), fmt::join(names, ", ")));
 }

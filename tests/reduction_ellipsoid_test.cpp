@@ -212,7 +212,7 @@ TEST_CASE(
       worst = std::max(worst, std::fabs(flight.time - time) / (std::nextafter(time, 1e300) - time));
     }
     CAPTURE(dimension, slender);
-    CHECK(worst < (slender ? 4 : 24));
+    CHECK(worst < (slender ? 4 : 8));
   }
 }
 

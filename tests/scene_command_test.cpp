@@ -65,6 +65,8 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   for (const char* part : {"cell volume  0.25", "sphere of radius 0.28", "none touch, none overlap",
                            "0.3678092903", "0.6416854364", "horizon"})
     CHECK(contains(fcc.out, part));
+  // (2, 0) touches and (1, 0) overlaps: the warning is of the worse.
+  CHECK(contains(folder.lorentz("horizon square --radius 1").err, "overlap their own translates"));
   CHECK(contains(fcc.out, "infinite: 4 normals of planar channels"));
   CHECK(contains(folder.lorentz("scene show cesium-chloride").out, "infinite: 25 directions of cylindrical"));
   CHECK(contains(folder.lorentz("scene show triangular").out, "finite: every path ends"));
@@ -90,7 +92,9 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   CHECK(folder.lorentz("scene").status == 2);
   CHECK(folder.lorentz("scene show").status == 2);
   CHECK(folder.lorentz("scene show ellipse --radius 0.1").status == 2);
-  CHECK(folder.lorentz("scene paint square").status == 2);
+  const Run paint = folder.lorentz("scene paint square");
+  CHECK(paint.status == 2);
+  CHECK(contains(paint.err, "no subcommand is called \"paint\"; there are list, show, draw"));
   for (const char* help : {"scene --help", "scene list --help", "scene show --help", "scene draw --help"})
     CHECK(contains(folder.lorentz(help).out, "Example:"));
 }
