@@ -194,7 +194,7 @@ class Finding {
 
   // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
   // known; in 3D it is computed in double-double. Nearby s - q would cancel: then t = (d . G d - r^2) / (s +
-  // q).
+  // q). In 3D the bound of the slack is so large that what is near has gone to the second stage before.
   double close_time_of_ellipsoid(const Vec& v) const {
     const double q = std::sqrt(slack_);
     double error;
@@ -203,16 +203,14 @@ class Finding {
     const double unsure =
         (64 + 32 * lattice_->shape.condition) * kRoundoff;  // its bounds are larger by so much
     if (slack_error_ > unsure * q * s_) return wide_time(v, error).value();
-    const bool near = !(s_ > 4 * q);
     if constexpr (D == 2) {
       const double along = v[0] * distance(0) + v[1] * distance(1);
-      if (near) return close_gap() / ((along * v2_ + across_) / euclidean_v2_ + q);
+      if (!(s_ > 4 * q)) return close_gap() / ((along * v2_ + across_) / euclidean_v2_ + q);
       return along / euclidean_v2_ + (across_ - q * euclidean_v2_) / (euclidean_v2_ * v2_);
     } else {
       DD d[D];
       place(d);
-      const double s = close_product(along_, d).hi;
-      return near ? close_gap() / (s + q) : (s - q) / v2_;
+      return (close_product(along_, d).hi - q) / v2_;
     }
   }
 
