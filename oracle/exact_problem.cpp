@@ -14,6 +14,14 @@ Z determinant<3>(const Basis<3>& basis) {
   return dot(cross(basis[0].p, basis[1].p), basis[2].p);
 }
 
+ZVec<2> cramer(const Basis<2>& b, const ZVec<2>& p) {
+  return {cross(p, b[1].p), cross(b[0].p, p)};
+}
+
+ZVec<3> cramer(const Basis<3>& b, const ZVec<3>& p) {
+  return {dot(p, cross(b[1].p, b[2].p)), dot(p, cross(b[2].p, b[0].p)), dot(p, cross(b[0].p, b[1].p))};
+}
+
 namespace {
 
 ZMatrix<2> adjugate(const ZMatrix<2>& columns) {
@@ -94,15 +102,6 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
     for (auto& b : basis)
       for (auto& component : b.p) component = shifted_left(component, shift);
   return basis;
-}
-
-// Coordinates of p in the basis, times its determinant.
-ZVec<2> cramer(const Basis<2>& b, const ZVec<2>& p) {
-  return {cross(p, b[1].p), cross(b[0].p, p)};
-}
-
-ZVec<3> cramer(const Basis<3>& b, const ZVec<3>& p) {
-  return {dot(p, cross(b[1].p, b[2].p)), dot(p, cross(b[2].p, b[0].p)), dot(p, cross(b[0].p, b[1].p))};
 }
 
 }  // namespace

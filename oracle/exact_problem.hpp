@@ -129,4 +129,8 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);
 
+/// Coordinates of p in the basis, times its determinant.
+ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
+ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
+
 }  // namespace lorentz::oracle

@@ -13,6 +13,7 @@
 //
 // Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
 #include "first_hit.hpp"
+#include "planes.hpp"
 #include "short_basis.hpp"
 
 namespace lorentz::oracle {
@@ -20,104 +21,11 @@ namespace {
 
 constexpr long kMany = 8;  // so many planes or rows in a window mean that it surely holds an obstacle
 
-// A lattice vector with its s.
-struct WindowVector {
-  LatticePoint<3> point;
-  Z s;
-
-  void add_multiple(const Z& k, const WindowVector& other) {
-    point.add_multiple(k, other.point);
-    mpz_addmul(s.get_mpz_t(), k.get_mpz_t(), other.s.get_mpz_t());
-  }
-};
-
-// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2.
-class WindowForm {
- public:
-  WindowForm(const Flight<3>& flight, long j)
-      : whole_(shifted_left(flight.v2, 2 * j)), along_(shifted_left(1, 2 * j) - 1) {}
-  Z operator()(const WindowVector& a, const WindowVector& b) const {
-    return whole_ * dot(a.point.p, b.point.p) - along_ * (a.s * b.s);
-  }
-
- private:
-  Z whole_, along_;
-};
-
 // By how many halvings to cut a window with too many rows (dimension 2) or planes (3): n of them mean some
 // n^dimension obstacles. If that is too much, the windows grow again.
 long cut_for(const Z& count, long dimension) {
   return std::max(1L, dimension * (bit_length(count / kMany) - 1));
 }
-
-// min and max of a and b.
-std::pair<Z, Z> ordered(const Z& a, const Z& b) {
-  return a <= b ? std::pair(a, b) : std::pair(b, a);
-}
-
-struct Range {
-  Z first, last;  // empty if first > last
-  bool empty() const { return first > last; }
-  Z count() const { return last - first + 1; }
-};
-
-// The k with low <= k gap <= high, for gap != 0.
-Range multiples_between(const Z& low, const Z& high, const Z& gap) {
-  return gap > 0 ? Range{ceil_div(low, gap), floor_div(high, gap)}
-                 : Range{ceil_div(high, gap), floor_div(low, gap)};
-}
-
-// A vector in coordinates of its lattice plane: y across the flight, z along it.
-struct PlanePoint {
-  LatticePoint<3> point;
-  Z y, z;
-
-  void add_multiple(const Z& k, const PlanePoint& other) {
-    point.add_multiple(k, other.point);
-    y += k * other.y;
-    z += k * other.z;
-  }
-};
-
-// (2^across y)^2 + (2^along z)^2.
-struct PlaneForm {
-  long across = 0, along = 0;
-  Z operator()(const PlanePoint& a, const PlanePoint& b) const {
-    return shifted_left(a.y * b.y, 2 * across) + shifted_left(a.z * b.z, 2 * along);
-  }
-};
-
-// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, e = v x N across the flight within them. In
-// the plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and more exactly
-//   v^2 (e.c)^2 + (a s - v^2 level)^2 < rho^2 |e|^2.
-// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
-// angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
-struct Planes {
-  std::array<WindowVector, 3> basis;
-  ZVec<3> normal, e, f;
-  Z a, gap;
-  Z reach2;           // rho^2 |v x N|^2
-  Z reach;            // its root, rounded down: enough for integers that are less
-  bool head_on;       // v is normal to the planes
-  Z across2, across;  // rho^2 |e|^2 with the e in use, and its root
-
-  Planes(const Search<3>& search, const std::array<WindowVector, 3>& reduced) : basis(reduced) {
-    const Flight<3>& flight = search.flight;
-    normal = cross(basis[0].point.p, basis[1].point.p);
-    a = dot(normal, flight.v);
-    gap = dot(normal, basis[2].point.p);
-    e = cross(flight.v, normal);
-    reach2 = search.rho2 * dot(e, e);
-    reach = floor_sqrt(reach2);
-    head_on = reach2 == 0;
-    if (head_on) {
-      e = basis[0].point.p;
-      f = cross(flight.v, e);
-    }
-    across2 = search.rho2 * dot(e, e);
-    across = floor_sqrt(across2);
-  }
-};
 
 class Solver {
  public:
@@ -129,16 +37,19 @@ class Solver {
   struct Section {
     bool empty = true;
     Z low, high;  // where the plane's section of the cylinder lies, within the window
-    PlanePoint step, next, start;
+    LatticePoint<3> start;
+    PlanePoint step, next;
     Range rows;
     bool along_rows = false;  // the rows run along v: they are all there is, in this window and beyond
   };
 
-  bool solve_plane(const Planes& planes, const Z& k3, Z low, Z high);
-  Section section_of(const Planes& planes, const Z& k3, const Z& low, const Z& high) const;
+  bool solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
+                   Z high);
+  Section section_of(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3,
+                     const Z& low, const Z& high) const;
   void solve_rows(const Section& section);
   void solve_many_rows(const Planes& planes, const Section& section);
-  Z jump_beyond(const Planes& planes, const Z& home, const Z& high) const;
+  Z jump_beyond(const Planes& planes, const Z& high) const;
   Z limited(const Z& high) const {
     return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_, search_.flight.v2))
                                     : high;
@@ -148,57 +59,27 @@ class Solver {
   const Z rho_above_;  // rho rounded up
 };
 
-Solver::Section Solver::section_of(const Planes& planes, const Z& k3, const Z& low, const Z& high) const {
-  const Flight<3>& flight = search_.flight;
-  LatticePoint<3> origin = search_.view.offset;
-  origin.add_multiple(k3, planes.basis[2].point);
-  const Z level = flight.v2 * dot(planes.normal, origin.p);
+Solver::Section Solver::section_of(const Planes& planes, const std::array<WindowVector, 3>& basis,
+                                   const Z& k3, const Z& low, const Z& high) const {
+  const PlaneSection extent = planes.section(search_.view.offset, k3, low, high);
   Section section;
-  section.low = low;
-  section.high = high;
-  // Where along the flight |a s - level| <= reach, and the section's half-width there: `room` is
-  // rho^2 |e|^2 - (a s - level)^2 at its largest.
-  Z room = planes.across2, z_low = -planes.across, z_high = planes.across;
-  if (planes.a != 0) {
-    const Range s = multiples_between(level - planes.reach, level + planes.reach, planes.a);
-    section.low = std::max(low, s.first);
-    section.high = std::min(high, s.last);
-    if (section.low > section.high) return section;
-  }
-  if (!planes.head_on) {
-    z_low = section.low;
-    z_high = section.high;
-    const Z at_low = planes.a * z_low - level, at_high = planes.a * z_high - level;
-    if (sgn(at_low) * sgn(at_high) > 0) {
-      const Z nearest = std::min(abs(at_low), abs(at_high));
-      room -= nearest * nearest;
-    }
-  }
-  if (room <= 0) return section;
-  const Z half_width = floor_sqrt(floor_div(room, flight.v2));
-  const auto in_plane = [&](const LatticePoint<3>& b) {
-    return PlanePoint{b, dot(planes.e, b.p), planes.head_on ? dot(planes.f, b.p) : dot(flight.v, b.p)};
-  };
-  section.start = in_plane(origin);
-  const long scale = bit_length(z_high - z_low) - bit_length(half_width) - 1;
-  std::array<PlanePoint, 2> pair{in_plane(planes.basis[0].point), in_plane(planes.basis[1].point)};
-  reduce(pair, PlaneForm{std::max(scale, 0L), std::max(-scale, 0L)});
+  section.low = extent.low;
+  section.high = extent.high;
+  section.empty = extent.empty;
+  if (extent.empty) return section;
+  section.start = extent.origin;
+  std::array<PlanePoint, 2> pair{planes.in_plane(basis[0].point), planes.in_plane(basis[1].point)};
+  reduce(pair, extent.form());
+  section.rows = planes.rows(extent, pair[0], pair[1]);
+  section.along_rows = !planes.head_on && pair[0].y == 0 && planes.a == 0;
   section.step = std::move(pair[0]);
   section.next = std::move(pair[1]);
-  // A point at (y, z) stands in row k2 = (y1 (z - z0) - z1 (y - y0)) / (y1 z2 - z1 y2).
-  const PlanePoint &g1 = section.step, &g2 = section.next;
-  const auto [least, most] = ordered(g1.y * z_low, g1.y * z_high);
-  const Z spread = abs(g1.z) * half_width;
-  const Z home = g1.y * section.start.z - g1.z * section.start.y;
-  section.rows = multiples_between(least - spread - home, most + spread - home, g1.y * g2.z - g1.z * g2.y);
-  section.along_rows = !planes.head_on && g1.y == 0 && planes.a == 0;
-  section.empty = false;
   return section;
 }
 
 void Solver::solve_rows(const Section& section) {
   for (Z k = section.rows.first; k <= section.rows.last; ++k) {
-    LatticePoint<3> row = section.start.point;
+    LatticePoint<3> row = section.start;
     row.add_multiple(k, section.next.point);
     offer_first_on_row(search_, row, section.step.point);
   }
@@ -234,21 +115,22 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   if (!planes.head_on) {
     const long bits = 64 + bit_length(section.rows.count());
     const Z root = floor_sqrt(shifted_left(dot(planes.normal, planes.normal), 2 * bits)) + 1;
-    const Z level = flight.v2 * dot(planes.normal, section.start.point.p);
+    const Z level = flight.v2 * dot(planes.normal, section.start.p);
     const Z r = search_.view.radius;
     z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * flight.v2,
                   shifted_left(planes.a, bits)) +
         shifted_left(r * abs(planes.a), bits) / root;
   }
   const PlanePoint &g1 = section.step, &g2 = section.next;
-  const Z across = g1.y * (z - section.start.z) + g1.z * section.start.y;
+  const PlanePoint start = planes.in_plane(section.start);
+  const Z across = g1.y * (z - start.z) + g1.z * start.y;
   Z centre = floor_div(across, g1.y * g2.z - g1.z * g2.y);
   centre = std::min(std::max(centre, section.rows.first), section.rows.last);
   for (const int direction : {+1, -1}) {
     std::optional<RealEntry> previous;
     for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last;
          k += direction) {
-      LatticePoint<3> row = section.start.point;
+      LatticePoint<3> row = section.start;
       row.add_multiple(k, section.next.point);
       const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);
       if (entry && search_.earliest.found()) {
@@ -263,12 +145,13 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
 }
 
 // Returns true if the plane holds no more than what was found, at any s.
-bool Solver::solve_plane(const Planes& planes, const Z& k3, Z low, Z high) {
+bool Solver::solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
+                         Z high) {
   const Z shortest = 2 * rho_above_;
   Z length = high - low;
   while (low <= (high = limited(high))) {
     const Z end = std::min(high, Z(low + length));
-    const Section section = section_of(planes, k3, low, end);
+    const Section section = section_of(planes, basis, k3, low, end);
     const bool few = !section.empty && section.rows.count() <= kMany;
     if (section.empty) {
       if (planes.a == 0) return true;
@@ -289,7 +172,8 @@ bool Solver::solve_plane(const Planes& planes, const Z& k3, Z low, Z high) {
 }
 
 // The first s beyond the window at which a plane comes within reach, for a != 0.
-Z Solver::jump_beyond(const Planes& planes, const Z& home, const Z& high) const {
+Z Solver::jump_beyond(const Planes& planes, const Z& high) const {
+  const Z home = search_.flight.v2 * dot(planes.normal, search_.view.offset.p);
   const int sign = sgn(planes.a);
   const Z a = abs(planes.a), start = sign * home, gap = abs(planes.gap) * search_.flight.v2;
   // Planes stand at the levels start + k gap, and level k comes within reach at a s + reach >= level.
@@ -312,21 +196,19 @@ void Solver::run() {
     const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);
     if (high < low) return;
     reduce(basis, WindowForm(flight, j));
-    const Planes planes(search_, basis);
-    const Z home = flight.v2 * dot(planes.normal, view.offset.p);
-    const auto [least, most] = ordered(planes.a * low, planes.a * high);
-    const Range levels =
-        multiples_between(least - planes.reach - home, most + planes.reach - home, planes.gap * flight.v2);
+    const Planes planes(flight, search_.rho2, basis[0].point, basis[1].point, basis[2].point);
+    const Range levels = planes.levels(view.offset, low, high);
     if (levels.count() > kMany && j > 0) {
       j = std::max(0L, j - cut_for(levels.count(), 3));
       continue;
     }
     if (levels.empty()) {
       if (planes.a == 0) return;
-      low = jump_beyond(planes, home, high);
+      low = jump_beyond(planes, high);
     } else {
       bool exhausted = planes.a == 0;
-      for (Z k3 = levels.first; k3 <= levels.last; ++k3) exhausted &= solve_plane(planes, k3, low, high);
+      for (Z k3 = levels.first; k3 <= levels.last; ++k3)
+        exhausted &= solve_plane(planes, basis, k3, low, high);
       if (exhausted) return;
       low = high + 1;
     }

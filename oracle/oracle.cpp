@@ -2,55 +2,12 @@
 
 #include <variant>
 
+#include "exact_query.hpp"
 #include "first_hit.hpp"
 #include "inside.hpp"
 
 namespace lorentz::oracle {
 namespace {
-
-Cell to_cell(const auto& n) {
-  Cell cell;
-  for (std::size_t i = 0; i < n.size(); ++i) cell[i] = to_integer(n[i]);
-  return cell;
-}
-
-// One query in integers: lengths times 2^-length_exponent, velocities times 2^-velocity_exponent.
-template <std::size_t D>
-struct ExactQuery {
-  long length_exponent, velocity_exponent;
-  ZVec<D> x;
-  Flight<D> flight;
-  std::optional<ZVec<D>> from;
-
-  ExactQuery(const ExactScene<D>& scene, const Query& query) {
-    CommonExponent length, velocity;
-    for (std::size_t i = 0; i < D; ++i) {
-      length.see(query.x[i]);
-      velocity.see(query.v[i]);
-    }
-    length_exponent = query.x == Vec{} ? scene.exponent : std::min(scene.exponent, length.get());
-    velocity_exponent = velocity.get();
-    for (std::size_t i = 0; i < D; ++i) {
-      x[i] = scaled(query.x[i], length_exponent);
-      flight.v[i] = scaled(query.v[i], velocity_exponent);
-    }
-    flight.v2 = dot(flight.v, flight.v);
-    if (query.from) {
-      from.emplace();
-      for (std::size_t i = 0; i < D; ++i) (*from)[i] = to_z(query.from->cell[i]);
-    }
-  }
-
-  const ZVec<D>* from_in(const Query& query, int lattice, int atom) const {
-    const bool here = from && query.from->lattice == lattice && query.from->atom == atom;
-    return here ? &*from : nullptr;
-  }
-
-  // t = (s - sqrt(d)) / v^2 in the query's own units.
-  Quadratic time_of(const Entry<D>& entry) const {
-    return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
-  }
-};
 
 // (p - q sqrt(d)) / denominator.
 Quadratic surd(const Z& p, const Z& q, const Z& d, const Z& denominator, long exponent) {
@@ -107,32 +64,31 @@ class Problem {
   Answer first_hit(const Query& query, const Request& request) const {
     const ExactQuery<D> exact(scene_, query);
     std::vector<View<D>> views;
-    if (auto obstacle = smallest_around(exact, query, views)) return Answer::inside(*obstacle);
+    if (auto obstacle = smallest_around(exact, views)) return Answer::inside(*obstacle);
     Earliest<D> earliest;
     auto view = views.begin();
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a, ++view) {
         const Z rho2 = view->radius2 * view->flight.v2;
-        search_first_hit(Search<D>{*view, view->flight, l, a, exact.from_in(query, l, a), rho2,
-                                   root_below(rho2), earliest});
+        search_first_hit(
+            Search<D>{*view, view->flight, l, a, exact.from_in(l, a), rho2, root_below(rho2), earliest});
       }
     return answer_to(exact, earliest, request);
   }
 
   bool is_free(const Query& query) const {
     std::vector<View<D>> views;
-    return !smallest_around(ExactQuery<D>(scene_, query), query, views);
+    return !smallest_around(ExactQuery<D>(scene_, query), views);
   }
 
  private:
   // The smallest obstacle that contains x, or nothing and the views of all atoms, in order.
-  std::optional<ObstacleId> smallest_around(const ExactQuery<D>& exact, const Query& query,
-                                            std::vector<View<D>>& views) const {
+  std::optional<ObstacleId> smallest_around(const ExactQuery<D>& exact, std::vector<View<D>>& views) const {
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
-        views.push_back(view_of<D>(scene_, l, a, exact.x, exact.flight, exact.length_exponent));
+        views.push_back(exact.view(scene_, l, a));
         const auto n =
-            smallest_inside<D>(scene_, l, a, views.back(), exact.from_in(query, l, a), exact.length_exponent);
+            smallest_inside<D>(scene_, l, a, views.back(), exact.from_in(l, a), exact.length_exponent);
         if (n) return ObstacleId{l, a, to_cell(*n)};
       }
     return std::nullopt;

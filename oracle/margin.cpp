@@ -1,0 +1,179 @@
+// The smallest margin of an answer. Obstacles that were nearly hit, or nearly contain x, stand within k ulps'
+// worth of change outside the cylinder that the line's obstacles lie in: widen it until the first of them is
+// found, and look at all that the widened cylinder holds. A change grows with the time T along the flight; so
+// does the widening.
+#include "margin.hpp"
+
+#include <limits>
+
+#include "cylinder.hpp"
+#include "situation.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr long kBudget = 20'000;  // points and stretches of one atom; spent only where thousands of obstacles
+                                  // are about as hard to tell apart
+
+template <std::size_t D>
+class MarginSearch {
+ public:
+  MarginSearch(const Situation<D>& situation, const Answer& exact)
+      : situation_(situation),
+        exact_(exact),
+        is_hit_(exact.outcome == Outcome::hit),
+        target_(situation.atom_of(exact.obstacle)),
+        target_centre_(situation.centre_of(exact.obstacle)),
+        target_time_(is_hit_ ? target_.time_of(target_centre_) : Real(0)),
+        smallest_(kLargestMargin) {}
+
+  Decision run() {
+    std::vector<Real> searched;  // of each atom, up to which margin
+    for (const Uncertain<D>& atom : situation_.atoms())
+      if (concerns(atom)) searched.push_back(search_at_once(atom));
+    auto done = searched.begin();
+    for (const Uncertain<D>& atom : situation_.atoms())
+      if (concerns(atom) && *done++ < smallest_) search_in_windows(atom);
+    decision_.margin = to_double(smallest_, kLargestMargin);
+    return decision_;
+  }
+
+ private:
+  // `inside` rests on the obstacles up to the one named.
+  bool concerns(const Uncertain<D>& atom) const {
+    return is_hit_ || std::pair(atom.lattice(), atom.atom()) <= std::pair(target_.lattice(), target_.atom());
+  }
+
+  // The latest T at which an obstacle of this atom, of radius up to twice its own, counts.
+  Real latest(const Uncertain<D>& atom) const {
+    return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().flight.v2));
+  }
+
+  // Widens by as much as leaves the cylinder about as large as it was. Returns the margin up to which nothing
+  // can have been missed.
+  Real search_at_once(const Uncertain<D>& atom) {
+    const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
+    const Real k = std::min(Real(kLargestMargin), Real(radius / change / 4));
+    const Real wide = radius + k * change;
+    budget_ = kBudget;
+    look(atom, wide, first_s(atom, wide), last_s(atom, wide));
+    return k;
+  }
+
+  // The same with a widening that follows the flight, for the smallest margin so far (that of the target, if
+  // nothing else).
+  void search_in_windows(const Uncertain<D>& atom) {
+    const Real k = smallest_, radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
+    const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
+    Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
+    budget_ = kBudget;
+    for (Real time = turning_point(); low < end; time *= 2) {
+      const Z high = std::min(end, ceiling(time * v2));
+      look(atom, radius + k * atom.largest_change(time), low, high);
+      low = high;
+    }
+  }
+
+  // Where the uncertainty of v begins to count for more than that of x.
+  Real turning_point() const {
+    Real x = 0, v = 0;
+    for (std::size_t i = 0; i < D; ++i) {
+      x += situation_.ulps().x[i];
+      v += situation_.ulps().v[i];
+    }
+    return x / v;
+  }
+
+  Z first_s(const Uncertain<D>& atom, const Real& wide) const {
+    return -ceiling(wide * sqrt(real(atom.view().flight.v2)));
+  }
+  Z last_s(const Uncertain<D>& atom, const Real& wide) const {
+    return ceiling(target_time_ * real(atom.view().flight.v2)) - first_s(atom, wide);
+  }
+
+  void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
+    const View<D>& view = atom.view();
+    const Cylinder<D> cylinder(view, ceiling(wide * wide * real(view.flight.v2)));
+    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                    const Z& last) {
+      visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+        --budget_;
+        weigh(atom, Centre<D>(view.flight, point));
+      });
+      return budget_ < 0;
+    };
+    cylinder.cut(low, high,
+                 [&](const Stretch<D>& stretch) { return --budget_ < 0 || cylinder.visit(stretch, visit); });
+  }
+
+  // The decisions about one obstacle.
+  void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
+    if (situation_.is_from(atom, centre.point.n)) return;
+    const bool is_target = &atom == &target_ && centre.point.n == target_centre_.point.n;
+    const bool contains = centre.c2 < atom.view().radius2;
+    if (!is_hit_) {
+      if (is_target ||
+          !(std::pair(atom.lattice(), atom.atom()) == std::pair(target_.lattice(), target_.atom()) &&
+            centre.point.n > target_centre_.point.n))
+        consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
+      return;
+    }
+    consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
+    const bool meets = centre.h2 < atom.rho2();
+    if (is_target || (!meets && centre.s > 0 && nearest_before_target(atom, centre)))
+      consider(DecisionKind::meeting, atom, centre, meets, atom.margin_of_meeting(centre));
+    else if (meets && centre.s > 0)
+      consider(DecisionKind::order, atom, centre, false,
+               margin_of_order(situation_.ulps(), target_, target_centre_, atom, centre));
+  }
+
+  // Would an obstacle that was missed be entered before the one that was hit, were it just met?
+  bool nearest_before_target(const Uncertain<D>& atom, const Centre<D>& centre) const {
+    return compare_entries(centre.s, 0, atom.view().flight.v2, target_centre_.s,
+                           target_.rho2() - target_centre_.h2, target_.view().flight.v2) < 0;
+  }
+
+  void consider(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, bool yes,
+                const Real& margin) {
+    if (margin >= smallest_) return;
+    smallest_ = margin;
+    decision_ = {kind, situation_.id_of(atom, centre.point.n), yes, 0};
+  }
+
+  const Situation<D>& situation_;
+  const Answer& exact_;
+  const bool is_hit_;
+  const Uncertain<D>& target_;
+  const Centre<D> target_centre_;
+  const Real target_time_;
+  Real smallest_;
+  Decision decision_;
+  long budget_ = 0;
+};
+
+}  // namespace
+
+struct Scrutiny::Impl {
+  Situations situations;
+};
+
+Scrutiny::Scrutiny(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{Situations(scene)})) {}
+Scrutiny::Scrutiny(Scrutiny&&) noexcept = default;
+Scrutiny& Scrutiny::operator=(Scrutiny&&) noexcept = default;
+Scrutiny::~Scrutiny() = default;
+
+std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact) const {
+  if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return std::optional(MarginSearch<D>(situation, exact).run());
+  });
+}
+
+double Scrutiny::condition(const Query& query, const Answer& exact) const {
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return to_double(change_of_time(situation, exact.obstacle) / Real(ulp(*exact.time)),
+                     std::numeric_limits<double>::max());
+  });
+}
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,51 @@
+// How hard a question was: the margin of its answer and the condition of its time (docs/verdicts.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "../src/problem.hpp"
+
+namespace lorentz::oracle {
+
+/// Margins are computed up to this many ulps; a larger one is reported as this.
+inline constexpr double kLargestMargin = 0x1p20;
+
+/// A decision that an answer rests on.
+enum class DecisionKind {
+  containing,  ///< does the obstacle contain x?
+  meeting,     ///< does the line meet the obstacle?
+  order        ///< is the obstacle entered before the one that is hit?
+};
+
+struct Decision {
+  DecisionKind kind = DecisionKind::meeting;
+  ObstacleId obstacle;
+  bool yes = false;  ///< what was decided
+  double margin =
+      0;  ///< in ulps: how far the inputs must move, each by so many ulps, to change it; to first order
+};
+
+/// Answers of one scene, looked at closely.
+class Scrutiny {
+ public:
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  explicit Scrutiny(const Scene& scene);
+  Scrutiny(Scrutiny&&) noexcept;
+  Scrutiny& operator=(Scrutiny&&) noexcept;
+  ~Scrutiny();
+
+  /// The decision with the smallest margin of all that the exact answer `hit` or `inside` rests on; of
+  /// `never` and of errors nothing. The margin is at most kLargestMargin (then the decision means nothing).
+  std::optional<Decision> hardest_decision(const Query& query, const Answer& exact) const;
+
+  /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
+  /// make. Requires an exact `hit`.
+  double condition(const Query& query, const Answer& exact) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::oracle
