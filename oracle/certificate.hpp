@@ -1,0 +1,40 @@
+// Proofs that an answer is right, as docs/certificates.md defines them: data only. Who checks them is
+// certificate_check.hpp.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "../src/problem.hpp"
+
+namespace lorentz::oracle {
+
+/// Integer vectors b_1, .., b_d in the coordinates n of a lattice's primitive vectors. Of a 2D problem: the
+/// first two rows and columns; the rest is zero.
+using CertificateBasis = std::array<Cell, 3>;
+
+/// An end of a window: a binary64 value, or an integer of any size.
+using WindowEnd = std::variant<double, Integer>;
+
+/// Of `hit` and `inside`: the obstacles of one atom with `from` <= T <= `to`, T the time at which the line is
+/// nearest to the centre (in the atom's own coordinates), are to be looked at in this basis.
+struct Window {
+  int lattice = 0;
+  int atom = 0;
+  WindowEnd from, to;
+  CertificateBasis basis;
+};
+
+/// Of `never`: the obstacles of one atom lie in rows along b_1, which is parallel to v.
+struct Rows {
+  int lattice = 0;
+  int atom = 0;
+  CertificateBasis basis;
+};
+
+struct Certificate {
+  std::vector<Window> windows;  ///< of `hit` and `inside`; those of an atom in the order of time
+  std::vector<Rows> rows;       ///< of `never`; one of each atom
+};
+
+}  // namespace lorentz::oracle
