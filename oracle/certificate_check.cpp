@@ -14,8 +14,7 @@ namespace {
 
 using namespace certificate;
 
-constexpr long kMaxRows = 1'000'000;   // in a window
-constexpr long kMaxWork = 10'000'000;  // windows, planes, rows and obstacles of a certificate
+constexpr long kMaxRows = 1'000'000;  // in a window, or of an atom that is never hit
 
 /// Integers from lo to hi; none if lo > hi.
 struct Range {
@@ -50,17 +49,19 @@ Range below_zero(const Z& a, const Z& b, const Z& c) {
   return {ceil_div(-b - root, a), floor_div(root - b, a)};
 }
 
-/// What may still be spent on a certificate.
+/// What may still be spent on a certificate: on windows, planes, rows and obstacles.
 class Budget {
  public:
+  explicit Budget(long most) : most_(most), left_(most) {}
+
   void spend(const Z& steps) {
     if (steps > left_)
-      refute("more than " + std::to_string(kMaxWork) + " rows and obstacles to look at so far");
+      refute("more than " + std::to_string(most_) + " rows and obstacles to look at, with those before");
     left_ -= steps.get_si();
   }
 
  private:
-  long left_ = kMaxWork;
+  long most_, left_;
 };
 
 template <std::size_t D>
@@ -278,7 +279,7 @@ Timeline::Timeline(const std::vector<Window>& given, long time_exponent) {
 template <std::size_t D>
 class Check {
  public:
-  explicit Check(const Scene& scene) {
+  Check(const Scene& scene, long most_work) : most_work_(most_work) {
     CommonExponent exponent;
     for (const Lattice& lattice : scene.lattices) {
       for (std::size_t i = 0; i < D; ++i) see<D>(exponent, lattice.vectors[i]);
@@ -321,7 +322,7 @@ class Check {
   void check_never(const Flight& flight, const Certificate& certificate) const;
   void check_windows(const Claim<D>& claim, const Flight& flight, const std::vector<Window>& windows) const;
 
-  long exponent_ = 0;
+  long most_work_, exponent_ = 0;
   std::vector<std::vector<Body<D>>> bodies_;
 };
 
@@ -421,7 +422,7 @@ void Check<D>::check_windows(const Claim<D>& claim, const Flight& flight,
     for (const View<D>& view : views)
       if (claim.hit || std::tie(view.lattice, view.atom) <= last)
         check_coverage(claim, view, timeline, of_atom[view.lattice][view.atom]);
-  Budget budget;
+  Budget budget(most_work_);
   for (std::size_t i = 0; i < windows.size(); ++i) try {
       budget.spend(1);
       const View<D>& view = flight.views[windows[i].lattice][windows[i].atom];
@@ -501,13 +502,13 @@ struct CertificateCheck::Impl {
   std::optional<Check<3>> solid;
 };
 
-CertificateCheck::CertificateCheck(const Scene& scene) {
+CertificateCheck::CertificateCheck(const Scene& scene, long most_work) {
   auto impl = std::make_unique<Impl>();
   impl->scene = scene;
   impl->flaw = flaw_of(scene).value_or("");
   if (impl->flaw.empty()) try {
-      if (scene.dimension == 2) impl->flat.emplace(scene);
-      if (scene.dimension == 3) impl->solid.emplace(scene);
+      if (scene.dimension == 2) impl->flat.emplace(scene, most_work);
+      if (scene.dimension == 3) impl->solid.emplace(scene, most_work);
     } catch (const Refuted& refuted) {
       impl->flaw = refuted.why;
     }
