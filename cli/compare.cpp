@@ -99,6 +99,8 @@ Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& 
                    const std::vector<Answer>& exact, const OnWrong& on_wrong, bool& bad_input) {
   Tally tally;
   tally.name = logged.name;
+  std::vector<oracle::Judge> judges;
+  for (const Scene& scene : set.scenes) judges.emplace_back(scene);
   for (std::size_t i = 0; i < set.cases.size(); ++i) {
     const auto found = answers.find(set.cases[i].id);
     if (found == answers.end()) {
@@ -111,10 +113,11 @@ Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& 
       bad_input = true;
       say("{}:{}: cell: has {} components, the scene has dimension {}", logged.file, line, components,
           dimension);
-      tally.count({oracle::Verdict::error, {}});
+      tally.count({oracle::Verdict::error});
       continue;
     }
-    const oracle::Judgement judgement = oracle::judge(exact[i], answer);
+    const oracle::Judgement judgement =
+        judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], answer);
     tally.count(judgement);
     if (judgement.verdict == oracle::Verdict::wrong) on_wrong(set.cases[i], exact[i], logged.name, answer);
   }

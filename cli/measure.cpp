@@ -17,8 +17,12 @@ void Tally::count(const oracle::Judgement& judgement) {
     case oracle::Verdict::agree:
       ++agree;
       break;
+    case oracle::Verdict::ill_posed:
+      ++ill_posed;
+      break;
     case oracle::Verdict::wrong:
       ++wrong;
+      wrong_time += judgement.wrong_time;
       break;
     case oracle::Verdict::undecided:
       ++undecided;
@@ -106,7 +110,7 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           const std::vector<std::string>& names, const OnWrong& on_wrong, double ulps,
                            int rounds_wanted) {
   std::vector<Tally> tallies(names.size());
   std::vector<std::vector<FirstHit>> answerers(names.size());
@@ -115,6 +119,8 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     tallies[e].name = names[e];
     for (const Scene& scene : set.scenes) answerers[e].push_back(make_first_hit(names[e], scene));
   }
+  std::vector<oracle::Judge> judges;
+  for (const Scene& scene : set.scenes) judges.emplace_back(scene);
   const auto start = Clock::now();
   for (int r = 0; r < rounds_wanted; ++r) {
     for (std::size_t e = 0; e < names.size(); ++e)
@@ -124,7 +130,8 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
           ++tallies[e].queries;
           return;
         }
-        const oracle::Judgement judgement = oracle::judge(exact[i], given);
+        const oracle::Judgement judgement =
+            judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, ulps);
         tallies[e].count(judgement);
         if (judgement.verdict == oracle::Verdict::wrong && on_wrong)
           on_wrong(set.cases[i], exact[i], names[e], given);

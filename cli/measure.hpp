@@ -27,13 +27,14 @@ struct CaseSet {
 /// One answerer's account over a set of cases.
 struct Tally {
   std::string name;
-  std::size_t queries = 0, agree = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0, missing = 0;
-  std::size_t timed_hits = 0;  ///< agreed hits with a time that could be measured
+  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0, missing = 0;
+  std::size_t wrong_time = 0;  ///< of the wrong: those whose obstacle is right
+  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
   double max_ulp = 0, sum_ulp = 0;
   double ns_per_query = 0;         ///< mean over the queries, in the median round; 0: not timed
   double ns_median = 0;            ///< median over blocks of 16 queries of a block's mean
   double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
-  std::vector<double> ulps;        ///< errors of the times of agreed hits
+  std::vector<double> ulps;        ///< errors of these times
 
   void count(const oracle::Judgement& judgement);
   double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
@@ -50,7 +51,8 @@ std::vector<Answer> exact_answers(const CaseSet& set);
 /// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
 /// is empty (nothing is judged) or as many answers as there are cases.
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong, int rounds = 5);
+                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           double ulps = oracle::kDefaultUlps, int rounds = 5);
 
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<Tally>& tallies, bool judged);

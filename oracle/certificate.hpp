@@ -2,6 +2,7 @@
 // prover.hpp, who checks them certificate_check.hpp.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "../src/problem.hpp"
@@ -16,6 +17,14 @@ using CertificateBasis = std::array<Cell, 3>;
 struct WindowEnd {
   Integer mantissa;
   long exponent = 0;
+
+  WindowEnd() = default;
+  WindowEnd(Integer mantissa, long exponent = 0) : mantissa(std::move(mantissa)), exponent(exponent) {}
+  WindowEnd(double value) {  ///< must be finite
+    int e = 0;
+    mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &e), 53));
+    exponent = e - 53;
+  }
 };
 
 /// Of `hit` and `inside`: the obstacles of one atom with `from` <= T <= `to`, T the time at which the line is

@@ -22,19 +22,20 @@ struct Box {
     }
   }
 
-  // Is a multiple of g within k ulps of v?
+  // Is v within k ulps of f g for some factor f > 0? That is g / f between v - k ulps and v + k ulps.
   bool contains(const ZVec<D>& g) const {
-    Real least = 0, most = -1;  // of the factor
+    Real least = 0;  // of 1 / f
+    std::optional<Real> most;
+    const auto at_most = [&](const Real& bound) { most = most ? std::min(*most, bound) : bound; };
     for (std::size_t i = 0; i < D; ++i) {
-      if (v[i] == 0 || sgn(g[i]) != sgn(v[i])) {
-        if (v[i] != g[i]) return false;
-        continue;
-      }
-      const Real size = abs(real(g[i])), middle = abs(real(v[i])), room = k * real(ulp[i]);
-      least = std::max(least, Real((middle - room) / size));
-      most = most < 0 ? Real((middle + room) / size) : std::min(most, Real((middle + room) / size));
+      const Real room = k * real(ulp[i]), low = real(v[i]) - room, high = real(v[i]) + room, gi = real(g[i]);
+      if ((low == 0 && gi < 0) || (high == 0 && gi > 0)) return false;
+      if (low > 0) at_most(gi / low);
+      if (low < 0) least = std::max(least, Real(gi / low));
+      if (high > 0) least = std::max(least, Real(gi / high));
+      if (high < 0) at_most(gi / high);
     }
-    return least <= most;
+    return !most || (least <= *most && *most > 0);
   }
 
   // A direction normal to G within k ulps of v: v with each component moved by the same share of its ulp.
@@ -42,6 +43,7 @@ struct Box {
     Z reach = 0;
     for (std::size_t i = 0; i < D; ++i) reach += abs(G[i]) * ulp[i];
     const Z off = dot(G, v);
+    if (off == 0) return v;
     if (reach == 0 || real(Z(abs(off))) > k * real(reach)) return std::nullopt;
     ZVec<D> direction;
     for (std::size_t i = 0; i < D; ++i) direction[i] = v[i] * reach - off * ulp[i] * sgn(G[i]);
@@ -84,6 +86,16 @@ bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
   return false;
 }
 
+// The normal, after a linear map, of what G was normal to.
+ZVec<2> mapped_normal(const ZMatrix<2>& map, const ZVec<2>& G) {
+  const ZVec<2> along = map * ZVec<2>{Z(-G[1]), G[0]};
+  return {Z(-along[1]), along[0]};
+}
+ZVec<3> mapped_normal(const ZMatrix<3>& map, const ZVec<3>& G) {
+  const ZVec<3> one = cross(G, G[0] == 0 && G[1] == 0 ? ZVec<3>{1, 0, 0} : ZVec<3>{0, 0, 1});
+  return cross(map * one, map * cross(G, one));
+}
+
 template <std::size_t D>
 class CorridorSearch {
  public:
@@ -99,14 +111,18 @@ class CorridorSearch {
   }
 
  private:
-  // Nothing is ever hit in this direction; obstacles smaller by what `ulps` ulps of x and r make.
-  bool is_open(const ZVec<D>& direction) const {
+  // Nothing is ever hit in this direction, obstacles being smaller by what `ulps` ulps make across the
+  // corridor (2D) or the plane channel (3D) with the normal G.
+  bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
     const ExactQuery<D>& query = situation_.query();
     const Flight<D> flight{direction, dot(direction, direction)};
     for (const Uncertain<D>& atom : situation_.atoms()) {
-      View<D> view =
-          view_of<D>(situation_.scene(), atom.lattice(), atom.atom(), query.x, flight, query.length_exponent);
-      view.radius -= ceiling(Real(ulps_ * atom.largest_change(0)));
+      const ExactScene<D>& scene = situation_.scene();
+      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, flight, query.length_exponent);
+      if (G != ZVec<D>{}) {
+        const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
+        view.radius -= ceiling(Real(ulps_ * atom.change_along(frame ? mapped_normal(frame->to_ball, G) : G)));
+      }
       if (view.radius <= 0) continue;
       view.radius2 = view.radius * view.radius;
       const Z rho2 = view.radius2 * view.flight.v2;
@@ -129,7 +145,7 @@ class CorridorSearch {
     });
     return any_combination(dual, [&](const DualVector<D>& one) {
       const auto direction = box_.normal_to(one.G);
-      return direction && is_open(*direction);
+      return direction && is_open(*direction, one.G);
     });
   }
 
@@ -143,7 +159,7 @@ class CorridorSearch {
       ZVec<D> g = one.p;
       if (dot(g, box_.v) < 0)
         for (Z& component : g) component = -component;
-      return box_.contains(g) && is_open(g);
+      return box_.contains(g) && is_open(g, {});
     });
   }
 

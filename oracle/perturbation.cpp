@@ -77,11 +77,16 @@ std::array<Real, D> Uncertain<D>::ulps_at(const Real& time) const {
 }
 
 template <std::size_t D>
+Real Uncertain<D>::change_along(const ZVec<D>& direction) const {
+  return weighted(direction, ulps_.x) / sqrt(real(dot(direction, direction))) + radius_ulp_;
+}
+
+template <std::size_t D>
 Real Uncertain<D>::margin_of_containing(const Centre<D>& centre) const {
-  const Real distance = sqrt(real(centre.c2));
   const Real change =
-      centre.c2 == 0 ? longest_corner(ulps_.x, false) : Real(weighted(centre.point.p, ulps_.x) / distance);
-  return real(Z(abs(centre.c2 - view_.radius2))) / (distance + real(view_.radius)) / (change + radius_ulp_);
+      centre.c2 == 0 ? Real(longest_corner(ulps_.x, false) + radius_ulp_) : change_along(centre.point.p);
+  const Real sum = sqrt(real(centre.c2)) + real(view_.radius);
+  return real(Z(abs(centre.c2 - view_.radius2))) / sum / change;
 }
 
 template <std::size_t D>

@@ -72,6 +72,9 @@ class Uncertain {
   Arrival<D> arrival(const Centre<D>& centre) const;
   Real time_of(const Centre<D>& centre) const;
 
+  /// The largest change of the place of x along a direction, and of r.
+  Real change_along(const ZVec<D>& direction) const;
+
   /// A bound of the change of |distance of the line - r| and of ||x - c| - r| for all centres with |T| <=
   /// latest.
   Real largest_change(const Real& latest) const;

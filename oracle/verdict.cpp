@@ -157,7 +157,7 @@ struct Judge::Impl {
       });
       excess = to_double(Real(off) / std::max(change, Real(ulp(*exact.time))), kHuge);
     }
-    if (excess > ulps) judgement = {Verdict::wrong, {}, excess, true};
+    if (excess > ulps) judgement = {Verdict::wrong, judgement.ulps, excess, true};
     return judgement;
   }
 };

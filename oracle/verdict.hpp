@@ -23,8 +23,8 @@ inline constexpr double kDefaultUlps = 4;
 
 struct Judgement {
   Verdict verdict = Verdict::missing;
-  /// Where it agrees on a hit and gives a finite time: |t - t_exact| / ulp(t_exact), from the rounded
-  /// t_exact.
+  /// Where the obstacle hit is right and a finite time is given: |t - t_exact| / ulp(t_exact), from the
+  /// rounded t_exact.
   std::optional<double> ulps = {};
   /// Of ill_posed and wrong: by how many ulps the inputs must move at least for the answer to be right. Of
   /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong

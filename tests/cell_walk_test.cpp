@@ -7,7 +7,6 @@
 #include "classical.hpp"
 #include "oracle.hpp"
 #include "support.hpp"
-#include "verdict.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
@@ -214,7 +213,7 @@ TEST_CASE("Classical far from the origin, in other units, with other speeds") {
     INFO(stream(scene, query));
     const Answer exact = oracle::Oracle(scene).first_hit(query), given = CellWalk(scene).first_hit(query);
     INFO(line(exact, dimension) << line(given, dimension));
-    REQUIRE(oracle::judge(exact, given).verdict == oracle::Verdict::agree);
+    REQUIRE(same_obstacle(exact, given));
     // The start's digits within the cell are all kept.
     if (given.time) CHECK(*given.time == Approx(*exact.time).epsilon(0).margin(1e-11 * (1 + *exact.time)));
     const int length = 200 - static_cast<int>(draw.below(400));
@@ -275,8 +274,7 @@ TEST_CASE("Ten thousand atoms") {
     for (int i = 0; i < 5; ++i) {
       const Query query{draw.vec(dimension, -1, 1), draw.vec(dimension, -1, 1), {}};
       INFO(stream(unit_scene(dimension, 0.1), query));
-      CHECK(oracle::judge(oracle.first_hit(query), engine->first_hit(query)).verdict ==
-            oracle::Verdict::agree);
+      CHECK(same_obstacle(oracle.first_hit(query), engine->first_hit(query)));
     }
   }
 }
@@ -317,7 +315,6 @@ TEST_CASE("What classical does not do, it says, at once") {
   // So is a cell of a flatness that the walker bears.
   scene = scene_with(2, {lattice_of_vectors({Vec{1, 0}, Vec{1e4, 1}}, 0.01)});
   const Query flight{{0.5, 0.4}, {1, 0.2347}, {}};
-  CHECK(oracle::judge(oracle::Oracle(scene).first_hit(flight),
-                      make_engine("classical", scene)->first_hit(flight))
-            .verdict == oracle::Verdict::agree);
+  CHECK(same_obstacle(oracle::Oracle(scene).first_hit(flight),
+                      make_engine("classical", scene)->first_hit(flight)));
 }

@@ -129,11 +129,31 @@ TEST_CASE("The program and the measurements see none of the oracle's libraries")
       }
 }
 
+TEST_CASE("The check of certificates shares with the oracle its integers and the problem, nothing else") {
+  const std::set<std::string> own{"certificate_check", "certificate_time", "certificate_view"};
+  const auto oracle = own_headers("oracle");
+  std::size_t files = 0;
+  for (const fs::path& file : sources("oracle")) {
+    const bool is_check = own.contains(file.stem()) || file.stem() == "certificate";
+    files += is_check;
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      const std::string stem = fs::path(name).stem();
+      if (is_check && oracle.contains(fs::path(name).filename()))
+        CHECK((name == "integer.hpp" || name == "dyadic.hpp" || name == "certificate.hpp" ||
+               own.contains(stem)));
+      if (!is_check) CHECK_FALSE(own.contains(stem));
+    }
+  }
+  CHECK(files == 6);
+}
+
 TEST_CASE("The oracle's public headers show none of its libraries") {
-  for (const char* header :
-       {"oracle.hpp", "walk.hpp", "scene_check.hpp", "continued_fraction.hpp", "verdict.hpp", "horizon.hpp"})
+  for (const char* header : {"oracle.hpp", "walk.hpp", "scene_check.hpp", "continued_fraction.hpp",
+                             "verdict.hpp", "horizon.hpp", "certificate.hpp", "certificate_check.hpp"})
     for (const std::string& name : includes_of(kRoot / "oracle" / header)) {
       INFO(header << " includes " << name);
-      CHECK((name == "../src/problem.hpp" || name.find_first_of("/.") == std::string::npos));
+      CHECK((name == "../src/problem.hpp" || name == "certificate.hpp" ||
+             name.find_first_of("/.") == std::string::npos));
     }
 }

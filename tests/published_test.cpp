@@ -7,7 +7,6 @@
 #include "draw.hpp"
 #include "oracle.hpp"
 #include "support.hpp"
-#include "verdict.hpp"
 #include "walk.hpp"
 
 using namespace lorentz;
@@ -38,9 +37,10 @@ Share share_wrong(const Scene& scene, const std::vector<Query>& queries) {
   const auto engine = make_engine("published", scene);
   Share share;
   for (const Query& query : queries) {
-    const auto verdict = oracle::judge(oracle.first_hit(query), engine->first_hit(query)).verdict;
-    share.wrong += verdict == oracle::Verdict::wrong;
-    share.answered += verdict == oracle::Verdict::wrong || verdict == oracle::Verdict::agree;
+    const Answer given = engine->first_hit(query);
+    if (given.outcome == Outcome::undecided) continue;
+    ++share.answered;
+    share.wrong += !same_obstacle(oracle.first_hit(query), given);
   }
   return share;
 }

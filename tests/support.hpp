@@ -203,11 +203,15 @@ inline std::string line(const Answer& answer, int dimension) {
   return out;
 }
 
+/// Same outcome and obstacle.
+inline bool same_obstacle(const Answer& a, const Answer& b) {
+  const bool named = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
+  return a.outcome == b.outcome && (!named || a.obstacle == b.obstacle);
+}
+
 /// Same outcome, obstacle and time, to the bit.
 inline bool same(const Answer& a, const Answer& b) {
-  if (a.outcome != b.outcome) return false;
-  const bool named = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
-  return !named || (a.obstacle == b.obstacle && a.time == b.time);
+  return same_obstacle(a, b) && (a.outcome != Outcome::hit || a.time == b.time);
 }
 
 }  // namespace lorentz::test
