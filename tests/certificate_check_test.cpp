@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "certificate_prover.hpp"
+#include "certificate_time.hpp"
 #include "oracle.hpp"
 
 using namespace lorentz;
@@ -151,6 +152,21 @@ TEST_CASE("Any basis and any cutting of the windows proves the same") {
     accepted += said.empty();
   }
   CHECK(accepted > 500);
+}
+
+TEST_CASE("The sign of a + sqrt(c) - sqrt(b), also where it is 0") {
+  int zeros = 0;
+  for (int a = -8; a <= 8; ++a)
+    for (int b = 0; b <= 40; ++b)
+      for (int c = 0; c <= 40; ++c) {
+        const long double value =
+            a + std::sqrt(static_cast<long double>(c)) - std::sqrt(static_cast<long double>(b));
+        const int expected = std::fabs(value) < 1e-12L ? 0 : value < 0 ? -1 : 1;  // none is that small but 0
+        INFO(a << " " << b << " " << c);
+        REQUIRE(oracle::certificate::sign_of(a, c, b) == expected);
+        zeros += expected == 0;
+      }
+  CHECK(zeros > 50);
 }
 
 // ---- What is wrong
@@ -320,6 +336,21 @@ TEST_CASE("The ends of windows are held against -r/|v| and t + r/|v| exactly") {
   require_accepted(c);
   c.proof.windows[0].to = std::nextafter(0.70710678118654757, 0);
   require_refused(c, "end too early");
+}
+
+TEST_CASE("An obstacle at the very end of a window is looked at") {
+  const Scene scene = unit_scene(2, 0.25);
+  const ObstacleId third{0, 0, {Integer(3), Integer(0)}};
+  Case c = proved(scene, {{0.5, 0}, {1, 0}, {}},
+                  Answer::hit(third, 2.25));  // there are two before it, at T = 0.5 and 1.5
+  const auto basis = c.proof.windows[0].basis;
+  for (const double cut : {0.5, std::nextafter(0.5, 0), std::nextafter(0.5, 1), 0.25, 0.75}) {
+    c.proof.windows = {{0, 0, -1.0, cut, basis}, {0, 0, cut, 3.0, basis}};
+    require_refused(c, "obstacle (lattice 0, atom 0, cell [1, 0]) is entered earlier");
+    c.query.from = ObstacleId{0, 0, {Integer(1), Integer(0)}};
+    require_refused(c, "obstacle (lattice 0, atom 0, cell [2, 0]) is entered earlier");
+    c.query.from.reset();
+  }
 }
 
 TEST_CASE("A basis that is none is refused") {
@@ -750,11 +781,22 @@ TEST_CASE("Proofs that are too much work are refused") {
   CHECK_FALSE(CertificateCheck(c.scene, 66 * 512).refutation(c.query, c.answer, c.proof));
   CHECK_THAT(CertificateCheck(c.scene, 64 * 512).refutation(c.query, c.answer, c.proof).value_or(""),
              Catch::Contains("atom 0): more than 32768 rows and obstacles to look at"));
+  for (Window& window : c.proof.windows)
+    window.from = 1.0, window.to = -1.0;  // windows count, also empty ones
+  c.proof.windows[0].from = -1.0, c.proof.windows[0].to = 1.0;
+  require_accepted(c);
+  CHECK_FALSE(CertificateCheck(c.scene, 66).refutation(c.query, c.answer, c.proof));
+  CHECK(CertificateCheck(c.scene, 63).refutation(c.query, c.answer, c.proof));
   c = timed(100, 3);
   c.proof.windows[0].to = 0x1p100;
   c.proof.windows[0].basis = {Cell{1, 1, 0}, {0, 1, 0}, {0, 0, 1}};  // planes along the flight
   require_refused(c, "more than 1000000 rows");
   c.proof.windows[0].basis = {Cell{0, 1, 0}, {1, 0, 1}, {1, 0, 0}};  // and across it
+  require_refused(c, "more than 1000000 rows");
+  // Three planes of 600 000 rows each
+  c.proof.windows[0].from = -1.0, c.proof.windows[0].to = 600'000 * 1024.;
+  c.proof.windows[0].basis = {Cell{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  for (double& u : c.scene.lattices[0].vectors[1]) u *= 0.75 / 1024;
   require_refused(c, "more than 1000000 rows");
   // Rows along v in a basis that shows nothing of how far apart they are
   c = proved(unit_scene(3, 0.25), {{0.5, 0.5, 0.5}, {1, 0, 0}, {}});
