@@ -86,17 +86,15 @@ std::optional<Decimal> read_decimal(std::string_view text) {
 // unless e = -1074. The middles belong to it iff m is even. An infinity reads as 2^52 2^972, the next after
 // the largest number, and this is how it rounds: everything from its lower middle on.
 bool rounds_to(const ScaledTime& exact, double given) {
-  if (!(given >= 0) || std::signbit(given)) return false;
+  if (std::isnan(given) || std::signbit(given)) return false;
   const auto bits = std::bit_cast<std::uint64_t>(given);
   const long biased = static_cast<long>(bits >> 52), e = std::max(biased, 1L) - 1075;
   const long m = static_cast<long>(bits & ((1UL << 52) - 1)) + (biased > 0 ? 1L << 52 : 0);
   const int tie = m % 2 == 0 ? 0 : 1;
-  if (m > 0) {
-    const bool first_of_binade = m == 1L << 52 && biased > 1;
-    const int low =
-        first_of_binade ? exact.compare_dyadic(4 * m - 1, e - 2) : exact.compare_dyadic(2 * m - 1, e - 1);
-    if (low < tie) return false;
-  }
+  const bool first_of_binade = m == 1L << 52 && biased > 1;
+  const int low =
+      first_of_binade ? exact.compare_dyadic(4 * m - 1, e - 2) : exact.compare_dyadic(2 * m - 1, e - 1);
+  if (low < tie) return false;
   return std::isinf(given) || exact.compare_dyadic(2 * m + 1, e - 1) <= -tie;
 }
 

@@ -414,6 +414,38 @@ TEST_CASE("A time one ulp off is refused, and so are other numbers") {
   CHECK(infinite < 110);
 }
 
+TEST_CASE("Times at the ends of binary64's range") {
+  // Around the smallest normal number, 2^-1022, where the numbers do not begin to lie closer: in steps of
+  // 2^-1076.
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors = {Vec{8, 0}, Vec{0, 8}};
+  scene.lattices[0].atoms[0].position = {2.25, 0};
+  for (int k = -12; k <= 12; ++k) {
+    Case c = proved(scene, {{k * 0x1p-53, 0}, {0x1p1023, 0}, {}});
+    require_accepted(c);
+    for (const double sign : {-1., 1.}) {
+      Case other = c;
+      other.answer.time = *c.answer.time + sign * 0x1p-1074;
+      require_refused(other, "is not entered at the time given");
+    }
+  }
+  // Far beyond the largest, where a NaN or a negative number could be taken for one.
+  for (const double time : {0x1.8p24, 0x1p25, 0x1.4p25, 0x1p40}) {
+    scene.lattices[0].vectors = {Vec{0x1p50, 0}, Vec{0, 0x1p50}};
+    scene.lattices[0].atoms[0].position = {time + 0.25, 0};
+    Case c = proved(scene, {{0, 0}, {0x1p-1000, 0}, {}});
+    REQUIRE(c.answer.time == kInfinity);
+    c.proof.windows[0].from = -0x1p1000;
+    c.proof.windows[0].to = *Integer::from_decimal("1" + std::string(320, '0'));
+    require_accepted(c);
+    for (const double other : {std::numeric_limits<double>::quiet_NaN(), -0.0, -0x1p-1024, -0x1.4p-1022,
+                               -kInfinity, std::numeric_limits<double>::max()}) {
+      c.answer.time = other;
+      require_refused(c, "is not entered at the time given");
+    }
+  }
+}
+
 TEST_CASE("Digits that are not those of the time are refused") {
   Draw draw(2109);
   INFO("seed 2109");
@@ -455,9 +487,9 @@ TEST_CASE("Digits that are not those of the time are refused") {
     require_accepted(c);
   }
   for (const char* wrong :
-       {"10",     "9",           "9.7",    "+9.75", "-9.75", " 9.75", "9.75 ",   "9.",
-        ".975e1", "9.75e",       "9.75e+", "nan",   "inf",   "0",     "0.0",     "e",
-        "9,75",   "9.75e000000", "9.75e-", "0x9",   "9.74",  "9.76",  "1e99999", "1e-99999"}) {
+       {"10",     "9",       "9.7", "+9.75", "-9.75", " 9.75",   "9.75 ",   "9.",   ".975e1",
+        "9.75e",  "9.75e+",  "nan", "inf",   "0",     "0.0",     "e",       "9,75", "9.75e000000",
+        "9.75e-", "975.e-2", "0x9", "9.74",  "9.76",  "1e99999", "1e-99999"}) {
     c.answer.time_decimal = wrong;
     require_refused(c, reason);
   }
@@ -483,6 +515,11 @@ TEST_CASE("Decades: 9.96875 to two digits is 10, not 9.9 or 1.1e+1") {
     c.answer.time_decimal = digits;
     INFO(digits);
     CHECK((refutation(c) == "") == right);
+  }
+  c = timed(9.25);
+  for (const char* wrong : {"1e1", "01e1", "0.01e3", "10"}) {
+    c.answer.time_decimal = wrong;
+    require_refused(c, "at the time given in decimal");
   }
   c = timed(9.5);  // halfway between 9 and 1e1, whose last digit counts as even
   for (const auto& [digits, right] : {std::pair{"1e1", true}, {"9", false}, {"9.5", true}, {"10", false}}) {
