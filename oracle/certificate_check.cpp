@@ -106,8 +106,8 @@ struct Claim {
 
 // ---- Windows
 
-/// Finds all obstacles of a window that are met, w = w_0 + k_1 b_1 + .. + k_d b_d with s in a range and |h|^2
-/// < r^2 v^2, and holds them against the claim.
+/// Finds all obstacles w = w_0 + k_1 b_1 + .. + k_d b_d of a window that are met, those with s in a range and
+/// |h|^2 < r^2 v^2, and holds them against the claim.
 template <std::size_t D>
 class WindowSearch {
  public:
@@ -141,9 +141,9 @@ class WindowSearch {
       search_row(s0 + k * s2_, h01 + k * h12_, c0 + k * (2 * h02 + k * h22_), s, k, k3);
   }
 
-  /// The obstacles at w + k_1 b_1, s0 = v.w, b = h.h_1, c = |h|^2 - r^2 v^2: met iff h_1^2 k_1^2 + 2 b k_1 +
-  /// c < 0. If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met. h_1 and s_1 are not both
-  /// 0.
+  /// The obstacles at w + k_1 b_1, with s0 = v.w, b = h.h_1 and c = |h|^2 - r^2 v^2, which are met iff
+  /// h_1^2 k_1^2 + 2 b k_1 + c < 0. If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met.
+  /// h_1 and s_1 are not both 0.
   void search_row(const Z& s0, const Z& b, const Z& c, const Range& s, const Z& k2, const Z& k3) {
     Range k;
     if (h11_ == 0) {
@@ -189,8 +189,8 @@ void WindowSearch<2>::run() {
   search_plane(view_.w0, 0, window_, k2);
 }
 
-/// The plane through w, with L = N.w. Where s (N.v) lies within `slack` of v^2 L, which narrows the window,
-/// it is
+/// The plane through w, with L = N.w. What is met has |s (N.v) - v^2 L| <= slack, which narrows the window;
+/// and
 ///   v^2 (e.w)^2 + (s (N.v) - v^2 L)^2 = e^2 |h|^2 < e^2 r^2 v^2,
 /// so v^2 (e.w)^2 < e^2 r^2 v^2 - m^2 for the smallest m = |s (N.v) - v^2 L| in the window. The two equations
 ///   e.w' = e.w + k_1 (e.b_1) + k_2 (e.b_2),  s' = s + k_1 (v.b_1) + k_2 (v.b_2)
@@ -205,8 +205,7 @@ void WindowSearch<3>::search_plane_3d(const ZVec<3>& w, const Z& k3, const ZVec<
   if (s.empty()) return;
   const Range off = image(along, s, -v2_l, 0);
   const Z m = off.contains(0) ? Z(0) : std::min(Z(abs(off.lo)), Z(abs(off.hi)));
-  const Z square = e2 * view_.rho2 - m * m;
-  if (square <= 0) return;
+  const Z square = e2 * view_.rho2 - m * m;         // above 0, for m <= slack
   const Z y = floor_sqrt((square - 1) / view_.v2);  // the largest |e.w'|
   const Z e1 = dot(e, b_[0]);
   const Z offset = s1_ * dot(e, w) - e1 * dot(view_.v, w);
@@ -314,8 +313,8 @@ class Check {
 
   Flight flight_of(const Query& query) const;
   bool has(int lattice, int atom) const {
-    return lattice >= 0 && static_cast<std::size_t>(lattice) < bodies_.size() && atom >= 0 &&
-           static_cast<std::size_t>(atom) < bodies_[lattice].size();
+    const auto l = static_cast<std::size_t>(lattice), a = static_cast<std::size_t>(atom);  // huge if negative
+    return l < bodies_.size() && a < bodies_[l].size();
   }
   Claim<D> claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
   void check_never(const Flight& flight, const Certificate& certificate) const;
@@ -383,7 +382,8 @@ Claim<D> Check<D>::claim_of(const Query& query, const Answer& answer, const Flig
 }
 
 /// Do an atom's windows, in this order, cover -r/|v| <= T <= t + r/|v|, t the claimed time? With T = n /
-/// 2^bits, times v^2 2^bits the ends are n v^2 and (t v^2 +- r |v|) 2^bits, where t = (s - sqrt(d)) / q.
+/// 2^bits and t = (s - sqrt(d)) / q: n v^2 <= -2^bits r |v| at the one end; at the other, times q, n v^2 q >=
+/// 2^bits (v^2 (s - sqrt(d)) + q r |v|).
 template <std::size_t D>
 void check_coverage(const Claim<D>& claim, const View<D>& view, const Timeline& timeline,
                     const std::vector<std::size_t>& windows) {
@@ -435,9 +435,9 @@ void Check<D>::check_windows(const Claim<D>& claim, const Flight& flight,
 
 // ---- never
 
-/// The values of k_3 that a row along v within r of the line can have. As b_1 is parallel to v, none of them
-/// changes q = v.(b_2 x w) but k_3, and with h_2 x h = q v: v^2 q^2 = |h_2 x h|^2 <= h_2^2 |h|^2 < h_2^2 r^2
-/// v^2.
+/// The values of k_3 of the rows along v that may lie within r of the line. As b_1 is parallel to v, of all k
+/// only k_3 changes q = v.(b_2 x w); and h_2 x h = q v, so v^2 q^2 = |h_2 x h|^2 <= h_2^2 |h|^2 < h_2^2 rho^2
+/// with rho = r |v|.
 Range planes_near(const View<3>& view, const ZMatrix<3>& b, const Z& h22) {
   const ZVec<3> normal = cross(view.v, b[1]);  // v.(b_2 x w) = (v x b_2).w
   const Z most = floor_sqrt((h22 * view.rho2 - 1) / view.v2);

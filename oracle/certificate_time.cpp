@@ -14,7 +14,7 @@ int sign_of(const Z& a, const Z& c, const Z& b) {
   const Z p = a * a + c - b;
   const int first = sgn(p), second = sgn(a) * sgn(c);
   if (first == 0) return second;
-  if (second == 0 || first == second) return first;
+  if (first == second) return first;
   return first * sgn(Z(p * p - 4 * a * a * c));  // the larger of the two decides
 }
 
@@ -81,23 +81,20 @@ std::optional<Decimal> read_decimal(std::string_view text) {
 
 }  // namespace
 
-// A binary64 is m
-// 2^e with e >= -1074, and 2^52 <= m < 2^53 if e > -1074. The numbers that round to it lie between the
-// middles of the intervals that end in it, which are (2m +- 1) 2^(e-1); but below m = 2^52 they lie twice as
-// close, unless e = -1074. The middles belong to it iff m is even. An infinity reads as 2^52 2^972, the next
-// after the largest number, and this is how it rounds: everything from its lower middle on.
+// A binary64 is m 2^e with e >= -1074, and 2^52 <= m < 2^53 if e > -1074. What rounds to it lies between the
+// middles (2m +- 1) 2^(e-1) on the ways to its neighbours; but below m = 2^52 these lie twice as close,
+// unless e = -1074. The middles belong to it iff m is even. An infinity reads as 2^52 2^972, the next after
+// the largest number, and this is how it rounds: everything from its lower middle on.
 bool rounds_to(const ScaledTime& exact, double given) {
-  if (!(given >= 0) || std::signbit(given)) return false;
+  if (std::isnan(given) || std::signbit(given)) return false;
   const auto bits = std::bit_cast<std::uint64_t>(given);
   const long biased = static_cast<long>(bits >> 52), e = std::max(biased, 1L) - 1075;
   const long m = static_cast<long>(bits & ((1UL << 52) - 1)) + (biased > 0 ? 1L << 52 : 0);
   const int tie = m % 2 == 0 ? 0 : 1;
-  if (m > 0) {
-    const bool first_of_binade = m == 1L << 52 && biased > 1;
-    const int low =
-        first_of_binade ? exact.compare_dyadic(4 * m - 1, e - 2) : exact.compare_dyadic(2 * m - 1, e - 1);
-    if (low < tie) return false;
-  }
+  const bool first_of_binade = m == 1L << 52 && biased > 1;
+  const int low =
+      first_of_binade ? exact.compare_dyadic(4 * m - 1, e - 2) : exact.compare_dyadic(2 * m - 1, e - 1);
+  if (low < tie) return false;
   return std::isinf(given) || exact.compare_dyadic(2 * m + 1, e - 1) <= -tie;
 }
 

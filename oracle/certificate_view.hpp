@@ -100,9 +100,8 @@ void see(CommonExponent& exponent, const Vec& a) {
   for (std::size_t i = 0; i < D; ++i) exponent.see(a[i]);
 }
 
-/// An atom and its lattice in its own coordinates: multiplied by adj(A), if it is an ellipsoid { p + A y :
-/// |y| < 1 }, for which A has been made an integer matrix. There w = c - x = A y 2^k is det(A) 2^k y: a ball
-/// of that radius.
+/// An atom and its lattice in the atom's own coordinates. For an ellipsoid { p + A y : |y| < 1 } these are
+/// multiplied by adj(A), A made an integer matrix: w = A y 2^k becomes det(A) 2^k y, a ball of that radius.
 template <std::size_t D>
 struct Body {
   std::optional<ZMatrix<D>> to_ball;

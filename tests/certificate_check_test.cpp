@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "certificate_prover.hpp"
+#include "certificate_time.hpp"
 #include "oracle.hpp"
 
 using namespace lorentz;
@@ -151,6 +152,21 @@ TEST_CASE("Any basis and any cutting of the windows proves the same") {
     accepted += said.empty();
   }
   CHECK(accepted > 500);
+}
+
+TEST_CASE("The sign of a + sqrt(c) - sqrt(b), also where it is 0") {
+  int zeros = 0;
+  for (int a = -8; a <= 8; ++a)
+    for (int b = 0; b <= 40; ++b)
+      for (int c = 0; c <= 40; ++c) {
+        const long double value =
+            a + std::sqrt(static_cast<long double>(c)) - std::sqrt(static_cast<long double>(b));
+        const int expected = std::fabs(value) < 1e-12L ? 0 : value < 0 ? -1 : 1;  // none is that small but 0
+        INFO(a << " " << b << " " << c);
+        REQUIRE(oracle::certificate::sign_of(a, c, b) == expected);
+        zeros += expected == 0;
+      }
+  CHECK(zeros > 50);
 }
 
 // ---- What is wrong
@@ -322,6 +338,21 @@ TEST_CASE("The ends of windows are held against -r/|v| and t + r/|v| exactly") {
   require_refused(c, "end too early");
 }
 
+TEST_CASE("An obstacle at the very end of a window is looked at") {
+  const Scene scene = unit_scene(2, 0.25);
+  const ObstacleId third{0, 0, {Integer(3), Integer(0)}};
+  Case c = proved(scene, {{0.5, 0}, {1, 0}, {}},
+                  Answer::hit(third, 2.25));  // there are two before it, at T = 0.5 and 1.5
+  const auto basis = c.proof.windows[0].basis;
+  for (const double cut : {0.5, std::nextafter(0.5, 0), std::nextafter(0.5, 1), 0.25, 0.75}) {
+    c.proof.windows = {{0, 0, -1.0, cut, basis}, {0, 0, cut, 3.0, basis}};
+    require_refused(c, "obstacle (lattice 0, atom 0, cell [1, 0]) is entered earlier");
+    c.query.from = ObstacleId{0, 0, {Integer(1), Integer(0)}};
+    require_refused(c, "obstacle (lattice 0, atom 0, cell [2, 0]) is entered earlier");
+    c.query.from.reset();
+  }
+}
+
 TEST_CASE("A basis that is none is refused") {
   Draw draw(2107);
   INFO("seed 2107");
@@ -383,6 +414,38 @@ TEST_CASE("A time one ulp off is refused, and so are other numbers") {
   CHECK(infinite < 110);
 }
 
+TEST_CASE("Times at the ends of binary64's range") {
+  // Around the smallest normal number, 2^-1022, where the numbers do not begin to lie closer: in steps of
+  // 2^-1076.
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors = {Vec{8, 0}, Vec{0, 8}};
+  scene.lattices[0].atoms[0].position = {2.25, 0};
+  for (int k = -12; k <= 12; ++k) {
+    Case c = proved(scene, {{k * 0x1p-53, 0}, {0x1p1023, 0}, {}});
+    require_accepted(c);
+    for (const double sign : {-1., 1.}) {
+      Case other = c;
+      other.answer.time = *c.answer.time + sign * 0x1p-1074;
+      require_refused(other, "is not entered at the time given");
+    }
+  }
+  // Far beyond the largest, where a NaN or a negative number could be taken for one.
+  for (const double time : {0x1.8p24, 0x1p25, 0x1.4p25, 0x1p40}) {
+    scene.lattices[0].vectors = {Vec{0x1p50, 0}, Vec{0, 0x1p50}};
+    scene.lattices[0].atoms[0].position = {time + 0.25, 0};
+    Case c = proved(scene, {{0, 0}, {0x1p-1000, 0}, {}});
+    REQUIRE(c.answer.time == kInfinity);
+    c.proof.windows[0].from = -0x1p1000;
+    c.proof.windows[0].to = *Integer::from_decimal("1" + std::string(320, '0'));
+    require_accepted(c);
+    for (const double other : {std::numeric_limits<double>::quiet_NaN(), -0.0, -0x1p-1024, -0x1.4p-1022,
+                               -kInfinity, std::numeric_limits<double>::max()}) {
+      c.answer.time = other;
+      require_refused(c, "is not entered at the time given");
+    }
+  }
+}
+
 TEST_CASE("Digits that are not those of the time are refused") {
   Draw draw(2109);
   INFO("seed 2109");
@@ -424,9 +487,9 @@ TEST_CASE("Digits that are not those of the time are refused") {
     require_accepted(c);
   }
   for (const char* wrong :
-       {"10",     "9",           "9.7",    "+9.75", "-9.75", " 9.75", "9.75 ",   "9.",
-        ".975e1", "9.75e",       "9.75e+", "nan",   "inf",   "0",     "0.0",     "e",
-        "9,75",   "9.75e000000", "9.75e-", "0x9",   "9.74",  "9.76",  "1e99999", "1e-99999"}) {
+       {"10",     "9",       "9.7", "+9.75", "-9.75", " 9.75",   "9.75 ",   "9.",   ".975e1",
+        "9.75e",  "9.75e+",  "nan", "inf",   "0",     "0.0",     "e",       "9,75", "9.75e000000",
+        "9.75e-", "975.e-2", "0x9", "9.74",  "9.76",  "1e99999", "1e-99999"}) {
     c.answer.time_decimal = wrong;
     require_refused(c, reason);
   }
@@ -452,6 +515,11 @@ TEST_CASE("Decades: 9.96875 to two digits is 10, not 9.9 or 1.1e+1") {
     c.answer.time_decimal = digits;
     INFO(digits);
     CHECK((refutation(c) == "") == right);
+  }
+  c = timed(9.25);
+  for (const char* wrong : {"1e1", "01e1", "0.01e3", "10"}) {
+    c.answer.time_decimal = wrong;
+    require_refused(c, "at the time given in decimal");
   }
   c = timed(9.5);  // halfway between 9 and 1e1, whose last digit counts as even
   for (const auto& [digits, right] : {std::pair{"1e1", true}, {"9", false}, {"9.5", true}, {"10", false}}) {
@@ -750,11 +818,22 @@ TEST_CASE("Proofs that are too much work are refused") {
   CHECK_FALSE(CertificateCheck(c.scene, 66 * 512).refutation(c.query, c.answer, c.proof));
   CHECK_THAT(CertificateCheck(c.scene, 64 * 512).refutation(c.query, c.answer, c.proof).value_or(""),
              Catch::Contains("atom 0): more than 32768 rows and obstacles to look at"));
+  for (Window& window : c.proof.windows)
+    window.from = 1.0, window.to = -1.0;  // windows count, also empty ones
+  c.proof.windows[0].from = -1.0, c.proof.windows[0].to = 1.0;
+  require_accepted(c);
+  CHECK_FALSE(CertificateCheck(c.scene, 66).refutation(c.query, c.answer, c.proof));
+  CHECK(CertificateCheck(c.scene, 63).refutation(c.query, c.answer, c.proof));
   c = timed(100, 3);
   c.proof.windows[0].to = 0x1p100;
   c.proof.windows[0].basis = {Cell{1, 1, 0}, {0, 1, 0}, {0, 0, 1}};  // planes along the flight
   require_refused(c, "more than 1000000 rows");
   c.proof.windows[0].basis = {Cell{0, 1, 0}, {1, 0, 1}, {1, 0, 0}};  // and across it
+  require_refused(c, "more than 1000000 rows");
+  // Three planes of 600 000 rows each
+  c.proof.windows[0].from = -1.0, c.proof.windows[0].to = 600'000 * 1024.;
+  c.proof.windows[0].basis = {Cell{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  for (double& u : c.scene.lattices[0].vectors[1]) u *= 0.75 / 1024;
   require_refused(c, "more than 1000000 rows");
   // Rows along v in a basis that shows nothing of how far apart they are
   c = proved(unit_scene(3, 0.25), {{0.5, 0.5, 0.5}, {1, 0, 0}, {}});
