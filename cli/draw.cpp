@@ -2,50 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "exchange.hpp"
 #include "progress.hpp"
+#include "random.hpp"
 
 namespace lorentz::cli {
-namespace {
 
-// SplitMix64's finaliser (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
-
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
-
-}  // namespace
-
-Random::Random(std::uint64_t seed, std::uint64_t index)
-    : state_(mixed(mixed(seed + kGolden) ^ (index * kGolden))) {}
-
-std::uint64_t Random::bits() {
-  return mixed(state_ += kGolden);
-}
-
-double Random::uniform() {
-  return static_cast<double>(bits() >> 11) * 0x1p-53;
-}
-
-Vec Random::direction(int dimension) {
-  for (;;) {
-    Vec v{};
-    double length2 = 0;
-    for (int i = 0; i < dimension; ++i) {
-      v[i] = 2 * uniform() - 1;
-      length2 += v[i] * v[i];
-    }
-    if (length2 > 1 || length2 < 0.01) continue;
-    const double length = std::sqrt(length2);
-    for (double& component : v) component /= length;
-    return v;
-  }
-}
+using fuzz::Random;
 
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count) {

@@ -11,20 +11,6 @@ namespace lorentz::cli {
 
 inline constexpr std::uint64_t kDefaultSeed = 20161115;
 
-/// Random numbers that depend on (seed, index) only (SplitMix64 started at a mix of both), so that a query is
-/// the same whoever draws it, and in whatever order. The same bits on every machine: nothing but integer
-/// arithmetic, exact conversions and square roots is used.
-class Random {
- public:
-  Random(std::uint64_t seed, std::uint64_t index);
-  std::uint64_t bits();
-  double uniform();              ///< [0, 1), a multiple of 2^-53
-  Vec direction(int dimension);  ///< isotropic, of unit length up to rounding
-
- private:
-  std::uint64_t state_;
-};
-
 /// `count` queries; of a superposition, in a box of 1000 cells of the first lattice. Throws InputError if the
 /// obstacles leave no free part to be found.
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,

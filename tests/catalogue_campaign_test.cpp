@@ -10,6 +10,7 @@
 #include "engine.hpp"
 #include "escalate.hpp"
 #include "hard_cases.hpp"
+#include "random.hpp"
 #include "reduction.hpp"
 #include "scene_check.hpp"
 #include "scene_geometry.hpp"
@@ -66,7 +67,7 @@ Query leaving_query(Draw& draw, const Scene& scene) {
   double most = 0;
   for (int k = 0; k < d; ++k) most += dot(dual[k], dual[k]);
   for (;;) {
-    cli::Random random(draw.below(~0ull), 0);
+    fuzz::Random random(draw.below(~0ull), 0);
     const Vec y = random.direction(d), v = random.direction(d);
     Vec normal{};
     for (int k = 0; k < d; ++k)

@@ -47,7 +47,7 @@ std::set<std::string> own_headers(const char* folder) {
 }  // namespace
 
 TEST_CASE("src sees no big numbers, no oracle, no program") {
-  const auto oracle = own_headers("oracle"), cli = own_headers("cli");
+  const auto oracle = own_headers("oracle"), cli = own_headers("cli"), fuzz = own_headers("fuzz");
   REQUIRE(sources("src").size() > 8);
   for (const fs::path& file : sources("src"))
     for (const std::string& name : includes_of(file)) {
@@ -55,6 +55,7 @@ TEST_CASE("src sees no big numbers, no oracle, no program") {
       CHECK_FALSE(starts_with_any(name, {"gmp", "mpfr", "mpfi", "boost/", "CGAL/", "../oracle", "../cli"}));
       CHECK_FALSE(oracle.contains(name));
       CHECK_FALSE(cli.contains(name));
+      CHECK_FALSE(fuzz.contains(name));
       // Only the exchange library may use more than the standard library.
       if (!file.filename().string().starts_with("exchange"))
         CHECK_FALSE(starts_with_any(name, {"simdjson", "toml++", "fmt/"}));
@@ -78,7 +79,7 @@ TEST_CASE("src beside the exchange and published*.cpp uses the standard library 
 }
 
 TEST_CASE("The published algorithm's own headers are private to it") {
-  for (const char* folder : {"src", "oracle", "cli", "bench"})
+  for (const char* folder : {"src", "oracle", "cli", "fuzz", "bench"})
     for (const fs::path& file : sources(folder)) {
       if (file.filename().string().starts_with("published")) continue;
       for (const std::string& name : includes_of(file)) {
@@ -89,7 +90,7 @@ TEST_CASE("The published algorithm's own headers are private to it") {
 }
 
 TEST_CASE("oracle sees of src the problem only, but for escalate, which sees the engine") {
-  const auto cli = own_headers("cli");
+  const auto cli = own_headers("cli"), fuzz = own_headers("fuzz");
   REQUIRE(sources("oracle").size() > 15);
   auto src = own_headers("src");
   src.erase("problem.hpp");
@@ -97,11 +98,28 @@ TEST_CASE("oracle sees of src the problem only, but for escalate, which sees the
     for (const std::string& name : includes_of(file)) {
       INFO(file << " includes " << name);
       CHECK_FALSE(cli.contains(name));
+      CHECK_FALSE(fuzz.contains(name));
       if (file.stem() == "escalate" && (name == "../src/flight.hpp" || name == "../src/reduction.hpp"))
         continue;
       if (file.stem() != "escalate") CHECK(name != "escalate.hpp");
       CHECK_FALSE(src.contains(fs::path(name).filename()));
       CHECK((!name.starts_with("../") || name == "../src/problem.hpp"));
+    }
+}
+
+TEST_CASE(
+    "fuzz sees the problem, the engines and the oracle's public headers, and no library but the standard "
+    "one") {
+  auto known = own_headers("fuzz");
+  REQUIRE(known.size() > 5);
+  for (const std::string& name : own_headers("src"))
+    if (!starts_with_any(name, {"exchange", "line_reader", "published_"})) known.insert(name);
+  for (const char* name : {"oracle.hpp", "scene_check.hpp", "continued_fraction.hpp", "horizon.hpp"})
+    known.insert(name);
+  for (const fs::path& file : sources("fuzz"))
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      CHECK((known.contains(name) || name.find_first_of("/.") == std::string::npos));
     }
 }
 
@@ -120,8 +138,8 @@ TEST_CASE("walk sees the problem, CGAL and the standard library; nobody else see
   }
 }
 
-TEST_CASE("The program and the measurements see none of the oracle's libraries") {
-  for (const char* folder : {"cli", "bench"})
+TEST_CASE("The program, the families and the measurements see none of the oracle's libraries") {
+  for (const char* folder : {"cli", "fuzz", "bench"})
     for (const fs::path& file : sources(folder))
       for (const std::string& name : includes_of(file)) {
         INFO(file << " includes " << name);

@@ -1,0 +1,26 @@
+// The families, each defined in a file of its own or with its kin. Private to fuzz/.
+#pragma once
+
+#include "family.hpp"
+
+namespace lorentz::fuzz {
+
+Family generic_2d();
+Family generic_3d();
+Family near_rational();
+Family corridor_edge();
+Family grazing();
+Family large_radius();
+Family tiny_radius();
+Family long_flight();
+Family boundary_starts();
+Family axis_and_diagonal();
+Family ties();
+Family tricylinder();
+Family published_faults();
+Family crystal_lattices();
+Family superpositions();
+Family ellipsoids();
+Family never();
+
+}  // namespace lorentz::fuzz
