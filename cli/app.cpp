@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   add_demo(app, action);
   add_bench(app, action);
   add_scene(app, action);
+  add_golden(app, action);
   const int status = parse_and_act(app, action, argc, argv);
   try {
     finish_output();

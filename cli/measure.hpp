@@ -27,7 +27,8 @@ struct CaseSet {
 /// One answerer's account over a set of cases.
 struct Tally {
   std::string name;
-  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0, missing = 0;
+  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
+              missing = 0;
   std::size_t wrong_time = 0;  ///< of the wrong: those whose obstacle is right
   std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
   double max_ulp = 0, sum_ulp = 0;

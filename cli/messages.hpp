@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace lorentz::cli {
 
@@ -17,7 +18,7 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
 }
 
 /// Text on stdout. That it arrived is checked once, at the program's end (finish_output).
-inline void print(const std::string& text) {
+inline void print(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
 

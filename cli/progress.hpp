@@ -11,8 +11,9 @@ namespace lorentz::cli {
 
 class Progress {
  public:
-  Progress(const char* what, std::size_t total)
-      : what_(what), total_(total), shown_(isatty(STDERR_FILENO) == 1) {}
+  /// Looks at the clock at every `stride`-th count only.
+  Progress(const char* what, std::size_t total, std::size_t stride = 64)
+      : what_(what), total_(total), stride_(stride), shown_(isatty(STDERR_FILENO) == 1) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
@@ -21,7 +22,7 @@ class Progress {
 
   /// `done` of the total are done; draws a few times a second, from the first second on.
   void at(std::size_t done) {
-    if (!shown_ || done % 64 != 0) return;
+    if (!shown_ || done % stride_ != 0) return;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(200);
@@ -34,7 +35,7 @@ class Progress {
 
  private:
   const char* what_;
-  std::size_t total_;
+  std::size_t total_, stride_;
   bool shown_, drawn_ = false;
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
 };

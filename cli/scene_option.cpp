@@ -1,7 +1,6 @@
 #include "scene_option.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "data_folder.hpp"
 #include "exchange.hpp"
 #include "messages.hpp"
 #include "scene_check.hpp"
@@ -17,19 +17,6 @@ namespace lorentz::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Where the catalogue may be: named by LORENTZ_DATA, or beside the build folder.
-std::vector<fs::path> catalogue_folders() {
-  std::vector<fs::path> folders;
-  if (const char* data = std::getenv("LORENTZ_DATA")) folders.push_back(fs::path(data) / "scenes");
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    folders.push_back(program.parent_path() / "../data/scenes");
-    folders.push_back(program.parent_path() / "../../data/scenes");
-  }
-  return folders;
-}
 
 std::string catalogue_names() {
   std::vector<std::string> names;
@@ -41,14 +28,8 @@ std::string catalogue_names() {
 
 std::vector<CatalogueEntry> catalogue() {
   std::vector<CatalogueEntry> entries;
-  for (const fs::path& folder : catalogue_folders()) {
-    std::error_code error;
-    for (const auto& file : fs::directory_iterator(folder, error))
-      if (file.path().extension() == ".toml")
-        entries.push_back({file.path().stem(), fs::weakly_canonical(file.path(), error)});
-    if (!entries.empty()) break;
-  }
-  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (const std::string& file : data_files("scenes", ".toml"))
+    entries.push_back({fs::path(file).stem(), file});
   return entries;
 }
 

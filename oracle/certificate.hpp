@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "../src/problem.hpp"
@@ -26,6 +29,15 @@ struct WindowEnd {
     exponent = e - 53;
   }
 };
+
+/// "0x1f4p-3", with an integer mantissa of any length.
+std::string text_of(const WindowEnd& end);
+
+/// What such a text says, or nothing.
+std::optional<WindowEnd> window_end_from(std::string_view text);
+
+/// The binary64 that an end is exactly, if there is one.
+std::optional<double> binary64_of(const WindowEnd& end);
 
 /// Of `hit` and `inside`: the obstacles of one atom with `from` <= T <= `to`, T the time at which the line is
 /// nearest to the centre (in the atom's own coordinates), are to be looked at in this basis.

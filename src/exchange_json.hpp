@@ -1,5 +1,5 @@
-// JSON values as the exchange formats have them, on simdjson's On-Demand interface. Private to the exchange
-// library.
+// JSON values as the exchange formats have them, on simdjson's On-Demand interface. Private to the libraries
+// that read these.
 #pragma once
 
 #include <simdjson.h>
@@ -29,6 +29,10 @@ double read_number(json::value value, const std::string& place);
 
 /// An integer, or a decimal string with one; throws InputError, naming `key`.
 Integer read_integer(json::value value, const char* key);
+
+/// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates. Throws
+/// InputError. False for a `golden` header.
+bool read_answer(json::object object, std::string& id, Answer& answer, std::size_t& components);
 
 /// A value of a scene.
 SceneNode read_node(json::value value, const std::string& place = "scene", int depth = 0);

@@ -172,8 +172,6 @@ struct ExchangeReader::Impl {
   }
 
   void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
-  // False for a header.
-  bool read_answer(const LineReader::Line& line, Id& id, Answer& answer, std::size_t& components);
 };
 
 ExchangeReader::ExchangeReader() : impl_(std::make_unique<Impl>()) {}
@@ -299,14 +297,12 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
 
 }  // namespace
 
-bool ExchangeReader::Impl::read_answer(const LineReader::Line& line, Id& id, Answer& answer,
-                                       std::size_t& components) {
+bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components) {
   AnswerFields has;
-  for (auto field : open(line)) {
+  for (auto field : object) {
     const std::string_view key = field.unescaped_key();
     read_answer_field(key, field.value(), id, answer, has);
   }
-  close();
   if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
   const bool names_obstacle = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
@@ -323,7 +319,9 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
   id = "null";
   components = 0;
   try {
-    return impl_->read_answer(line, id, answer, components);
+    const bool is_answer = read_answer(impl_->open(line), id, answer, components);
+    impl_->close();
+    return is_answer;
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(not_json(line, error.what()));
   } catch (const NotJson& error) {

@@ -1,0 +1,38 @@
+#include "data_folder.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace lorentz::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> data_folders() {
+  std::vector<fs::path> folders;
+  if (const char* data = std::getenv("LORENTZ_DATA")) folders.emplace_back(data);
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back(program.parent_path() / "../data");
+    folders.push_back(program.parent_path() / "../../data");
+  }
+  return folders;
+}
+
+}  // namespace
+
+std::vector<std::string> data_files(const std::string& folder, const std::string& extension) {
+  std::vector<std::string> files;
+  for (const fs::path& data : data_folders()) {
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(data / folder, error))
+      if (file.path().extension() == extension) files.push_back(fs::weakly_canonical(file.path(), error));
+    if (!files.empty()) break;
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,13 @@
+// The project's own data, wherever the program was built.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lorentz::cli {
+
+/// The files with this extension in data/FOLDER, in order: of the data folder that LORENTZ_DATA names, or of
+/// the one beside the build folder. None if there is no such folder.
+std::vector<std::string> data_files(const std::string& folder, const std::string& extension);
+
+}  // namespace lorentz::cli

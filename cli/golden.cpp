@@ -1,0 +1,90 @@
+// lorentz golden: sets of cases with their exact answers and the proofs of these.
+#include "golden.hpp"
+
+#include <filesystem>
+
+#include "data_folder.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "messages.hpp"
+#include "reader.hpp"
+#include "sets.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+int list(bool json) {
+  Table table({"set", "records", "committed", "tags", "what"});
+  table.with_prose();
+  std::string out = "{\"sets\":[";
+  for (const golden::Set& set : golden::sets()) {
+    std::string committed = "-";
+    std::uint64_t count = 0;
+    for (const std::string& file : committed_sets())
+      if (fs::path(file).stem() == set.name)
+        committed = std::to_string(count = golden::Reader(file).header().count);
+    const bool endless = set.most > set.committed;
+    table.add({set.name, endless ? "any" : std::to_string(set.most), committed,
+               std::to_string(set.tags.size()), set.description});
+    out +=
+        fmt::format("{}{{\"name\":{},\"committed\":{},\"description\":{},\"tags\":{{",
+                    out.back() == '[' ? "" : ",", json_quoted(set.name), count, json_quoted(set.description));
+    for (const fuzz::Tag& tag : set.tags)
+      out += (&tag == &set.tags.front() ? "" : ",") + json_quoted(tag.name) + ':' + json_quoted(tag.note);
+    out += "}}";
+  }
+  print(json ? out + "]}\n" : table.text());
+  return kDone;
+}
+
+}  // namespace
+
+std::vector<std::string> committed_sets() {
+  return data_files("golden", ".ndjson");
+}
+
+std::string find_set(const std::string& name_or_file) {
+  std::error_code error;
+  if (fs::is_regular_file(name_or_file, error) || name_or_file == "-") return name_or_file;
+  std::vector<std::string> names;
+  for (const std::string& file : committed_sets()) {
+    names.push_back(fs::path(file).stem());
+    if (names.back() == name_or_file) return file;
+  }
+  throw FileError(fmt::format("no file and no committed set is called {}; the sets are {}",
+                              json_quoted(name_or_file), fmt::join(names, ", ")));
+}
+
+std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files) {
+  std::vector<std::string> files;
+  for (const std::string& one : names_or_files) files.push_back(find_set(one));
+  if (names_or_files.empty()) files = committed_sets();
+  if (files.empty())
+    throw FileError(
+        "there are no committed sets (data/golden beside the program, or in the folder LORENTZ_DATA); name "
+        "files");
+  return files;
+}
+
+void add_golden_list(CLI::App& golden, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = golden.add_subcommand("list", "The sets, and how many records of each are committed.");
+  command->add_flag("--json", *json, "one JSON object, with all tags and what they are out to break");
+  command->callback([json, &action] { action = [json] { return list(*json); }; });
+}
+
+void add_golden(CLI::App& app, Action& action) {
+  CLI::App* golden = app.add_subcommand(
+      "golden",
+      "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain.");
+  golden->require_subcommand(1);
+  add_golden_make(*golden, action);
+  add_golden_verify(*golden, action);
+  add_golden_list(*golden, action);
+  golden->footer("docs/certificates.md has the format, data/README.md the committed sets.");
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,129 @@
+// lorentz golden make: produces a set, or all that are committed.
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "draw.hpp"
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "golden.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "production.hpp"
+#include "progress.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::optional<std::string> set, count, folder;
+  std::string output = "-", seed = std::to_string(kDefaultSeed), jobs = "1";
+};
+
+const golden::Set& set_named(const std::string& name) {
+  if (const golden::Set* set = golden::set_named(name)) return *set;
+  std::vector<std::string> names;
+  for (const golden::Set& set : golden::sets()) names.push_back(set.name);
+  throw InputError(
+      fmt::format("--set: no set is called {}; there are {}", json_quoted(name), fmt::join(names, ", ")));
+}
+
+void report(const golden::Order& order, const golden::Account& account) {
+  say("{}: {} records (seed {}): {} hit, {} inside, {} never, {} error; {} agreed by walk and the checked "
+      "certificate, the "
+      "others by the certificate",
+      order.set->name, account.records, order.seed, account.hits, account.insides, account.nevers,
+      account.errors, account.walked);
+}
+
+golden::Account make_file(const golden::Order& order, const std::string& path) {
+  Progress progress(order.set->name.c_str(), order.count, 1);
+  return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int make_all(golden::Order order, const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  std::string sums;
+  for (const golden::Set& set : golden::sets()) {
+    order.set = &set;
+    order.count = set.committed;
+    const std::string name = set.name + ".ndjson", path = (fs::path(folder) / name).string();
+    report(order, make_file(order, path));
+    sums += golden::sha256(contents(path)) + "  " + name + '\n';
+  }
+  const std::string path = (fs::path(folder) / "SHA256SUMS").string();
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << sums << std::flush)) throw FileError(path + ": cannot be written");
+  return kDone;
+}
+
+int make_one(golden::Order order, const Options& options) {
+  order.set = &set_named(*options.set);
+  order.count =
+      options.count ? whole_number(*options.count, "--count", 1, 1'000'000'000'000) : order.set->committed;
+  if (order.count > order.set->most) {
+    say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
+    order.count = order.set->most;
+  }
+  if (options.output != "-") {
+    report(order, make_file(order, options.output));
+    return kDone;
+  }
+  Progress progress(order.set->name.c_str(), order.count, 1);
+  report(order, golden::produce(
+                    order,
+                    [](std::string_view text) {
+                      print(text);
+                      if (std::ferror(stdout)) finish_output();
+                    },
+                    [&](std::uint64_t done) { progress.at(done); }));
+  return kDone;
+}
+
+int act(const Options& options) {
+  golden::Order order;
+  order.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  order.jobs = whole_number(options.jobs, "--jobs", 1, 1024);
+  if (options.folder && (options.set || options.count))
+    throw InputError("--all makes every set at its own count; leave --set and --count out");
+  if (options.folder) return make_all(order, *options.folder);
+  if (!options.set) throw InputError("name a set (--set NAME), or a folder for all of them (--all FOLDER)");
+  return make_one(order, options);
+}
+
+}  // namespace
+
+void add_golden_make(CLI::App& golden, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      golden.add_subcommand("make", "Produces a set: the same, bit for bit, whatever --jobs.");
+  command->add_option("--set", options->set, "which set (lorentz golden list)")->type_name("NAME");
+  command->add_option("--count", options->count, "how many records (default: as many as are committed)")
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "of the cases")->capture_default_str()->type_name("N");
+  command->add_option("--jobs", options->jobs, "threads")->capture_default_str()->type_name("N");
+  command
+      ->add_option(
+          "-o,--output", options->output,
+          "file to write (- is standard output); killed in between, the same command goes on where it was")
+      ->capture_default_str()
+      ->type_name("FILE");
+  command
+      ->add_option("--all", options->folder,
+                   "make all sets in this folder as they are committed, and SHA256SUMS")
+      ->type_name("FOLDER");
+  command->footer(
+      "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
+      "Example:\n  lorentz golden make --set near-rational --count 1e5 --jobs 2 -o near-rational.ndjson");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,90 @@
+// lorentz golden verify: are the sets' certificates proofs of their answers?
+#include <set>
+
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "golden.hpp"
+#include "maker.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "progress.hpp"
+#include "reader.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+constexpr std::size_t kMostComplaints = 20;
+
+struct Findings {
+  std::size_t records = 0, flaws = 0;
+};
+
+// What is wrong with a record in its set: ids once, tags explained.
+std::optional<std::string> flaw_in_set(const golden::Header& header, const golden::Record& record,
+                                       std::set<std::string>& ids) {
+  if (!ids.insert(record.id).second) return "the id came before";
+  if (record.tags.empty()) return "it has no tag";
+  for (const std::string& tag : record.tags) {
+    bool known = false;
+    for (const auto& [name, note] : header.tags) known |= name == tag;
+    if (!known) return "the header does not explain its tag " + json_quoted(tag);
+  }
+  return std::nullopt;
+}
+
+Findings verify(const std::string& path, bool walk) {
+  golden::Reader reader(path);
+  Progress progress(path.c_str(), reader.header().count);
+  Findings findings;
+  std::set<std::string> ids;
+  std::optional<golden::Maker> maker;
+  std::size_t scene = 0;
+  const auto complain = [&](std::size_t line, const std::string& what) {
+    if (++findings.flaws <= kMostComplaints) say("{}:{}: {}", reader.path(), line, what);
+  };
+  for (golden::ReadRecord read; reader.next(read); progress.at(findings.records)) {
+    ++findings.records;
+    if (scene != reader.scene_number()) maker.emplace(reader.scene());
+    scene = reader.scene_number();
+    auto flaw = flaw_in_set(reader.header(), read.record, ids);
+    if (!flaw && reader.scene_line() != maker->scene_line())
+      flaw = "its scene's line is not written as lorentz writes it";
+    if (!flaw) flaw = maker->flaw_of(read.record, read.query, walk);
+    if (flaw) complain(read.line, "id " + read.record.id + ": " + *flaw);
+  }
+  if (findings.records != reader.header().count)
+    complain(
+        1, fmt::format("the header says {} records, there are {}", reader.header().count, findings.records));
+  return findings;
+}
+
+int act(const std::vector<std::string>& names, bool walk) {
+  std::size_t flaws = 0;
+  for (const std::string& path : find_sets(names)) {
+    const Findings findings = verify(path, walk);
+    flaws += findings.flaws;
+    if (findings.flaws > kMostComplaints) say("{}: {} more", path, findings.flaws - kMostComplaints);
+    print(fmt::format("{}: {} records, {}\n", path, findings.records,
+                      findings.flaws ? fmt::format("{} REFUTED", findings.flaws) : "all verified"));
+  }
+  return flaws ? kDisagreement : kDone;
+}
+
+}  // namespace
+
+void add_golden_verify(CLI::App& golden, Action& action) {
+  auto names = std::make_shared<std::vector<std::string>>();
+  auto walk = std::make_shared<bool>(false);
+  CLI::App* command = golden.add_subcommand(
+      "verify",
+      "Checks each record: its certificate proves the answer, its id, margin and condition are right.");
+  command->add_option("sets", *names, "files, or names of committed sets (default: all of these)");
+  command->add_flag("--walk", *walk, "ask walk, too, where it can go");
+  command->footer(
+      "The certificates are checked by code that shares nothing with what wrote them; data/check.py, which "
+      "shares nothing with "
+      "this program at all, does the same.\nExit status 1: a record is refuted.");
+  command->callback([names, walk, &action] { action = [names, walk] { return act(*names, *walk); }; });
+}
+
+}  // namespace lorentz::cli

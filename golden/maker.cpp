@@ -1,0 +1,104 @@
+#include "maker.hpp"
+
+#include <stdexcept>
+
+#include "certificate_check.hpp"
+#include "margin.hpp"
+#include "oracle.hpp"
+#include "prover.hpp"
+#include "walk.hpp"
+
+namespace lorentz::golden {
+namespace {
+
+constexpr std::int64_t kWalkCells = 300;
+
+bool same(const Answer& a, const Answer& b) {
+  if (a.outcome != b.outcome) return false;
+  const bool named = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
+  return !named || (a.obstacle == b.obstacle && a.time == b.time);
+}
+
+}  // namespace
+
+struct Maker::Impl {
+  Scene scene;
+  std::string scene_line;
+  oracle::Oracle oracle;
+  oracle::Walk walk;
+  oracle::Scrutiny scrutiny;
+  oracle::Prover prover;
+  oracle::CertificateCheck check;
+
+  explicit Impl(const Scene& scene)
+      : scene(scene), oracle(scene), walk(scene, kWalkCells), scrutiny(scene), prover(scene), check(scene) {
+    append_scene_line(scene_line, scene);
+    scene_line.pop_back();
+  }
+
+  void measure(const Query& query, Record& record) const {
+    if (const auto decision = scrutiny.hardest_decision(query, record.expect))
+      record.margin = decision->margin;
+    if (record.expect.outcome == Outcome::hit) record.condition = scrutiny.condition(query, record.expect);
+  }
+};
+
+Maker::Maker(const Scene& scene) : impl_(std::make_unique<const Impl>(scene)) {}
+Maker::Maker(Maker&&) noexcept = default;
+Maker::~Maker() = default;
+
+const std::string& Maker::scene_line() const {
+  return impl_->scene_line;
+}
+
+MadeRecord Maker::make(std::string question, const std::optional<Query>& query) const {
+  MadeRecord made;
+  Record& record = made.record;
+  record.id = id_of(impl_->scene_line, question);
+  record.question = std::move(question);
+  if (!query) {
+    record.expect = Answer::error("no query");
+    return made;
+  }
+  oracle::Request request;
+  request.digits = kDigits;
+  record.expect = impl_->oracle.first_hit(*query, request);
+  const auto disagree = [&](const std::string& who) {
+    throw std::logic_error(who + " does not agree with the oracle:\n" + impl_->scene_line + "\n{\"id\":\"" +
+                           record.id + "\"," + record.question + "}");
+  };
+  const Answer walked = impl_->walk.first_hit(*query);
+  made.walked = walked.outcome != Outcome::undecided;
+  if (made.walked && !same(walked, record.expect)) disagree("walk");
+  record.certificate = impl_->prover.prove(*query, record.expect);
+  if (const auto why = impl_->check.refutation(*query, record.expect, *record.certificate))
+    disagree("the check of the certificate (" + *why + ")");
+  impl_->measure(*query, record);
+  return made;
+}
+
+std::optional<std::string> Maker::flaw_of(const Record& record, const std::optional<Query>& query,
+                                          bool ask_walk) const {
+  if (record.id != id_of(impl_->scene_line, record.question)) return "the id does not belong to the question";
+  if (!query || record.expect.outcome == Outcome::error) {
+    if (!query && record.expect.outcome == Outcome::error) return std::nullopt;
+    return query ? "this is a query, `error` is no answer to it"
+                 : "this is no query, it has no answer but `error`";
+  }
+  if (!record.certificate) return "it has no certificate";
+  if (auto why = impl_->check.refutation(*query, record.expect, *record.certificate)) return why;
+  if (record.expect.outcome == Outcome::hit && record.expect.time_decimal.empty())
+    return "it has no time_decimal";
+  Record again;
+  again.expect = record.expect;
+  impl_->measure(*query, again);
+  if (again.margin != record.margin) return "its margin is another one";
+  if (again.condition != record.condition) return "its condition is another one";
+  if (ask_walk) {
+    const Answer walked = impl_->walk.first_hit(*query);
+    if (walked.outcome != Outcome::undecided && !same(walked, record.expect)) return "walk says otherwise";
+  }
+  return std::nullopt;
+}
+
+}  // namespace lorentz::golden

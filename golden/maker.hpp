@@ -1,0 +1,39 @@
+// Makes golden records: the exact answer, agreed by a second opinion, with its margin, condition and proof.
+#pragma once
+
+#include <memory>
+
+#include "record.hpp"
+
+namespace lorentz::golden {
+
+struct MadeRecord {
+  Record record;  ///< but for the tags
+  bool walked =
+      false;  ///< `walk` could go there, and agrees; else the second opinion is the checked certificate alone
+};
+
+/// For the questions of one scene.
+class Maker {
+ public:
+  explicit Maker(const Scene& scene);
+  Maker(Maker&&) noexcept;
+  ~Maker();
+
+  /// The scene's line, without the line end.
+  const std::string& scene_line() const;
+
+  /// Throws std::logic_error if the opinions differ: then the oracle is wrong, and nothing may be published.
+  MadeRecord make(std::string question, const std::optional<Query>& query) const;
+
+  /// What is wrong with a record, or nothing: the id does not belong to the question; the certificate does
+  /// not prove the answer; margin or condition are others; walk, if asked, says otherwise.
+  std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query,
+                                     bool ask_walk) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::golden

@@ -1,0 +1,273 @@
+#include "production.hpp"
+
+#include <condition_variable>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <unordered_set>
+
+#include "maker.hpp"
+
+namespace lorentz::golden {
+namespace {
+
+constexpr std::uint64_t kBatch = fuzz::kCasesPerScene;
+
+struct Made {
+  std::string scene_line;
+  int dimension = 0;
+  MadeRecord record;
+};
+
+using Batch = std::vector<Made>;
+
+// The questions of one batch, all of which mostly share a scene.
+Batch make_batch(const Order& order, std::uint64_t number) {
+  Batch batch;
+  std::optional<Maker> maker;
+  std::string scene_line;
+  const std::uint64_t end = std::min((number + 1) * kBatch, order.set->most);
+  for (std::uint64_t index = number * kBatch; index < end; ++index) {
+    const Question question = order.set->question(order.seed, index);
+    scene_line.clear();
+    append_scene_line(scene_line, question.scene);
+    scene_line.pop_back();
+    if (!maker || maker->scene_line() != scene_line) maker.emplace(question.scene);
+    batch.push_back({scene_line, question.scene.dimension, maker->make(question.text, question.query)});
+    batch.back().record.record.tags = question.tags;
+  }
+  return batch;
+}
+
+// Batches made by several threads, handed out in order. No more than a few are waiting at any time.
+class Workshop {
+ public:
+  Workshop(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
+    for (std::uint64_t i = 0; i < order.jobs; ++i) threads_.emplace_back([this] { work(); });
+  }
+  ~Workshop() {
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  Batch next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || ready_.contains(wanted_); });
+    if (failure_) std::rethrow_exception(failure_);
+    Batch batch = std::move(ready_.extract(wanted_).mapped());
+    ++wanted_;
+    lock.unlock();
+    changed_.notify_all();
+    return batch;
+  }
+
+ private:
+  void work() {
+    for (std::unique_lock lock(mutex_);;) {
+      changed_.wait(lock, [&] { return closed_ || failure_ || next_ < wanted_ + 4 * order_.jobs; });
+      if (closed_ || failure_) return;
+      const std::uint64_t number = next_++;
+      lock.unlock();
+      try {
+        Batch batch = make_batch(order_, number);
+        lock.lock();
+        ready_.emplace(number, std::move(batch));
+      } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        failure_ = std::current_exception();
+      }
+      changed_.notify_all();
+    }
+  }
+
+  const Order& order_;
+  std::uint64_t next_, wanted_;
+  std::map<std::uint64_t, Batch> ready_;
+  std::exception_ptr failure_;
+  bool closed_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::thread> threads_;
+};
+
+// How far a production is. What a resumed one needs to go on as if nothing had happened.
+struct State {
+  std::uint64_t next_batch = 0;
+  Account account;
+  std::string scene_line;  // the last one written
+  std::unordered_set<std::uint64_t> ids;
+};
+
+std::uint64_t number_of(const std::string& id) {
+  return std::stoull(id, nullptr, 16);
+}
+
+void count(Account& account, const MadeRecord& made) {
+  ++account.records;
+  account.walked += made.walked;
+  switch (made.record.expect.outcome) {
+    case Outcome::hit:
+      ++account.hits;
+      break;
+    case Outcome::inside:
+      ++account.insides;
+      break;
+    case Outcome::never:
+      ++account.nevers;
+      break;
+    default:
+      ++account.errors;
+  }
+}
+
+// Makes what is missing; `write` gets the text of one batch at a time, and `state` says what is made with it.
+void produce_rest(const Order& order, State& state, const std::function<void(std::string_view)>& write,
+                  const OnProgress& progress) {
+  Workshop workshop(order, state.next_batch);
+  while (state.account.records < order.count) {
+    std::string text;
+    for (const Made& made : workshop.next()) {
+      const Record& record = made.record.record;
+      if (state.account.records == order.count || !state.ids.insert(number_of(record.id)).second) continue;
+      if (made.scene_line != state.scene_line) {
+        state.scene_line = made.scene_line;
+        text += state.scene_line + '\n';
+      }
+      append_record_line(text, record, made.dimension);
+      count(state.account, made.record);
+    }
+    ++state.next_batch;
+    write(text);
+    if (progress) progress(state.account.records);
+  }
+}
+
+[[noreturn]] void fail(const std::string& path) {
+  throw FileError(path + ": " + std::strerror(errno));
+}
+
+// The unfinished file, and beside it a note of how far it is. The note is replaced as a whole after each
+// write, so what lies beyond it in the file is not there.
+class PartFile {
+ public:
+  PartFile(const Order& order, const std::string& path)
+      : path_(path), part_(path + ".part"), note_(path + ".part.note"), header_([&] {
+          std::string line;
+          append_header_line(line, header_of(order));
+          return line;
+        }()) {}
+  ~PartFile() {
+    if (file_) std::fclose(file_);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  // Goes on with what is there if it is of the same order, else begins anew.
+  State open() {
+    State state;
+    const bool resumed = read_note(state);
+    file_ = std::fopen(part_.c_str(), resumed ? "ab" : "wb");
+    if (!file_) fail(part_);
+    if (!resumed) write(header_, state);
+    return state;
+  }
+
+  void write(std::string_view text, const State& state) {
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
+      fail(part_);
+    bytes_ += text.size();
+    const Account& a = state.account;
+    const std::string fresh = note_ + ".new";
+    std::ofstream note(fresh);
+    note << bytes_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked << ' ' << a.hits << ' '
+         << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
+    note.close();
+    if (!note || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
+  }
+
+  void finish() {
+    const bool closed = std::fclose(file_) == 0;
+    file_ = nullptr;
+    if (!closed || std::rename(part_.c_str(), path_.c_str()) != 0) fail(part_);
+    std::remove(note_.c_str());
+  }
+
+ private:
+  bool read_note(State& state) {
+    std::ifstream note(note_);
+    Account& a = state.account;
+    std::string end;
+    if (!(note >> bytes_ >> state.next_batch >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >>
+          a.errors >> end) ||
+        end != "end" || !read_part(state)) {
+      state = {};
+      bytes_ = 0;
+      return false;
+    }
+    std::filesystem::resize_file(part_, bytes_);
+    return true;
+  }
+
+  // The ids and the last scene of the part that the note speaks of.
+  bool read_part(State& state) const {
+    std::ifstream part(part_);
+    std::string line;
+    if (!std::getline(part, line) || line + '\n' != header_) return false;
+    std::uint64_t read = line.size() + 1;
+    constexpr std::string_view kId = "{\"id\":\"";
+    while (read < bytes_ && std::getline(part, line)) {
+      read += line.size() + 1;
+      if (line.starts_with(kId))
+        state.ids.insert(number_of(line.substr(kId.size(), 16)));
+      else
+        state.scene_line = line;
+    }
+    return read == bytes_ && state.ids.size() == state.account.records;
+  }
+
+  std::string path_, part_, note_, header_;
+  std::FILE* file_ = nullptr;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace
+
+Header header_of(const Order& order) {
+  Header header{order.set->name, order.set->description, {}, LORENTZ_VERSION, order.count, {}};
+  header.generator = "lorentz golden make --set " + order.set->name + " --count " +
+                     std::to_string(order.count) + " --seed " + std::to_string(order.seed);
+  for (const fuzz::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
+  return header;
+}
+
+Account produce(const Order& order, const std::function<void(std::string_view)>& write,
+                const OnProgress& progress) {
+  std::string header;
+  append_header_line(header, header_of(order));
+  write(header);
+  State state;
+  produce_rest(order, state, write, progress);
+  return state.account;
+}
+
+Account produce_file(const Order& order, const std::string& path, const OnProgress& progress) {
+  PartFile part(order, path);
+  State state = part.open();
+  produce_rest(
+      order, state, [&](std::string_view text) { part.write(text, state); }, progress);
+  part.finish();
+  return state.account;
+}
+
+}  // namespace lorentz::golden

@@ -1,0 +1,49 @@
+// Golden records: queries with their exact answers and the proofs of these (docs/certificates.md has the
+// format).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certificate.hpp"
+#include "exchange.hpp"
+
+namespace lorentz::golden {
+
+/// The first line of a set.
+struct Header {
+  std::string name, description;
+  std::string generator;  ///< the command that makes the set again
+  std::string version;    ///< of the program that made it
+  std::uint64_t count = 0;
+  std::vector<std::pair<std::string, std::string>> tags;  ///< each with what it is out to break
+};
+
+struct Record {
+  std::string id;
+  std::vector<std::string> tags;
+  std::string question;  ///< the text from `"x":` to before `,"expect"`: what the id is made from
+  Answer expect;         ///< with time_decimal, of a hit
+  std::optional<double> margin, condition;
+  std::optional<oracle::Certificate> certificate;
+};
+
+/// The id of a question: the beginning of the SHA-256 of the scene's line, a line feed, and the question.
+std::string id_of(std::string_view scene_line, std::string_view question);
+
+/// SHA-256 in hexadecimal.
+std::string sha256(std::string_view text);
+
+/// The text of a query as it stands in a record.
+std::string question_of(const Query& query, int dimension);
+
+/// The number of significant digits of a record's time_decimal.
+inline constexpr int kDigits = 40;
+
+/// Appends a line, with its line end.
+void append_header_line(std::string& out, const Header& header);
+void append_record_line(std::string& out, const Record& record, int dimension);
+
+}  // namespace lorentz::golden
