@@ -55,6 +55,7 @@ inline void reduce(std::vector<Metric>& basis) {
       for (const Metric& other : basis) {
         if (&b == &other) continue;
         const Real k = std::round(dot(b.z, other.z) / other.norm());
+        if (!(std::fabs(k) < 0x1p40L)) continue;  // no number, or too large: leave it
         Metric next = b;
         next.subtract(k, other);
         if (k != 0 && next.norm() < b.norm() * (1 - 1e-9L)) b = next, shorter = true;
