@@ -39,10 +39,8 @@ std::string find_scene(const std::string& name_or_file) {
   const fs::file_status status = fs::status(name_or_file, error);
   if (fs::exists(status) && !(is_name && fs::is_directory(status))) return name_or_file;
   if (is_name)
-    for (const fs::path& folder : catalogue_folders()) {
-      const fs::path file = folder / (name_or_file + ".toml");
-      if (fs::exists(file, error)) return fs::weakly_canonical(file, error);
-    }
+    for (const CatalogueEntry& entry : catalogue())
+      if (entry.name == name_or_file) return entry.file;
   throw FileError(fmt::format("{}: no such file, and no scene of the catalogue ({})",
                               name_or_file.substr(0, 200), catalogue_names()));
 }

@@ -12,8 +12,10 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr long kBudget = 20'000;  // points and stretches of one atom; spent only where thousands of obstacles
-                                  // are about as hard to tell apart
+// Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
+// are about as hard to tell apart; then the margin is the smallest of those looked at.
+constexpr long kSmallBudget = 500, kBudget = 10'000;
+constexpr double kLeast = 0x1p-10, kGrowth = 8;
 
 template <std::size_t D>
 class MarginSearch {
@@ -28,12 +30,8 @@ class MarginSearch {
         smallest_(kLargestMargin) {}
 
   Decision run() {
-    std::vector<Real> searched;  // of each atom, up to which margin
     for (const Uncertain<D>& atom : situation_.atoms())
-      if (concerns(atom)) searched.push_back(search_at_once(atom));
-    auto done = searched.begin();
-    for (const Uncertain<D>& atom : situation_.atoms())
-      if (concerns(atom) && *done++ < smallest_) search_in_windows(atom);
+      if (concerns(atom)) search(atom);
     decision_.margin = to_double(smallest_, kLargestMargin);
     return decision_;
   }
@@ -49,29 +47,40 @@ class MarginSearch {
     return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().flight.v2));
   }
 
+  // Until nothing of this atom with a margin below the smallest can have been missed: at once, or (where that
+  // holds thousands of obstacles, along a wall of a channel) by widening more and more.
+  void search(const Uncertain<D>& atom) {
+    Real k = search_at_once(atom);
+    bool complete = true;
+    while (complete && k < smallest_) {
+      k = std::min(smallest_, std::max(Real(kGrowth * k), Real(kLeast)));
+      complete = search_in_windows(atom, k);
+    }
+  }
+
   // Widens by as much as leaves the cylinder about as large as it was. Returns the margin up to which nothing
-  // can have been missed.
+  // was missed.
   Real search_at_once(const Uncertain<D>& atom) {
     const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
     const Real k = std::min(Real(kLargestMargin), Real(radius / change / 4));
     const Real wide = radius + k * change;
-    budget_ = kBudget;
+    budget_ = kSmallBudget;
     look(atom, wide, first_s(atom, wide), last_s(atom, wide));
-    return k;
+    return budget_ < 0 ? Real(0) : k;
   }
 
-  // The same with a widening that follows the flight, for the smallest margin so far (that of the target, if
-  // nothing else).
-  void search_in_windows(const Uncertain<D>& atom) {
-    const Real k = smallest_, radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
+  // Widens as the changes grow along the flight. Returns whether that was not too much.
+  bool search_in_windows(const Uncertain<D>& atom, const Real& k) {
+    const Real radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
     const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
     Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
     budget_ = kBudget;
-    for (Real time = turning_point(); low < end; time *= 2) {
+    for (Real time = turning_point(); low < end && budget_ >= 0; time *= 2) {
       const Z high = std::min(end, ceiling(time * v2));
       look(atom, radius + k * atom.largest_change(time), low, high);
       low = high;
     }
+    return budget_ >= 0;
   }
 
   // Where the uncertainty of v begins to count for more than that of x.

@@ -6,7 +6,7 @@
 namespace lorentz::oracle {
 
 double ulp(double value) {
-  const double size = std::fabs(value);
+  const double size = std::min(std::fabs(value), std::numeric_limits<double>::max());
   const double next = std::nextafter(size, std::numeric_limits<double>::infinity());
   return std::isfinite(next) ? next - size : size - std::nextafter(size, 0.0);
 }

@@ -103,7 +103,7 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
 template <std::size_t D>
 Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const Arrival<D>& arrival);
 
-/// Distance to the next binary64 away from zero.
+/// Distance to the next binary64 away from zero; of an infinity that of the largest finite one.
 double ulp(double value);
 
 }  // namespace lorentz::oracle

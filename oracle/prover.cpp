@@ -17,12 +17,12 @@ CertificateBasis certificate_basis(const Basis<D>& basis) {
   return result;
 }
 
-// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards to some 1/64 of the window.
+// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards by no more than a 64th of rho:
+// however long the window, what lies just beyond its end may be crowded.
 class Ends {
  public:
-  Ends(const Z& low, const Z& high, const Z& v2, long exponent) : v2_(v2), exponent_(exponent) {
-    // 2^unit_ is no more than a 64th of the window.
-    unit_ = bit_length(high - low + 1) - bit_length(v2) - 8 + exponent;
+  Ends(const Z& low, const Z& high, const Z& rho, const Z& v2, long exponent) : v2_(v2), exponent_(exponent) {
+    unit_ = bit_length(rho) - bit_length(v2) - 8 + exponent;
     from = end(low, false);
     to = end(high, true);
   }
@@ -105,13 +105,13 @@ class Writer {
       return {};
     for_each_atom(scene_, [&](int l, int a) {
       const View<D> view = query_.view(scene_, l, a);
-      const Z rho2 = view.radius2 * view.flight.v2, rho_above = root_below(rho2) + 1;
+      const Z rho_above = root_below(view.radius2 * view.flight.v2) + 1;
       if (exact.outcome == Outcome::never)
         add_rows(view, l, a);
       else if (exact.outcome == Outcome::hit)
-        add_windows(view, l, a, rho2, -rho_above, s_of_hit(view, exact.obstacle) + rho_above);
+        add_windows(view, l, a, rho_above, -rho_above, s_of_hit(view, exact.obstacle) + rho_above);
       else if (std::pair(l, a) <= std::pair(exact.obstacle.lattice, exact.obstacle.atom))
-        add_windows(view, l, a, rho2, -rho_above, rho_above);
+        add_windows(view, l, a, rho_above, -rho_above, rho_above);
     });
     return std::move(certificate_);
   }
@@ -128,10 +128,11 @@ class Writer {
     return ceil_div((s - floor_sqrt(d)) * view.flight.v2, own.flight.v2);
   }
 
-  void add_windows(const View<D>& view, int lattice, int atom, const Z& rho2, const Z& low, const Z& high) {
+  void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
+                   const Z& high) {
     const long exponent = query_.length_exponent - query_.velocity_exponent;
-    Cylinder<D>(view, rho2).cut(low, high, [&](const Stretch<D>& stretch) {
-      const Ends ends(stretch.low, stretch.high, view.flight.v2, exponent);
+    Cylinder<D>(view, view.radius2 * view.flight.v2).cut(low, high, [&](const Stretch<D>& stretch) {
+      const Ends ends(stretch.low, stretch.high, rho_above, view.flight.v2, exponent);
       certificate_.windows.push_back(
           {lattice, atom, ends.from, ends.to, certificate_basis<D>(stretch.basis)});
       return false;
