@@ -5,7 +5,8 @@
 // strips about the disc's centre whose edges touch the disc: they cut out a hexagon around it, and its
 // corners are what an algorithm that works in projections takes for hits. Here h lies on a ray from the
 // centre, drawn until the ray leaves the hexagon farther out than the disc, at a drawn decade of relative
-// distance from the disc's edge, down to 1e-14; as often just inside, as a hit. x = c - (h x v) / v^2 - s v.
+// distance from the disc's edge, down to 1e-14; one in three just inside, as a hit. x = c - (h x v) / v^2 - s
+// v.
 #include <cmath>
 
 #include "family_list.hpp"
