@@ -15,6 +15,7 @@
 //
 // Then up to 4 ulps off, in x, v or r, or up to 2^10 in x. The start lies within 1.8 r of the centre, so that
 // nothing is met before: whether this obstacle is, is the whole question.
+#include <algorithm>
 #include <cmath>
 
 #include "family_list.hpp"
@@ -98,7 +99,9 @@ Case make_pell(Source& source) {
   const int exponent = std::ilogb(static_cast<double>(r_steps)) + static_cast<int>(drawn.integer(3, 6));
   const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
   made.scene = unit_scene(dimension, r);
-  set_query(source.random, dimension, v, h, k, exponent, r, made);
+  // On a finer grid, so that there are starts enough.
+  const int finer = std::max(0, 43 - std::ilogb(static_cast<double>(r_steps)));
+  set_query(source.random, dimension, v, h, k << finer, exponent + finer, r, made);
   move_off(source.random, dimension, made);
   return made;
 }

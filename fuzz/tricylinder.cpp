@@ -20,10 +20,6 @@ constexpr const char* kMisses[] = {"miss-1e-2",  "miss-1e-4",  "miss-1e-6", "mis
 constexpr double kTop[] = {0.6, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 constexpr double kBottom[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
 
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // A line's shape against a ball: its direction, the unit direction of h, and how far out along h, in r |v|,
 // the hexagon reaches.
 struct Ray {
