@@ -1,4 +1,5 @@
 // What the families of cases are: outcomes, cost of making a case, longest flight, duplicates.
+// family_table [COUNT [FAMILY]]
 #include <fmt/format.h>
 
 #include <chrono>
@@ -61,5 +62,6 @@ int main(int count, char** arguments) {
   const std::uint64_t number = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 4000;
   fmt::print(
       "family             hit % never % inside % errors duplicates us to make us to answer longest flight\n");
-  for (const fuzz::Family& family : fuzz::families()) row(family, number);
+  for (const fuzz::Family& family : fuzz::families())
+    if (count < 3 || family.name() == arguments[2]) row(family, number);
 }

@@ -35,8 +35,8 @@ IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternio
 
 // A velocity at a surface point with the outward normal n.
 Vec drawn_velocity(Random& random, const Vec& n, int dimension, std::vector<std::string>& tags) {
-  const Vec a = dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5));
-  const Vec tangent{n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]};
+  Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
+  if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
   const double side = random.sign();
   switch (random.below(4)) {
     case 0:

@@ -1,17 +1,21 @@
 // grazing: lines that pass an obstacle at the distance r, exactly or nearly.
 //
 // With d = c - x the line meets the ball iff |v x d|^2 < r^2 v^2. For integer v and dyadic r, d both sides
-// are integers over a power of two, and can be equal, or next to equal:
-// - |v| = w an integer (Pythagorean triples; in space quaternions give an integer vector h of length w at a
-// right angle
-//   to v): d with v x d = r h is dyadic (start_beside), and the line exactly tangent.
-// - v^2 = w^2 +- 1 (near squares): v x d = r w misses tangency by r / (2 w^2), which is below an ulp for w >
-// 2^26.
-// - r = R 2^-m, v x d = K 2^-m h with K / R a convergent of |v| / |h|: K^2 h^2 - R^2 v^2 solves Pell's
-// equation or
-//   nearly, so that dist / r is 1 within about 1 / R^2: down to 2^-100, beyond twice binary64's precision.
+// are integers over a power of two, and can be equal, or next to equal.
+//
+// Squares: |v| = w an integer (Pythagorean triples; in space quaternions give an integer vector h of length
+// w at a right angle to v). A dyadic d has v x d = r h (start_beside), and the line is exactly tangent.
+//
+// Near squares: v^2 = w^2 +- 1. Then v x d = r w misses tangency by r / (2 w^2), less than an ulp for
+// w > 2^26.
+//
+// Pell: r = R 2^-m and v x d = K 2^-m h with K / R a convergent of |v| / |h|. K^2 h^2 - R^2 v^2 solves
+// Pell's equation or nearly, so dist / r is 1 within about 1 / R^2: down to 2^-100, beyond twice binary64's
+// precision.
+//
 // Then up to 4 ulps off, in x, v or r, or up to 2^10 in x. The start lies within 1.8 r of the centre, so that
 // nothing is met before: whether this obstacle is, is the whole question.
+#include <algorithm>
 #include <cmath>
 
 #include "family_list.hpp"
@@ -95,7 +99,9 @@ Case make_pell(Source& source) {
   const int exponent = std::ilogb(static_cast<double>(r_steps)) + static_cast<int>(drawn.integer(3, 6));
   const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
   made.scene = unit_scene(dimension, r);
-  set_query(source.random, dimension, v, h, k, exponent, r, made);
+  // On a finer grid, so that there are starts enough.
+  const int finer = std::max(0, 43 - std::ilogb(static_cast<double>(r_steps)));
+  set_query(source.random, dimension, v, h, k << finer, exponent + finer, r, made);
   move_off(source.random, dimension, made);
   return made;
 }

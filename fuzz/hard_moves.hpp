@@ -1,4 +1,7 @@
 // How a drawn query becomes a hard one, in any scene.
+//
+// move_to_edge draws with std::exp2, which libraries round differently: its bits, and those of the families'
+// grazing flights in crystals, superpositions and ellipsoids, are the same only where that is.
 #pragma once
 
 #include "oracle.hpp"

@@ -4,8 +4,8 @@
 // parallel to a lattice vector (a lattice plane) and x lies in a channel: a corridor, a layer between planes,
 // a hole through overlapping spheres, each of which several atoms, several lattices or ellipses can leave
 // open in common. A program has to know that; it cannot find out by flying. The lattices have few bits, so
-// that v is parallel exactly; then an ulp of v, or a start beyond the edge, makes a hit of it, near or after
-// 10^15 cells.
+// that v is parallel exactly; an ulp of v then makes a hit of it, mostly after 10^15 cells. (Starts beside
+// the edge are the business of corridor-edge.)
 #include <cmath>
 
 #include "family_list.hpp"

@@ -60,6 +60,10 @@ Vec scaled(const Vec& a, double factor) {
   return {a[0] * factor, a[1] * factor, a[2] * factor};
 }
 
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 double length(const Vec& a) {
   return std::sqrt(lorentz::dot(a, a));
 }

@@ -23,6 +23,7 @@ std::int64_t drawn_ulps(Random& random);
 
 Vec sum(const Vec& a, const Vec& b);
 Vec scaled(const Vec& a, double factor);
+Vec cross(const Vec& a, const Vec& b);
 double length(const Vec& a);
 
 /// One lattice with one ball at the origin.

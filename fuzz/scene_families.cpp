@@ -2,7 +2,7 @@
 // grazing flights.
 //
 // Several obstacles a cell are several questions, and the first answer counts; their order is decided by
-// times from different offsets. Lattices turned by an angle that is no rational part of a turn have no common
+// times from different offsets. Lattices turned by pi/5 or pi/7, whose cosines are irrational, have no common
 // period, in binary64 one of 10^30 cells: obstacles of the two come as near to each other as one likes. An
 // ellipsoid is a ball in another metric: the slender ones stretch the cell by as much, and a poorly reduced
 // cell then loses digits. Grazing flights are drawn ones, moved across until the first obstacle is passed or

@@ -4,8 +4,8 @@
 // Exact ties: obstacles that are mirror images in the line of flight (or, in space, in a plane that holds it,
 // or turned into each other about the diagonal); two balls with a common surface point that the line goes
 // through, made of Pythagorean triples; the same obstacle written twice, as two atoms or in two lattices,
-// also in another basis, so that its cells have other numbers. Then the start, the velocity or an atom is
-// moved by a few ulps.
+// also in another basis, so that its cells have other numbers. Then the start or the velocity is moved by a
+// few ulps.
 #include <cmath>
 
 #include "family_list.hpp"

@@ -5,7 +5,8 @@
 // strips about the disc's centre whose edges touch the disc: they cut out a hexagon around it, and its
 // corners are what an algorithm that works in projections takes for hits. Here h lies on a ray from the
 // centre, drawn until the ray leaves the hexagon farther out than the disc, at a drawn decade of relative
-// distance from the disc's edge, down to 1e-14; as often just inside, as a hit. x = c - (h x v) / v^2 - s v.
+// distance from the disc's edge, down to 1e-14; one in three just inside, as a hit. x = c - (h x v) / v^2 - s
+// v.
 #include <cmath>
 
 #include "family_list.hpp"
@@ -18,10 +19,6 @@ constexpr const char* kMisses[] = {"miss-1e-2",  "miss-1e-4",  "miss-1e-6", "mis
                                    "miss-1e-10", "miss-1e-12", "miss-1e-14"};
 constexpr double kTop[] = {0.6, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 constexpr double kBottom[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
-
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // A line's shape against a ball: its direction, the unit direction of h, and how far out along h, in r |v|,
 // the hexagon reaches.
