@@ -16,9 +16,11 @@
 namespace lorentz::cli {
 namespace {
 
+constexpr int kRounds = 5;
+
 struct Options {
   std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, radius, queries, disagreements;
+  std::optional<std::string> scene, radius, queries, disagreements, timeout;
   std::string count = "10000", seed = std::to_string(kDefaultSeed);
   bool json = false, strict = false, no_oracle = false;
 };
@@ -181,7 +183,10 @@ std::string title(const Options& options, const CaseSet& set) {
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
 
-int exit_status(const std::vector<Tally>& tallies, bool strict) {
+int exit_status(const std::vector<Tally>& tallies, bool strict, bool bad_input) {
+  for (const Tally& t : tallies)
+    if (t.failed) return kFailed;
+  if (bad_input) return kBadInput;
   for (const Tally& t : tallies)
     if (t.wrong > 0 || (strict && t.undecided > 0)) return kDisagreement;
   return kDone;
@@ -214,7 +219,7 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
 
 int act(const Options& options) {
   const std::vector<Logged> all_logged = logged_answers(options);
-  std::vector<std::string> engines = options.engines;
+  std::vector<std::string> engines = names_in(options.engines);
   if (engines.empty() && all_logged.empty()) engines = {"classical", "published"};
   for (const std::string& name : engines) check_name(name);
   if (options.no_oracle && !all_logged.empty())
@@ -222,6 +227,8 @@ int act(const Options& options) {
   if (!options.queries && !all_logged.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
   const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  const double timeout =
+      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
 
   bool bad_input = false;
   const CaseSet set = cases_of(options, seed, bad_input);
@@ -231,7 +238,7 @@ int act(const Options& options) {
   const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
                                const Answer& given) { disagreements.add(one, exact, name, given); };
   const std::vector<Answer> exact = options.no_oracle ? std::vector<Answer>{} : exact_answers(set);
-  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong);
+  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong, kRounds, timeout);
   for (const Logged& logged : all_logged) {
     const Answers answers = read_answers(logged.file, bad_input);
     tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, bad_input));
@@ -239,7 +246,7 @@ int act(const Options& options) {
   }
   disagreements.close();
   show(options, set, seed, tallies);
-  return bad_input ? kBadInput : exit_status(tallies, options.strict);
+  return exit_status(tallies, options.strict, bad_input);
 }
 
 }  // namespace
@@ -251,8 +258,7 @@ void add_compare(CLI::App& app, Action& action) {
                                          "oracle: right or wrong, error, speed.");
   command
       ->add_option("-e,--engine", options->engines,
-                   fmt::format("{}; several, or once each", fmt::join(answerer_names(), ", ")))
-      ->delimiter(',')
+                   names_for_help() + "; several with commas between them, or once each")
       ->type_name("E");
   command
       ->add_option("--answers", options->answers,
@@ -272,11 +278,14 @@ void add_compare(CLI::App& app, Action& action) {
       ->add_option("--disagreements", options->disagreements,
                    "write each wrong answer there, as a query stream")
       ->type_name("FILE");
+  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->add_flag("--strict", options->strict, "exit status 1 also for undecided answers");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
   command->footer(
-      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one thread."
+      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
+      "thread; "
+      "of a cmd: engine by the wall, pipes included."
       "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }

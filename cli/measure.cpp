@@ -103,22 +103,65 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
   return round;
 }
 
+// The same of another program, which has many queries at a time.
+template <class Look>
+Round run_round(const CaseSet& set, const std::string& name, Answerer& program, Look look) {
+  Progress progress(name.c_str(), set.cases.size());
+  std::vector<Answer> answers;
+  answers.reserve(set.cases.size());
+  program.on_answer([&](Answer& answer) {
+    answers.push_back(std::move(answer));
+    progress.at(answers.size());
+  });
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < set.cases.size(); ++i) {
+    const Case& one = set.cases[i];
+    if (i == 0 || one.scene != set.cases[i - 1].scene) program.set_scene(set.scenes[one.scene]);
+    program.ask(one.id, one.query);
+  }
+  program.drain();
+  const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+  for (std::size_t i = 0; i < answers.size(); ++i) look(i, answers[i]);
+  return {ns, {ns / static_cast<double>(std::max<std::size_t>(answers.size(), 1))}};
+}
+
+// One of the names, ready for every scene of the set.
+struct Contestant {
+  std::vector<FirstHit> first_hit;    // by scene
+  std::unique_ptr<Answerer> program;  // or this
+
+  Contestant(const CaseSet& set, const std::string& name, double timeout) {
+    if (is_command(name))
+      program = make_answerer(name, {{}, timeout});
+    else
+      for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
+  }
+
+  template <class Look>
+  Round run(const CaseSet& set, const std::string& name, Look look) {
+    return program ? run_round(set, name, *program, look) : run_round(set, name, first_hit, look);
+  }
+
+  bool failed() const { return program && program->failed(); }
+};
+
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong,
-                           int rounds_wanted) {
+                           const std::vector<std::string>& names, const OnWrong& on_wrong, int rounds_wanted,
+                           double timeout) {
   std::vector<Tally> tallies(names.size());
-  std::vector<std::vector<FirstHit>> answerers(names.size());
+  std::vector<Contestant> contestants;
   std::vector<std::vector<Round>> rounds(names.size());
   for (std::size_t e = 0; e < names.size(); ++e) {
     tallies[e].name = names[e];
-    for (const Scene& scene : set.scenes) answerers[e].push_back(make_first_hit(names[e], scene));
+    contestants.emplace_back(set, names[e], timeout);
   }
   const auto start = Clock::now();
   for (int r = 0; r < rounds_wanted; ++r) {
-    for (std::size_t e = 0; e < names.size(); ++e)
-      rounds[e].push_back(run_round(set, names[e], answerers[e], [&](std::size_t i, const Answer& given) {
+    for (std::size_t e = 0; e < names.size(); ++e) {
+      if (contestants[e].failed()) continue;
+      rounds[e].push_back(contestants[e].run(set, names[e], [&](std::size_t i, const Answer& given) {
         if (r > 0) return;
         if (exact.empty()) {
           ++tallies[e].queries;
@@ -129,9 +172,12 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
         if (judgement.verdict == oracle::Verdict::wrong && on_wrong)
           on_wrong(set.cases[i], exact[i], names[e], given);
       }));
+    }
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
   for (std::size_t e = 0; e < names.size(); ++e) {
+    if (contestants[e].program) contestants[e].program->finish();
+    tallies[e].failed = contestants[e].failed();
     auto& of_engine = rounds[e];
     std::sort(of_engine.begin(), of_engine.end(),
               [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });

@@ -28,10 +28,12 @@ struct CaseSet {
 struct Tally {
   std::string name;
   std::size_t queries = 0, agree = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0, missing = 0;
+  bool failed = false;         ///< another program that broke on the way
   std::size_t timed_hits = 0;  ///< agreed hits with a time that could be measured
   double max_ulp = 0, sum_ulp = 0;
-  double ns_per_query = 0;         ///< mean over the queries, in the median round; 0: not timed
-  double ns_median = 0;            ///< median over blocks of 16 queries of a block's mean
+  double ns_per_query = 0;  ///< mean over the queries, in the median round; 0: not timed
+  double ns_median = 0;     ///< median over blocks of 16 queries of a block's mean; of another program,
+                            ///< whose answers come when they come, the mean
   double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
   std::vector<double> ulps;        ///< errors of the times of agreed hits
 
@@ -48,9 +50,11 @@ using OnWrong =
 std::vector<Answer> exact_answers(const CaseSet& set);
 
 /// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
-/// is empty (nothing is judged) or as many answers as there are cases.
+/// is empty (nothing is judged) or as many answers as there are cases. Another program is timed by the wall,
+/// pipes and all, from the first query to the last answer; where it broke it is not run again.
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong, int rounds = 5);
+                           const std::vector<std::string>& names, const OnWrong& on_wrong, int rounds = 5,
+                           double timeout = AnswererOptions::kDefaultTimeout);
 
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<Tally>& tallies, bool judged);
