@@ -21,7 +21,7 @@ struct Options {
   std::vector<std::string> scenes{"square", "cubic"};
   std::vector<std::string> radii;  // none: radii_of
   std::string count = "2000", seed = std::to_string(kDefaultSeed);
-  std::optional<std::string> csv;
+  std::optional<std::string> csv, timeout;
 };
 
 constexpr const char* kOwnSize = "own";  // instead of a radius
@@ -38,7 +38,7 @@ struct Summary {
 
   void add(const Tally& t) {
     queries += t.queries;
-    judged += t.agree + t.wrong;
+    judged += t.agree + t.ill_posed + t.wrong;
     wrong += t.wrong;
     undecided += t.undecided;
     max_ulp = std::max(max_ulp, t.max_ulp);
@@ -69,8 +69,9 @@ std::string csv_header() {
 
 class Report {
  public:
-  explicit Report(const Options& options) : options_(options) {
-    for (const std::string& name : options.engines) summaries_.push_back({name});
+  explicit Report(const Options& options)
+      : timeout_(positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout)) {
+    for (const std::string& name : names_in(options.engines)) summaries_.push_back({name});
   }
 
   // One cell: all engines over the same queries, as many as the slowest of them can do in the time.
@@ -89,7 +90,10 @@ class Report {
       }
       CaseSet set = all;
       set.cases.resize(count);
-      const Tally t = measure(set, exact_answers(set), {summary.engine}, {}, kRounds).front();
+      const Tally t =
+          measure(set, exact_answers(set), {summary.engine}, {}, {oracle::kDefaultUlps, kRounds, timeout_})
+              .front();
+      failed_ |= t.failed;
       summary.add(t);
       table_.add({what, summary.engine, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
                   fmt::format("{:.0f}-{:.0f}", t.ns_low, t.ns_high), std::to_string(t.undecided),
@@ -112,16 +116,23 @@ class Report {
   }
 
   const std::string& csv() const { return csv_; }
+  bool failed() const { return failed_; }
 
  private:
-  std::size_t affordable(const CaseSet& all, const std::string& engine) const {
+  std::size_t affordable(const CaseSet& all, const std::string& engine) {
     CaseSet pilot = all;
     pilot.cases.resize(std::min(all.cases.size(), kPilot));
-    const double ns = measure(pilot, {}, {engine}, {}, 1).front().ns_per_query;
+    // The first round of another program has its start in it; it is not the median of three.
+    const Tally t =
+        measure(pilot, {}, {engine}, {}, {oracle::kDefaultUlps, is_command(engine) ? 3 : 1, timeout_})
+            .front();
+    const double ns = t.ns_per_query;
+    failed_ |= t.failed;
     return std::min(all.cases.size(), static_cast<std::size_t>(kSecondsPerRound * 1e9 / std::max(ns, 1.0)));
   }
 
-  const Options& options_;
+  double timeout_;
+  bool failed_ = false;  // another program broke
   std::vector<Summary> summaries_;
   Table table_{{"queries", "engine", "number", "ns", "quartiles", "undecided", "wrong", "mean ulp",
                 "99 % ulp", "max ulp"}};
@@ -138,7 +149,7 @@ std::vector<std::string> radii_of(const Options& options, const std::string& sce
 }
 
 int act(const Options& options) {
-  for (const std::string& name : options.engines) check_name(name);
+  for (const std::string& name : names_in(options.engines)) check_name(name);
   const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   const std::uint64_t count = whole_number(options.count, "--count", kFewest, 10'000'000);
   std::ofstream csv;
@@ -162,7 +173,7 @@ int act(const Options& options) {
   print(fmt::format("Speed against error, one thread (seed {}).\n\n", seed));
   report.show();
   if (options.csv && !(csv << report.csv()).flush()) throw FileError(*options.csv + ": cannot be written");
-  return kDone;
+  return report.failed() ? kFailed : kDone;
 }
 
 }  // namespace
@@ -170,9 +181,7 @@ int act(const Options& options) {
 void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "Speed against error: engines by radii by difficulty.");
-  command->add_option("-e,--engine", options->engines, fmt::format("{}", fmt::join(answerer_names(), ", ")))
-      ->delimiter(',')
-      ->type_name("E");
+  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("E");
   command
       ->add_option("--scene", options->scenes,
                    "scene files, or names of the catalogue (default: square,cubic)")
@@ -187,6 +196,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the queries")->capture_default_str()->type_name("N");
+  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_option("--csv", options->csv, "write the figures there too, one line a row")
       ->type_name("FILE");
   command->footer(

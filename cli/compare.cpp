@@ -7,6 +7,7 @@
 #include "draw.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
+#include "margin.hpp"
 #include "measure.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
@@ -16,9 +17,11 @@
 namespace lorentz::cli {
 namespace {
 
+constexpr int kRounds = 5;
+
 struct Options {
   std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, radius, queries, disagreements;
+  std::optional<std::string> scene, radius, queries, disagreements, ulps, timeout;
   std::string count = "10000", seed = std::to_string(kDefaultSeed);
   bool json = false, strict = false, no_oracle = false;
 };
@@ -96,7 +99,7 @@ struct Logged {
 };
 
 Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& set,
-                   const std::vector<Answer>& exact, const OnWrong& on_wrong, bool& bad_input) {
+                   const std::vector<Answer>& exact, const OnWrong& on_wrong, double ulps, bool& bad_input) {
   Tally tally;
   tally.name = logged.name;
   std::vector<oracle::Judge> judges;
@@ -117,9 +120,10 @@ Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& 
       continue;
     }
     const oracle::Judgement judgement =
-        judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], answer);
+        judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], answer, ulps);
     tally.count(judgement);
-    if (judgement.verdict == oracle::Verdict::wrong) on_wrong(set.cases[i], exact[i], logged.name, answer);
+    if (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed)
+      on_wrong(set.cases[i], exact[i], logged.name, answer, judgement);
   }
   return tally;
 }
@@ -141,11 +145,10 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
     const Tally& t = tallies[i];
     const auto count = [&](std::size_t n) { return judged ? std::to_string(n) : std::string("null"); };
     out += fmt::format(
-        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},\"undecided\":{},"
-        "\"unsupported\":{},"
-        "\"error\":{},\"missing\":{},\"max_ulp\":",
-        i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(0), count(t.wrong),
-        count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
+        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},"
+        "\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":",
+        i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(t.ill_posed), count(t.wrong),
+        count(t.wrong_time), count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
     const auto measured = [&](double value, bool was_measured) {
       if (was_measured)
         append_number(out, value);
@@ -184,9 +187,12 @@ std::string title(const Options& options, const CaseSet& set) {
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
 
-int exit_status(const std::vector<Tally>& tallies, bool strict) {
+int exit_status(const std::vector<Tally>& tallies, bool strict, bool bad_input) {
   for (const Tally& t : tallies)
-    if (t.wrong > 0 || (strict && t.undecided > 0)) return kDisagreement;
+    if (t.failed) return kFailed;
+  if (bad_input) return kBadInput;
+  for (const Tally& t : tallies)
+    if (t.wrong > 0 || (strict && t.ill_posed + t.undecided > 0)) return kDisagreement;
   return kDone;
 }
 
@@ -200,6 +206,14 @@ CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
   else if (radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   return options.queries ? read_cases(*options.queries, scene, bad_input) : draw_cases(*scene, seed, count);
+}
+
+double tolerance_of(const std::optional<std::string>& text) {
+  const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
+  if (ulps > oracle::kLargestMargin)
+    throw InputError(
+        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
+  return ulps;
 }
 
 void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies) {
@@ -217,7 +231,7 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
 
 int act(const Options& options) {
   const std::vector<Logged> all_logged = logged_answers(options);
-  std::vector<std::string> engines = options.engines;
+  std::vector<std::string> engines = names_in(options.engines);
   if (engines.empty() && all_logged.empty()) engines = {"classical", "published"};
   for (const std::string& name : engines) check_name(name);
   if (options.no_oracle && !all_logged.empty())
@@ -225,24 +239,29 @@ int act(const Options& options) {
   if (!options.queries && !all_logged.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
   const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  const double timeout =
+      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
 
+  const double ulps = tolerance_of(options.ulps);
   bool bad_input = false;
   const CaseSet set = cases_of(options, seed, bad_input);
   if (!all_logged.empty()) check_ids(set, bad_input);
   DisagreementFile disagreements(options.disagreements);
   disagreements.begin(set);
   const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
-                               const Answer& given) { disagreements.add(one, exact, name, given); };
+                               const Answer& given, const oracle::Judgement& judgement) {
+    disagreements.add(one, exact, name, given, judgement);
+  };
   const std::vector<Answer> exact = options.no_oracle ? std::vector<Answer>{} : exact_answers(set);
-  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong);
+  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout});
   for (const Logged& logged : all_logged) {
     const Answers answers = read_answers(logged.file, bad_input);
-    tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, bad_input));
+    tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, ulps, bad_input));
     check_matches(logged.file, tallies.back(), answers.size(), bad_input);
   }
   disagreements.close();
   show(options, set, seed, tallies);
-  return bad_input ? kBadInput : exit_status(tallies, options.strict);
+  return exit_status(tallies, options.strict, bad_input);
 }
 
 }  // namespace
@@ -254,8 +273,7 @@ void add_compare(CLI::App& app, Action& action) {
                                          "oracle: right or wrong, error, speed.");
   command
       ->add_option("-e,--engine", options->engines,
-                   fmt::format("{}; several, or once each", fmt::join(answerer_names(), ", ")))
-      ->delimiter(',')
+                   names_for_help() + "; several with commas between them, or once each")
       ->type_name("E");
   command
       ->add_option("--answers", options->answers,
@@ -273,13 +291,25 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--seed", options->seed, "of the drawn queries")->capture_default_str()->type_name("N");
   command
       ->add_option("--disagreements", options->disagreements,
-                   "write each wrong answer there, as a query stream")
+                   "write each wrong or ill-posed answer there, as a query stream")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--ulps", options->ulps,
+          "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
+          "(default: 4)")
+      ->type_name("K");
+  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
-  command->add_flag("--strict", options->strict, "exit status 1 also for undecided answers");
+  command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
   command->footer(
-      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one thread."
+      "wrong: no error of k ulps in the inputs explains the answer, or its time is off by more than k times "
+      "what such "
+      "errors make of it (docs/verdicts.md).\n"
+      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
+      "thread; "
+      "of a cmd: engine by the wall, pipes included."
       "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }

@@ -30,15 +30,19 @@ void DisagreementFile::write_scene(std::size_t scene) {
   scene_ = scene;
 }
 
-void DisagreementFile::add(const Case& one, const Answer& exact, const std::string& name,
-                           const Answer& given) {
+void DisagreementFile::add(const Case& one, const Answer& exact, const std::string& name, const Answer& given,
+                           const oracle::Judgement& judgement) {
   if (!file_) return;
   if (one.scene != scene_) write_scene(one.scene);
   const int dimension = set_->scenes[one.scene].dimension;
   std::string out;
   append_query_line(out, one.id, one.query, dimension);
   out.resize(out.size() - 2);  // "}\n": the object goes on
-  out += ",\"engine\":" + json_quoted(name) + ",\"expected\":";
+  out += ",\"engine\":" + json_quoted(name);
+  out += judgement.verdict == oracle::Verdict::wrong ? ",\"verdict\":\"wrong\",\"departs\":"
+                                                     : ",\"verdict\":\"ill-posed\",\"departs\":";
+  append_number(out, judgement.departs);
+  out += ",\"expected\":";
   append_answer_line(out, one.id, exact, dimension);
   out.back() = ',';
   out += "\"given\":";

@@ -1,5 +1,5 @@
-// The wrong answers, as a query stream that can be run again: scene lines, and queries with `engine`,
-// `expected` and `given` beside what they ask.
+// The answers that were wrong or ill-posed, as a query stream that can be run again: scene lines, and queries
+// with `engine`, `verdict`, `departs` (in ulps), `expected` and `given` beside what they ask.
 #pragma once
 
 #include <cstdio>
@@ -21,7 +21,8 @@ class DisagreementFile {
   /// The cases that follow are of this set. Writes its first scene, so that the file is a stream even if
   /// nothing disagrees.
   void begin(const CaseSet& set);
-  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given);
+  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given,
+           const oracle::Judgement& judgement);
 
   /// Throws FileError if something was not written.
   void close();

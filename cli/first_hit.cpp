@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <deque>
 
+#include "answerer.hpp"
 #include "app.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 struct Options {
   std::string queries = "-", engine = "oracle";
-  std::optional<std::string> scene, radius, digits, max_time;
+  std::optional<std::string> scene, radius, digits, max_time, timeout;
   bool detail = false;
 };
 
@@ -48,6 +50,39 @@ class Output {
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
+// The answers in the order of the lines, though those to bad lines are there at once and those to queries
+// when the answerer gives them.
+class AnswerOrder {
+ public:
+  explicit AnswerOrder(std::string& out) : out_(out) {}
+
+  void expect(const Id& id, int dimension) { waiting_.push_back({id, dimension, {}}); }
+  void answered(const Answer& answer) {
+    append_answer_line(out_, waiting_.front().id, answer, waiting_.front().dimension);
+    waiting_.pop_front();
+    for (; !waiting_.empty() && waiting_.front().error; waiting_.pop_front())
+      append_answer_line(out_, waiting_.front().id, *waiting_.front().error, 0);
+  }
+  void bad_line(const Id& id, const std::string& message) {
+    if (waiting_.empty())
+      append_answer_line(out_, id, Answer::error(message), 0);
+    else
+      waiting_.push_back({id, 0, Answer::error(message)});
+  }
+  std::size_t waiting() const { return waiting_.size(); }
+
+ private:
+  struct Waiting {
+    Id id;
+    int dimension;
+    std::optional<Answer> error;
+  };
+  std::string& out_;
+  std::deque<Waiting> waiting_;
+};
+
+constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query would not be bounded otherwise
+
 oracle::Request request_of(const Options& options) {
   oracle::Request request;
   if (options.digits) {
@@ -61,36 +96,44 @@ oracle::Request request_of(const Options& options) {
 }
 
 int act(const Options& options) {
-  check_name(options.engine);
-  const oracle::Request request = request_of(options);
+  AnswererOptions answerer_options{request_of(options)};
+  if (const auto timeout = positive_number(options.timeout, "--timeout")) answerer_options.timeout = *timeout;
+  const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
   const std::optional<double> radius = positive_number(options.radius, "--radius");
   if (radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   std::optional<Scene> initial;
-  FirstHit first_hit;
   if (options.scene) {
     initial = load_scene(*options.scene, radius);
-    first_hit = make_first_hit(options.engine, *initial);
+    answerer->set_scene(*initial);
   }
   QueryStream stream(options.queries, initial);
   Output output;
-  Answer answer;
-  stream.lines().before_waiting([&] { output.flush(); });
+  AnswerOrder order(output.buffer());
+  answerer->on_answer([&](const Answer& answer) { order.answered(answer); });
+  // While the input pauses, answers go on coming.
+  stream.lines().before_waiting([&] {
+    do output.flush();
+    while (answerer->idle(stream.lines().descriptor()));
+    output.flush();
+  });
   for (StreamItem item; stream.next(item); output.flush_if_due()) {
-    const int dimension = stream.scene() ? stream.scene()->dimension : 0;
     switch (item.kind) {
       case StreamItem::Kind::scene:
-        first_hit = make_first_hit(options.engine, item.scene);
+        answerer->set_scene(item.scene);
         break;
       case StreamItem::Kind::query:
-        first_hit(item.query, request, answer);
-        append_answer_line(output.buffer(), item.id, answer, dimension);
+        order.expect(item.id, stream.scene()->dimension);
+        answerer->ask(item.id, item.query);
         break;
       default:
-        append_answer_line(output.buffer(), item.id, Answer::error(item.message), dimension);
+        order.bad_line(item.id, item.message);
+        if (order.waiting() >= kMaxWaiting) answerer->drain();
     }
   }
+  answerer->finish();
   output.flush();
+  if (answerer->failed()) return kFailed;
   return stream.had_bad_input() ? kBadInput : kDone;
 }
 
@@ -102,10 +145,7 @@ void add_first_hit(CLI::App& app, Action& action) {
       app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
   command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")
       ->capture_default_str();
-  command
-      ->add_option("-e,--engine", options->engine,
-                   fmt::format("one of {}", fmt::join(answerer_names(), ", ")))
-      ->capture_default_str();
+  command->add_option("-e,--engine", options->engine, "one of " + names_for_help())->capture_default_str();
   command->add_option("--scene", options->scene,
                       "scene before the first scene line: a file, or a name of the catalogue");
   command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
@@ -117,6 +157,7 @@ void add_first_hit(CLI::App& app, Action& action) {
       ->type_name("T");
   command->add_flag("--detail", options->detail,
                     "add the collision point, the outward normal and the impact parameter");
+  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->footer(
       "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
       "--radius 0.1");

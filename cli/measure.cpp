@@ -107,38 +107,85 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
   return round;
 }
 
+// The same of another program, which has many queries at a time.
+template <class Look>
+Round run_round(const CaseSet& set, const std::string& name, Answerer& program, Look look) {
+  Progress progress(name.c_str(), set.cases.size());
+  std::vector<Answer> answers;
+  answers.reserve(set.cases.size());
+  program.on_answer([&](Answer& answer) {
+    answers.push_back(std::move(answer));
+    progress.at(answers.size());
+  });
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < set.cases.size(); ++i) {
+    const Case& one = set.cases[i];
+    if (i == 0 || one.scene != set.cases[i - 1].scene) program.set_scene(set.scenes[one.scene]);
+    program.ask(one.id, one.query);
+  }
+  program.drain();
+  const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+  for (std::size_t i = 0; i < answers.size(); ++i) look(i, answers[i]);
+  return {ns, {ns / static_cast<double>(std::max<std::size_t>(answers.size(), 1))}};
+}
+
+// One of the names, ready for every scene of the set.
+struct Contestant {
+  std::vector<FirstHit> first_hit;    // by scene
+  std::unique_ptr<Answerer> program;  // or this
+
+  Contestant(const CaseSet& set, const std::string& name, double timeout) {
+    if (is_command(name))
+      program = make_answerer(name, {{}, timeout});
+    else
+      for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
+  }
+
+  template <class Look>
+  Round run(const CaseSet& set, const std::string& name, Look look) {
+    return program ? run_round(set, name, *program, look) : run_round(set, name, first_hit, look);
+  }
+
+  bool failed() const { return program && program->failed(); }
+};
+
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong, double ulps,
-                           int rounds_wanted) {
+                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           const MeasureOptions& options) {
   std::vector<Tally> tallies(names.size());
-  std::vector<std::vector<FirstHit>> answerers(names.size());
+  std::vector<Contestant> contestants;
   std::vector<std::vector<Round>> rounds(names.size());
   for (std::size_t e = 0; e < names.size(); ++e) {
     tallies[e].name = names[e];
-    for (const Scene& scene : set.scenes) answerers[e].push_back(make_first_hit(names[e], scene));
+    contestants.emplace_back(set, names[e], options.timeout);
   }
   std::vector<oracle::Judge> judges;
   for (const Scene& scene : set.scenes) judges.emplace_back(scene);
   const auto start = Clock::now();
-  for (int r = 0; r < rounds_wanted; ++r) {
-    for (std::size_t e = 0; e < names.size(); ++e)
-      rounds[e].push_back(run_round(set, names[e], answerers[e], [&](std::size_t i, const Answer& given) {
+  for (int r = 0; r < options.rounds; ++r) {
+    for (std::size_t e = 0; e < names.size(); ++e) {
+      if (contestants[e].failed()) continue;
+      rounds[e].push_back(contestants[e].run(set, names[e], [&](std::size_t i, const Answer& given) {
         if (r > 0) return;
         if (exact.empty()) {
           ++tallies[e].queries;
           return;
         }
         const oracle::Judgement judgement =
-            judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, ulps);
+            judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, options.ulps);
         tallies[e].count(judgement);
-        if (judgement.verdict == oracle::Verdict::wrong && on_wrong)
-          on_wrong(set.cases[i], exact[i], names[e], given);
+        if (on_wrong &&
+            (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed))
+          on_wrong(set.cases[i], exact[i], names[e], given, judgement);
       }));
+    }
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
   for (std::size_t e = 0; e < names.size(); ++e) {
+    if (contestants[e].program) contestants[e].program->finish();
+    tallies[e].failed = contestants[e].failed();
     auto& of_engine = rounds[e];
     std::sort(of_engine.begin(), of_engine.end(),
               [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
@@ -172,13 +219,14 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
       table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
     return table.text();
   }
-  Table table({"engine", "queries", "agree", "wrong", "undecided", "unsupported", "error", "missing",
-               "max ulp", "mean ulp", "ns/query", "ns median"});
+  Table table({"engine", "queries", "agree", "ill-posed", "wrong", "in time only", "undecided", "unsupported",
+               "error", "missing", "max ulp", "mean ulp", "ns/query", "ns median"});
   for (const Tally& t : tallies) {
-    const std::size_t judged_answers = t.agree + t.wrong;
-    table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), share(t.wrong, judged_answers),
-               std::to_string(t.undecided), std::to_string(t.unsupported), std::to_string(t.error),
-               std::to_string(t.missing), t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+    const std::size_t judged_answers = t.agree + t.ill_posed + t.wrong;
+    table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), std::to_string(t.ill_posed),
+               share(t.wrong, judged_answers), std::to_string(t.wrong_time), std::to_string(t.undecided),
+               std::to_string(t.unsupported), std::to_string(t.error), std::to_string(t.missing),
+               t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
                t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.ns_per_query),
                nanoseconds(t.ns_median)});
   }

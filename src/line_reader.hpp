@@ -36,6 +36,7 @@ class LineReader {
   void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
 
   const std::string& name() const { return name_; }
+  int descriptor() const { return descriptor_; }
 
  private:
   bool fill();
