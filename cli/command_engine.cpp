@@ -62,7 +62,22 @@ void CommandEngine::set_scene(const Scene& scene) {
 }
 
 void CommandEngine::ask(const Id& id, const Query& query) {
-  open_.push_back({id, query, scene_});
+  add({id, query, scene_});
+}
+
+void CommandEngine::ask_text(const Id& id, const std::string& question) {
+  add({id, {}, scene_, question});
+}
+
+void CommandEngine::append_line(std::string& out, const Id& id, const Asked& asked) {
+  if (asked.text.empty())
+    append_query_line(out, id, asked.query, asked.scene->dimension);
+  else
+    out += "{\"id\":" + id + ',' + asked.text + "}\n";
+}
+
+void CommandEngine::add(Asked asked) {
+  open_.push_back(std::move(asked));
   if (given_up_) return give_up();
   const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
   if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
@@ -118,8 +133,7 @@ void CommandEngine::encode() {
       run.scene = asked.scene;
       run.first_of_scene = first_number_ + run.outstanding;
     }
-    append_query_line(run.to_write, std::to_string(first_number_ + run.outstanding), asked.query,
-                      asked.scene->dimension);
+    append_line(run.to_write, std::to_string(first_number_ + run.outstanding), asked);
     if (run.outstanding == 0) run.last_answer = Clock::now();
     ++run.outstanding;
     ++run.given;
@@ -419,7 +433,7 @@ void CommandEngine::complain(const std::string& what, const Asked* asked) {
     if (complained_scene_ != asked->scene) append_scene_line(stream, *asked->scene);
     if (stream.size() > kMaxShown) stream = stream.substr(0, kMaxShown) + "...\n";
     complained_scene_ = asked->scene;
-    append_query_line(stream, asked->id, asked->query, asked->scene->dimension);
+    append_line(stream, asked->id, *asked);
     stream.pop_back();
   }
   say("cmd:{}: {}{}{}", command_, what, asked ? ":\n" : "", stream);

@@ -34,6 +34,7 @@ class CommandEngine final : public Answerer {
 
   void set_scene(const Scene& scene) override;
   void ask(const Id& id, const Query& query) override;
+  void ask_text(const Id& id, const std::string& question) override;
   void drain() override;
   void finish() override;
   bool idle(int descriptor) override;
@@ -48,8 +49,11 @@ class CommandEngine final : public Answerer {
     Id id;
     Query query;
     std::shared_ptr<const Scene> scene;
+    std::string text = {};     // in place of the query, where it is none
     bool passed_over = false;  // it got no answer
   };
+  void add(Asked asked);
+  static void append_line(std::string& out, const Id& id, const Asked& asked);
 
   // When a program lets go of its answers, as far as we have seen.
   enum class Manner {

@@ -7,7 +7,6 @@
 #include "draw.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
-#include "margin.hpp"
 #include "measure.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
@@ -145,7 +144,7 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
     const Tally& t = tallies[i];
     const auto count = [&](std::size_t n) { return judged ? std::to_string(n) : std::string("null"); };
     out += fmt::format(
-        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},"
+        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},"
         "\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":",
         i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(t.ill_posed), count(t.wrong),
         count(t.wrong_time), count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
@@ -162,7 +161,7 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
     measured(t.ns_per_query, t.ns_per_query > 0);
     out += ",\"ns_median\":";
     measured(t.ns_median, t.ns_per_query > 0);
-    out += '}';
+    out += ",\"wrong_time\":" + count(t.wrong_time) + '}';
   }
   return out + "]}\n";
 }
@@ -208,14 +207,6 @@ CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
   return options.queries ? read_cases(*options.queries, scene, bad_input) : draw_cases(*scene, seed, count);
 }
 
-double tolerance_of(const std::optional<std::string>& text) {
-  const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
-  if (ulps > oracle::kLargestMargin)
-    throw InputError(
-        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
-  return ulps;
-}
-
 void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies) {
   const std::string seed_text = std::to_string(seed);
   if (options.json) {
@@ -242,7 +233,7 @@ int act(const Options& options) {
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
 
-  const double ulps = tolerance_of(options.ulps);
+  const double ulps = tolerance(options.ulps);
   bool bad_input = false;
   const CaseSet set = cases_of(options, seed, bad_input);
   if (!all_logged.empty()) check_ids(set, bad_input);

@@ -82,7 +82,9 @@ void add_golden(CLI::App& app, Action& action) {
       "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain.");
   golden->require_subcommand(1);
   add_golden_make(*golden, action);
+  add_golden_check(*golden, action);
   add_golden_verify(*golden, action);
+  add_golden_explain(*golden, action);
   add_golden_list(*golden, action);
   golden->footer("docs/certificates.md has the format, data/README.md the committed sets.");
 }

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "margin.hpp"
+#include "numbers.hpp"
 #include "progress.hpp"
 #include "table.hpp"
 
@@ -197,6 +199,14 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     tallies[e].ns_high = quantile(middle.block_means, 0.75);
   }
   return tallies;
+}
+
+double tolerance(const std::optional<std::string>& text) {
+  const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
+  if (ulps > oracle::kLargestMargin)
+    throw InputError(
+        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
+  return ulps;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,9 @@ std::vector<Answer> exact_answers(const CaseSet& set);
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options = {});
+
+/// The tolerance k of the verdicts, as given on the command line. Throws InputError.
+double tolerance(const std::optional<std::string>& ulps);
 
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<Tally>& tallies, bool judged);

@@ -37,8 +37,12 @@ bool for_each_section(const View<3>& view, const Planes& planes, const Basis<3>&
   const Range levels = planes.levels(view.offset, low, high);
   const PlanePoint g1 = planes.in_plane(basis[0]), g2 = planes.in_plane(basis[1]);
   for (Z k3 = levels.first; k3 <= levels.last; ++k3) {
-    const PlaneSection section = planes.section(view.offset, k3, low, high);
-    if (!section.empty && take(section, planes.rows(section, g1, g2))) return true;
+    PlaneSection section = planes.section(view.offset, k3, low, high);
+    if (section.empty) continue;
+    // A checker of certificates may bound the rows by the whole window; so the cuts must be made for that.
+    section.z_low = low;
+    section.z_high = high;
+    if (take(section, planes.rows(section, g1, g2))) return true;
   }
   return false;
 }

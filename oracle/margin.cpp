@@ -4,6 +4,7 @@
 // does the widening.
 #include "margin.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "cylinder.hpp"
@@ -15,7 +16,8 @@ namespace {
 // Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
 // are about as hard to tell apart; then the margin is the smallest of those looked at.
 constexpr long kSmallBudget = 500, kBudget = 10'000;
-constexpr double kLeast = 0x1p-10, kGrowth = 8;
+constexpr double kFinest = 0x1p-40, kGrowth = 8;
+constexpr double kHuge = 1e300;  // reported for what is more
 
 template <std::size_t D>
 class MarginSearch {
@@ -50,23 +52,21 @@ class MarginSearch {
   // Until nothing of this atom with a margin below the smallest can have been missed: at once, or (where that
   // holds thousands of obstacles, along a wall of a channel) by widening more and more.
   void search(const Uncertain<D>& atom) {
-    Real k = search_at_once(atom);
-    bool complete = true;
-    while (complete && k < smallest_) {
-      k = std::min(smallest_, std::max(Real(kGrowth * k), Real(kLeast)));
+    const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
+    const Real at_once = std::min(Real(kLargestMargin), Real(radius / change / 4));
+    Real k = search_at_once(atom, at_once) ? at_once : Real(at_once * kFinest);
+    for (bool complete = true; complete && k < smallest_;) {
+      k = std::min(Real(k * kGrowth), smallest_);
       complete = search_in_windows(atom, k);
     }
   }
 
-  // Widens by as much as leaves the cylinder about as large as it was. Returns the margin up to which nothing
-  // was missed.
-  Real search_at_once(const Uncertain<D>& atom) {
-    const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
-    const Real k = std::min(Real(kLargestMargin), Real(radius / change / 4));
-    const Real wide = radius + k * change;
+  // Widens by as much as leaves the cylinder about as large as it was. Returns whether that was not too much.
+  bool search_at_once(const Uncertain<D>& atom, const Real& k) {
+    const Real wide = real(atom.view().radius) + k * atom.largest_change(latest(atom));
     budget_ = kSmallBudget;
     look(atom, wide, first_s(atom, wide), last_s(atom, wide));
-    return budget_ < 0 ? Real(0) : k;
+    return budget_ >= 0;
   }
 
   // Widens as the changes grow along the flight. Returns whether that was not too much.
@@ -160,6 +160,50 @@ class MarginSearch {
   long budget_ = 0;
 };
 
+// Widens the cylinder until enough obstacles are in it, or it is three times as wide.
+template <std::size_t D>
+std::vector<Passed> passed_obstacles(const Situation<D>& situation, const Answer& exact, std::size_t most) {
+  const Uncertain<D>& target = situation.atom_of(exact.obstacle);
+  const Centre<D> hit = situation.centre_of(exact.obstacle);
+  const Real target_time = target.time_of(hit);
+  const long own_units = situation.query().length_exponent - situation.query().velocity_exponent;
+  std::vector<Passed> all;
+  for (double wide = 1 + 0x1p-20; wide < 4 && all.size() < most; wide = 1 + (wide - 1) * 8) {
+    all.clear();
+    for (const Uncertain<D>& atom : situation.atoms()) {
+      const View<D>& view = atom.view();
+      const Real rho = sqrt(real(atom.rho2())), v2 = real(view.flight.v2);
+      const Cylinder<D> cylinder(view, ceiling(Real(wide * wide * real(atom.rho2()))));
+      long budget = kBudget;
+      const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                      const Z& last) {
+        visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+          --budget;
+          const Centre<D> centre(view.flight, point);
+          const Real nearest = real(centre.s) / v2;
+          const bool is_target = &atom == &target && point.n == hit.point.n;
+          if (!is_target && (centre.s <= 0 || nearest > target_time || situation.is_from(atom, point.n)))
+            return;
+          all.push_back({situation.id_of(atom, point.n),
+                         to_double(times_power_of_two(nearest, own_units), kHuge),
+                         to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
+                         to_double(atom.margin_of_meeting(centre), kHuge)});
+        });
+        return budget < 0;
+      };
+      cylinder.cut(1, ceiling(target_time * v2) + ceiling(rho),
+                   [&](const Stretch<D>& stretch) { return --budget < 0 || cylinder.visit(stretch, visit); });
+    }
+  }
+  std::sort(all.begin(), all.end(), [&](const Passed& a, const Passed& b) {
+    const bool a_hit = a.obstacle == exact.obstacle, b_hit = b.obstacle == exact.obstacle;
+    return a_hit != b_hit ? a_hit : a.gap < b.gap;
+  });
+  if (all.size() > most) all.resize(most);
+  std::sort(all.begin(), all.end(), [](const Passed& a, const Passed& b) { return a.time < b.time; });
+  return all;
+}
+
 }  // namespace
 
 struct Scrutiny::Impl {
@@ -175,6 +219,12 @@ std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Ans
   if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
   return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
     return std::optional(MarginSearch<D>(situation, exact).run());
+  });
+}
+
+std::vector<Passed> Scrutiny::passed(const Query& query, const Answer& exact, std::size_t most) const {
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return passed_obstacles<D>(situation, exact, most);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "../src/problem.hpp"
 
@@ -26,6 +27,14 @@ struct Decision {
       0;  ///< in ulps: how far the inputs must move, each by so many ulps, to change it; to first order
 };
 
+/// An obstacle that a flight came near, on its way to the answer.
+struct Passed {
+  ObstacleId obstacle;
+  double time = 0;  ///< at which the line is nearest to its centre, in the coordinates in which it is a ball
+  double gap = 0;   ///< distance of the line from it, in units of its radius there; below 0: it is met
+  double margin = 0;  ///< of that decision, in ulps; not limited
+};
+
 /// Answers of one scene, looked at closely.
 class Scrutiny {
  public:
@@ -38,6 +47,10 @@ class Scrutiny {
   /// The decision with the smallest margin of all that the exact answer `hit` or `inside` rests on; of
   /// `never` and of errors nothing. The margin is at most kLargestMargin (then the decision means nothing).
   std::optional<Decision> hardest_decision(const Query& query, const Answer& exact) const;
+
+  /// The obstacles that the flight of an exact `hit` passed at the smallest distances in units of their
+  /// radii, up to and with the one that it hit; in order of time, `most` of them at most.
+  std::vector<Passed> passed(const Query& query, const Answer& exact, std::size_t most) const;
 
   /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
   /// make. Requires an exact `hit`.

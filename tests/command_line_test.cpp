@@ -185,7 +185,7 @@ TEST_CASE("Counts and seeds out of range, scenes that cannot be drawn from") {
     CHECK(run.status == 2);
     CHECK(contains(run.err, "lorentz: "));
   }
-  CHECK(folder.lorentz("compare --count 1e2 --seed 18446744073709551615").status == 0);
+  CHECK(folder.lorentz("compare --engine reduction --count 1e2 --seed 18446744073709551615").status == 0);
 }
 
 TEST_CASE("A scene whose obstacles overlap or touch is answered, with a warning") {
@@ -221,7 +221,9 @@ TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file th
   CHECK(lines(folder.read("d")) == 2);
   CHECK(contains(
       folder.read("d"),
-      R"("engine":"published","expected":{"id":"skip","outcome":"hit","lattice":0,"atom":0,"cell":[1,1])"));
+      R"("engine":"published","verdict":"wrong","departs":)"));
+  CHECK(contains(folder.read("d"),
+                 R"("expected":{"id":"skip","outcome":"hit","lattice":0,"atom":0,"cell":[1,1])"));
   CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine published").status == 1);
   CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine classical").status == 0);
 
@@ -338,7 +340,7 @@ TEST_CASE("Names of scenes: the catalogue, files, and neither") {
 TEST_CASE("compare is repeatable, and --strict counts undecided answers") {
   const Folder folder;
   const std::string arguments =
-      "compare --scene cubic --radius 0.2 --count 300 --engine oracle,classical --seed 5";
+      "compare --scene cubic --radius 0.2 --count 300 --engine oracle,reduction --seed 5";
   const Run first = folder.lorentz(arguments + " --json"), second = folder.lorentz(arguments + " --json");
   CHECK(first.status == 0);
   CHECK(first.out.substr(0, first.out.find("ns_per_query")) ==

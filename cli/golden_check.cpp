@@ -1,0 +1,332 @@
+// lorentz golden check: an engine against golden sets.
+#include <deque>
+#include <filesystem>
+#include <map>
+
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "golden.hpp"
+#include "margin.hpp"
+#include "measure.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "progress.hpp"
+#include "reader.hpp"
+#include "registry.hpp"
+#include "table.hpp"
+#include "verdict.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> engines, sets;
+  std::optional<std::string> ulps, timeout, id;
+  std::string failures = "10";
+  bool strict = false, json = false, markdown = false;
+};
+
+struct Failure {
+  std::string set, id, tags, engine;
+  oracle::Judgement judgement;
+  std::optional<double> margin;
+  Answer expect, given;
+};
+
+// One engine's account of a set, and of each of its tags.
+struct Account {
+  std::string description;
+  std::vector<std::pair<std::string, std::string>> notes;  // on the tags
+  Tally all;
+  std::map<std::string, Tally> by_tag;
+  bool failed = false;  // the program broke
+};
+
+// What an engine says to a question that is none is right if it is `error`.
+oracle::Judgement judge_error(const Answer& given) {
+  if (given.outcome == Outcome::undecided) return {oracle::Verdict::undecided};
+  if (given.outcome == Outcome::error)
+    return {given.unsupported ? oracle::Verdict::unsupported : oracle::Verdict::agree};
+  return {oracle::Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
+}
+
+// Asks an engine the questions of a set and judges the answers as they come.
+class Examination {
+ public:
+  Examination(std::string engine, double ulps, double timeout, std::size_t most_failures)
+      : engine_(std::move(engine)),
+        ulps_(ulps),
+        most_failures_(most_failures),
+        answerer_(make_answerer(engine_, {{}, timeout})) {
+    answerer_->on_answer([this](Answer& answer) { take(answer); });
+  }
+
+  Account run(const std::string& path, const std::optional<std::string>& id) {
+    account_ = {};
+    golden::Reader reader(path);
+    set_ = path;
+    account_.all.name = reader.header().name;
+    account_.description = reader.header().description;
+    account_.notes = reader.header().tags;
+    Progress progress(engine_.c_str(), reader.header().count);
+    std::size_t scene = 0;
+    for (golden::ReadRecord read; reader.next(read); progress.at(account_.all.queries)) {
+      if (id && read.record.id != *id) continue;
+      if (scene != reader.scene_number()) {
+        scene = reader.scene_number();
+        judge_ = std::make_shared<oracle::Judge>(reader.scene());
+        answerer_->set_scene(reader.scene());
+      }
+      open_.push_back({std::move(read.record), judge_, read.query});
+      const golden::Record& record = open_.back().record;
+      if (read.query)
+        answerer_->ask(json_quoted(record.id), *read.query);
+      else
+        answerer_->ask_text(json_quoted(record.id), record.question);
+    }
+    answerer_->drain();
+    account_.failed = answerer_->failed();
+    return std::move(account_);
+  }
+
+  void finish() { answerer_->finish(); }
+  const std::vector<Failure>& failures() const { return failures_; }
+
+ private:
+  struct Open {
+    golden::Record record;
+    std::shared_ptr<const oracle::Judge> judge;
+    std::optional<Query> query;
+  };
+
+  void take(Answer& given) {
+    const Open open = std::move(open_.front());
+    open_.pop_front();
+    const golden::Record& record = open.record;
+    const oracle::Judgement judgement =
+        open.query ? open.judge->judge(*open.query, record.expect, given, ulps_) : judge_error(given);
+    account_.all.count(judgement);
+    for (const std::string& tag : record.tags) account_.by_tag[tag].count(judgement);
+    const bool failed =
+        judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::error;
+    if (failed && failures_.size() < most_failures_)
+      failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_,
+                           judgement, record.margin, record.expect, given});
+  }
+
+  const std::string engine_;
+  const double ulps_;
+  const std::size_t most_failures_;
+  std::unique_ptr<Answerer> answerer_;
+  std::shared_ptr<const oracle::Judge> judge_;
+  std::deque<Open> open_;
+  std::string set_;
+  Account account_;
+  std::vector<Failure> failures_;
+};
+
+std::vector<std::string> cells_of(const std::string& set, const std::string& tag, const Tally& t) {
+  const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
+  return {set,
+          tag,
+          std::to_string(t.queries),
+          number(t.agree),
+          number(t.ill_posed),
+          number(t.wrong - t.wrong_time),
+          number(t.wrong_time),
+          number(t.undecided),
+          number(t.unsupported),
+          number(t.error)};
+}
+
+const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agree",       "ill-posed",
+                                        "wrong", "wrong time", "undecided", "unsupported", "error"};
+
+std::string short_answer(const Answer& answer) {
+  std::string text;
+  append_answer_line(text, "0", answer, 3);
+  text = text.substr(8, text.size() - 10);
+  constexpr std::size_t kLongest = 160;
+  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+}
+
+std::string describe(const Failure& failure) {
+  std::string text = fmt::format("  {} {} ({}): expected {}, got {}\n    ", failure.set, failure.id,
+                                 failure.tags, short_answer(failure.expect), short_answer(failure.given));
+  if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
+  if (failure.judgement.wrong_time)
+    text += fmt::format("the time is off by {:.3g} times what an ulp in each input makes\n",
+                        failure.judgement.departs);
+  else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
+    text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
+  else
+    text += "no error in the inputs explains it\n";
+  return text + fmt::format("    again: lorentz golden check --engine {} --id {} {}\n",
+                            failure.engine.find(' ') == std::string::npos ? failure.engine
+                                                                          : "'" + failure.engine + "'",
+                            failure.id, failure.set);
+}
+
+std::string json_of(const std::string& engine, const std::vector<Account>& accounts) {
+  std::string out = fmt::format("{{\"engine\":{},\"sets\":[", json_quoted(engine));
+  const auto counts = [](const Tally& t) {
+    return fmt::format(
+        "\"records\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},\"undecided\":{},"
+        "\"unsupported\":{},"
+        "\"error\":{}",
+        t.queries, t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error);
+  };
+  for (const Account& account : accounts) {
+    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &account == &accounts.front() ? "" : ",",
+                       json_quoted(account.all.name), counts(account.all));
+    bool first = true;
+    for (const auto& [tag, tally] : account.by_tag) {
+      out += fmt::format("{}{}:{{{}}}", first ? "" : ",", json_quoted(tag), counts(tally));
+      first = false;
+    }
+    out += "}}";
+  }
+  return out + "]}\n";
+}
+
+void show(const std::string& engine, const std::vector<Account>& accounts,
+          const std::vector<Failure>& failures) {
+  Table table(kColumns);
+  for (const Account& account : accounts) {
+    table.add(cells_of(account.all.name, "all", account.all));
+    for (const auto& [tag, tally] : account.by_tag) table.add(cells_of("", tag, tally));
+  }
+  print(fmt::format("{}\n\n{}\n", engine, table.text()));
+  if (failures.empty()) return;
+  print("The first failures:\n");
+  for (const Failure& failure : failures) print(describe(failure));
+  print("\n");
+}
+
+// ---- A page of documentation
+
+// "12 wrong, 3 ill-posed", or nothing if all agree.
+std::string troubles(const Tally& t) {
+  std::string text;
+  const auto add = [&](std::size_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
+  };
+  add(t.wrong - t.wrong_time, "wrong");
+  add(t.wrong_time, "wrong in time");
+  add(t.ill_posed, "ill-posed");
+  add(t.undecided, "undecided");
+  add(t.unsupported, "unsupported");
+  add(t.error, "errors");
+  return text;
+}
+
+std::string summary_page(const std::vector<std::string>& engines,
+                         const std::vector<std::vector<Account>>& accounts) {
+  std::string page = "| set | records |";
+  for (const std::string& engine : engines) page += fmt::format(" {} |", engine);
+  page += "\n|---|---|" + fmt::format("{}", fmt::join(std::vector<std::string>(engines.size(), "---|"), "")) +
+          '\n';
+  for (std::size_t s = 0; s < accounts.front().size(); ++s) {
+    page += fmt::format("| {} | {} |", accounts.front()[s].all.name, accounts.front()[s].all.queries);
+    for (const auto& of_engine : accounts) {
+      const std::string text = s < of_engine.size() ? troubles(of_engine[s].all) : "not run";
+      page += fmt::format(" {} |", text.empty() ? "all agree" : text);
+    }
+    page += '\n';
+  }
+  return page;
+}
+
+// The tags on which an engine is wrong, with what they are out to break.
+std::string faults_page(const std::string& engine, const std::vector<Account>& accounts,
+                        const std::vector<Failure>& failures) {
+  std::string rows;
+  for (const Account& account : accounts)
+    for (const auto& [tag, note] : account.notes) {
+      const auto found = account.by_tag.find(tag);
+      if (found == account.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n", account.all.name, tag, found->second.queries,
+                          troubles(found->second), note);
+    }
+  std::string page = fmt::format("\n## {}\n\n", engine);
+  if (rows.empty()) return page + "No wrong answer.\n";
+  page += "| set | tag | records | of these | what the tag is out to break |\n|---|---|---|---|---|\n" + rows;
+  if (failures.empty()) return page;
+  page += "\nThe first failures:\n\n```\n";
+  for (const Failure& failure : failures) page += describe(failure);
+  return page + "```\n";
+}
+
+int status_of(const std::vector<Account>& accounts, bool strict) {
+  int status = kDone;
+  for (const Account& account : accounts) {
+    const Tally& t = account.all;
+    if (account.failed) return kFailed;
+    if (t.wrong > 0 || t.error > 0 || (strict && t.ill_posed + t.undecided > 0)) status = kDisagreement;
+  }
+  return status;
+}
+
+int act(const Options& options) {
+  const std::vector<std::string> engines = names_in(options.engines);
+  if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
+  for (const std::string& engine : engines) check_name(engine);
+  const double ulps = tolerance(options.ulps);
+  const double timeout =
+      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
+  const auto most = static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000));
+  const std::vector<std::string> files = find_sets(options.sets);
+  int status = kDone;
+  std::size_t records = 0;
+  std::vector<std::vector<Account>> all_accounts;
+  std::string pages;
+  for (const std::string& engine : engines) {
+    Examination examination(engine, ulps, timeout, most);
+    std::vector<Account> accounts;
+    for (const std::string& file : files) {
+      accounts.push_back(examination.run(file, options.id));
+      records += accounts.back().all.queries;
+      if (accounts.back().failed) break;
+    }
+    examination.finish();
+    status = std::max(status, status_of(accounts, options.strict));
+    if (options.json)
+      print(json_of(engine, accounts));
+    else if (!options.markdown)
+      show(engine, accounts, examination.failures());
+    else
+      pages += faults_page(engine, accounts, examination.failures());
+    all_accounts.push_back(std::move(accounts));
+  }
+  if (options.markdown) print(summary_page(engines, all_accounts) + pages);
+  if (options.id && records == 0) throw InputError("--id: no record has the id " + json_quoted(*options.id));
+  return status;
+}
+
+}  // namespace
+
+void add_golden_check(CLI::App& golden, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = golden.add_subcommand(
+      "check", "Checks an engine against sets: a table by set and tag, the first failures.");
+  command
+      ->add_option("-e,--engine", options->engines, names_for_help() + "; several with commas, or once each")
+      ->type_name("E");
+  command->add_option("sets", options->sets, "files, or names of committed sets (default: all of these)");
+  command->add_option("--ulps", options->ulps, "the tolerance k of the verdicts (default: 4)")
+      ->type_name("K");
+  command->add_option("--id", options->id, "only this record")->type_name("ID");
+  command->add_option("--failures", options->failures, "list so many failures of each engine")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
+  command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
+  command->add_flag("--json", options->json, "one JSON object an engine");
+  command->add_flag("--markdown", options->markdown, "a page of documentation: who fails what");
+  command->footer(
+      "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
+      "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' generic-2d ties");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

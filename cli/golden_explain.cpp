@@ -1,0 +1,118 @@
+// lorentz golden explain: one record in full.
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "golden.hpp"
+#include "margin.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+#include "reader.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct Options {
+  std::string id, most = "12";
+  std::vector<std::string> sets;
+};
+
+std::string name_of(const ObstacleId& id, int dimension) {
+  std::string cell;
+  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + id.cell[i].decimal();
+  return fmt::format("lattice {}, atom {}, cell ({})", id.lattice, id.atom, cell);
+}
+
+std::string margin_text(double margin) {
+  return margin >= oracle::kLargestMargin ? "2^20 ulps or more" : fmt::format("{:.6g} ulps", margin);
+}
+
+// The decision that is hardest, in words.
+std::string decision_text(const oracle::Decision& decision, int dimension) {
+  const std::string name = name_of(decision.obstacle, dimension);
+  if (decision.margin >= oracle::kLargestMargin)
+    return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
+  switch (decision.kind) {
+    case oracle::DecisionKind::containing:
+      return fmt::format("The hard decision: does {} contain x? {}, by {}.", name,
+                         decision.yes ? "Yes" : "No", margin_text(decision.margin));
+    case oracle::DecisionKind::meeting:
+      return fmt::format("The hard decision: does the line meet {}? {}, by {}.", name,
+                         decision.yes ? "Yes" : "No", margin_text(decision.margin));
+    case oracle::DecisionKind::order:
+      return fmt::format("The hard decision: is {} entered before the obstacle that is hit? No, by {}.", name,
+                         margin_text(decision.margin));
+  }
+  return "";
+}
+
+std::string passed_table(const std::vector<oracle::Passed>& passed, const ObstacleId& hit, int dimension) {
+  Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
+  for (const oracle::Passed& one : passed)
+    table.add({name_of(one.obstacle, dimension), fmt::format("{:.10g}", one.time),
+               fmt::format("{:.6g}", one.gap), fmt::format("{:.6g}", one.margin),
+               one.obstacle == hit ? "hit" : ""});
+  return table.text();
+}
+
+void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::size_t most) {
+  const golden::Record& record = read.record;
+  const int dimension = reader.scene().dimension;
+  print(fmt::format("{}:{}: {}\n\n{}\n{}\n\n", reader.path(), read.line, record.id, reader.scene_line(),
+                    read.text));
+  for (const auto& [tag, note] : reader.header().tags)
+    for (const std::string& own : record.tags)
+      if (own == tag) print(fmt::format("{}: {}\n", tag, note));
+  if (!read.query) {
+    print(fmt::format("\nIt is no query: {}. The answer is `error`.\n", read.flaw));
+    return;
+  }
+  const oracle::Scrutiny scrutiny(reader.scene());
+  const Answer& expect = record.expect;
+  if (expect.outcome == Outcome::never) {
+    print(
+        "\nNothing is ever hit: the flight is periodic, and no row of obstacles along it is met. There is no "
+        "margin.\n");
+    return;
+  }
+  const bool hit = expect.outcome == Outcome::hit;
+  print(fmt::format("\n{} {}{}\n", hit ? "It hits" : "It starts inside", name_of(expect.obstacle, dimension),
+                    hit ? " at t = " + expect.time_decimal : ""));
+  if (hit)
+    print(fmt::format("An ulp in each input moves that time by up to {:.4g} of its ulps (its condition).\n",
+                      scrutiny.condition(*read.query, expect)));
+  print(decision_text(*scrutiny.hardest_decision(*read.query, expect), dimension) + '\n');
+  if (hit)
+    print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
+          passed_table(scrutiny.passed(*read.query, expect, most), expect.obstacle, dimension));
+}
+
+int act(const Options& options) {
+  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
+  for (const std::string& path : find_sets(options.sets)) {
+    golden::Reader reader(path);
+    for (golden::ReadRecord read; reader.next(read);)
+      if (read.record.id == options.id) {
+        explain(reader, read, most);
+        return kDone;
+      }
+  }
+  throw InputError("no record has the id " + json_quoted(options.id));
+}
+
+}  // namespace
+
+void add_golden_explain(CLI::App& golden, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = golden.add_subcommand(
+      "explain",
+      "One record in full: the line, the obstacles passed and by how much, the decision that is hard.");
+  command->add_option("id", options->id, "the record's id")->required();
+  command->add_option("sets", options->sets,
+                      "files, or names of committed sets, to look in (default: all of these)");
+  command->add_option("--most", options->most, "list so many obstacles")
+      ->capture_default_str()
+      ->type_name("N");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

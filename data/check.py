@@ -1,0 +1,154 @@
+"""Verifies golden sets by their certificates (docs/certificates.md) in plain integers; shares nothing with the program.
+Usage: python3 check.py FILE...  ("-": standard input).  Exit status: 0 all verified, 1 something is refuted, 2 bad
+usage or unreadable input.  `margin` and `condition` are not looked at: they tell how hard a question is."""
+import fileinput, fractions, hashlib, json, math, re, sys
+def require(condition, flaw):  # where something is missing or of a wrong type, Python's own errors say so
+    if not condition: raise ValueError(flaw)
+# ---- READ. Numbers are integers in units of 2^-1074, as every binary64 is. What is planar gets a third coordinate.
+def number(value):
+    if type(value) is str and re.fullmatch("-?0[xX][0-9a-fA-F.]+([pP][+-]?[0-9]+)?", value): value = float.fromhex(value)
+    require(type(value) in (int, float), f"no number: {value!r:.40}")
+    return int(fractions.Fraction(float(value)) * 2**1074)  # an error, if it is not finite
+def integer(value):
+    require(type(value) is int or type(value) is str and re.fullmatch("-?[0-9]+", value), f"no integer: {value!r:.40}")
+    return int(value)
+def bound(e):  # a window's: a number, or "-0x1f4p-3" with an integer of any length; rounding would only move it
+    mantissa, power = (int(e.split("p")[0], 16), int(e.split("p")[1])) if type(e) is str else (number(e), -1074)
+    return mantissa << power + 1074 if power >= -1074 else mantissa >> min(-1074 - power, 9**6)
+def loose(n): return int(n) if type(n) is float and abs(n) <= 2**53 and n == int(n) else integer(n)  # 27.0 in queries
+def vector(value, size, read, rest=0):
+    require(type(value) is list and len(value) == size, f"no array of {size} items: {value!r:.40}")
+    return tuple(read(item) for item in value) + (rest,) * (3 - size)
+def matrix(value, size, read): return vector(value, size, lambda row: vector(row, size, read), (0, 0, read(1)))
+def obstacle(box, size, read): return read(box["lattice"]), read(box["atom"]), vector(box["cell"], size, read)
+def read_scene(scene):
+    size, atoms = scene["dimension"], {}
+    require(size in (2, 3) and scene["lattices"] and all(u["atoms"] for u in scene["lattices"]), "an empty scene")
+    for l, lattice in enumerate(scene["lattices"]):
+        for a, atom in enumerate(lattice["atoms"]):
+            r, b = number(atom.get("radius", 1)), matrix(lattice["vectors"], size, number)
+            A = matrix(atom["semiaxes"], size, number) if "semiaxes" in atom else ((r, 0, 0), (0, r, 0), (0, 0, r))
+            require(r > 0 and det(*A) and det(*b) and ("radius" in atom) != ("semiaxes" in atom), "no volume or shape")
+            atoms[l, a] = *A, *b, vector(atom["position"], size, number)
+    return size, atoms, math.gcd(*(c for vectors in atoms.values() for y in vectors for c in y))
+# ---- SCALE. Common factors of all lengths go. M = adj(A) = det(A) A^-1 takes an obstacle p + A y, |y| < 1, to a ball
+# of radius r = |det A|, and integers to integers (without a common factor: of a ball, M = 1). A planar gas becomes the
+# layer z = 0 of a spatial one, discs the equators of balls; layers are r apart: the line meets no ball of another.
+def dot(a, b): return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+def cross(a, b): return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+def det(a, b, c): return dot(a, cross(b, c))
+def add(w, k, b): return w[0] + k * b[0], w[1] + k * b[1], w[2] + k * b[2]
+def combine(n, b): return add(add(add((0, 0, 0), n[0], b[0]), n[1], b[1]), n[2], b[2])
+def read_query(query, size, atoms, factor):
+    """`from`; and for each atom in its coordinates v, v^2, r^2 v^2, w = c - x of the obstacle in cell 0, lattice."""
+    x, v, balls = vector(query["x"], size, number), vector(query["v"], size, number), {}
+    leaving = obstacle(query["from"], size, loose) if "from" in query else None
+    require(any(v) and (not leaving or leaving[:2] in atoms), "v is zero, or `from` is no obstacle of the scene")
+    unit = math.gcd(factor, *x, *v)
+    for key, vectors in atoms.items():
+        a1, a2, a3, *vectors = [[c // unit for c in y] for y in (*vectors, x, v)]
+        M, r = (cross(a2, a3), cross(a3, a1), cross(a1, a2)), det(a1, a2, a3)
+        factor = math.gcd(r, *M[0], *M[1], *M[2])
+        *b, p, x1, v1 = [[dot(row, y) // factor for row in M] for y in vectors]
+        if size == 2: b[2] = 0, 0, r // factor
+        balls[key] = v1, dot(v1, v1), (r // factor)**2 * dot(v1, v1), add(p, -1, x1), b
+    return leaving, balls
+# ---- SEARCH. Of an obstacle at w from x let s = v.w, h = v x w, D = r^2 v^2 - h^2. The line meets it iff D > 0, at the
+# times (s -+ sqrt D) / v^2; it contains x iff s^2 < D, for s^2 + h^2 = v^2 w^2.
+def common(bounds, before=0):  # the k with low <= start + k step <= high, of all bounds that have a step
+    bounds = [b if b[3] > 0 else (-b[1], -b[0], -b[2], -b[3]) for b in bounds if b[3]]
+    first = max(-((start - low) // step) for low, _, start, step in bounds)
+    stop = min((high - start) // step + 1 for _, high, start, step in bounds)
+    require(before + stop - first <= 10**6, "a window with too many planes, rows, or obstacles in a row")
+    return range(first, stop)
+def met(ball, basis, low, high):
+    """All (s, D, n) with D > 0, low <= s <= high (and some beyond). In integers h^2 < r^2 v^2 is h^2 <= H. For any a,
+    v^2 a.w - s a.v = a.(v^2 w - s v) is at most |v x a| |h|: what is in brackets is across v, and |v| |h| long."""
+    def bounds(a, w, b, room):  # of v^2 a.(w + k b), where (|v x a| |h|)^2 <= room
+        ends = low * dot(a, v), high * dot(a, v)
+        return min(ends) - math.isqrt(room), max(ends) + math.isqrt(room), Q * dot(a, w), Q * dot(a, b)
+    (v, Q, R, w, u), H, rows = ball, ball[2] - 1, 0
+    b1, b2, b3 = [combine(n, u) for n in basis]
+    N, s1, h1 = cross(b1, b2), dot(v, b1), cross(v, b1)  # N.w depends on k3 only
+    a, hh = cross(b1, cross(v, e := cross(v, N))), dot(h1, h1)  # k3 given, a.w and h1.w depend on k2 only
+    for k3 in common([bounds(N, w, b3, H * dot(e, e))]):
+        near, far, Nw, _ = bounds(N, w3 := add(w, k3, b3), b3, 0)
+        off = max(near - Nw, Nw - far, 0)  # v^2 (e.w)^2 + (s N.v - v^2 N.w)^2 = |e|^2 h^2, and a = (e.b1) v - s1 e
+        room = s1**2 * Q * (H * dot(e, e) - off**2)
+        for k2 in common([bounds(a, w3, b2, room), bounds(h1, w3, b2, H * Q * hh)], rows):
+            rows, w2 = rows + 1, add(w3, k2, b2)
+            s, f, g = dot(v, w2), dot(h1, h := cross(v, w2)), dot(h, h) - H  # h^2 - H = hh k1^2 + 2 f k1 + g <= 0
+            root = math.isqrt(f * f - hh * g)  # of H hh - v^2 (h1.w)^2 >= 0; if hh = 0, a.w was bounded so that g <= 0
+            for k1 in common([(low, high, s, s1), (-root, root, f, hh)]):
+                yield s + k1 * s1, 1 - g - k1 * (2 * f + k1 * hh), combine((k1, k2, k3), basis)
+# ---- JUDGE. A time is a triple (s, D, Q): (s - sqrt D) / Q.
+def sign(a, b, c):  # of a + sqrt b - sqrt c; if a >= 0, of 2 a sqrt b - z
+    z = c - a * a - b
+    return -sign(-a, c, b) if a < 0 else 1 if z < 0 else (4 * a * a * b > z * z) - (4 * a * a * b < z * z)
+def order(t, u): return sign(t[0] * u[2] - u[0] * t[2], u[1] * t[2]**2, t[1] * u[2]**2)  # the sign of t - u
+def rounds(t, n, base, k, digits):
+    """Is n base^k what t rounds to? So t is between the midpoints to its neighbours, or at one if n is even. The lower
+    one of a power of the base is closer (of 2^-1022, it is not); "inf" stands for 2^1024, and has none above."""
+    side = 1 if n == base**(digits - 1) and (base, k) != (2, -1074) else base
+    up, down = base**max(k, 0), 2 * base**(1 + max(-k, 0))
+    return order(t, ((2 * base * n - side) * up, 0, down)) >= n % 2 and (
+        (base, k) == (2, 972) or order(t, ((2 * base * n + base) * up, 0, down)) <= -(n % 2))
+def check_time(t, time, text):
+    k = max((n := 2**2098 if time == "inf" else number(time)).bit_length() - 53, 0)
+    require(str(time)[0] != "-" and rounds(t, n >> k, 2, k - 1074, 53), "time is not correctly rounded")
+    whole, part, power = re.fullmatch("([0-9]+)[.]?([0-9]*)(?:e([+-][0-9]{1,4}))?", text).groups()
+    n, k = (whole + part).lstrip("0"), int(power or 0) - len(part)
+    require(len(n) == 40 and rounds(t, int(n), 10, k, 40) if t[0]**2 > t[1] else text == "0", "time_decimal is wrong")
+def verify(record, scene):
+    outcome, size = record["expect"]["outcome"], scene[0]
+    try: leaving, balls = read_query(record, *scene)
+    except Exception as flaw: return require(outcome == "error", flaw)
+    require(outcome in ("hit", "inside", "never"), f"the outcome is not {outcome!r:.20}")
+    times, ends = {}, {key: -1 - math.isqrt(((R << 2148) - 1) // Q**2) for key, (_, Q, R, *_) in balls.items()}
+    for piece in record["certificate"]["rows" if outcome == "never" else "windows"]:
+        key, basis = (integer(piece["lattice"]), integer(piece["atom"])), matrix(piece["basis"], size, integer)
+        v, Q, _, _, u = balls[key]
+        require(abs(det(*basis)) == 1, "a determinant is not +-1: obstacles are missing")
+        if outcome == "never":  # of a row along v that is met, obstacles b_1 apart are: one in every period of s
+            require(not any(cross(v, combine(basis[0], u))), "b_1 is not along v")
+            low, high, _ = 0, (abs(dot(v, combine(basis[0], u))) << 1074) // Q + 1, ends.pop(key)
+        else:
+            low, high = bound(piece["from"]), bound(piece["to"])
+            require(low <= min(ends[key], high), f"the windows of {key} leave a gap before {piece['from']}")
+            ends[key] = max(ends[key], high)  # at first, just below -r / |v|
+        for s, D, n in met(balls[key], basis, -(-low * Q >> 1074), high * Q >> 1074):
+            if s * s < D: times[*key, n] = -1, 0, 1  # it contains x, and comes before all that are entered
+            elif s > 0: times[*key, n] = s, D, Q
+    if outcome == "never": return require(not ends and not times, f"no rows of {[*ends]}, or met is {[*times][:1]}")
+    X = obstacle(record["expect"], size, integer)
+    require(X != leaving and X in times and (outcome == "inside") == (times[X][0] < 0), f"{X} is no {outcome}")
+    if outcome == "hit": check_time(times[X], record["expect"]["time"], record["time_decimal"])
+    for Y, t in times.items():
+        require(Y == leaving or (order(t, times[X]), Y) >= (0, X), f"{Y} comes first")
+    for key, end in ends.items():  # end - r / |v| against 0, or the time of X
+        (_, Q, R, *_), t = balls[key], times[X] if outcome == "hit" else (0, 0, 1)
+        require(outcome == "inside" and key > X[:2] or order((end * Q, R << 2148, Q << 1074), t) >= 0, f"{key}: a gap")
+def check(name):  # ---- FILES.
+    flaws, records, ids, scene, text, version, count, tags = [], 0, set(), None, b"", None, None, ()
+    for i, line in enumerate(fileinput.FileInput(name, mode="rb"), 1):
+        line, identity = line.rstrip(b"\r\n"), None
+        try:
+            box = json.loads(line, parse_constant=integer)
+            if i == 1: version, count, tags = (box["golden"][key] for key in ("format", "count", "tags"))
+            elif "scene" in box: scene, text = read_scene(box["scene"]), line
+            else:
+                records, identity = records + 1, box["id"]
+                question = line[line.index(b'],"') + 2:line.index(b',"expect"')]
+                asked = json.loads(b"{%b}" % question)
+                require({*box} & {"x", "v", "from"} <= {*asked} and all(box[k] == asked[k] for k in asked), "order")
+                require(hashlib.sha256(text + b"\n" + question).hexdigest()[:16] == identity, "the id does not belong")
+                require(identity not in ids and not ids.add(identity) and {*box["tags"]} <= {*tags}, "id twice, or tags")
+                verify(box, scene)
+        except Exception as flaw:
+            flaws.append((1 if identity else 2, f"{name}:{i}: id {identity}: {type(flaw).__name__}: {flaw}"))
+    if (version, count) != (1, records): flaws.append((1, f"{name}:1: {version, count} are not (1, {records})"))
+    print(*[flaw for _, flaw in flaws] or [f"{name}: {records} records, all verified"], sep="\n")
+    return max(flaws, default=(0,))[0]
+if __name__ == "__main__":
+    try: sys.exit(max(map(check, sys.argv[1:])))
+    except (OSError, ValueError) as flaw: sys.exit(print(flaw, __doc__, sep="\n", file=sys.stderr) or 2)
