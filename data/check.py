@@ -1,20 +1,19 @@
 """Verifies golden sets by their certificates (docs/certificates.md) in plain integers; shares nothing with the program.
-Usage: python3 check.py FILE...  ("-": standard input).  Exit status: 0 all verified, 1 something is refuted, 2 bad
-usage or unreadable input.  `margin` and `condition` are not looked at: they tell how hard a question is."""
+Usage: check.py FILE... ("-": stdin). Exit: 0 verified, 1 refuted, 2 bad input. `margin`, `condition`: not looked at."""
 import fileinput, fractions, hashlib, json, math, re, sys
 def require(condition, flaw):  # where something is missing or of a wrong type, Python's own errors say so
     if not condition: raise ValueError(flaw)
 # ---- READ. Numbers are integers in units of 2^-1074, as every binary64 is. What is planar gets a third coordinate.
 def number(value):
-    if type(value) is str and re.fullmatch("-?0[xX][0-9a-fA-F.]+([pP][+-]?[0-9]+)?", value): value = float.fromhex(value)
+    if type(value) is str and re.fullmatch("-?0[xX][0-9a-fA-F.]+([pP][+-]?\\d+)?", value): value = float.fromhex(value)
     require(type(value) in (int, float), f"no number: {value!r:.40}")
     return int(fractions.Fraction(float(value)) * 2**1074)  # an error, if it is not finite
 def integer(value):
     require(type(value) is int or type(value) is str and re.fullmatch("-?[0-9]+", value), f"no integer: {value!r:.40}")
     return int(value)
 def bound(e):  # a window's: a number, or "-0x1f4p-3" with an integer of any length; rounding would only move it
-    mantissa, power = (int(e.split("p")[0], 16), int(e.split("p")[1])) if type(e) is str else (number(e), -1074)
-    return mantissa << power + 1074 if power >= -1074 else mantissa >> min(-1074 - power, 9**6)
+    m, p = (int(e.split("p")[0], 16), int(e.split("p")[1]) + 1074) if type(e) is str else (number(e), 0)
+    return m << min(p, 9**6) if p >= 0 else m >> -p
 def loose(n): return int(n) if type(n) is float and abs(n) <= 2**53 and n == int(n) else integer(n)  # 27.0 in queries
 def vector(value, size, read, rest=0):
     require(type(value) is list and len(value) == size, f"no array of {size} items: {value!r:.40}")
@@ -39,8 +38,7 @@ def cross(a, b): return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[
 def det(a, b, c): return dot(a, cross(b, c))
 def add(w, k, b): return w[0] + k * b[0], w[1] + k * b[1], w[2] + k * b[2]
 def combine(n, b): return add(add(add((0, 0, 0), n[0], b[0]), n[1], b[1]), n[2], b[2])
-def read_query(query, size, atoms, factor):
-    """`from`; and for each atom in its coordinates v, v^2, r^2 v^2, w = c - x of the obstacle in cell 0, lattice."""
+def read_query(query, size, atoms, factor):  # `from`; by atom, in its coordinates: v, v^2, r^2 v^2, w_0, lattice
     x, v, balls = vector(query["x"], size, number), vector(query["v"], size, number), {}
     leaving = obstacle(query["from"], size, loose) if "from" in query else None
     require(any(v) and (not leaving or leaving[:2] in atoms), "v is zero, or `from` is no obstacle of the scene")
@@ -138,14 +136,12 @@ def check(name):  # ---- FILES.
             elif "scene" in box: scene, text = read_scene(box["scene"]), line
             else:
                 records, identity = records + 1, box["id"]
-                question = line[line.index(b'],"') + 2:line.index(b',"expect"')]
-                asked = json.loads(b"{%b}" % question)
+                asked = json.loads(b"{%b}" % (question := line[line.index(b'],"') + 2:line.index(b',"expect"')]))
                 require({*box} & {"x", "v", "from"} <= {*asked} and all(box[k] == asked[k] for k in asked), "order")
                 require(hashlib.sha256(text + b"\n" + question).hexdigest()[:16] == identity, "the id does not belong")
                 require(identity not in ids and not ids.add(identity) and {*box["tags"]} <= {*tags}, "id twice, or tags")
                 verify(box, scene)
-        except Exception as flaw:
-            flaws.append((1 if identity else 2, f"{name}:{i}: id {identity}: {type(flaw).__name__}: {flaw}"))
+        except Exception as e: flaws.append((2 - bool(identity), f"{name}:{i}: {identity}: {type(e).__name__}: {e}"))
     if (version, count) != (1, records): flaws.append((1, f"{name}:1: {version, count} are not (1, {records})"))
     print(*[flaw for _, flaw in flaws] or [f"{name}: {records} records, all verified"], sep="\n")
     return max(flaws, default=(0,))[0]

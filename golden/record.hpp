@@ -24,7 +24,7 @@ struct Header {
 struct Record {
   std::string id;
   std::vector<std::string> tags;
-  std::string question;  ///< the text from `"x":` to before `,"expect"`: what the id is made from
+  std::string question;  ///< the text after the tags to before `,"expect"`: what the id is made from
   Answer expect;         ///< with time_decimal, of a hit
   std::optional<double> margin, condition;
   std::optional<oracle::Certificate> certificate;

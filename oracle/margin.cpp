@@ -16,7 +16,8 @@ namespace {
 // Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
 // are about as hard to tell apart; then the margin is the smallest of those looked at.
 constexpr long kSmallBudget = 500, kBudget = 10'000;
-constexpr double kFinest = 0x1p-40, kGrowth = 8;
+constexpr double kFiner = 0x1p-30, kGrowth = 8;
+constexpr int kMostTries = 4;
 constexpr double kHuge = 1e300;  // reported for what is more
 
 template <std::size_t D>
@@ -54,10 +55,15 @@ class MarginSearch {
   void search(const Uncertain<D>& atom) {
     const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
     const Real at_once = std::min(Real(kLargestMargin), Real(radius / change / 4));
-    Real k = search_at_once(atom, at_once) ? at_once : Real(at_once * kFinest);
+    Real k = at_once;
+    if (!search_at_once(atom, at_once)) {
+      int tries = 0;
+      do k *= kFiner;
+      while (!search_in_windows(atom, k, kSmallBudget) && ++tries < kMostTries);
+    }
     for (bool complete = true; complete && k < smallest_;) {
       k = std::min(Real(k * kGrowth), smallest_);
-      complete = search_in_windows(atom, k);
+      complete = search_in_windows(atom, k, kBudget);
     }
   }
 
@@ -70,11 +76,11 @@ class MarginSearch {
   }
 
   // Widens as the changes grow along the flight. Returns whether that was not too much.
-  bool search_in_windows(const Uncertain<D>& atom, const Real& k) {
+  bool search_in_windows(const Uncertain<D>& atom, const Real& k, long budget) {
     const Real radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
     const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
     Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
-    budget_ = kBudget;
+    budget_ = budget;
     for (Real time = turning_point(); low < end && budget_ >= 0; time *= 2) {
       const Z high = std::min(end, ceiling(time * v2));
       look(atom, radius + k * atom.largest_change(time), low, high);

@@ -106,19 +106,27 @@ Real Uncertain<D>::margin_of_ahead(const Centre<D>& centre) const {
   return real(Z(abs(centre.s))) / (weighted(view_.flight.v, ulps_.x) + weighted(centre.point.p, ulps_.v));
 }
 
+// (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): where s > 0 nothing cancels there.
 template <std::size_t D>
 Real Uncertain<D>::time_of(const Centre<D>& centre) const {
   const Z d = rho2_ - centre.h2;
-  return (real(centre.s) - (d > 0 ? sqrt(real(d)) : Real(0))) / real(view_.flight.v2);
+  if (d <= 0) return real(centre.s) / real(view_.flight.v2);
+  const Real chord = sqrt(real(d));
+  if (centre.s > 0) return real(Z(centre.c2 - view_.radius2)) / (real(centre.s) + chord);
+  return (real(centre.s) - chord) / real(view_.flight.v2);
 }
 
+// t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
 template <std::size_t D>
 Arrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
+  const Flight<D>& flight = view_.flight;
   Arrival<D> arrival;
   arrival.t = time_of(centre);
-  const Real chord = sqrt(real(Z(rho2_ - centre.h2)));
-  const ZVec<D> v = to_ball_transposed_ * view_.flight.v, c = to_ball_transposed_ * centre.point.p;
-  for (std::size_t i = 0; i < D; ++i) arrival.by_x[i] = (arrival.t * real(v[i]) - real(c[i])) / chord;
+  const Real chord = sqrt(real(Z(rho2_ - centre.h2))), v2 = real(flight.v2);
+  ZVec<D> nearest;
+  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * flight.v[i] - flight.v2 * centre.point.p[i];
+  const ZVec<D> v = to_ball_transposed_ * flight.v, n = to_ball_transposed_ * nearest;
+  for (std::size_t i = 0; i < D; ++i) arrival.by_x[i] = (real(n[i]) / chord - real(v[i])) / v2;
   arrival.by_radius = real(view_.radius) / chord;
   return arrival;
 }
