@@ -58,7 +58,7 @@ std::vector<Tag> with_kinds(std::vector<Tag> tags) {
 
 Case make_crystal(Source& source) {
   Case made;
-  const std::uint64_t which = source.scene.below(crystals().size());
+  const std::uint64_t which = source.index / kCasesPerScene % crystals().size();  // each in its turn
   const Crystal& crystal = crystals()[which];
   made.scene = crystal.scene;
   made.tags = {std::string(crystal.name)};

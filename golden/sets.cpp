@@ -8,14 +8,12 @@ namespace lorentz::golden {
 namespace {
 
 constexpr std::string_view kBadQueries = "bad-queries";
-constexpr std::uint64_t kCommitted = 640;           // 20 scenes of each family,
-constexpr std::uint64_t kCommittedCrystals = 1600;  // but all crystals
+constexpr std::uint64_t kCommitted = 640;  // 20 scenes of each family
 
 std::vector<Set> make_sets() {
   std::vector<Set> all;
   for (const fuzz::Family& family : fuzz::families())
-    all.push_back({std::string(family.name()), std::string(family.description()), family.tags(),
-                   family.name() == "crystals" ? kCommittedCrystals : kCommitted,
+    all.push_back({std::string(family.name()), std::string(family.description()), family.tags(), kCommitted,
                    std::numeric_limits<std::uint64_t>::max()});
   const std::uint64_t bad = fuzz::bad_queries().size();
   all.push_back({std::string(kBadQueries), "Questions that are none: the answer is `error`.",
