@@ -147,7 +147,7 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
         "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},"
         "\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":",
         i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(t.ill_posed), count(t.wrong),
-        count(t.wrong_time), count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
+        count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
     const auto measured = [&](double value, bool was_measured) {
       if (was_measured)
         append_number(out, value);
