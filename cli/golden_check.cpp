@@ -31,6 +31,7 @@ struct Failure {
   oracle::Judgement judgement;
   std::optional<double> margin;
   Answer expect, given;
+  int dimension;
 };
 
 // One engine's account of a set, and of each of its tags.
@@ -77,7 +78,7 @@ class Examination {
         judge_ = std::make_shared<oracle::Judge>(reader.scene());
         answerer_->set_scene(reader.scene());
       }
-      open_.push_back({std::move(read.record), judge_, read.query});
+      open_.push_back({std::move(read.record), judge_, read.query, reader.scene().dimension});
       const golden::Record& record = open_.back().record;
       if (read.query)
         answerer_->ask(json_quoted(record.id), *read.query);
@@ -97,6 +98,7 @@ class Examination {
     golden::Record record;
     std::shared_ptr<const oracle::Judge> judge;
     std::optional<Query> query;
+    int dimension;
   };
 
   void take(Answer& given) {
@@ -111,7 +113,7 @@ class Examination {
         judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::error;
     if (failed && failures_.size() < most_failures_)
       failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_,
-                           judgement, record.margin, record.expect, given});
+                           judgement, record.margin, record.expect, given, open.dimension});
   }
 
   const std::string engine_;
@@ -142,9 +144,9 @@ std::vector<std::string> cells_of(const std::string& set, const std::string& tag
 const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agree",       "ill-posed",
                                         "wrong", "wrong time", "undecided", "unsupported", "error"};
 
-std::string short_answer(const Answer& answer) {
+std::string short_answer(const Answer& answer, int dimension) {
   std::string text;
-  append_answer_line(text, "0", answer, 3);
+  append_answer_line(text, "0", answer, dimension);
   text = text.substr(8, text.size() - 10);
   constexpr std::size_t kLongest = 160;
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
@@ -152,7 +154,8 @@ std::string short_answer(const Answer& answer) {
 
 std::string describe(const Failure& failure) {
   std::string text = fmt::format("  {} {} ({}): expected {}, got {}\n    ", failure.set, failure.id,
-                                 failure.tags, short_answer(failure.expect), short_answer(failure.given));
+                                 failure.tags, short_answer(failure.expect, failure.dimension),
+                                 short_answer(failure.given, failure.dimension));
   if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
   if (failure.judgement.wrong_time)
     text += fmt::format("the time is off by {:.3g} times what an ulp in each input makes\n",
@@ -311,6 +314,7 @@ void add_golden_check(CLI::App& golden, Action& action) {
       "check", "Checks an engine against sets: a table by set and tag, the first failures.");
   command
       ->add_option("-e,--engine", options->engines, names_for_help() + "; several with commas, or once each")
+      ->allow_extra_args(false)  // what follows is a set
       ->type_name("E");
   command->add_option("sets", options->sets, "files, or names of committed sets (default: all of these)");
   command->add_option("--ulps", options->ulps, "the tolerance k of the verdicts (default: 4)")

@@ -19,6 +19,28 @@ bool same(const Answer& a, const Answer& b) {
   return !named || (a.obstacle == b.obstacle && a.time == b.time);
 }
 
+// The number of significant digits of a decimal number as it is written here; 0 of zero.
+int significant_digits(std::string_view decimal) {
+  int digits = 0;
+  for (const char c : decimal.substr(0, decimal.find('e')))
+    if (c >= '0' && c <= '9' && (digits > 0 || c != '0')) ++digits;
+  return digits;
+}
+
+// What a record has must be what its outcome has.
+std::optional<std::string> flaw_of_form(const Record& record) {
+  const Outcome outcome = record.expect.outcome;
+  const std::string& decimal = record.expect.time_decimal;
+  if (outcome == Outcome::error && (record.margin || record.condition || record.certificate))
+    return "of an error there is no margin, condition or certificate";
+  if (outcome != Outcome::hit && !decimal.empty()) return "it has a time_decimal, and hits nothing";
+  if (outcome != Outcome::hit) return std::nullopt;
+  if (decimal.empty()) return "it has no time_decimal";
+  if (decimal != "0" && significant_digits(decimal) != kDigits)
+    return "its time_decimal has not " + std::to_string(kDigits) + " digits";
+  return std::nullopt;
+}
+
 }  // namespace
 
 struct Maker::Impl {
@@ -80,6 +102,7 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
 std::optional<std::string> Maker::flaw_of(const Record& record, const std::optional<Query>& query,
                                           bool ask_walk) const {
   if (record.id != id_of(impl_->scene_line, record.question)) return "the id does not belong to the question";
+  if (auto why = flaw_of_form(record)) return why;
   if (!query || record.expect.outcome == Outcome::error) {
     if (!query && record.expect.outcome == Outcome::error) return std::nullopt;
     return query ? "this is a query, `error` is no answer to it"
@@ -87,8 +110,6 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   }
   if (!record.certificate) return "it has no certificate";
   if (auto why = impl_->check.refutation(*query, record.expect, *record.certificate)) return why;
-  if (record.expect.outcome == Outcome::hit && record.expect.time_decimal.empty())
-    return "it has no time_decimal";
   Record again;
   again.expect = record.expect;
   impl_->measure(*query, again);

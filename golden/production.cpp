@@ -221,6 +221,8 @@ class PartFile {
 
   // The ids and the last scene of the part that the note speaks of.
   bool read_part(State& state) const {
+    std::error_code error;
+    if (const auto size = std::filesystem::file_size(part_, error); error || size < bytes_) return false;
     std::ifstream part(part_);
     std::string line;
     if (!std::getline(part, line) || line + '\n' != header_) return false;

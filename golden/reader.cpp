@@ -113,12 +113,15 @@ double read_size(json::value value, const std::string& key) {
   return read_number(value, key);
 }
 
+// The id is made from the text between, so there all of the question must be.
+constexpr const char* kOrder = "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
+
 // The text of a record's question.
 std::string question_in(std::string_view line) {
   const auto tags = line.find("\"tags\":["), end = line.find(",\"expect\":");
   const auto begin = tags == std::string_view::npos ? tags : line.find("],", tags);
-  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin)
-    throw InputError("the keys of a record stand in the order id, tags, x, v, from, expect, ...");
+  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin + 2)
+    throw InputError(kOrder);
   return std::string(line.substr(begin + 2, end - begin - 2));
 }
 
@@ -222,11 +225,13 @@ struct Reader::Impl {
       read.query = std::move(item.query);
     else
       read.flaw = item.message;
-    bool has_expect = false;
+    bool has_tags = false, has_expect = false;
     json::document document = open(line);
     for (auto field : document.get_object()) {
       const std::string key(std::string_view(field.unescaped_key()));
+      has_tags |= key == "tags";
       has_expect |= key == "expect";
+      if ((!has_tags || has_expect) && (key == "x" || key == "v" || key == "from")) throw InputError(kOrder);
       read_field(key, field.value(), read.record);
     }
     if (!has_expect || read.record.id.empty()) throw InputError("a golden record has an id and `expect`");

@@ -1,0 +1,71 @@
+// What the tests of golden sets share: records in files, and read again.
+#pragma once
+
+#include <functional>
+
+#include "command_line.hpp"
+#include "maker.hpp"
+#include "production.hpp"
+#include "reader.hpp"
+#include "support.hpp"
+
+namespace lorentz::test {
+
+/// One record with its scene, made like those of a set.
+struct GoldenCase {
+  Scene scene;
+  std::optional<Query> query;
+  golden::Record record;
+};
+
+inline GoldenCase golden_case(const Scene& scene, const Query& query) {
+  golden::Record record =
+      golden::Maker(scene).make(golden::question_of(query, scene.dimension), query).record;
+  record.tags = {"drawn"};
+  return {scene, query, std::move(record)};
+}
+
+/// What the check of records says about it.
+inline std::string flaw(const GoldenCase& c, bool ask_walk = false) {
+  return golden::Maker(c.scene).flaw_of(c.record, c.query, ask_walk).value_or("");
+}
+
+inline std::string record_line(const golden::Record& record, int dimension) {
+  std::string line;
+  golden::append_record_line(line, record, dimension);
+  return line;
+}
+
+/// The text of a set of these records.
+inline std::string set_of(const std::vector<GoldenCase>& cases) {
+  std::string text;
+  golden::append_header_line(text, {"drawn", "for a test", "none", "0", cases.size(), {{"drawn", "a tag"}}});
+  for (const GoldenCase& c : cases) {
+    append_scene_line(text, c.scene);
+    text += record_line(c.record, c.scene.dimension);
+  }
+  return text;
+}
+
+/// A question as it stands in a set, made into a record.
+inline GoldenCase golden_case(const golden::Set& set, std::uint64_t seed, std::uint64_t index) {
+  const golden::Question question = set.question(seed, index);
+  golden::Record record = golden::Maker(question.scene).make(question.text, question.query).record;
+  record.tags = question.tags;
+  return {question.scene, question.query, std::move(record)};
+}
+
+/// The first place of `old` replaced; the text must hold it.
+inline std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
+  const auto place = text.find(old);
+  if (place == std::string::npos) throw std::logic_error("the text does not hold " + old);
+  return text.replace(place, old.size(), fresh);
+}
+
+/// What the text holds between `begin` and `end`.
+inline std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const auto first = text.find(begin) + begin.size();
+  return text.substr(first, text.find(end, first) - first);
+}
+
+}  // namespace lorentz::test
