@@ -162,12 +162,12 @@ std::string describe(const Failure& failure) {
                         failure.judgement.departs);
   else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
     text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
+  else if (failure.judgement.verdict == oracle::Verdict::error)
+    text += "the question is a good one\n";
   else
     text += "no error in the inputs explains it\n";
   return text + fmt::format("    again: lorentz golden check --engine {} --id {} {}\n",
-                            failure.engine.find(' ') == std::string::npos ? failure.engine
-                                                                          : "'" + failure.engine + "'",
-                            failure.id, failure.set);
+                            shell_quoted(failure.engine), failure.id, shell_quoted(failure.set));
 }
 
 std::string json_of(const std::string& engine, const std::vector<Account>& accounts) {
