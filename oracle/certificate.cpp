@@ -32,7 +32,7 @@ std::optional<WindowEnd> window_end_from(std::string_view text) {
 std::optional<double> binary64_of(const WindowEnd& end) {
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   if (!end.mantissa.fits_int64() || end.mantissa.int64() > kMost || end.mantissa.int64() < -kMost ||
-      end.exponent > 1100 || end.exponent < -1100)
+      end.exponent > 1100 || end.exponent < -1200)
     return std::nullopt;
   const auto mantissa = static_cast<double>(end.mantissa.int64());
   const double value = std::ldexp(mantissa, static_cast<int>(end.exponent));

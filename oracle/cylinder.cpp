@@ -40,8 +40,10 @@ bool for_each_section(const View<3>& view, const Planes& planes, const Basis<3>&
     PlaneSection section = planes.section(view.offset, k3, low, high);
     if (section.empty) continue;
     // A checker of certificates may bound the rows by the whole window; so the cuts must be made for that.
-    section.z_low = low;
-    section.z_high = high;
+    if (!planes.head_on) {
+      section.z_low = low;
+      section.z_high = high;
+    }
     if (take(section, planes.rows(section, g1, g2))) return true;
   }
   return false;
