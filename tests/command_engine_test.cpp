@@ -1,5 +1,5 @@
-// cmd:COMMAND: other programs as engines, and what is made of their faults. tests/odd_engine.py has the
-// faults.
+// cmd:COMMAND: other programs as engines, and what is made of their faults. tests/odd_engine.py and
+// tests/silent_engine.sh have the faults.
 #include <catch2/catch.hpp>
 
 #include <chrono>
@@ -16,6 +16,10 @@ constexpr int kQueries = 20;
 // The shell, which stays and waits, would keep the program's output open: with exec it does not stay.
 std::string odd(const std::string& fault) {
   return "'cmd:exec " LORENTZ_PYTHON " -I -S " LORENTZ_SOURCE_DIR "/tests/odd_engine.py " + fault + "'";
+}
+
+std::string silent(const std::string& fault) {
+  return "'cmd:sh " LORENTZ_SOURCE_DIR "/tests/silent_engine.sh " + fault + "'";
 }
 
 // Queries "q0", "q1", ... that start at (0, 0.5), (1, 0.5), ...
@@ -155,14 +159,14 @@ TEST_CASE("A silent program is killed, with all that it started") {
   const Folder folder;
   const auto queries = folder.write("q", stream());
   for (const std::string fault : {"sleeps", "closes-input"}) {
-    const Run run = folder.lorentz("first-hit --timeout 0.5 --engine " + odd(fault) + " " + queries);
+    const Run run = folder.lorentz("first-hit --timeout 0.5 --engine " + silent(fault) + " " + queries);
     INFO(fault << run.err);
     CHECK(run.status == 3);
     CHECK(contains(run.err, "gave no answer within 0.5 s:\n"));
     check_all_but_fifth(run.out, fault == "sleeps" ? "cmd gave no answer within 0.5 s\"" : "cmd ");
   }
-  const Run buffered = folder.lorentz("first-hit --timeout 0.4 --engine " + odd("sleeps-buffered 1") + " " +
-                                      folder.write("p", stream(3)));
+  const Run buffered = folder.lorentz("first-hit --timeout 0.4 --engine " + silent("sleeps-buffered 1") +
+                                      " " + folder.write("p", stream(3)));
   INFO(buffered.err);
   CHECK(buffered.out ==
         answer_to(0) + "\n" + error_to(1, "cmd gave no answer within 0.4 s\"}\n") + answer_to(2) + "\n");

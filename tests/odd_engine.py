@@ -31,11 +31,6 @@ def fail(query):
         sys.exit(0)
     elif FAULT == "crashes":
         os.kill(os.getpid(), signal.SIGSEGV)
-    elif FAULT.startswith("sleeps"):
-        time.sleep(1000)
-    elif FAULT == "closes-input":
-        os.close(0)
-        time.sleep(1000)
     elif FAULT == "closes-output":
         os.close(1)
         time.sleep(1000)
