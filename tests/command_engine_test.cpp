@@ -289,14 +289,18 @@ TEST_CASE("Answers come while the input pauses") {
   const Folder folder;
   const auto rest = folder.write("rest", kGood);
   const std::string out = folder.file("o");
-  for (const auto& [manner, count] :
-       {std::pair("fine", 3), std::pair("at-end", 3), std::pair("nameless 0", 1)}) {
+  const auto query = [](int k) { return stream(k + 1).substr(stream(k).size()); };
+  struct Case {
+    std::string manner, text;
+    int count;
+  };
+  for (const auto& [manner, text, count] : {Case{"fine", stream(3), 3}, Case{"at-end", stream(3), 3},
+                                            Case{"nameless 0", kScene + query(1) + kScene + query(0), 2}}) {
     const std::string number = std::to_string(count);
-    const std::string command = "{ cat " + folder.write("first", stream(count)) +
-                                "; for i in $(seq 50); do sleep 0.1; test $(wc -l <" + out + ") = " + number +
-                                " && break; done; wc -l <" + out + " >" + folder.file("early") + "; cat " +
-                                rest + "; } | " LORENTZ_PROGRAM " first-hit --engine " + odd(manner) + " >" +
-                                out;
+    const std::string command =
+        "{ cat " + folder.write("first", text) + "; for i in $(seq 50); do sleep 0.1; test $(wc -l <" + out +
+        ") = " + number + " && break; done; wc -l <" + out + " >" + folder.file("early") + "; cat " + rest +
+        "; } | " LORENTZ_PROGRAM " first-hit --engine " + odd(manner) + " >" + out;
     CHECK(std::system((": >" + out + "; " + command).c_str()) == 0);
     CHECK(folder.read("early") == number + "\n");
     CHECK(lines(folder.read("o")) == static_cast<std::size_t>(count) + 1);
