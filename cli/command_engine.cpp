@@ -54,11 +54,6 @@ CommandEngine::CommandEngine(std::string command, const AnswererOptions& options
 
 void CommandEngine::set_scene(const Scene& scene) {
   scene_ = std::make_shared<const Scene>(scene);
-  // What it failed on may have been the scene. One more start, if it was ever any good.
-  if (given_up_ && ever_answered_) {
-    given_up_ = false;
-    failures_in_row_ = kMaxFailuresInRow - 1;
-  }
 }
 
 void CommandEngine::ask(const Id& id, const Query& query) {
@@ -78,7 +73,8 @@ void CommandEngine::append_line(std::string& out, const Id& id, const Asked& ask
 
 void CommandEngine::add(Asked asked) {
   open_.push_back(std::move(asked));
-  if (given_up_) return give_up();
+  if (given_up_in_) give_up();
+  if (open_.empty()) return;
   const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
   if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
   while (open_.size() >= kWindow) step(Wait::yes);
@@ -412,12 +408,19 @@ void CommandEngine::run_failed(const std::string& what) {
   if (limit_ != kNoLimit) limit_ = 1;
   if (++failures_in_row_ < kMaxFailuresInRow) return;
   say("cmd:{}: is given up after {} failures in a row without an answer", command_, kMaxFailuresInRow);
-  given_up_ = true;
+  given_up_in_ = recent_.back().scene;
   give_up();
 }
 
+// The rest goes unasked, up to the next scene: what it failed on may have been this one. That is one more
+// start, if it was ever any good.
 void CommandEngine::give_up() {
   while (!open_.empty()) {
+    if (open_.front().scene != given_up_in_ && ever_answered_) {
+      given_up_in_.reset();
+      failures_in_row_ = kMaxFailuresInRow - 1;
+      return;
+    }
     Answer answer = Answer::error(fmt::format(
         "cmd was given up after {} failures in a row; this query was not asked", kMaxFailuresInRow));
     deliver_first(answer);

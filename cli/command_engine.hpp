@@ -115,7 +115,8 @@ class CommandEngine final : public Answerer {
   int silent_runs_ = 0;           // that had to be told the end before the last answers came
   std::size_t limit_ = kNoLimit;  // queries for the next run, while the one at fault is sought
   int failures_in_row_ = 0;
-  bool failed_ = false, ever_answered_ = false, given_up_ = false;
+  bool failed_ = false, ever_answered_ = false;
+  std::shared_ptr<const Scene> given_up_in_;  // or null: it is not given up
 
   std::size_t complaints_ = 0;
   std::shared_ptr<const Scene> complained_scene_;  // printed with an earlier complaint

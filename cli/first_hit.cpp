@@ -51,34 +51,54 @@ class Output {
 };
 
 // The answers in the order of the lines, though those to bad lines are there at once and those to queries
-// when the answerer gives them.
+// when the answerer gives them. The line that waits first has a place of its own: with an engine that answers
+// at once there is never another, and nothing is allocated.
 class AnswerOrder {
  public:
   explicit AnswerOrder(std::string& out) : out_(out) {}
 
-  void expect(const Id& id, int dimension) { waiting_.push_back({id, dimension, {}}); }
+  void expect(const Id& id, int dimension) {
+    if (waits_) {
+      others_.push_back({id, dimension, {}, false});
+      return;
+    }
+    first_.id = id;
+    first_.dimension = dimension;
+    waits_ = true;
+  }
   void answered(const Answer& answer) {
-    append_answer_line(out_, waiting_.front().id, answer, waiting_.front().dimension);
-    waiting_.pop_front();
-    for (; !waiting_.empty() && waiting_.front().error; waiting_.pop_front())
-      append_answer_line(out_, waiting_.front().id, *waiting_.front().error, 0);
+    append_answer_line(out_, first_.id, answer, first_.dimension);
+    waits_ = false;
+    if (!others_.empty()) next();
   }
   void bad_line(const Id& id, const std::string& message) {
-    if (waiting_.empty())
-      append_answer_line(out_, id, Answer::error(message), 0);
+    if (waits_)
+      others_.push_back({id, 0, message, true});
     else
-      waiting_.push_back({id, 0, Answer::error(message)});
+      append_answer_line(out_, id, Answer::error(message), 0);
   }
-  std::size_t waiting() const { return waiting_.size(); }
+  std::size_t waiting() const { return others_.size(); }
 
  private:
-  struct Waiting {
+  struct Line {
     Id id;
-    int dimension;
-    std::optional<Answer> error;
+    int dimension = 0;
+    std::string message;  // of a bad line
+    bool is_bad = false;
   };
+
+  void next() {
+    for (; !others_.empty() && !waits_; others_.pop_front()) {
+      first_ = std::move(others_.front());
+      waits_ = !first_.is_bad;
+      if (first_.is_bad) append_answer_line(out_, first_.id, Answer::error(first_.message), 0);
+    }
+  }
+
   std::string& out_;
-  std::deque<Waiting> waiting_;
+  Line first_;
+  bool waits_ = false;       // first_, for its answer
+  std::deque<Line> others_;  // behind it
 };
 
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query would not be bounded otherwise

@@ -1,6 +1,7 @@
 """Verifies golden sets by their certificates (docs/certificates.md) in plain integers; shares nothing with the program.
 Usage: check.py FILE... ("-": stdin). Exit: 0 verified, 1 refuted, 2 bad input. `margin`, `condition`: not looked at."""
 import fileinput, fractions, hashlib, json, math, re, sys
+sys.set_int_max_str_digits(0)  # all integers can be read
 def require(condition, flaw):  # where something is missing or of a wrong type, Python's own errors say so
     if not condition: raise ValueError(flaw)
 # ---- READ. Numbers are integers in units of 2^-1074, as every binary64 is. What is planar gets a third coordinate.
@@ -121,8 +122,7 @@ def verify(record, scene):
     X = obstacle(record["expect"], size, integer)
     require(X != leaving and X in times and (outcome == "inside") == (times[X][0] < 0), f"{X} is no {outcome}")
     if outcome == "hit": check_time(times[X], record["expect"]["time"], record["time_decimal"])
-    for Y, t in times.items():
-        require(Y == leaving or (order(t, times[X]), Y) >= (0, X), f"{Y} comes first")
+    for Y, t in times.items(): require(Y == leaving or (order(t, times[X]), Y) >= (0, X), f"{Y} comes first")
     for key, end in ends.items():  # end - r / |v| against 0, or the time of X
         (_, Q, R, *_), t = balls[key], times[X] if outcome == "hit" else (0, 0, 1)
         require(outcome == "inside" and key > X[:2] or order((end * Q, R << 2148, Q << 1074), t) >= 0, f"{key}: a gap")

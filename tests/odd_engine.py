@@ -31,11 +31,6 @@ def fail(query):
         sys.exit(0)
     elif FAULT == "crashes":
         os.kill(os.getpid(), signal.SIGSEGV)
-    elif FAULT.startswith("sleeps"):
-        time.sleep(1000)
-    elif FAULT == "closes-input":
-        os.close(0)
-        time.sleep(1000)
     elif FAULT == "closes-output":
         os.close(1)
         time.sleep(1000)
@@ -45,6 +40,9 @@ def fail(query):
         write("x" * 3_000_000)
     elif FAULT == "half":
         write('{"id":%d,"outcome":"hit"}' % query["id"])
+    elif FAULT == "leaves":
+        write(answer(query))
+        sys.exit(0)
     elif FAULT == "swaps":
         write(answer(json.loads(sys.stdin.readline())))
         write(answer(query))
@@ -57,6 +55,8 @@ def fail(query):
         write(answer(query, cell=[5, 0, 0]))
     elif FAULT == "no-such-atom":
         write(answer(query, atom=7))
+    elif FAULT == "no-such-lattice":
+        write(answer(query, lattice=1))
     elif FAULT == "nameless":
         write('{"id":null,"outcome":"error","message":"not mine"}')
     elif FAULT == "skips":
@@ -65,15 +65,18 @@ def fail(query):
         write(answer(query))
 
 
-answered, at_end = 0, []
+answered, at_end, scene = 0, [], None
 if FAULT == "talks":
     write("loading, please wait")
 for line in sys.stdin:
     query = json.loads(line)
     if "scene" in query:
+        scene = query["scene"]
         if FAULT == "refuses-scene":
             write('{"id":null,"outcome":"error","message":"too wild a scene"}')
         continue
+    if not scene:
+        sys.exit("no scene")
     if FAULT == "complains":
         sys.stderr.write("!" * 100_000 + "\n")
     if FAULT == "ends-after" and answered == AT:
