@@ -58,11 +58,12 @@ std::vector<Tag> with_kinds(std::vector<Tag> tags) {
 
 Case make_crystal(Source& source) {
   Case made;
-  const std::uint64_t which = source.index / kCasesPerScene % crystals().size();  // each in its turn
+  // Each in its turn, and in every third of its turns at its own size.
+  const std::uint64_t turn = source.index / kCasesPerScene, which = turn % crystals().size();
   const Crystal& crystal = crystals()[which];
   made.scene = crystal.scene;
   made.tags = {std::string(crystal.name)};
-  switch (source.scene.below(3)) {
+  switch ((turn / crystals().size() + which) % 3) {
     case 0:
       break;
     case 1:
