@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> engines, sets;
-  std::optional<std::string> ulps, timeout, id;
+  std::optional<std::string> ulps, timeout, id, first;
   std::string failures = "10";
   bool strict = false, json = false, markdown = false;
 };
@@ -62,7 +62,7 @@ class Examination {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
   }
 
-  Account run(const std::string& path, const std::optional<std::string>& id) {
+  Account run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
     account_ = {};
     golden::Reader reader(path);
     set_ = path;
@@ -71,7 +71,9 @@ class Examination {
     account_.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
     std::size_t scene = 0;
-    for (golden::ReadRecord read; reader.next(read); progress.at(account_.all.queries)) {
+    std::uint64_t records = 0;
+    for (golden::ReadRecord read; records < first && reader.next(read); progress.at(records)) {
+      ++records;
       if (id && read.record.id != *id) continue;
       if (scene != reader.scene_number()) {
         scene = reader.scene_number();
@@ -278,6 +280,8 @@ int act(const Options& options) {
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
   const auto most = static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000));
+  const std::uint64_t first = options.first ? whole_number(*options.first, "--first", 1, 1'000'000'000'000)
+                                            : std::numeric_limits<std::uint64_t>::max();
   const std::vector<std::string> files = find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
@@ -287,7 +291,7 @@ int act(const Options& options) {
     Examination examination(engine, ulps, timeout, most);
     std::vector<Account> accounts;
     for (const std::string& file : files) {
-      accounts.push_back(examination.run(file, options.id));
+      accounts.push_back(examination.run(file, options.id, first));
       records += accounts.back().all.queries;
       if (accounts.back().failed) break;
     }
@@ -319,6 +323,7 @@ void add_golden_check(CLI::App& golden, Action& action) {
   command->add_option("sets", options->sets, "files, or names of committed sets (default: all of these)");
   command->add_option("--ulps", options->ulps, "the tolerance k of the verdicts (default: 4)")
       ->type_name("K");
+  command->add_option("--first", options->first, "only the first N records of each set")->type_name("N");
   command->add_option("--id", options->id, "only this record")->type_name("ID");
   command->add_option("--failures", options->failures, "list so many failures of each engine")
       ->capture_default_str()

@@ -140,7 +140,7 @@ class CorridorSearch {
     const auto vectors = dual_vectors(basis);
     for (std::size_t i = 0; i < D; ++i) dual[i] = {vectors[i], dot(vectors[i], box_.v)};
     const Z v2 = dot(box_.v, box_.v);
-    reduce(dual, [&](const DualVector<D>& a, const DualVector<D>& b) {
+    reduce(dual, [&](const DualVector<D>& a, const DualVector<D>& b) -> Z {
       return shifted_left(a.along * b.along, 2 * kSharp) + v2 * dot(a.G, b.G);
     });
     return any_combination(dual, [&](const DualVector<D>& one) {
@@ -151,7 +151,7 @@ class CorridorSearch {
 
   bool along_vectors(Basis<D> basis) const {
     const Z v2 = dot(box_.v, box_.v);
-    reduce(basis, [&](const LatticePoint<D>& a, const LatticePoint<D>& b) {
+    reduce(basis, [&](const LatticePoint<D>& a, const LatticePoint<D>& b) -> Z {
       const Z along = dot(box_.v, a.p) * dot(box_.v, b.p);
       return shifted_left(v2 * dot(a.p, b.p) - along, 2 * kSharp) + along;
     });

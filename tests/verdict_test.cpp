@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numeric>
 
 #include "oracle.hpp"
 #include "support.hpp"
@@ -118,6 +119,52 @@ TEST_CASE("never: an open corridor within a few ulps of v is ill-posed, one besi
   CHECK(drift(0, 0) == Verdict::agree);
   CHECK(drift(0, 5e-324) == Verdict::ill_posed);
   CHECK(drift(5e-324, 1e-322) == Verdict::wrong);  // 20 of its ulps
+}
+
+TEST_CASE("never: whatever lattice line or plane v was rounded from, its corridor is found") {
+  Draw draw(5101);
+  INFO("seed 5101");
+  int ill_posed = 0;
+  for (int i = 0; i < 400; ++i) {
+    // Along (p, q), in the middle of the corridor, for p t - q s = 1.
+    const auto p = 1 + static_cast<long>(draw.below(5000)), q = 1 + static_cast<long>(draw.below(5000));
+    if (std::gcd(p, q) != 1) continue;
+    long t = 0;
+    while ((q * t + 1) % p != 0) ++t;  // s of  p t' - q s = 1,  t' = (q s + 1) / p
+    const double s = static_cast<double>(t), t2 = static_cast<double>((q * t + 1) / p);
+    const double speed = std::exp2(draw.between(-3, 3)) * draw.sign();
+    const Query query{{s / 2, t2 / 2}, {speed * static_cast<double>(p), speed * static_cast<double>(q)}, {}};
+    const Scene scene = unit_scene(2, draw.between(0.1, 0.45) / std::hypot(p, q));
+    INFO(stream(scene, query));
+    const Verdict verdict = judged(scene, query, Answer::never(), 1).verdict;
+    REQUIRE((verdict == Verdict::ill_posed || verdict == Verdict::agree));
+    ill_posed += verdict == Verdict::ill_posed;
+    REQUIRE(judged(scene, query, Answer::never(), 100).verdict == verdict);
+  }
+  CHECK(ill_posed > 100);
+  ill_posed = 0;
+  for (int i = 0; i < 200; ++i) {
+    // In the plane normal to (a, b, 1), which (1, 0, -a) and (0, 1, -b) span; its channel around 1/2.
+    const auto a = static_cast<double>(draw.below(20)), b = 1 + static_cast<double>(draw.below(20));
+    const double f = draw.between(-1, 1), g = draw.between(-1, 1);
+    const Query query{{0, 0, 0.5}, {f, g, -a * f - b * g}, {}};
+    const Scene scene = unit_scene(3, draw.between(0.1, 0.45) / std::hypot(a, b, 1));
+    INFO(stream(scene, query));
+    // The last component was rounded from two that may be larger.
+    const double lost = (a * std::fabs(f) + b * std::fabs(g)) / std::fabs(query.v[2]);
+    if (lost > 4) continue;
+    const Verdict verdict = judged(scene, query, Answer::never(), 8).verdict;
+    REQUIRE((verdict == Verdict::ill_posed || verdict == Verdict::agree));
+    ill_posed += verdict == Verdict::ill_posed;
+  }
+  CHECK(ill_posed > 50);
+}
+
+TEST_CASE("never: small obstacles and a slope near a lattice vector") {
+  CHECK(judged(unit_scene(2, 3e-4), {{0.5, 0}, {1, 1e-4}, {}}, Answer::never()).verdict == Verdict::wrong);
+  CHECK(judged(unit_scene(2, 3.423250686789962e-05),
+               {{-0.5, 0}, {-1.8449123588949907, 0.00025262390235451093}, {}}, Answer::never())
+            .verdict == Verdict::wrong);
 }
 
 TEST_CASE("Containing is judged by its margin, too") {
