@@ -293,7 +293,10 @@ int act(const Options& options) {
     for (const std::string& file : files) {
       accounts.push_back(examination.run(file, options.id, first));
       records += accounts.back().all.queries;
-      if (accounts.back().failed) break;
+      if (!accounts.back().failed) continue;
+      if (accounts.size() < files.size())
+        say("{}: it broke; {} sets were not asked", engine, files.size() - accounts.size());
+      break;
     }
     examination.finish();
     status = std::max(status, status_of(accounts, options.strict));

@@ -108,6 +108,8 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
     return query ? "this is a query, `error` is no answer to it"
                  : "this is no query, it has no answer but `error`";
   }
+  if (record.question != question_of(*query, impl_->scene.dimension))
+    return "its question is not written as lorentz writes it, or goes on elsewhere in the line";
   if (!record.certificate) return "it has no certificate";
   if (auto why = impl_->check.refutation(*query, record.expect, *record.certificate)) return why;
   Record again;

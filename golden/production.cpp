@@ -1,5 +1,9 @@
 #include "production.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <condition_variable>
 #include <cstdio>
 #include <cstring>
@@ -169,6 +173,7 @@ class PartFile {
         }()) {}
   ~PartFile() {
     if (file_) std::fclose(file_);
+    if (lock_ >= 0) close(lock_);
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -176,6 +181,13 @@ class PartFile {
   // Goes on with what is there if it is of the same order, else begins anew.
   State open() {
     State state;
+    std::error_code error;
+    const auto there = std::filesystem::symlink_status(path_, error);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+      throw FileError(path_ + ": is no regular file; name another, or use standard output");
+    lock_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) fail(part_);
+    if (flock(lock_, LOCK_EX | LOCK_NB) != 0) throw FileError(part_ + ": another run is writing it");
     const bool resumed = read_note(state);
     file_ = std::fopen(part_.c_str(), resumed ? "ab" : "wb");
     if (!file_) fail(part_);
@@ -240,6 +252,7 @@ class PartFile {
 
   std::string path_, part_, note_, header_;
   std::FILE* file_ = nullptr;
+  int lock_ = -1;  // held on the part for as long as this lives
   std::uint64_t bytes_ = 0;
 };
 

@@ -208,7 +208,11 @@ struct Reader::Impl {
   bool read(const LineReader::Line& line, ReadRecord& read) {
     StreamItem item;
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
-    if (item.kind == StreamItem::Kind::nothing) return false;
+    if (item.kind == StreamItem::Kind::nothing) {
+      if (line.text.find_first_not_of(" \t\r") != std::string_view::npos)
+        throw InputError("a golden set has one header, its first line");
+      return false;
+    }
     if (item.kind == StreamItem::Kind::bad && (item.bad_scene || item.no_scene))
       throw InputError(item.message);
     if (item.kind == StreamItem::Kind::scene) {

@@ -7,7 +7,11 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr long kFiner = 64;  // the ulps of v are integers in units so much finer
-constexpr int kCoefficients = 2;
+
+// Short vectors are combinations of a reduced basis with small coefficients. Among tiny obstacles (1e-9 and
+// less) dozens of lattice lines run within a few ulps of v, and x lies in the corridor of some of them.
+template <std::size_t D>
+constexpr int kCoefficients = D == 2 ? 16 : 4;
 
 // v and its ulps as integers.
 template <std::size_t D>
@@ -73,14 +77,14 @@ std::array<ZVec<3>, 3> dual_vectors(const Basis<3>& b) {
 // Calls visit with all combinations of the vectors with small coefficients, up to the sign.
 template <class Vector, std::size_t D, class Visit>
 bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
-  constexpr int kWidth = 2 * kCoefficients + 1;
+  constexpr int kMost = kCoefficients<D>, kWidth = 2 * kMost + 1;
   int count = 1;
   for (std::size_t i = 0; i < D; ++i) count *= kWidth;
   for (int code = count / 2 + 1; code < count; ++code) {
     Vector sum = basis[0];
-    sum.add_multiple(code % kWidth - kCoefficients - 1, basis[0]);
+    sum.add_multiple(code % kWidth - kMost - 1, basis[0]);
     for (std::size_t i = 1, rest = code / kWidth; i < D; ++i, rest /= kWidth)
-      sum.add_multiple(static_cast<long>(rest % kWidth) - kCoefficients, basis[i]);
+      sum.add_multiple(static_cast<long>(rest % kWidth) - kMost, basis[i]);
     if (visit(sum)) return true;
   }
   return false;

@@ -146,12 +146,17 @@ struct Judge::Impl {
   // ulps?
   Judgement judge_time(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
-    if (!exact.time || !given.time || *exact.time > std::numeric_limits<double>::max()) return judgement;
-    const double off = std::fabs(*given.time - *exact.time);
+    if (!exact.time || !given.time || *given.time == *exact.time) {
+      if (exact.time && given.time && std::isfinite(*exact.time)) judgement.ulps = 0;
+      return judgement;
+    }
+    // Beyond the largest binary64 the exact time is at least as far off as that.
+    const double off = std::fabs(*given.time - std::min(*exact.time, std::numeric_limits<double>::max()));
     double excess = kInfinity;
     if (std::isfinite(off)) {
-      judgement.ulps = off / ulp(*exact.time);
-      if (*judgement.ulps <= ulps) return judgement;
+      const double in_ulps = off / ulp(*exact.time);
+      if (std::isfinite(*exact.time)) judgement.ulps = in_ulps;
+      if (in_ulps <= ulps) return judgement;
       const Real change = situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
         return change_of_time(situation, exact.obstacle);
       });
