@@ -1,8 +1,12 @@
 // lorentz golden: make, list, check, verify, explain, as its users call them.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
-#include <catch2/catch.hpp>
 
+#include <catch2/catch.hpp>
 #include <csignal>
+#include <filesystem>
 #include <thread>
 
 #include "golden_support.hpp"
@@ -226,4 +230,21 @@ TEST_CASE("golden verify and check.py find one wrong record planted in a copy of
     CHECK(contains(folder.read("py.out"), id_in(record)));
   }
   unsetenv("LORENTZ_DATA");
+}
+
+TEST_CASE("golden make: into regular files only, one run at a time") {
+  const Folder folder;
+  REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+  const Run pipe = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("pipe"));
+  CHECK(pipe.status == 3);
+  CHECK(contains(pipe.err, "is no regular file"));
+  CHECK(std::filesystem::is_fifo(folder.file("pipe")));
+  const int part = open(folder.file("set.part").c_str(), O_RDWR | O_CREAT, 0600);
+  REQUIRE(flock(part, LOCK_EX) == 0);
+  const Run second = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set"));
+  CHECK(second.status == 3);
+  CHECK(contains(second.err, "another run is writing it"));
+  close(part);
+  CHECK(folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set")).status == 0);
+  CHECK(lines(folder.read("set")) == 5);
 }

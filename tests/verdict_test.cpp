@@ -217,3 +217,12 @@ TEST_CASE("Errors of the time are counted in ulps, and judged by the condition")
   CHECK(judgement(INFINITY).verdict == Verdict::wrong);
   CHECK_FALSE(judged(kScene, level(0.125), Answer::hit(at(2, 0), 1)).ulps.has_value());
 }
+
+TEST_CASE("Times beyond the largest binary64: an infinity is right, a small number is not") {
+  const Query slow{{0.5, 0.125}, {1e-320, 0}, {}};
+  REQUIRE(std::isinf(*oracle::Oracle(kScene).first_hit(slow).time));
+  const auto verdict = [&](double time) { return judged(kScene, slow, Answer::hit(at(1, 0), time)).verdict; };
+  CHECK(verdict(INFINITY) == Verdict::agree);
+  CHECK(verdict(1) == Verdict::wrong);
+  CHECK(verdict(1e300) == Verdict::wrong);
+}
