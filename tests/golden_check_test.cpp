@@ -50,12 +50,14 @@ TEST_CASE("golden check: exact engines agree, the published one does not") {
   CHECK(contains(good.out, "ties"));
   CHECK_FALSE(contains(good.out, "failures"));
   CHECK(folder.lorentz("golden check -e certified,oracle --strict grazing").status == 0);
-  const Run bad = folder.lorentz("golden check published-faults --engine published --failures 2");
+  beginning_of_set(folder, "published-faults", 60);
+  const std::string faults = folder.file("published-faults.ndjson");
+  const Run bad = folder.lorentz("golden check " + faults + " --engine published --failures 2");
   CHECK(bad.status == 1);
   CHECK(contains(bad.out, "The first failures:"));
   CHECK(lines(bad.out.substr(bad.out.find("The first failures"))) == 1 + 2 * 3 + 1);
   CHECK_FALSE(
-      contains(folder.lorentz("golden check published-faults -e published --failures 0").out, "failures:"));
+      contains(folder.lorentz("golden check " + faults + " -e published --failures 0").out, "failures:"));
   // In the plane a cell has two components.
   CHECK(contains(bad.out, "expected \"outcome\":\"hit\",\"lattice\":0,\"atom\":0,\"cell\":[1,1],"));
   // What it says to run again runs, and fails on that record alone.
@@ -67,21 +69,22 @@ TEST_CASE("golden check: exact engines agree, the published one does not") {
 
 TEST_CASE("golden check: tables of numbers, as JSON and as a page") {
   const Folder folder;
-  const Run json = folder.lorentz("golden check -e published -e reduction published-faults never --json");
+  beginning_of_set(folder, "published-faults", 60);
+  const std::string sets = folder.file("published-faults.ndjson") + " ties ";
+  const Run json = folder.lorentz("golden check -e published -e reduction " + sets + " --json");
   CHECK(json.status == 1);
   CHECK(is_json(folder));
   CHECK(lines(json.out) == 2);
   CHECK(json.out.starts_with(
-      "{\"engine\":\"published\",\"sets\":[{\"set\":\"published-faults\",\"records\":640,"));
+      "{\"engine\":\"published\",\"sets\":[{\"set\":\"published-faults\",\"records\":47,"));
   CHECK(contains(
       json.out,
-      "{\"engine\":\"reduction\",\"sets\":[{\"set\":\"published-faults\",\"records\":640,\"agree\":"));
-  CHECK(contains(json.out, "\"tags\":{\"along-axis\":{\"records\":"));
-  const Run page =
-      folder.lorentz("golden check -e published,reduction published-faults never --markdown --failures 1");
+      "{\"engine\":\"reduction\",\"sets\":[{\"set\":\"published-faults\",\"records\":47,\"agree\":"));
+  CHECK(contains(json.out, "\"skipped-disc\":{\"records\":"));
+  const Run page = folder.lorentz("golden check -e published,reduction " + sets + "--markdown --failures 1");
   CHECK(page.status == 1);
   CHECK(page.out.starts_with(
-      "| set | records | published | reduction |\n|---|---|---|---|\n| published-faults | 640 | "));
+      "| set | records | published | reduction |\n|---|---|---|---|\n| published-faults | 47 | "));
   CHECK(contains(page.out, "\n## published\n\n| set | tag | records | of these |"));
   CHECK(contains(page.out, "skipped-disc"));
   CHECK(contains(page.out, "\n## reduction\n\nNo wrong answer.\n"));
@@ -90,26 +93,29 @@ TEST_CASE("golden check: tables of numbers, as JSON and as a page") {
 
 TEST_CASE("golden check: another program that lies, is silent about some, or breaks") {
   const Folder folder;
-  const auto checked = [&](const std::string& statement, const std::string& more = "generic-2d") {
-    return folder.lorentz("golden check --json --engine " + engine(folder, statement) + " " + more);
+  beginning_of_set(folder, "generic-2d", 130);
+  const std::string set = folder.file("generic-2d.ndjson");
+  const auto checked = [&](const std::string& statement, const std::string& more = "") {
+    return folder.lorentz("golden check --json --engine " + engine(folder, statement) + " " +
+                          (more.empty() ? set : more));
   };
   const Run honest = checked("pass");
   INFO(honest.out << honest.err);
   CHECK(honest.status == 0);
-  CHECK(contains(honest.out, "\"records\":640,\"agree\":640,\"ill_posed\":0,\"wrong\":0,"));
+  CHECK(contains(honest.out, "\"records\":125,\"agree\":125,\"ill_posed\":0,\"wrong\":0,"));
   const Run cells = checked("a['cell'][0] += 1");
   CHECK(cells.status == 1);
-  CHECK(contains(cells.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":640,\"wrong_time\":0,"));
+  CHECK(contains(cells.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":125,\"wrong_time\":0,"));
   const Run times = checked("a['time'] *= 1 + 1e-9");
   CHECK(times.status == 1);
-  CHECK(contains(times.out, "\"wrong\":640,\"wrong_time\":640,"));
+  CHECK(contains(times.out, "\"wrong\":125,\"wrong_time\":125,"));
   const Run nothing = checked("a = {'id': a['id'], 'outcome': 'undecided'}");
   CHECK(nothing.status == 0);
-  CHECK(contains(nothing.out, "\"undecided\":640,"));
-  CHECK(checked("a = {'id': a['id'], 'outcome': 'undecided'}", "generic-2d --strict").status == 1);
+  CHECK(contains(nothing.out, "\"undecided\":125,"));
+  CHECK(checked("a = {'id': a['id'], 'outcome': 'undecided'}", set + " --strict").status == 1);
   const Run error = checked("a = {'id': a['id'], 'outcome': 'error', 'message': 'no'}");
   CHECK(error.status == 1);
-  CHECK(contains(error.out, "\"error\":640"));
+  CHECK(contains(error.out, "\"error\":125"));
   // To what is no query an answer is wrong, and an error right.
   CHECK(checked("pass", "bad-queries").status == 0);
   const Run sure = checked("a = {'id': a['id'], 'outcome': 'never'}", "bad-queries");
@@ -129,16 +135,18 @@ TEST_CASE("golden check: one record, another tolerance, and bad usage") {
   const Run none = folder.lorentz("golden check -e reduction grazing --id 0123456789abcdef");
   CHECK(none.status == 2);
   CHECK(contains(none.err, "0123456789abcdef"));
-  // Within 1e9 ulps few answers are wrong, within 0 none is ill-posed.
+  // Within 1e6 ulps few answers are wrong, within 1e-9 none is ill-posed.
+  beginning_of_set(folder, "published-faults", 100);
   const auto ill_posed = [&](const char* ulps) {
-    const Run run =
-        folder.lorentz(std::string("golden check -e published published-faults --json --ulps ") + ulps);
+    const Run run = folder.lorentz("golden check -e published --json --ulps " + std::string(ulps) + " " +
+                                   folder.file("published-faults.ndjson"));
     return std::stoi(between(run.out, "\"ill_posed\":", ","));
   };
-  CHECK(ill_posed("0") == 0);
-  CHECK(ill_posed("1e9") > ill_posed("4"));
+  CHECK(ill_posed("1e-9") == 0);
+  CHECK(ill_posed("1e6") > ill_posed("4"));
   for (const char* bad :
-       {"", "-e nobody", "-e reduction --ulps x", "-e reduction --failures -1", "-e reduction --timeout 0"}) {
+       {"", "-e nobody", "-e reduction --ulps 0", "-e reduction --ulps 1e9", "-e reduction --ulps x",
+        "-e reduction --failures -1", "-e reduction --timeout 0"}) {
     INFO(bad);
     const Run run = folder.lorentz(std::string("golden check ties ") + bad);
     CHECK(run.status == 2);
@@ -171,8 +179,9 @@ TEST_CASE("golden explain: a hit, inside, never, and what is no query") {
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is no query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
-  const Run few = folder.lorentz("golden explain --most 1 " + id + " grazing");
-  CHECK(lines(few.out) < lines(hit));
+  const std::string far = first_id("generic-3d", "\"outcome\":\"hit\"");
+  const std::size_t all = lines(folder.lorentz("golden explain " + far + " generic-3d").out);
+  CHECK(lines(folder.lorentz("golden explain --most 1 " + far + " generic-3d").out) < all);
   const Run unknown = folder.lorentz("golden explain 0123456789abcdef");
   CHECK(unknown.status == 2);
   CHECK(contains(unknown.err, "0123456789abcdef"));
@@ -184,7 +193,7 @@ TEST_CASE("golden explain: a hit, inside, never, and what is no query") {
 TEST_CASE("golden: a reader that has enough does not keep it waiting") {
   const Folder folder;
   for (const char* arguments :
-       {"make --set generic-2d --count 1e9", "check -e published published-faults", "list", "verify"}) {
+       {"make --set generic-2d --count 1e9", "check -e reduction ties", "list", "verify ties grazing"}) {
     INFO(arguments);
     const std::string command = std::string("timeout 20 bash -c '" LORENTZ_PROGRAM " golden ") + arguments +
                                 " 2>/dev/null | head -1 >/dev/null'";

@@ -55,6 +55,21 @@ inline GoldenCase golden_case(const golden::Set& set, std::uint64_t seed, std::u
   return {question.scene, question.query, std::move(record)};
 }
 
+/// The beginning of a committed set, with the count of records that it has; in the file NAME.ndjson.
+inline std::string beginning_of_set(const Folder& folder, const std::string& name, int most_lines) {
+  std::ifstream in(LORENTZ_SOURCE_DIR "/data/golden/" + name + ".ndjson");
+  std::string header, rest;
+  std::getline(in, header);
+  int records = 0;
+  for (std::string line; most_lines > 1 && std::getline(in, line); --most_lines) {
+    rest += line + '\n';
+    records += line.starts_with("{\"id\"");
+  }
+  header.replace(header.find("\"count\":"), 11, "\"count\":" + std::to_string(records));
+  folder.write(name + ".ndjson", header + '\n' + rest);
+  return header + '\n' + rest;
+}
+
 /// The first place of `old` replaced; the text must hold it.
 inline std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
   const auto place = text.find(old);
