@@ -182,6 +182,19 @@ TEST_CASE("Containing is judged by its margin, too") {
   }
 }
 
+TEST_CASE("An obstacle left behind is acceptable only within the ulps that would put it ahead") {
+  // On the surface, along the tangent, past the point nearest to the centre by e: s = -2 e, which x and v
+  // change by 2 ulps and 2 a ulps. The distance of the line is the radius, rounded.
+  const double a = 0.1875;
+  const Scene scene = unit_scene(2, a * std::sqrt(2.0));
+  for (const int steps : {2, 64}) {
+    const double e = steps * 0x1p-52;
+    const auto judgement = judged(scene, {{-a + e, a + e}, {1, 1}, {}}, Answer::hit(at(0, 0), 0));
+    CHECK(judgement.departs == Approx(steps / (1 + a)).epsilon(1e-6));
+    CHECK(judgement.verdict == (steps == 2 ? Verdict::ill_posed : Verdict::wrong));
+  }
+}
+
 TEST_CASE("Of two obstacles entered together within ulps either is acceptable") {
   Scene scene = unit_scene(2, 0.25);
   scene.lattices[0].atoms.push_back({{0, 0.125}, 0.25, {}});
