@@ -219,9 +219,7 @@ TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file th
   CHECK(contains(run.out, "published"));
   CHECK(contains(run.out, "1 (100 %)"));
   CHECK(lines(folder.read("d")) == 2);
-  CHECK(contains(
-      folder.read("d"),
-      R"("engine":"published","verdict":"wrong","departs":)"));
+  CHECK(contains(folder.read("d"), R"("engine":"published","verdict":"wrong","departs":)"));
   CHECK(contains(folder.read("d"),
                  R"("expected":{"id":"skip","outcome":"hit","lattice":0,"atom":0,"cell":[1,1])"));
   CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine published").status == 1);
