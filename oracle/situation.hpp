@@ -69,6 +69,14 @@ Real change_of_time(const Situation<D>& situation, const ObstacleId& id) {
   return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
 }
 
+/// The time at which an obstacle is entered, in the query's own units; beyond binary64, too.
+template <std::size_t D>
+Real time_in_own_units(const Situation<D>& situation, const ObstacleId& id) {
+  const ExactQuery<D>& query = situation.query();
+  return times_power_of_two(situation.atom_of(id).time_of(situation.centre_of(id)),
+                            query.length_exponent - query.velocity_exponent);
+}
+
 /// A scene whose queries are looked at closely.
 class Situations {
  public:

@@ -150,18 +150,21 @@ struct Judge::Impl {
       if (exact.time && given.time && std::isfinite(*exact.time)) judgement.ulps = 0;
       return judgement;
     }
-    // Beyond the largest binary64 the exact time is at least as far off as that.
-    const double off = std::fabs(*given.time - std::min(*exact.time, std::numeric_limits<double>::max()));
-    double excess = kInfinity;
+    const double off = std::fabs(*given.time - *exact.time);
     if (std::isfinite(off)) {
-      const double in_ulps = off / ulp(*exact.time);
-      if (std::isfinite(*exact.time)) judgement.ulps = in_ulps;
-      if (in_ulps <= ulps) return judgement;
-      const Real change = situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-        return change_of_time(situation, exact.obstacle);
-      });
-      excess = to_double(Real(off) / std::max(change, Real(ulp(*exact.time))), kHuge);
+      judgement.ulps = off / ulp(*exact.time);
+      if (*judgement.ulps <= ulps) return judgement;
     }
+    double excess = kInfinity;
+    if (std::isfinite(*given.time))
+      excess = situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+        // The exact time may lie beyond binary64.
+        const Real far = std::isfinite(off)
+                             ? Real(off)
+                             : Real(time_in_own_units(situation, exact.obstacle) - Real(*given.time));
+        const Real change = change_of_time(situation, exact.obstacle);
+        return to_double(far / std::max(change, Real(ulp(*exact.time))), kHuge);
+      });
     if (excess > ulps) judgement = {Verdict::wrong, judgement.ulps, excess, true};
     return judgement;
   }
