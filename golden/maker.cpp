@@ -11,7 +11,7 @@
 namespace lorentz::golden {
 namespace {
 
-constexpr std::int64_t kWalkCells = 300;
+constexpr std::int64_t kWalkCells = 100;
 
 bool same(const Answer& a, const Answer& b) {
   if (a.outcome != b.outcome) return false;
