@@ -14,15 +14,16 @@ namespace {
 
 // Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
 // are about as hard to tell apart; then the margin is the smallest of those looked at.
-constexpr long kSmallBudget = 500, kBudget = 10'000;
+constexpr long kSmallBudget = 500;
 constexpr double kLeast = 0x1p-10, kGrowth = 8;
 
 template <std::size_t D>
 class MarginSearch {
  public:
-  MarginSearch(const Situation<D>& situation, const Answer& exact)
+  MarginSearch(const Situation<D>& situation, const Answer& exact, long budget)
       : situation_(situation),
         exact_(exact),
+        full_budget_(budget),
         is_hit_(exact.outcome == Outcome::hit),
         target_(situation.atom_of(exact.obstacle)),
         target_centre_(situation.centre_of(exact.obstacle)),
@@ -52,7 +53,7 @@ class MarginSearch {
   void search(const Uncertain<D>& atom) {
     Real k = search_at_once(atom);
     bool complete = true;
-    while (complete && k < smallest_) {
+    while (full_budget_ > 0 && complete && k < smallest_) {
       k = std::min(smallest_, std::max(Real(kGrowth * k), Real(kLeast)));
       complete = search_in_windows(atom, k);
     }
@@ -74,7 +75,7 @@ class MarginSearch {
     const Real radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
     const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
     Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
-    budget_ = kBudget;
+    budget_ = full_budget_;
     for (Real time = turning_point(); low < end && budget_ >= 0; time *= 2) {
       const Z high = std::min(end, ceiling(time * v2));
       look(atom, radius + k * atom.largest_change(time), low, high);
@@ -151,6 +152,7 @@ class MarginSearch {
 
   const Situation<D>& situation_;
   const Answer& exact_;
+  const long full_budget_;
   const bool is_hit_;
   const Uncertain<D>& target_;
   const Centre<D> target_centre_;
@@ -171,10 +173,11 @@ Scrutiny::Scrutiny(Scrutiny&&) noexcept = default;
 Scrutiny& Scrutiny::operator=(Scrutiny&&) noexcept = default;
 Scrutiny::~Scrutiny() = default;
 
-std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact) const {
+std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact,
+                                                   long budget) const {
   if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
   return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-    return std::optional(MarginSearch<D>(situation, exact).run());
+    return std::optional(MarginSearch<D>(situation, exact, budget).run());
   });
 }
 
