@@ -73,9 +73,10 @@ Examined Examiner::judge(const Question& question, Reply& reply) {
   one.work = reply.work;
   one.exact = question.exact;
   one.given = std::move(reply.answer);
+  const auto too_slow = [&] { return one.work && is_slow(*one.work); };
   switch (judgement.verdict) {
     case oracle::Verdict::wrong:
-      one.kind = judgement.wrong_time ? Kind::wrong_time : Kind::wrong;
+      one.kind = !judgement.wrong_time ? Kind::wrong : too_slow() ? Kind::slow : Kind::wrong_time;
       break;
     case oracle::Verdict::undecided:
       one.kind = Kind::undecided;
@@ -89,7 +90,7 @@ Examined Examiner::judge(const Question& question, Reply& reply) {
       break;
     case oracle::Verdict::agree:
     case oracle::Verdict::ill_posed:
-      one.kind = one.work && is_slow(*one.work) ? Kind::slow : Kind::fine;
+      one.kind = too_slow() ? Kind::slow : Kind::fine;
   }
   return one;
 }

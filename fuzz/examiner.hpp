@@ -21,8 +21,9 @@ enum class Kind {
   wrong,        ///< another obstacle, or another outcome, than any error of k ulps in the inputs explains
   wrong_time,   ///< the right obstacle, at a wrong time
   undecided,    ///< it gave up
-  slow,         ///< right, but with more than kSlowFactor times the work of a drawn flight in the same scene
-  error         ///< it calls the query none, or broke
+  slow,  ///< the right obstacle, but with more than kSlowFactor times the work of a drawn flight in the same
+         ///< scene
+  error  ///< it calls the query none, or broke
 };
 inline constexpr int kKinds = 7;
 

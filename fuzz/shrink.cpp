@@ -150,7 +150,7 @@ class Shrinker {
       for (const Atom& atom : lattice.atoms) {
         const double radius = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
         const auto keep_from = [](Query& query) {
-          if (query.from) query.from->lattice = query.from->atom = 0;
+          if (query.from) query.from.emplace(ObstacleId{0, 0, query.from->cell});
         };
         offer([&](Candidate& one) {
           one.scene = unit_scene(dimension, radius);
@@ -175,8 +175,11 @@ class Shrinker {
     offer([&](Candidate& one) {
       one.scene.lattices.erase(one.scene.lattices.begin() + static_cast<std::ptrdiff_t>(l));
       auto& from = one.query.from;
-      if (from && from->lattice == static_cast<int>(l)) from.reset();
-      if (from && from->lattice > static_cast<int>(l)) --from->lattice;
+      if (!from) return;
+      if (from->lattice == static_cast<int>(l))
+        from.reset();
+      else if (from->lattice > static_cast<int>(l))
+        --from->lattice;
     });
   }
 

@@ -14,7 +14,7 @@ namespace lorentz::fuzz {
 namespace {
 
 // Work (in the subject's own count) that shrinking one case may cost: some seconds of `published`.
-constexpr double kShrinkWork = 3e7;
+constexpr double kShrinkWork = 1.5e7;
 
 // An oracle asked which of a million obstacles contain x takes its time; shrinking does not go there.
 constexpr double kLargestRadius = 100;

@@ -28,7 +28,7 @@ class Subject {
   virtual void ask(const Query& query) = 0;
 
   /// How many cases it likes to be asked before the replies are waited for.
-  virtual std::uint64_t batch() const { return 8; }
+  virtual std::uint64_t batch() const { return 4; }
 
   /// The replies to all that was asked since the last call, in order.
   virtual std::vector<Reply> replies() = 0;
