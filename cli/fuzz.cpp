@@ -31,8 +31,7 @@ struct Options {
   std::optional<std::string> seconds, count, store, ulps, timeout;
   std::string engine = "reduction", seed = std::to_string(kDefaultSeed), jobs = "1", shard = "0/1",
               keep = "3", mutate = "32";
-  bool json = false, times = false;
-  std::optional<bool> undecided;
+  bool json = false, times = false, undecided = false, no_undecided = false;
 };
 
 std::vector<const fuzz::Target*> targets_of(const Options& options) {
@@ -70,7 +69,8 @@ fuzz::Plan plan_of(const Options& options) {
   plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
   plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
   plan.counts.times = options.times;
-  plan.counts.undecided = options.undecided.value_or(options.engine != kSaysWhatItDoesNotKnow);
+  plan.counts.undecided =
+      options.undecided || (!options.no_undecided && options.engine != kSaysWhatItDoesNotKnow);
   plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
   if (plan.counts.ulps > oracle::kLargestMargin)
     throw InputError(fmt::format("--ulps: {} is above {}, up to which margins are known", plan.counts.ulps,
@@ -202,8 +202,9 @@ void add_options(CLI::App* command, Options& options) {
       ->type_name("K");
   command->add_option("--timeout", options.timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--times", options.times, "wrong times are findings, too");
-  command->add_flag("--undecided,!--no-undecided", options.undecided,
-                    "whether `undecided` is a finding (default: yes, but for reduction)");
+  CLI::Option* undecided = command->add_flag("--undecided", options.undecided,
+                                             "`undecided` is a finding (the default, but for reduction)");
+  command->add_flag("--no-undecided", options.no_undecided, "`undecided` is no finding")->excludes(undecided);
   command->add_flag("--json", options.json, "one JSON object instead of tables");
 }
 
