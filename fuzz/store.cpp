@@ -97,17 +97,23 @@ struct Store::Impl {
   }
 
   void set_up(Access access) {
-    connection.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
     const auto pragma = [&](const char* sql) {
       Statement statement(connection, sql);
       return statement.step() ? statement.integer() : 0;
     };
     const bool is_empty = pragma("SELECT count(*) FROM sqlite_master") == 0;
+    if (!is_empty || access != Access::write) check(pragma);
+    connection.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
     if (is_empty && access == Access::write) {
       const std::string mark = "BEGIN; PRAGMA application_id = " + std::to_string(kApplication) +
                                "; PRAGMA user_version = " + std::to_string(kFormat) + ';';
       connection.run((mark + kSchema + "COMMIT;").c_str());
     }
+  }
+
+  // Before anything is changed.
+  template <class Pragma>
+  void check(const Pragma& pragma) const {
     if (pragma("PRAGMA application_id") != kApplication)
       throw FileError(connection.path() + ": is a database, but no store of lorentz fuzz");
     if (pragma("PRAGMA user_version") != kFormat)

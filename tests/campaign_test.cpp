@@ -84,6 +84,12 @@ TEST_CASE("A campaign is the same for any number of threads") {
   const std::string once = one_run(plan, 150, 1);
   CHECK(once.find("leaving/") != std::string::npos);
   CHECK(once.find("boundary/") != std::string::npos);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 150, 1);
+  std::uint64_t mutants = 0;
+  for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
+  CHECK(mutants > 450 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(mutants < 450 / 4 * 24);
   for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 150, jobs) == once);
 }
 
@@ -249,7 +255,7 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
 
 TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are queries with their answers") {
   INFO("seed " << kSeed);
-  int improved = 0, climbs = 0;
+  double climbed = 0, at_random = 0;
   for (std::uint64_t index = 0; index < 60; ++index) {
     const fuzz::Case base = fuzz::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
@@ -266,8 +272,17 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
       REQUIRE(same(mutants[i].question.exact, oracle.first_hit(mutants[i].question.query)));
       least = std::min(least, mutants[i].margin);
     }
-    ++climbs;
-    improved += least < fuzz::narrow_margin(scrutiny, base.query, exact) / 2;
+    // As many moves of the case itself, none of which goes on from another.
+    fuzz::Random random(2, index);
+    double least_at_random = 1e300;
+    for (std::size_t i = 0; i < mutants.size(); ++i) {
+      const Query query = fuzz::moved_query(random, base.scene, base.query);
+      least_at_random =
+          std::min(least_at_random, fuzz::narrow_margin(scrutiny, query, oracle.first_hit(query)));
+    }
+    climbed += std::log2(least);
+    at_random += std::log2(least_at_random);
   }
-  CHECK(improved > climbs / 4);
+  INFO("climbing gains " << (at_random - climbed) / 60 << " bits over as many moves at random");
+  CHECK(climbed < at_random - 15);
 }

@@ -1,6 +1,8 @@
 // The store: what goes in comes out, one writer at a time, and no other file is taken for one.
 #include "store.hpp"
 
+#include <sqlite3.h>
+
 #include <catch2/catch.hpp>
 
 #include "campaign_support.hpp"
@@ -109,8 +111,14 @@ TEST_CASE("Files that are no stores are left alone") {
   CHECK(
       contains(message_of([&] { Store store(text, Store::Access::write); }), "is no store of lorentz fuzz"));
   const std::string other = folder.file("other");
-  { Store store(other, Store::Access::write); }
-  REQUIRE(std::system(("sqlite3 -version >/dev/null 2>&1 || true")) == 0);
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(other.c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, "CREATE TABLE mine (x)", nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+  const std::string before = folder.read("other");
+  for (const auto access : {Store::Access::write, Store::Access::read})
+    CHECK(contains(message_of([&] { Store store(other, access); }), "is a database, but no store"));
+  CHECK(folder.read("other") == before);
   CHECK(
       contains(message_of([&] { Store store(folder.file("absent"), Store::Access::read); }), "No such file"));
   CHECK(contains(message_of([&] { Store store("/no/such/folder/store", Store::Access::write); }),
