@@ -177,7 +177,7 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all") 
   std::set<std::pair<std::string, std::uint64_t>> seen;
   for (const fuzz::Stored& one : mutated.findings())
     CHECK(seen.emplace(one.finding.sort, one.finding.index).second);
-  CHECK(seen.size() > 2);
+  CHECK(seen.size() >= 2);
 }
 
 TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as asked for") {
