@@ -85,6 +85,7 @@ int run(int argc, char** argv) {
   add_bench(app, action);
   add_scene(app, action);
   add_golden(app, action);
+  add_fuzz(app, action);
   const int status = parse_and_act(app, action, argc, argv);
   try {
     finish_output();

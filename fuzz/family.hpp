@@ -52,6 +52,7 @@ class Family {
   Maker maker_;
 };
 
+/// Those that golden sets are made of. Campaigns have some more (target.hpp).
 const std::vector<Family>& families();
 
 /// Null if there is none of that name.

@@ -23,4 +23,8 @@ Family superpositions();
 Family ellipsoids();
 Family never();
 
+// Of campaigns only: golden sets are made of families(), and these are not among them.
+Family leaving();
+Family scale();
+
 }  // namespace lorentz::fuzz

@@ -21,6 +21,8 @@ double of_rank(std::int64_t rank) {
   return std::bit_cast<double>(rank < 0 ? std::numeric_limits<std::int64_t>::min() - rank : rank);
 }
 
+}  // namespace
+
 bool same(const Scene& a, const Scene& b) {
   if (a.dimension != b.dimension || a.lattices.size() != b.lattices.size()) return false;
   for (std::size_t l = 0; l < a.lattices.size(); ++l) {
@@ -33,8 +35,6 @@ bool same(const Scene& a, const Scene& b) {
   }
   return true;
 }
-
-}  // namespace
 
 double moved(double x, std::int64_t ulps) {
   constexpr double kLargest = std::numeric_limits<double>::max();

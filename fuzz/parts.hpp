@@ -26,6 +26,9 @@ Vec scaled(const Vec& a, double factor);
 Vec cross(const Vec& a, const Vec& b);
 double length(const Vec& a);
 
+/// The same numbers (0 and -0 are), in the same order.
+bool same(const Scene& a, const Scene& b);
+
 /// One lattice with one ball at the origin.
 Scene lattice_scene(int dimension, const std::array<Vec, 3>& vectors, double radius);
 

@@ -15,7 +15,7 @@ namespace {
 
 // Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
 // are about as hard to tell apart; then the margin is the smallest of those looked at.
-constexpr long kSmallBudget = 500, kBudget = 10'000;
+constexpr long kSmallBudget = 500;
 constexpr double kFiner = 0x1p-30, kGrowth = 8;
 constexpr int kMostTries = 4;
 constexpr double kHuge = 1e300;  // reported for what is more
@@ -23,9 +23,10 @@ constexpr double kHuge = 1e300;  // reported for what is more
 template <std::size_t D>
 class MarginSearch {
  public:
-  MarginSearch(const Situation<D>& situation, const Answer& exact)
+  MarginSearch(const Situation<D>& situation, const Answer& exact, long budget)
       : situation_(situation),
         exact_(exact),
+        full_budget_(budget),
         is_hit_(exact.outcome == Outcome::hit),
         target_(situation.atom_of(exact.obstacle)),
         target_centre_(situation.centre_of(exact.obstacle)),
@@ -61,9 +62,9 @@ class MarginSearch {
       do k *= kFiner;
       while (!search_in_windows(atom, k, kSmallBudget) && ++tries < kMostTries);
     }
-    for (bool complete = true; complete && k < smallest_;) {
+    for (bool complete = full_budget_ > 0; complete && k < smallest_;) {
       k = std::min(Real(k * kGrowth), smallest_);
-      complete = search_in_windows(atom, k, kBudget);
+      complete = search_in_windows(atom, k, full_budget_);
     }
   }
 
@@ -157,6 +158,7 @@ class MarginSearch {
 
   const Situation<D>& situation_;
   const Answer& exact_;
+  const long full_budget_;
   const bool is_hit_;
   const Uncertain<D>& target_;
   const Centre<D> target_centre_;
@@ -180,7 +182,7 @@ std::vector<Passed> passed_obstacles(const Situation<D>& situation, const Answer
       const View<D>& view = atom.view();
       const Real rho = sqrt(real(atom.rho2())), v2 = real(view.flight.v2);
       const Cylinder<D> cylinder(view, ceiling(Real(wide * wide * real(atom.rho2()))));
-      long budget = kBudget;
+      long budget = kMarginBudget;
       const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
                                       const Z& last) {
         visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
@@ -221,10 +223,11 @@ Scrutiny::Scrutiny(Scrutiny&&) noexcept = default;
 Scrutiny& Scrutiny::operator=(Scrutiny&&) noexcept = default;
 Scrutiny::~Scrutiny() = default;
 
-std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact) const {
+std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact,
+                                                   long budget) const {
   if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
   return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-    return std::optional(MarginSearch<D>(situation, exact).run());
+    return std::optional(MarginSearch<D>(situation, exact, budget).run());
   });
 }
 

@@ -19,6 +19,10 @@ enum class DecisionKind {
   order        ///< is the obstacle entered before the one that is hit?
 };
 
+/// How many obstacles the search for a margin looks at, at the most, before it is content with the smallest
+/// margin of those.
+inline constexpr long kMarginBudget = 10'000;
+
 struct Decision {
   DecisionKind kind = DecisionKind::meeting;
   ObstacleId obstacle;
@@ -46,7 +50,10 @@ class Scrutiny {
 
   /// The decision with the smallest margin of all that the exact answer `hit` or `inside` rests on; of
   /// `never` and of errors nothing. The margin is at most kLargestMargin (then the decision means nothing).
-  std::optional<Decision> hardest_decision(const Query& query, const Answer& exact) const;
+  /// With a smaller budget (of which each width of the search has its own) the margin is an upper bound more
+  /// often; 0: one narrow search, some 500 obstacles.
+  std::optional<Decision> hardest_decision(const Query& query, const Answer& exact,
+                                           long budget = kMarginBudget) const;
 
   /// The obstacles that the flight of an exact `hit` passed at the smallest distances in units of their
   /// radii, up to and with the one that it hit; in order of time, `most` of them at most.

@@ -27,6 +27,7 @@ Answer published_2d(const Ray& ray, double r, const Vec* from, Proposals& propos
   long passes = Published::kMaxPasses;
   const PlaneResult result =
       first_disc({ray.x[0], ray.x[1]}, {ray.v[0], ray.v[1]}, r, from ? &leaving : nullptr, passes);
+  proposals.passes += Published::kMaxPasses - passes + 1;
   if (auto answer = answer_for(result.found)) return *answer;
   ++proposals.made;
   return hit_on({result.disc[0], result.disc[1], 0}, ray, r);
@@ -43,7 +44,8 @@ Answer published_3d(const Ray& ray, double r, const Vec* from, Proposals& propos
     return time;
   };
   Vec centre{};
-  Answer answer = first_sphere(ray.x, v, r, from, {Published::kMaxPasses, false}, kNoLimit, is_hit, centre);
+  Answer answer = first_sphere(ray.x, v, r, from, {Published::kMaxPasses, false, proposals.passes}, kNoLimit,
+                               is_hit, centre);
   if (answer.outcome == Outcome::hit) return Answer::hit(obstacle_of(centre), *answer.time / speed);
   return answer;
 }

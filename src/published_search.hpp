@@ -155,10 +155,11 @@ inline double advance_to_farthest(const Disc (&disc)[3], const Vec& x, const Vec
   return farthest - 0.1 * r;
 }
 
-// How many passes each search in a plane may take, or all of them together.
+// How many passes each search in a plane may take, or all of them together; and a count of those taken.
 struct Passes {
   long most;
   bool is_total;
+  long long& taken;
 };
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -183,8 +184,10 @@ Answer first_sphere(Vec x, const Vec& v, double r, const Vec* from, Passes passe
       if (!(std::fabs(x[i]) < kMaxStart && std::fabs(x[k]) < kMaxStart)) return Answer::undecided();
       const Disc leaving = from ? Disc{(*from)[i], (*from)[k]} : Disc{};
       if (!passes.is_total) passes_left = passes.most;
+      const long before = passes_left;
       const PlaneResult result =
           first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr, passes_left);
+      passes.taken += before - passes_left + 1;
       if (auto answer = answer_for(result.found)) return *answer;
       disc[plane] = result.disc;
     }

@@ -1,0 +1,152 @@
+// What came of a campaign, for people and for programs.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "exchange.hpp"
+#include "fuzz.hpp"
+#include "messages.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fuzz::Account;
+using fuzz::Kind;
+
+std::uint64_t number_of(const Account& account, Kind kind) {
+  return account.kinds[static_cast<std::size_t>(kind)];
+}
+
+constexpr Kind kCounted[] = {Kind::wrong, Kind::wrong_time, Kind::undecided,
+                             Kind::slow,  Kind::error,      Kind::unsupported};
+
+// Cases, without mutants, that it answered in some way: the ones of which a rate can be said.
+std::uint64_t answered(const Account& account) {
+  const std::uint64_t unsupported = number_of(account, Kind::unsupported);
+  return account.cases > unsupported ? account.cases - unsupported : 0;
+}
+
+std::string number(double value) {
+  std::string out;
+  append_number(out, value);
+  return out;
+}
+
+std::string target_table(const FuzzReport& report) {
+  Table table({"target", "cases", "mutants", "wrong", "times", "undecided", "slow", "error", "unsupported",
+               "smallest margin"});
+  Account all;
+  const auto add = [&](const std::string& name, const Account& account) {
+    std::vector<std::string> row{name, std::to_string(account.cases), std::to_string(account.mutants)};
+    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(account, kind)));
+    row.push_back(std::isfinite(account.margin) ? fmt::format("{:.2g}", account.margin) : "-");
+    table.add(std::move(row));
+  };
+  for (std::size_t t = 0; t < report.targets.size(); ++t) {
+    add(report.targets[t], report.accounts[t]);
+    all.add(report.accounts[t]);
+  }
+  if (report.targets.size() > 1) add("all", all);
+  return table.text();
+}
+
+// Of each kind of failure that was not met, what that says.
+std::string bounds(const FuzzReport& report) {
+  std::uint64_t n = 0;
+  for (const Account& account : report.accounts) n += answered(account);
+  if (n == 0) return "no case was answered\n";
+  if (report.total(Kind::wrong) > 0) return {};
+  return fmt::format(
+      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); mutants not counted\n", n,
+      3.0 / static_cast<double>(n), n);
+}
+
+}  // namespace
+
+std::uint64_t FuzzReport::total(Kind kind) const {
+  std::uint64_t sum = 0;
+  for (const Account& account : accounts) sum += number_of(account, kind);
+  return sum;
+}
+
+std::string FuzzReport::text() const {
+  std::string out =
+      fmt::format("{}, seed {}{}: cases, and mutants of some, judged by the oracle\n\n{}\n{}",
+                  manifest.engine, manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
+                  target_table(*this), bounds(*this));
+  if (findings.empty()) return out + "no findings\n";
+  return out + table_of(causes_of(findings));
+}
+
+std::string FuzzReport::json() const {
+  const auto seed = [](std::uint64_t n) {
+    return n <= 1ull << 53 ? std::to_string(n) : json_quoted(std::to_string(n));
+  };
+  std::string out =
+      fmt::format("{{\"version\":{},\"engine\":{},\"seed\":{},\"shard\":{},\"options\":{},\"targets\":[",
+                  json_quoted(manifest.version), json_quoted(manifest.engine), seed(manifest.seed),
+                  json_quoted(manifest.shard), json_quoted(manifest.options));
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const Account& a = accounts[t];
+    const std::uint64_t n = answered(a);
+    out += fmt::format("{}{{\"target\":{},\"next\":{},\"cases\":{},\"mutants\":{},\"fine\":{}", t ? "," : "",
+                       json_quoted(targets[t]), a.next, a.cases, a.mutants, number_of(a, Kind::fine));
+    for (const Kind kind : kCounted) {
+      std::string key(name_of(kind));
+      std::replace(key.begin(), key.end(), ' ', '_');
+      out += fmt::format(",\"{}\":{}", key, number_of(a, kind));
+    }
+    out += ",\"smallest_margin\":" + (std::isfinite(a.margin) ? number(a.margin) : "null");
+    out += ",\"wrong_at_most\":";
+    out += number_of(a, Kind::wrong) == 0 && n > 0 ? number(3.0 / static_cast<double>(n)) : "null";
+    out += '}';
+  }
+  out += "],\"causes\":[";
+  for (const Cause& cause : causes_of(findings))
+    out += fmt::format("{}{{\"cause\":{},\"findings\":{},\"simplest\":{},\"bits\":{}}}",
+                       out.back() == '[' ? "" : ",", json_quoted(cause.name), cause.findings,
+                       json_quoted(cause.simplest->label()), cause.simplest->finding.bits);
+  out += "],\"findings\":[";
+  for (const fuzz::Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
+  return out + "]}\n";
+}
+
+std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings) {
+  std::map<std::string, Cause> causes;
+  for (const fuzz::Stored& one : findings) {
+    Cause& cause = causes[one.finding.cause];
+    cause.name = one.finding.cause;
+    ++cause.findings;
+    if (std::find(cause.targets.begin(), cause.targets.end(), one.finding.target) == cause.targets.end())
+      cause.targets.push_back(one.finding.target);
+    if (!cause.simplest || one.finding.complexity < cause.simplest->finding.complexity) cause.simplest = &one;
+  }
+  std::vector<Cause> all;
+  for (auto& [name, cause] : causes) all.push_back(std::move(cause));
+  return all;
+}
+
+std::string table_of(const std::vector<Cause>& causes) {
+  Table table({"simplest finding", "bits", "kept", "targets", "cause"});
+  table.with_prose();
+  for (const Cause& cause : causes)
+    table.add({cause.simplest->label(), std::to_string(cause.simplest->finding.bits),
+               std::to_string(cause.findings), std::to_string(cause.targets.size()), cause.name});
+  return table.text();
+}
+
+std::string json_of(const fuzz::Stored& stored) {
+  const fuzz::Finding& f = stored.finding;
+  const auto lines = [](const fuzz::CaseText& text) {
+    return fmt::format("{{\"scene_line\":{},\"query_line\":{},\"given\":{},\"exact\":{}}}", text.scene,
+                       text.query, text.given, text.exact);
+  };
+  return fmt::format(
+      "{{\"id\":{},\"kind\":{},\"cause\":{},\"departs\":{},\"margin\":{},\"bits\":{},\"tries\":{},"
+      "\"case\":{},\"shrunk\":{}}}",
+      json_quoted(stored.label()), json_quoted(f.kind), json_quoted(f.cause), number(f.departs),
+      f.margin ? number(*f.margin) : "null", f.bits, f.tries, lines(f.text), lines(f.shrunk));
+}
+
+}  // namespace lorentz::cli

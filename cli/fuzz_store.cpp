@@ -1,0 +1,162 @@
+// lorentz fuzz list, show, export, merge: what a store holds.
+#include <algorithm>
+#include <filesystem>
+
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "fuzz.hpp"
+#include "messages.hpp"
+#include "table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fuzz::Store;
+using fuzz::Stored;
+
+struct Options {
+  std::string store;
+  bool json = false, all = false;
+};
+
+struct MergeOptions {
+  std::vector<std::string> stores;
+  std::string output;
+};
+
+std::string campaign_table(const Store& store) {
+  Table table({"campaign", "engine", "seed", "shard", "version", "options"});
+  table.with_prose();
+  for (const fuzz::Campaign& campaign : store.campaigns()) {
+    const fuzz::Manifest& m = campaign.manifest;
+    table.add({std::to_string(campaign.id), m.engine, std::to_string(m.seed), m.shard, m.version, m.options});
+  }
+  return table.text();
+}
+
+std::string finding_table(const std::vector<Stored>& findings) {
+  Table table({"finding", "bits", "margin", "cause"});
+  table.with_prose();
+  for (const Stored& one : findings)
+    table.add({one.label(), std::to_string(one.finding.bits),
+               one.finding.margin ? fmt::format("{:.2g}", *one.finding.margin) : "-", one.finding.cause});
+  return table.text();
+}
+
+int list(const Options& options) {
+  const Store store(options.store, Store::Access::read);
+  const std::vector<Stored> findings = store.findings();
+  if (options.json) {
+    std::string out = "{\"findings\":[";
+    for (const Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
+    print(out + "]}\n");
+    return kDone;
+  }
+  print(campaign_table(store) + '\n');
+  if (findings.empty())
+    print("no findings\n");
+  else
+    print(options.all ? finding_table(findings) : table_of(causes_of(findings)));
+  return kDone;
+}
+
+std::string lines_of(const char* heading, const fuzz::CaseText& text) {
+  return fmt::format("{}\n{}\n{}\nsays  {}\ntruth {}\n", heading, text.scene, text.query, text.given,
+                     text.exact);
+}
+
+int show(const Options& options, const std::string& id) {
+  const Store store(options.store, Store::Access::read);
+  for (const Stored& one : store.findings()) {
+    if (one.label() != id) continue;
+    if (options.json) {
+      print(json_of(one) + '\n');
+      return kDone;
+    }
+    const fuzz::Finding& f = one.finding;
+    print(fmt::format("{}: {}\ncause: {}\n", id, f.kind, f.cause));
+    if (f.departs > 0) print(fmt::format("departs by {:.3g} ulps at least\n", f.departs));
+    if (f.margin) print(fmt::format("margin of the exact answer: {:.3g} ulps\n", *f.margin));
+    print(
+        lines_of(fmt::format("\nshrunk to {} bits a number ({} tries):", f.bits, f.tries).c_str(), f.shrunk));
+    print(lines_of("\nas found:", f.text));
+    return kDone;
+  }
+  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
+                               options.store, json_quoted(id)));
+}
+
+// A query stream of shrunk cases: the simplest of each cause, or all.
+int export_stream(const Options& options) {
+  const Store store(options.store, Store::Access::read);
+  const std::vector<Stored> findings = store.findings();
+  std::vector<const Stored*> chosen;
+  for (const Stored& one : findings)
+    if (options.all) chosen.push_back(&one);
+  if (!options.all)
+    for (const Cause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
+  std::string scene;
+  for (const Stored* one : chosen) {
+    if (one->finding.shrunk.scene != scene) print(one->finding.shrunk.scene + '\n');
+    scene = one->finding.shrunk.scene;
+    print(one->finding.shrunk.query + '\n');
+  }
+  return kDone;
+}
+
+int merge_stores(const MergeOptions& options) {
+  std::error_code error;
+  if (std::filesystem::exists(options.output, error))
+    throw InputError(options.output + ": is there already; merge into a new store");
+  try {
+    Store into(options.output, Store::Access::write);
+    fuzz::merge(options.stores, into);
+    for (const fuzz::Campaign& campaign : into.campaigns())
+      say("{}: campaign {} of {} merged from {} shards{}", options.output, campaign.id,
+          campaign.manifest.engine, options.stores.size(),
+          campaign.manifest.shard == fuzz::Manifest::kMerged
+              ? "; they are not all there, or not equally far: to be read, not gone on with"
+              : "");
+  } catch (...) {  // half a store would look like a whole one
+    for (const char* end : {"", "-wal", "-shm", ".lock"})
+      std::filesystem::remove(options.output + end, error);
+    throw;
+  }
+  return kDone;
+}
+
+std::shared_ptr<Options> add_options(CLI::App* command) {
+  auto options = std::make_shared<Options>();
+  command->add_option("--store", options->store, "the store")->required()->type_name("FILE");
+  return options;
+}
+
+}  // namespace
+
+void add_fuzz_store(CLI::App& fuzz, Action& action) {
+  CLI::App* command = fuzz.add_subcommand("list", "What a store holds: campaigns, and findings by cause.");
+  auto options = add_options(command);
+  command->add_flag("--all", options->all, "every finding");
+  command->add_flag("--json", options->json, "one JSON object with every finding");
+  command->callback([options, &action] { action = [options] { return list(*options); }; });
+
+  command = fuzz.add_subcommand("show", "One finding: shrunk, and as it was found.");
+  options = add_options(command);
+  auto id = std::make_shared<std::string>();
+  command->add_option("ID", *id, "CAMPAIGN/TARGET/INDEX, as in the list")->required();
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
+
+  command = fuzz.add_subcommand("export", "A query stream of the simplest shrunk finding of each cause.");
+  options = add_options(command);
+  command->add_flag("--all", options->all, "of every finding");
+  command->callback([options, &action] { action = [options] { return export_stream(*options); }; });
+
+  command = fuzz.add_subcommand("merge", "Puts the stores of shards together: as if one run had made them.");
+  auto merging = std::make_shared<MergeOptions>();
+  command->add_option("STORE", merging->stores, "stores of shards of one campaign")->required();
+  command->add_option("-o,--output", merging->output, "the new store")->required()->type_name("FILE");
+  command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });
+}
+
+}  // namespace lorentz::cli

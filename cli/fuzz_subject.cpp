@@ -1,0 +1,70 @@
+// Engines as the subjects of campaigns.
+#include "answerer.hpp"
+#include "engine.hpp"
+#include "fuzz.hpp"
+#include "published.hpp"
+#include "registry.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fuzz::Reply;
+
+// Whoever answers. Another program gets many queries before its answers are waited for.
+class AnswererSubject final : public fuzz::Subject {
+ public:
+  AnswererSubject(const std::string& engine, double timeout)
+      : answerer_(make_answerer(engine, {{}, timeout})), is_command_(is_command(engine)) {
+    answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer, {}}); });
+  }
+
+  void ask(const Query& query) override { answerer_->ask("null", query); }
+  std::vector<Reply> replies() override {
+    answerer_->drain();
+    return std::exchange(replies_, {});
+  }
+  std::uint64_t batch() const override { return is_command_ ? 256 : Subject::batch(); }
+  bool failed() const override { return answerer_->failed(); }
+
+ private:
+  void change_scene(const Scene& scene) override { answerer_->set_scene(scene); }
+
+  std::unique_ptr<Answerer> answerer_;
+  bool is_command_;
+  std::vector<Reply> replies_;
+};
+
+// `published` counts its passes: how much work an answer was.
+class PublishedSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    if (why_not_) {
+      replies_.push_back({Answer::unsupported_because(*why_not_), {}});
+      return;
+    }
+    Proposals proposals;
+    Answer answer = engine_->first_hit_counted(query, std::numeric_limits<double>::infinity(), proposals);
+    replies_.push_back({std::move(answer), static_cast<double>(proposals.passes)});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override {
+    why_not_ = Published::beyond(scene);
+    if (!why_not_) engine_.emplace(scene);
+  }
+
+  std::optional<Published> engine_;
+  std::optional<std::string> why_not_;
+  std::vector<Reply> replies_;
+};
+
+}  // namespace
+
+fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
+  check_name(engine);
+  if (engine == "published") return [] { return std::make_unique<PublishedSubject>(); };
+  return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
+}
+
+}  // namespace lorentz::cli

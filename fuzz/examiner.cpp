@@ -1,0 +1,123 @@
+#include "examiner.hpp"
+
+#include <algorithm>
+
+#include "oracle.hpp"
+#include "parts.hpp"
+#include "scene_check.hpp"
+
+namespace lorentz::fuzz {
+
+std::string_view name_of(Kind kind) {
+  constexpr std::string_view kNames[] = {"fine",      "unsupported", "wrong", "wrong time",
+                                         "undecided", "slow",        "error"};
+  return kNames[static_cast<int>(kind)];
+}
+
+bool Counts::is_finding(Kind kind) const {
+  switch (kind) {
+    case Kind::wrong:
+    case Kind::slow:
+    case Kind::error:
+      return true;
+    case Kind::wrong_time:
+      return times;
+    case Kind::undecided:
+      return undecided;
+    default:
+      return false;
+  }
+}
+
+struct Examiner::Impl {
+  Subject& subject;
+  Scene scene;
+  double ulps;
+  oracle::Oracle oracle;
+  oracle::Judge judge;
+  std::optional<double> slow_from;
+
+  Impl(Subject& subject, const Scene& scene, double ulps)
+      : subject(subject), scene(scene), ulps(ulps), oracle(scene), judge(scene) {}
+};
+
+Examiner::Examiner(Subject& subject, const Scene& scene, double ulps)
+    : impl_(std::make_unique<Impl>(subject, scene, ulps)) {}
+Examiner::~Examiner() = default;
+
+const Scene& Examiner::scene() const {
+  return impl_->scene;
+}
+
+const oracle::Oracle& Examiner::oracle() const {
+  return impl_->oracle;
+}
+
+void Examiner::ask(const Question& question) {
+  impl_->subject.set_scene(impl_->scene);
+  impl_->subject.ask(question.query);
+}
+
+Examined Examiner::examine(const Query& query) {
+  const Question question{query, impl_->oracle.first_hit(query)};
+  ask(question);
+  std::vector<Reply> replies = impl_->subject.replies();
+  return judge(question, replies.at(0));
+}
+
+Examined Examiner::judge(const Question& question, Reply& reply) {
+  Examined one;
+  const oracle::Judgement judgement =
+      impl_->judge.judge(question.query, question.exact, reply.answer, impl_->ulps);
+  one.departs = judgement.departs;
+  one.work = reply.work;
+  one.exact = question.exact;
+  one.given = std::move(reply.answer);
+  const auto too_slow = [&] { return one.work && is_slow(*one.work); };
+  switch (judgement.verdict) {
+    case oracle::Verdict::wrong:
+      one.kind = !judgement.wrong_time ? Kind::wrong : too_slow() ? Kind::slow : Kind::wrong_time;
+      break;
+    case oracle::Verdict::undecided:
+      one.kind = Kind::undecided;
+      break;
+    case oracle::Verdict::unsupported:
+      one.kind = Kind::unsupported;
+      break;
+    case oracle::Verdict::error:
+    case oracle::Verdict::missing:
+      one.kind = Kind::error;
+      break;
+    case oracle::Verdict::agree:
+    case oracle::Verdict::ill_posed:
+      one.kind = too_slow() ? Kind::slow : Kind::fine;
+  }
+  return one;
+}
+
+// The median is of the scene alone, so that who else is examined does not matter. It is asked for only where
+// there is much work.
+bool Examiner::is_slow(double work) {
+  if (work < kLeastWork) return false;
+  if (!impl_->slow_from) {
+    impl_->subject.set_scene(impl_->scene);
+    for (int i = 0; i < kDrawnFlights; ++i) {
+      Random random(0, static_cast<std::uint64_t>(i));
+      const Vec x = point_in_cell(random, impl_->scene), v = random.direction(impl_->scene.dimension);
+      impl_->subject.ask({x, v, {}});
+    }
+    std::vector<double> works;
+    for (const Reply& reply : impl_->subject.replies())
+      if (reply.work) works.push_back(*reply.work);
+    if (works.size() < kDrawnFlights) works.resize(kDrawnFlights, works.empty() ? work : works.back());
+    std::nth_element(works.begin(), works.begin() + kDrawnFlights / 2, works.end());
+    impl_->slow_from = kSlowFactor * works[kDrawnFlights / 2];
+  }
+  return work > *impl_->slow_from;
+}
+
+bool is_sound(const Scene& scene) {
+  return !flaw_of(scene) && !oracle::dependence_in(scene);
+}
+
+}  // namespace lorentz::fuzz

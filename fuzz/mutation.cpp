@@ -1,0 +1,88 @@
+#include "mutation.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double with_bit_flipped(Random& random, double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
+}
+
+// One move; the result may be no query.
+Query one_move(Random& random, const Scene& scene, Query query) {
+  const auto dimension = static_cast<std::uint64_t>(scene.dimension);
+  Vec& a = random.one_in(2) ? query.x : query.v;
+  const std::uint64_t i = random.below(dimension), k = random.below(dimension);
+  switch (random.below(12)) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+      a[i] = moved(a[i], drawn_ulps(random));
+      break;
+    case 4:
+    case 5:
+    case 6:
+      a[i] = with_bit_flipped(random, a[i]);
+      break;
+    case 7:
+      std::swap(a[i], a[k]);
+      break;
+    case 8:
+      a[i] = random.one_in(2) ? a[k] : random.one_in(2) ? -a[i] : 0.0;
+      break;
+    case 9:
+      query.v = scaled(query.v, random.one_in(2) ? random.octave(-3, 3)
+                                                 : std::ldexp(1, static_cast<int>(random.integer(-8, 8))));
+      break;
+    case 10:
+      query.x = sum(query.x, scaled(scene.lattices[0].vectors[i], random.sign()));
+      break;
+    default:
+      query.x = sum(query.x, scaled(query.v, std::ldexp(1, -static_cast<int>(random.integer(0, 40)))));
+  }
+  return query;
+}
+
+}  // namespace
+
+Query moved_query(Random& random, const Scene& scene, const Query& query) {
+  constexpr int kTries = 8;
+  for (int tries = 0; tries < kTries; ++tries) {
+    Query candidate = one_move(random, scene, query);
+    if (!flaw_of(candidate, scene)) return candidate;
+  }
+  return query;
+}
+
+double narrow_margin(const oracle::Scrutiny& scrutiny, const Query& query, const Answer& exact) {
+  const auto decision = scrutiny.hardest_decision(query, exact, 0);
+  return decision ? decision->margin : kInfinity;
+}
+
+std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const oracle::Oracle& oracle,
+                          const oracle::Scrutiny& scrutiny) {
+  std::vector<Mutant> tried;
+  Mutant best{{base.query, exact}, narrow_margin(scrutiny, base.query, exact)};
+  for (int round = 0; round < kRounds; ++round) {
+    const Query from_here = best.question.query;
+    for (int move = 0; move < kMovesPerRound; ++move) {
+      Mutant mutant{{moved_query(random, base.scene, from_here), {}}, kInfinity};
+      mutant.question.exact = oracle.first_hit(mutant.question.query);
+      mutant.margin = narrow_margin(scrutiny, mutant.question.query, mutant.question.exact);
+      if (mutant.margin < best.margin) best = mutant;
+      tried.push_back(std::move(mutant));
+    }
+    if (best.margin == 0) break;
+  }
+  return tried;
+}
+
+}  // namespace lorentz::fuzz

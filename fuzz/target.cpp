@@ -1,0 +1,40 @@
+#include "target.hpp"
+
+#include "family_list.hpp"
+
+namespace lorentz::fuzz {
+
+Case Target::make(std::uint64_t seed, std::uint64_t index) const {
+  const std::uint64_t row = index / kCasesPerScene, count = families_.size();
+  return families_[row % count].make(seed, row / count * kCasesPerScene + index % kCasesPerScene);
+}
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all{{"generic", {generic_2d(), generic_3d()}},
+                                       {"near-rational", {near_rational()}},
+                                       {"corridor", {corridor_edge()}},
+                                       {"tricylinder", {tricylinder()}},
+                                       {"grazing", {grazing()}},
+                                       {"tie", {ties()}},
+                                       {"corner", {axis_and_diagonal()}},
+                                       {"boundary", {boundary_starts()}},
+                                       {"scale", {scale()}},
+                                       {"leaving", {leaving()}},
+                                       {"large-radius", {large_radius()}},
+                                       {"tiny-radius", {tiny_radius()}},
+                                       {"long-flight", {long_flight()}},
+                                       {"published-faults", {published_faults()}},
+                                       {"crystals", {crystal_lattices()}},
+                                       {"superpositions", {superpositions()}},
+                                       {"ellipsoids", {ellipsoids()}},
+                                       {"never", {never()}}};
+  return all;
+}
+
+const Target* target_named(std::string_view name) {
+  for (const Target& target : targets())
+    if (target.name() == name) return &target;
+  return nullptr;
+}
+
+}  // namespace lorentz::fuzz

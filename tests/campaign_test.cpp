@@ -1,0 +1,300 @@
+// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, mutants, kinds.
+#include "campaign.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <thread>
+
+#include "campaign_support.hpp"
+#include "command_line.hpp"
+#include "family_list.hpp"
+#include "mutation.hpp"
+#include "parts.hpp"
+#include "scene_check.hpp"
+#include "support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Account;
+using fuzz::Kind;
+using fuzz::Plan;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+Plan plan_of(std::initializer_list<const char*> names) {
+  Plan plan;
+  for (const char* name : names) plan.targets.push_back(fuzz::target_named(name));
+  plan.seed = kSeed;
+  plan.mutate = 8;
+  return plan;
+}
+
+// A campaign up to a number of cases, in a store.
+void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
+            const fuzz::MakeSubject& subjects = skewed_subjects()) {
+  fuzz::Manifest manifest{"1",
+                          "skewed",
+                          "",
+                          plan.seed,
+                          "",
+                          plan.keep,
+                          std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
+  for (const fuzz::Target* target : plan.targets)
+    manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
+  const std::int64_t id = store.open_campaign(manifest);
+  std::vector<Account> accounts;
+  for (const fuzz::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
+  fuzz::StoreJournal journal(store, id);
+  fuzz::Bounds bounds;
+  bounds.count = count;
+  bounds.jobs = jobs;
+  fuzz::run(plan, bounds, subjects, accounts, journal);
+}
+
+std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, count, jobs);
+  return text_of(store);
+}
+
+// Does much work in flights along a diagonal, and gives up where |v_1| < |v_2| / 8.
+class WorkingSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    Answer answer = oracle_->first_hit(query);
+    if (std::fabs(query.v[0]) < std::fabs(query.v[1]) / 8) answer = Answer::undecided();
+    if (std::fabs(query.v[0]) > 8 * std::fabs(query.v[1])) answer = Answer::error("what?");
+    replies_.push_back({std::move(answer), query.v[0] == query.v[1] ? 1e5 : 10});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  std::optional<oracle::Oracle> oracle_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+}  // namespace
+
+TEST_CASE("A campaign is the same for any number of threads") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary", "generic"});
+  const std::string once = one_run(plan, 150, 1);
+  CHECK(once.find("leaving/") != std::string::npos);
+  CHECK(once.find("boundary/") != std::string::npos);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 150, 1);
+  std::uint64_t mutants = 0;
+  for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
+  CHECK(mutants > 450 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(mutants < 450 / 4 * 24);
+  for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 150, jobs) == once);
+}
+
+TEST_CASE("A campaign that is gone on with is the one that was never stopped") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary"});
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  for (const std::uint64_t count : {1, 7, 40, 41, 150}) run_in(store, plan, count, 2);
+  CHECK(text_of(store) == one_run(plan, 150, 1));
+}
+
+TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on from there") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary"});
+  std::vector<Account> accounts(2);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  fuzz::StoreJournal journal(store, 1);
+  fuzz::Bounds bounds;
+  bounds.seconds = 0.2;
+  bounds.jobs = 2;
+  fuzz::run(plan, bounds, skewed_subjects(), accounts, journal);
+  for (const Account& account : accounts) {
+    CHECK(account.next > 0);
+    CHECK(account.cases == account.next);
+    std::uint64_t judged = 0;
+    for (const std::uint64_t number : account.kinds) judged += number;
+    CHECK(judged == account.cases + account.mutants);
+  }
+}
+
+TEST_CASE("Three shards merged are one run") {
+  INFO("seed " << kSeed);
+  Folder folder;
+  Plan plan = plan_of({"leaving", "boundary"});
+  const std::string once = one_run(plan, 150, 2);
+  std::vector<std::string> paths;
+  plan.shards = 3;
+  for (plan.shard = 0; plan.shard < 3; ++plan.shard) {
+    paths.push_back(folder.file("shard" + std::to_string(plan.shard)));
+    fuzz::Store store(paths.back(), fuzz::Store::Access::write);
+    run_in(store, plan, 150, 1);
+  }
+  fuzz::Store merged(":memory:", fuzz::Store::Access::write);
+  fuzz::merge(paths, merged);
+  CHECK(text_of(merged) == once);
+
+  SECTION("one of them went on: they can be read together, not gone on with") {
+    plan.shard = 1;
+    {
+      fuzz::Store store(paths[1], fuzz::Store::Access::write);
+      run_in(store, plan, 160, 1);
+    }
+    fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
+    fuzz::merge(paths, uneven);
+    CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::Manifest::kMerged);
+    CHECK(uneven.account(1, "leaving").next == 150);
+    CHECK(uneven.account(1, "leaving").cases == 153);
+  }
+}
+
+TEST_CASE("Of each sort a target keeps the first few findings, and counts all") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"leaving"});
+  plan.keep = 2;
+  plan.mutate = 0;
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 200, 3);
+  const Account account = store.account(1, "leaving");
+  std::map<std::string, std::vector<std::uint64_t>> kept;
+  for (const fuzz::Stored& one : store.findings()) kept[one.finding.sort].push_back(one.finding.index);
+  std::uint64_t all = 0;
+  REQUIRE(account.sorts.size() > 1);
+  for (const auto& [sort, number] : account.sorts) {
+    INFO(sort);
+    CHECK(kept[sort].size() == std::min<std::uint64_t>(number, 2));
+    all += number;
+  }
+  CHECK(all == account.kinds[static_cast<std::size_t>(Kind::wrong)]);
+  CHECK(all > 20);
+
+  plan.mutate = 1;  // a case and its mutants, which mostly fail alike, are one finding
+  fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
+  run_in(mutated, plan, 40, 2);
+  std::set<std::pair<std::string, std::uint64_t>> seen;
+  for (const fuzz::Stored& one : mutated.findings())
+    CHECK(seen.emplace(one.finding.sort, one.finding.index).second);
+  CHECK(seen.size() >= 2);
+}
+
+TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as asked for") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"corner"});
+  plan.mutate = 0;
+  std::vector<Account> accounts(1);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  fuzz::Bounds bounds;
+  bounds.count = 100;
+  for (const bool undecided : {true, false}) {
+    accounts = {{}};
+    plan.counts.undecided = undecided;
+    fuzz::StoreJournal journal(store, undecided);
+    fuzz::run(
+        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, accounts, journal);
+  }
+  const auto number = [&](Kind kind) { return accounts[0].kinds[static_cast<std::size_t>(kind)]; };
+  CHECK(number(Kind::undecided) > 10);
+  CHECK(number(Kind::error) > 10);
+  CHECK(number(Kind::slow) > 3);
+  CHECK(number(Kind::wrong) == 0);
+  std::map<std::pair<std::int64_t, std::string>, int> found;
+  for (const fuzz::Stored& one : store.findings()) ++found[{one.campaign, one.finding.kind}];
+  CHECK(found[{1, "undecided"}] > 0);
+  CHECK(found[{0, "undecided"}] == 0);
+  CHECK(found[{0, "slow"}] > 0);
+  CHECK(found[{0, "error"}] > 0);
+}
+
+TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all") {
+  INFO("seed " << kSeed);
+  for (const fuzz::Target& target : fuzz::targets()) {
+    INFO(target.name());
+    CHECK(fuzz::target_named(target.name()) == &target);
+    std::string again;
+    const std::string first = stream(target.make(kSeed, 77).scene, target.make(kSeed, 77).query);
+    std::thread([&] {
+      target.make(kSeed, 3);
+      const fuzz::Case one = target.make(kSeed, 77);
+      again = stream(one.scene, one.query);
+    }).join();
+    CHECK(again == first);
+  }
+  CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
+  CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
+  for (const fuzz::Family& family : {fuzz::leaving(), fuzz::scale()}) {
+    std::map<std::string, int> met;
+    for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
+    const std::size_t explained = met.size();
+    for (std::uint64_t index = 0; index < 2000; ++index) {
+      const fuzz::Case one = family.make(kSeed, index);
+      INFO(family.name() << ' ' << index << ' ' << stream(one.scene, one.query));
+      if (index % 32 == 0) REQUIRE_FALSE((flaw_of(one.scene) || oracle::dependence_in(one.scene)));
+      REQUIRE(fuzz::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
+      REQUIRE_FALSE(flaw_of(one.query, one.scene));
+      if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
+      for (const std::string& tag : one.tags) ++met[tag];
+    }
+    CHECK(met.size() == explained);
+    for (const auto& [tag, count] : met) {
+      INFO(tag);
+      CHECK(count > 0);
+    }
+  }
+}
+
+TEST_CASE("Flights of the target leaving start on the obstacle they leave, and go outwards") {
+  INFO("seed " << kSeed);
+  int on_surface = 0;
+  for (std::uint64_t index = 0; index < 500; ++index) {
+    const fuzz::Case one = fuzz::target_named("leaving")->make(kSeed, index);
+    REQUIRE(one.query.from);
+    const Vec centre = centre_of(one.scene, *one.query.from);
+    Vec arm{};
+    for (int i = 0; i < 3; ++i) arm[i] = one.query.x[i] - centre[i];
+    const double r = one.scene.lattices[0].atoms[one.query.from->atom].radius;
+    on_surface += std::fabs(std::hypot(arm[0], arm[1], arm[2]) / r - 1) < 1e-9;
+    if (std::find(one.tags.begin(), one.tags.end(), "few-bits") == one.tags.end())
+      REQUIRE(arm[0] * one.query.v[0] + arm[1] * one.query.v[1] + arm[2] * one.query.v[2] > 0);
+  }
+  CHECK(on_surface > 300);
+}
+
+TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are queries with their answers") {
+  INFO("seed " << kSeed);
+  int improved = 0;
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    const fuzz::Case base = fuzz::target_named("generic")->make(kSeed, index);
+    const oracle::Oracle oracle(base.scene);
+    const oracle::Scrutiny scrutiny(base.scene);
+    const Answer exact = oracle.first_hit(base.query);
+    const auto mutants = fuzz::climb(fuzz::Random(1, index), base, exact, oracle, scrutiny);
+    const auto again = fuzz::climb(fuzz::Random(1, index), base, exact, oracle, scrutiny);
+    REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
+    REQUIRE(mutants.size() == again.size());
+    double least = 1e300;
+    for (std::size_t i = 0; i < mutants.size(); ++i) {
+      REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, again[i].question.query));
+      REQUIRE_FALSE(flaw_of(mutants[i].question.query, base.scene));
+      REQUIRE(same(mutants[i].question.exact, oracle.first_hit(mutants[i].question.query)));
+      least = std::min(least, mutants[i].margin);
+    }
+    // Each round goes on from the best before it.
+    fuzz::Random random(1, index);
+    Query best = base.query;
+    double margin = fuzz::narrow_margin(scrutiny, best, exact);
+    improved += least < margin;
+    for (std::size_t i = 0; i < mutants.size();) {
+      const Query from_here = best;
+      for (int move = 0; move < fuzz::kMovesPerRound; ++move, ++i) {
+        const Query query = fuzz::moved_query(random, base.scene, from_here);
+        REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, query));
+        if (mutants[i].margin < margin) best = query, margin = mutants[i].margin;
+      }
+    }
+    CHECK(margin <= least);
+  }
+  CHECK(improved > 20);
+}
