@@ -20,7 +20,7 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
   queries.reserve(count);
   Progress progress("drawing", count);
   for (std::size_t index = 0; index < count; ++index) {
-    Random random(seed, index);
+    Random random(seed, "drawn queries", index);
     Query query;
     int tries = 0;
     do {
@@ -44,7 +44,7 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
 std::vector<Query> draw_leaving_queries(int dimension, double radius, std::uint64_t seed, std::size_t count) {
   std::vector<Query> queries;
   for (std::uint64_t index = 0; queries.size() < count; ++index) {
-    Random random(seed, index);
+    Random random(seed, "leaving queries", index);
     const Vec normal = random.direction(dimension), v = random.direction(dimension);
     const double cosine = normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2];
     if (!(cosine > random.uniform())) continue;

@@ -22,7 +22,7 @@ std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const
   std::vector<Query> queries = draw_queries(scene, oracle, seed, count);
   if (difficulty == Difficulty::drawn) return queries;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    fuzz::Random random(seed ^ 0x6861'7264, i);
+    fuzz::Random random(seed, "hard queries", i);
     if (difficulty == Difficulty::near_rational) {
       queries[i].v = fuzz::near_integer_direction(random, scene.dimension);
       continue;

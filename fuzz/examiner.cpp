@@ -102,7 +102,7 @@ bool Examiner::is_slow(double work) {
   if (!impl_->slow_from) {
     impl_->subject.set_scene(impl_->scene);
     for (int i = 0; i < kDrawnFlights; ++i) {
-      Random random(0, static_cast<std::uint64_t>(i));
+      Random random(0, "drawn flights", static_cast<std::uint64_t>(i));
       const Vec x = point_in_cell(random, impl_->scene), v = random.direction(impl_->scene.dimension);
       impl_->subject.ask({x, v, {}});
     }

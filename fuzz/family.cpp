@@ -5,9 +5,7 @@
 namespace lorentz::fuzz {
 
 Case Family::make(std::uint64_t seed, std::uint64_t index) const {
-  const std::uint64_t own = seed_for(seed, name_);
-  constexpr std::uint64_t kScenes = 0x7363'656e'6573;  // a stream apart from that of the cases
-  Source source{index, Random(own ^ kScenes, index / kCasesPerScene), Random(own, index)};
+  Source source{index, Random(seed, name_, index / kCasesPerScene, Use::scenes), Random(seed, name_, index)};
   return maker_(source);
 }
 

@@ -1,26 +1,37 @@
 #include "random.hpp"
 
+#include <Random123/philox.h>
+
 #include <cmath>
 
 namespace lorentz::fuzz {
 namespace {
 
-// SplitMix64's finaliser (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
+constexpr std::size_t kBlock = 2;  // the word of the counter that counts blocks
 
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
 
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::uint64_t index)
-    : state_(mixed(mixed(seed + kGolden) ^ (index * kGolden))) {}
+Random::Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use)
+    : key_{seed, fnv1a(name)}, counter_{index, static_cast<std::uint64_t>(use), 0, 0} {}
+
+void Random::next_block() {
+  const philox4x64_key_t key{{key_[0], key_[1]}};
+  const philox4x64_ctr_t counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+  const philox4x64_ctr_t block = philox4x64(counter, key);
+  for (std::size_t i = 0; i < block_.size(); ++i) block_[i] = block.v[i];
+  ++counter_[kBlock];
+  taken_ = 0;
+}
 
 std::uint64_t Random::bits() {
-  return mixed(state_ += kGolden);
+  if (taken_ == block_.size()) next_block();
+  return block_[taken_++];
 }
 
 double Random::uniform() {
@@ -57,12 +68,6 @@ double Random::sign() {
 double Random::octave(int low, int high) {
   const int exponent = static_cast<int>(integer(low, high - 1));
   return std::ldexp(1 + uniform(), exponent);
-}
-
-std::uint64_t seed_for(std::uint64_t seed, std::string_view name) {
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return mixed(seed ^ mixed(hash));
 }
 
 }  // namespace lorentz::fuzz

@@ -1,6 +1,7 @@
 // Random numbers that are the same whoever draws them, and on every machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -8,12 +9,17 @@
 
 namespace lorentz::fuzz {
 
-/// Random numbers that depend on (seed, index) only (SplitMix64 started at a mix of both), so that a query is
-/// the same whoever draws it, and in whatever order. The same bits on every machine: nothing but integer
-/// arithmetic, exact conversions, single roundings and square roots is used.
+/// What numbers are drawn for: each has its own, whatever the others take.
+enum class Use : std::uint64_t { cases, scenes, mutants };
+
+/// Random numbers by Philox4x64-10, a bijection of 256-bit counters under a 128-bit key (Salmon, Moraes,
+/// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is (seed,
+/// FNV-1a of the name), the counter (index, use, block, 0): the numbers depend on these only, so that a query
+/// is the same whoever draws it, in whatever order, on whatever thread or machine. Each block is four words.
+/// Nothing but integer arithmetic, exact conversions, single roundings and square roots is used.
 class Random {
  public:
-  Random(std::uint64_t seed, std::uint64_t index);
+  Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use = Use::cases);
   std::uint64_t bits();
   double uniform();              ///< [0, 1), a multiple of 2^-53
   Vec direction(int dimension);  ///< isotropic, of unit length up to rounding
@@ -26,10 +32,11 @@ class Random {
   double octave(int low, int high);  ///< 2^k (1 + u), k from low to high - 1: about log-uniform, above 0
 
  private:
-  std::uint64_t state_;
-};
+  void next_block();
 
-/// The seed of a stream of its own for a name.
-std::uint64_t seed_for(std::uint64_t seed, std::string_view name);
+  std::array<std::uint64_t, 2> key_;
+  std::array<std::uint64_t, 4> counter_, block_{};
+  std::size_t taken_ = 4;  ///< of the block
+};
 
 }  // namespace lorentz::fuzz

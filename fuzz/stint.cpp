@@ -123,7 +123,6 @@ std::optional<StintResult> StintWorker::work(const Stint& stint,
 // Makes the cases and mutants, with their exact answers, and asks the subject.
 void StintWorker::pose(const Stint& stint, Desk& desk) {
   const Target& target = *plan_.targets[stint.target];
-  const std::uint64_t moves = seed_for(plan_.seed ^ 0x6d75'7461'6e74, target.name());
   for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const fuzz::Case base = target.make(plan_.seed, index);
@@ -133,7 +132,7 @@ void StintWorker::pose(const Stint& stint, Desk& desk) {
     const oracle::Oracle& oracle = room.examiner.oracle();
     desk.cases.push_back({&target, index, 0, {base.query, oracle.first_hit(base.query)}, &room});
     ++desk.met.cases;
-    Random random(moves, index);
+    Random random(plan_.seed, target.name(), index, Use::mutants);
     if (plan_.mutate == 0 || !random.one_in(plan_.mutate)) continue;
     int step = 0;
     const Answer exact = desk.cases.back().question.exact;

@@ -270,8 +270,8 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
     const oracle::Oracle oracle(base.scene);
     const oracle::Scrutiny scrutiny(base.scene);
     const Answer exact = oracle.first_hit(base.query);
-    const auto mutants = fuzz::climb(fuzz::Random(1, index), base, exact, oracle, scrutiny);
-    const auto again = fuzz::climb(fuzz::Random(1, index), base, exact, oracle, scrutiny);
+    const auto mutants = fuzz::climb(fuzz::Random(1, "climb", index), base, exact, oracle, scrutiny);
+    const auto again = fuzz::climb(fuzz::Random(1, "climb", index), base, exact, oracle, scrutiny);
     REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
     REQUIRE(mutants.size() == again.size());
     double least = 1e300;
@@ -282,7 +282,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
       least = std::min(least, mutants[i].margin);
     }
     // Each round goes on from the best before it.
-    fuzz::Random random(1, index);
+    fuzz::Random random(1, "moves", index);
     Query best = base.query;
     double margin = fuzz::narrow_margin(scrutiny, best, exact);
     improved += least < margin;

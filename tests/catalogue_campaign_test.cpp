@@ -67,7 +67,7 @@ Query leaving_query(Draw& draw, const Scene& scene) {
   double most = 0;
   for (int k = 0; k < d; ++k) most += dot(dual[k], dual[k]);
   for (;;) {
-    fuzz::Random random(draw.below(~0ull), 0);
+    fuzz::Random random(draw.below(~0ull), "surface", 0);
     const Vec y = random.direction(d), v = random.direction(d);
     Vec normal{};
     for (int k = 0; k < d; ++k)

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <thread>
 
@@ -37,12 +39,30 @@ std::string text_of(const Case& one) {
 
 }  // namespace
 
-TEST_CASE("Random numbers are the same on every machine") {
-  fuzz::Random random(20161115, 7);
-  CHECK(random.bits() == 0xab569733b52b48b8);
-  CHECK(random.uniform() == 0x1.b426a3409c932p-2);
-  const Vec v = random.direction(3);
-  CHECK(v[2] == -0x1.29201218af578p-1);
+// Philox4x64-10 written down once more, from the paper: the multipliers, the Weyl keys, ten rounds.
+std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> c, std::array<std::uint64_t, 2> key) {
+  __extension__ using Wide = unsigned __int128;
+  for (int round = 0; round < 10; ++round) {
+    const Wide a = Wide{0xd2e7470ee14c6c93} * c[0], b = Wide{0xca5a826395121157} * c[2];
+    c = {static_cast<std::uint64_t>(b >> 64) ^ c[1] ^ key[0], static_cast<std::uint64_t>(b),
+         static_cast<std::uint64_t>(a >> 64) ^ c[3] ^ key[1], static_cast<std::uint64_t>(a)};
+    key = {key[0] + 0x9e3779b97f4a7c15, key[1] + 0xbb67ae8584caa73b};
+  }
+  return c;
+}
+
+TEST_CASE("Random numbers are Philox4x64-10 of (seed, name), (index, use, block)") {
+  // Random123's own table of known answers.
+  CHECK(philox({}, {}) == std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc,
+                                                       0xd7e772cee186176b, 0x7e68b68aec7ba23b});
+  constexpr std::uint64_t kNameA = 0xaf63dc4c8601ec8c;  // FNV-1a of "a"
+  fuzz::Random random(20161115, "a", 7), scenes(20161115, "a", 7, fuzz::Use::scenes);
+  for (const std::uint64_t block : {0, 1, 2})
+    for (const std::uint64_t word : philox({7, 0, block, 0}, {20161115, kNameA}))
+      CHECK(random.bits() == word);
+  CHECK(scenes.bits() == philox({7, 1, 0, 0}, {20161115, kNameA})[0]);
+  fuzz::Random once_more(20161115, "a", 7);
+  CHECK(once_more.uniform() == std::ldexp(philox({7, 0, 0, 0}, {20161115, kNameA})[0] >> 11, -53));
 }
 
 TEST_CASE("A case depends on seed, family and index: not on the order, the thread, or other families") {
