@@ -2,6 +2,7 @@
 // radii from 0.3 down to 1e-6. The nearest that n such queries come to a wrong decision is a relative 1/n:
 // they show what is wrong often, and are the measure for how much harder the other families are.
 #include <cmath>
+#include <iterator>
 
 #include "crystals.hpp"
 #include "family_list.hpp"
@@ -18,7 +19,7 @@ Case make_generic(Source& source, int dimension) {
   Case made;
   const bool unit = source.scene.one_in(2);
   made.scene = unit ? unit_scene(dimension, 1) : drawn_crystal(source.scene, dimension).scene;
-  const std::uint64_t decade = source.scene.below(6);
+  const std::uint64_t decade = source.index / kCasesPerScene % std::size(kPowers);
   const double largest = decade > 0 ? 10 : made.scene.lattices[0].atoms.size() == 1 ? 3 : 2.1;
   set_radius(made.scene, kPowers[decade] * source.scene.between(1, largest));
   made.query.x = free_point(source.random, made.scene);

@@ -155,7 +155,9 @@ std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int6
   const Wide v2 = dot(v, v), e_along = e[0] * v[0] + e[1] * v[1] + e[2] * v[2];
   const auto wanted =
       static_cast<Wide>(std::ldexp(along * std::sqrt(static_cast<double>(dot(v, v))), exponent));
-  const Wide s = rounded_quotient(wanted - turns * e_along, v2);
+  const Wide left = wanted - turns * e_along;
+  Wide s = rounded_quotient(left, v2);
+  if (s * v2 < left) ++s;  // a long v has few solutions near the place: none behind it
   Vec x{};
   for (int i = 0; i < 3; ++i) {
     const Wide d = turns * e[i] + s * v[i];

@@ -68,9 +68,10 @@ struct Fraction {
 };
 std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h);
 
-/// The start x from which the flight along the primitive v passes the origin at the closest point after about
-/// the distance `along`, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across` must be at right
-/// angles to v (2D: a multiple of (0, 0, 1)). Nothing if no binary64 vector near there does that.
+/// The start x from which the flight along the primitive v passes the origin at the closest point after
+/// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`
+/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no binary64 vector near there does
+/// that.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along);
 

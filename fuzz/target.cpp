@@ -32,8 +32,10 @@ const std::vector<Target>& targets() {
 }
 
 const Target* target_named(std::string_view name) {
-  for (const Target& target : targets())
-    if (target.name() == name) return &target;
+  static const std::vector<Target> halves{{"generic-2d", {generic_2d()}}, {"generic-3d", {generic_3d()}}};
+  for (const auto* all : {&targets(), &halves})
+    for (const Target& target : *all)
+      if (target.name() == name) return &target;
   return nullptr;
 }
 

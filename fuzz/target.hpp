@@ -25,7 +25,7 @@ class Target {
 
 const std::vector<Target>& targets();
 
-/// Null if there is none of that name.
+/// One of targets(), or generic-2d or generic-3d alone. Null if there is none of that name.
 const Target* target_named(std::string_view name);
 
 }  // namespace lorentz::fuzz

@@ -82,16 +82,16 @@ class WorkingSubject final : public fuzz::Subject {
 TEST_CASE("A campaign is the same for any number of threads") {
   INFO("seed " << kSeed);
   const Plan plan = plan_of({"leaving", "boundary", "generic"});
-  const std::string once = one_run(plan, 150, 1);
+  const std::string once = one_run(plan, 300, 1);
   CHECK(once.find("leaving/") != std::string::npos);
   CHECK(once.find("boundary/") != std::string::npos);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
-  run_in(store, plan, 150, 1);
+  run_in(store, plan, 300, 1);
   std::uint64_t mutants = 0;
   for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
-  CHECK(mutants > 450 / 16 * 12);  // one case in 8 has up to 24
-  CHECK(mutants < 450 / 4 * 24);
-  for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 150, jobs) == once);
+  CHECK(mutants > 900 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(mutants < 900 / 4 * 24);
+  for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 300, jobs) == once);
 }
 
 TEST_CASE("A campaign that is gone on with is the one that was never stopped") {
@@ -99,7 +99,7 @@ TEST_CASE("A campaign that is gone on with is the one that was never stopped") {
   const Plan plan = plan_of({"leaving", "boundary"});
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   for (const std::uint64_t count : {1, 7, 40, 41, 150}) run_in(store, plan, count, 2);
-  CHECK(text_of(store) == one_run(plan, 150, 1));
+  CHECK(text_of(store) == one_run(plan, 300, 1));
 }
 
 TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on from there") {

@@ -135,7 +135,7 @@ TEST_CASE("A program that is wrong on purpose is found") {
   const std::string script = folder.write(
       "engine.sh", std::string(LORENTZ_PROGRAM) +
                        " first-hit --engine certified | sed -u 's/\"cell\":.0,1/\"cell\":[0,2/'\n");
-  const Run run = folder.lorentz("fuzz -t generic --count 64 --mutate 0 --jobs 2 --json --engine 'cmd:sh " +
+  const Run run = folder.lorentz("fuzz -t generic --count 512 --mutate 0 --jobs 2 --json --engine 'cmd:sh " +
                                  script + "'");
   INFO(run.out << run.err);
   CHECK(run.status == 1);

@@ -100,7 +100,7 @@ TEST_CASE("Published in stretched cells, 3D: late spheres, about one in a thousa
   for (const double r : {0.1, 0.03})
     for (const Scene& scene : {fcc(r), scene_of_vectors(3, {Vec{1, 0}, Vec{0, 2}, Vec{0, 0, 1.5}}, r),
                                scene_of_vectors(3, {Vec{1, 0}, Vec{0.3, 1}, Vec{0.2, -0.4, 1.1}}, r)}) {
-      const Count count = drawn(scene, 93, 2500);
+      const Count count = drawn(scene, 93, 5000);
       INFO(stream(scene, {}) << count.right << " right, " << count.wrong << " wrong");
       CHECK(count.undecided == 0);
       CHECK(count.wrong < 15);
