@@ -13,6 +13,7 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "progress.hpp"
+#include "ranks.hpp"
 #include "registry.hpp"
 
 namespace lorentz::cli {
@@ -30,7 +31,7 @@ struct Options {
   std::vector<std::string> targets;
   std::optional<std::string> seconds, count, store, ulps, timeout;
   std::string engine = "reduction", seed = std::to_string(kDefaultSeed), jobs = "1", shard = "0/1",
-              keep = "3", mutate = "32";
+              keep = "3", mutate = "32", judge = "oracle";
   bool json = false, times = false, undecided = false, no_undecided = false;
 };
 
@@ -61,6 +62,16 @@ void set_shard(const std::string& text, fuzz::Plan& plan) {
   plan.shard = whole_number(text.substr(0, slash), "--shard", 0, plan.shards - 1);
 }
 
+fuzz::Truth truth_of(const Options& options) {
+  if (options.judge == "oracle") return fuzz::Truth::oracle;
+  if (options.judge != "certified")
+    throw InputError(
+        fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(options.judge)));
+  if (options.engine == "certified" || options.engine == "reduction")
+    throw InputError("--judge: certified rests on reduction, and is no judge of either; use oracle");
+  return fuzz::Truth::certified;
+}
+
 fuzz::Plan plan_of(const Options& options) {
   fuzz::Plan plan;
   plan.targets = targets_of(options);
@@ -68,6 +79,7 @@ fuzz::Plan plan_of(const Options& options) {
   set_shard(options.shard, plan);
   plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
   plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
+  plan.truth = truth_of(options);
   plan.counts.times = options.times;
   plan.counts.undecided =
       options.undecided || (!options.no_undecided && options.engine != kSaysWhatItDoesNotKnow);
@@ -96,8 +108,9 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
   manifest.options =
-      fmt::format("ulps {}, mutants of 1 in {}, {} kept{}{}", plan.counts.ulps, plan.mutate, plan.keep,
-                  plan.counts.times ? ", times" : "", plan.counts.undecided ? "" : ", without undecided");
+      fmt::format("ulps {}, mutants of 1 in {}, {} kept{}{}{}", plan.counts.ulps, plan.mutate, plan.keep,
+                  plan.counts.times ? ", times" : "", plan.counts.undecided ? "" : ", without undecided",
+                  plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
   manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
   return manifest;
 }
@@ -138,15 +151,12 @@ int exit_status(const FuzzReport& report, bool times, bool subject_failed) {
   return wrong || (times && report.total(Kind::wrong_time) > 0) ? kDisagreement : kDone;
 }
 
-int act(const Options& options) {
-  const fuzz::Plan plan = plan_of(options);
+// What the plan, the store and the other processes make of it; reports.
+int run_campaign(const Options& options, const fuzz::Plan& plan, const fuzz::MakeSubject& make_subject,
+                 fuzz::Ranks* ranks) {
   const fuzz::Bounds bounds = bounds_of(options);
-  const double timeout =
-      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
-  const fuzz::MakeSubject make_subject = subject_maker(options.engine, timeout);
   FuzzReport report;
   report.manifest = manifest_of(plan, options.engine);
-
   Store store(options.store.value_or(":memory:"), Store::Access::write);
   const std::int64_t campaign = store.open_campaign(report.manifest);
   bool resumed = false;
@@ -159,12 +169,30 @@ int act(const Options& options) {
   bool failed = false;
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size());
-    failed = fuzz::run(plan, bounds, make_subject, report.accounts, journal);
+    failed = fuzz::run(plan, bounds, make_subject, report.accounts, journal, ranks);
   }
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign) report.findings.push_back(std::move(one));
   print(options.json ? report.json() : report.text());
   return exit_status(report, options.times, failed);
+}
+
+int act(const Options& options) {
+  const fuzz::Plan plan = plan_of(options);
+  const unsigned jobs = bounds_of(options).jobs;
+  const double timeout =
+      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
+  const fuzz::MakeSubject make_subject = subject_maker(options.engine, timeout);
+  const std::unique_ptr<fuzz::Ranks> ranks = fuzz::Ranks::join();
+  if (!ranks) return run_campaign(options, plan, make_subject, nullptr);
+  try {
+    if (ranks->rank() == 0) return run_campaign(options, plan, make_subject, ranks.get());
+    ranks->work(plan, jobs, make_subject);
+    return kDone;
+  } catch (const std::exception& error) {  // nobody waits for a process that is gone
+    say("{}", error.what());
+    ranks->abort(kFailed);
+  }
 }
 
 void add_options(CLI::App* command, Options& options) {
@@ -182,7 +210,9 @@ void add_options(CLI::App* command, Options& options) {
                    "until each target has had so many cases, its mutants not counted")
       ->type_name("N");
   command->add_option("--seed", options.seed, "of the cases")->capture_default_str()->type_name("N");
-  command->add_option("--jobs", options.jobs, "threads; the findings are the same")
+  command
+      ->add_option("--jobs", options.jobs,
+                   "threads (of each process, under mpirun); the findings are the same")
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--store", options.store, "where findings are kept and campaigns gone on with")
@@ -198,6 +228,12 @@ void add_options(CLI::App* command, Options& options) {
                    "climb to smaller margins from one in so many cases; 0: from none")
       ->capture_default_str()
       ->type_name("N");
+  command
+      ->add_option(
+          "--judge", options.judge,
+          "whose answers are the truth: oracle, or certified, which is faster and rests on reduction")
+      ->capture_default_str()
+      ->type_name("J");
   command->add_option("--ulps", options.ulps, "the tolerance k, as in `compare` (default: 4)")
       ->type_name("K");
   command->add_option("--timeout", options.timeout, kTimeoutHelp)->type_name("SECONDS");

@@ -51,6 +51,20 @@ std::string target_table(const FuzzReport& report) {
   return table.text();
 }
 
+// Which layers of the engine's ladder decided, where it tells: cases and mutants.
+std::string layers(const FuzzReport& report) {
+  Account all;
+  for (const Account& account : report.accounts) all.add(account);
+  const std::uint64_t sum = all.stages[0] + all.stages[1] + all.stages[2];
+  if (sum == 0) return {};
+  const auto share = [&](std::size_t stage) {
+    return fmt::format("{} ({:.3g} %)", all.stages[stage],
+                       100 * static_cast<double>(all.stages[stage]) / static_cast<double>(sum));
+  };
+  return fmt::format("decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
+                     report.manifest.engine == "certified" ? "by exact arithmetic" : "not decided", share(2));
+}
+
 // Of each kind of failure that was not met, what that says.
 std::string bounds(const FuzzReport& report) {
   std::uint64_t n = 0;
@@ -72,9 +86,10 @@ std::uint64_t FuzzReport::total(Kind kind) const {
 
 std::string FuzzReport::text() const {
   std::string out =
-      fmt::format("{}, seed {}{}: cases, and mutants of some, judged by the oracle\n\n{}\n{}",
-                  manifest.engine, manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
-                  target_table(*this), bounds(*this));
+      fmt::format("{}, seed {}{}: cases, and mutants of some, judged by {}\n\n{}\n{}{}", manifest.engine,
+                  manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
+                  manifest.options.ends_with("judged by certified") ? "certified" : "the oracle",
+                  target_table(*this), layers(*this), bounds(*this));
   if (findings.empty()) return out + "no findings\n";
   return out + table_of(causes_of(findings));
 }
@@ -97,6 +112,8 @@ std::string FuzzReport::json() const {
       std::replace(key.begin(), key.end(), ' ', '_');
       out += fmt::format(",\"{}\":{}", key, number_of(a, kind));
     }
+    out += fmt::format(",\"binary64\":{},\"double_double\":{},\"exact\":{}", a.stages[0], a.stages[1],
+                       a.stages[2]);
     out += ",\"smallest_margin\":" + (std::isfinite(a.margin) ? number(a.margin) : "null");
     out += ",\"wrong_at_most\":";
     out += number_of(a, Kind::wrong) == 0 && n > 0 ? number(3.0 / static_cast<double>(n)) : "null";

@@ -1,8 +1,9 @@
 // Engines as the subjects of campaigns.
 #include "answerer.hpp"
-#include "engine.hpp"
+#include "escalate.hpp"
 #include "fuzz.hpp"
 #include "published.hpp"
+#include "reduction.hpp"
 #include "registry.hpp"
 
 namespace lorentz::cli {
@@ -15,7 +16,7 @@ class AnswererSubject final : public fuzz::Subject {
  public:
   AnswererSubject(const std::string& engine, double timeout)
       : answerer_(make_answerer(engine, {{}, timeout})), is_command_(is_command(engine)) {
-    answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer, {}}); });
+    answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer}); });
   }
 
   void ask(const Query& query) override { answerer_->ask("null", query); }
@@ -34,36 +35,71 @@ class AnswererSubject final : public fuzz::Subject {
   std::vector<Reply> replies_;
 };
 
-// `published` counts its passes: how much work an answer was.
-class PublishedSubject final : public fuzz::Subject {
+// An engine that says more about an answer than the answer. Engines of this kind are made from a scene, and
+// know why a scene is beyond them.
+template <class E>
+class TellingSubject : public fuzz::Subject {
  public:
-  void ask(const Query& query) override {
-    if (why_not_) {
-      replies_.push_back({Answer::unsupported_because(*why_not_), {}});
-      return;
-    }
-    Proposals proposals;
-    Answer answer = engine_->first_hit_counted(query, std::numeric_limits<double>::infinity(), proposals);
-    replies_.push_back({std::move(answer), static_cast<double>(proposals.passes)});
+  void ask(const Query& query) final {
+    replies_.push_back(why_not_ ? Reply{Answer::unsupported_because(*why_not_)} : reply_to(query));
   }
-  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+  std::vector<Reply> replies() final { return std::exchange(replies_, {}); }
+
+ protected:
+  const E& engine() const { return *engine_; }
 
  private:
-  void change_scene(const Scene& scene) override {
-    why_not_ = Published::beyond(scene);
+  virtual Reply reply_to(const Query& query) const = 0;
+
+  void change_scene(const Scene& scene) final {
+    if constexpr (requires { E::beyond(scene); }) why_not_ = E::beyond(scene);
     if (!why_not_) engine_.emplace(scene);
   }
 
-  std::optional<Published> engine_;
+  std::optional<E> engine_;
   std::optional<std::string> why_not_;
   std::vector<Reply> replies_;
 };
+
+// Counts its passes: how much work an answer was.
+class PublishedSubject final : public TellingSubject<Published> {
+  Reply reply_to(const Query& query) const override {
+    Proposals proposals;
+    Answer answer = engine().first_hit_counted(query, std::numeric_limits<double>::infinity(), proposals);
+    return {std::move(answer), static_cast<double>(proposals.passes)};
+  }
+};
+
+class ReductionSubject final : public TellingSubject<Reduction> {
+  Reply reply_to(const Query& query) const override {
+    const Flight flight = engine().fly(query);
+    return {answer_of(flight), {}, flight.stage};
+  }
+};
+
+class CertifiedSubject final : public TellingSubject<oracle::Certified> {
+  Reply reply_to(const Query& query) const override {
+    StageTally tally;
+    Answer answer = engine().first_hit(query, {}, &tally);
+    const Stage stage = tally.binary64        ? Stage::binary64
+                        : tally.double_double ? Stage::double_double
+                                              : Stage::undecided;
+    return {std::move(answer), {}, stage};
+  }
+};
+
+template <class S>
+fuzz::MakeSubject maker_of() {
+  return [] { return std::make_unique<S>(); };
+}
 
 }  // namespace
 
 fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
   check_name(engine);
-  if (engine == "published") return [] { return std::make_unique<PublishedSubject>(); };
+  if (engine == "published") return maker_of<PublishedSubject>();
+  if (engine == "reduction") return maker_of<ReductionSubject>();
+  if (engine == "certified") return maker_of<CertifiedSubject>();
   return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
 }
 

@@ -27,6 +27,7 @@ struct Plan {
   Counts counts;
   std::uint64_t keep = 3;     ///< findings kept and shrunk of each sort, of each target; all are counted
   std::uint64_t mutate = 32;  ///< one in so many cases is climbed from; 0: none
+  Truth truth = Truth::oracle;
 };
 
 /// How far a target is, and what was met on the way.
@@ -34,6 +35,7 @@ struct Account {
   std::uint64_t next = 0;  ///< the first index that is not done
   std::uint64_t cases = 0, mutants = 0;
   std::array<std::uint64_t, kKinds> kinds{};                ///< of cases and mutants, by Kind
+  std::array<std::uint64_t, 3> stages{};                    ///< of the same, by Stage, where it is told
   std::map<std::string, std::uint64_t> sorts;               ///< findings met, by sort, kept or not
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,
   std::uint64_t margin_index = 0;                           ///< from this case
@@ -62,10 +64,12 @@ struct Bounds {
   const std::atomic<bool>* stop = nullptr;  ///< set by somebody else, to stop early
 };
 
+class Ranks;
+
 /// Goes on from the accounts (one for each target of the plan), which it brings up to date. Threads get equal
 /// times for each target. Work that is unfinished when the time is up is dropped: at most the few cases that
-/// each thread was at. Returns whether a subject failed.
+/// each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
-         std::vector<Account>& accounts, Journal& journal);
+         std::vector<Account>& accounts, Journal& journal, Ranks* ranks = nullptr);
 
 }  // namespace lorentz::fuzz

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "escalate.hpp"
 #include "oracle.hpp"
 #include "parts.hpp"
 #include "scene_check.hpp"
@@ -33,24 +34,37 @@ struct Examiner::Impl {
   Subject& subject;
   Scene scene;
   double ulps;
-  oracle::Oracle oracle;
-  oracle::Judge judge;
+  std::optional<oracle::Oracle> oracle;
+  std::optional<oracle::Certified> certified;
+  std::optional<oracle::Judge> judge;
   std::optional<double> slow_from;
 
-  Impl(Subject& subject, const Scene& scene, double ulps)
-      : subject(subject), scene(scene), ulps(ulps), oracle(scene), judge(scene) {}
+  Impl(Subject& subject, const Scene& scene, double ulps, Truth truth)
+      : subject(subject), scene(scene), ulps(ulps) {
+    truth == Truth::oracle ? void(oracle.emplace(scene)) : void(certified.emplace(scene));
+  }
+
+  // Answers that are the same need no judge, which most scenes therefore never get.
+  oracle::Judgement judgement(const Question& question, const Answer& given) {
+    const Answer& exact = question.exact;
+    if (given.outcome == exact.outcome && given.outcome == Outcome::hit && given.time == exact.time &&
+        given.obstacle == exact.obstacle)
+      return {oracle::Verdict::agree};
+    if (!judge) judge.emplace(scene);
+    return judge->judge(question.query, exact, given, ulps);
+  }
 };
 
-Examiner::Examiner(Subject& subject, const Scene& scene, double ulps)
-    : impl_(std::make_unique<Impl>(subject, scene, ulps)) {}
+Examiner::Examiner(Subject& subject, const Scene& scene, double ulps, Truth truth)
+    : impl_(std::make_unique<Impl>(subject, scene, ulps, truth)) {}
 Examiner::~Examiner() = default;
 
 const Scene& Examiner::scene() const {
   return impl_->scene;
 }
 
-const oracle::Oracle& Examiner::oracle() const {
-  return impl_->oracle;
+Answer Examiner::exact(const Query& query) const {
+  return impl_->oracle ? impl_->oracle->first_hit(query) : impl_->certified->first_hit(query);
 }
 
 void Examiner::ask(const Question& question) {
@@ -59,7 +73,7 @@ void Examiner::ask(const Question& question) {
 }
 
 Examined Examiner::examine(const Query& query) {
-  const Question question{query, impl_->oracle.first_hit(query)};
+  const Question question{query, exact(query)};
   ask(question);
   std::vector<Reply> replies = impl_->subject.replies();
   return judge(question, replies.at(0));
@@ -67,10 +81,10 @@ Examined Examiner::examine(const Query& query) {
 
 Examined Examiner::judge(const Question& question, Reply& reply) {
   Examined one;
-  const oracle::Judgement judgement =
-      impl_->judge.judge(question.query, question.exact, reply.answer, impl_->ulps);
+  const oracle::Judgement judgement = impl_->judgement(question, reply.answer);
   one.departs = judgement.departs;
   one.work = reply.work;
+  one.stage = reply.stage;
   one.exact = question.exact;
   one.given = std::move(reply.answer);
   const auto too_slow = [&] { return one.work && is_slow(*one.work); };

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "oracle.hpp"
 #include "problem.hpp"
 #include "subject.hpp"
 #include "verdict.hpp"
@@ -42,6 +41,12 @@ struct Counts {
   bool is_finding(Kind kind) const;
 };
 
+/// Whose answers are the truth.
+enum class Truth {
+  oracle,    ///< the exact oracle: shares no arithmetic with any engine
+  certified  ///< the same answers, many times faster, on the word of the fast engine's filters
+};
+
 struct Question {
   Query query;
   Answer exact;
@@ -52,17 +57,19 @@ struct Examined {
   Answer given, exact;
   double departs = 0;  ///< as in oracle::Judgement
   std::optional<double> work;
+  std::optional<Stage> stage;
 };
 
 /// One scene and a subject in it.
 class Examiner {
  public:
   /// The scene without flaws.
-  Examiner(Subject& subject, const Scene& scene, double ulps);
+  Examiner(Subject& subject, const Scene& scene, double ulps, Truth truth = Truth::oracle);
   ~Examiner();
 
   const Scene& scene() const;
-  const oracle::Oracle& oracle() const;
+  /// The true answer to a query without flaws.
+  Answer exact(const Query& query) const;
 
   /// Asks the subject. Its replies are for the caller to wait for, and to hand to judge().
   void ask(const Question& question);

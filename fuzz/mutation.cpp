@@ -67,7 +67,7 @@ double narrow_margin(const oracle::Scrutiny& scrutiny, const Query& query, const
   return decision ? decision->margin : kInfinity;
 }
 
-std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const oracle::Oracle& oracle,
+std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const Examiner& examiner,
                           const oracle::Scrutiny& scrutiny) {
   std::vector<Mutant> tried;
   Mutant best{{base.query, exact}, narrow_margin(scrutiny, base.query, exact)};
@@ -75,7 +75,7 @@ std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, 
     const Query from_here = best.question.query;
     for (int move = 0; move < kMovesPerRound; ++move) {
       Mutant mutant{{moved_query(random, base.scene, from_here), {}}, kInfinity};
-      mutant.question.exact = oracle.first_hit(mutant.question.query);
+      mutant.question.exact = examiner.exact(mutant.question.query);
       mutant.margin = narrow_margin(scrutiny, mutant.question.query, mutant.question.exact);
       if (mutant.margin < best.margin) best = mutant;
       tried.push_back(std::move(mutant));

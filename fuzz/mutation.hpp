@@ -7,7 +7,6 @@
 #include "examiner.hpp"
 #include "family.hpp"
 #include "margin.hpp"
-#include "oracle.hpp"
 
 namespace lorentz::fuzz {
 
@@ -26,7 +25,7 @@ inline constexpr int kRounds = 6, kMovesPerRound = 4;
 /// In each round some moves of the best query so far are tried; the one with the smallest margin is the next
 /// to be moved. Returns all that was tried, in order. Costs kRounds * kMovesPerRound exact answers and narrow
 /// searches for a margin: about 1 ms in 2D and 5 ms in 3D. Ends early at a margin of 0.
-std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const oracle::Oracle& oracle,
+std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const Examiner& examiner,
                           const oracle::Scrutiny& scrutiny);
 
 /// The margin that guides a climb.

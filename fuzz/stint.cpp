@@ -42,7 +42,7 @@ class SameFailure {
     if (stop_ || work_ > kShrinkWork || subject_.failed()) return false;
     if (!examiner_ || !same(examiner_->scene(), scene)) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
-      examiner_.emplace(subject_, scene, plan_.counts.ulps);
+      examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
     }
     if (flaw_of(query, scene)) return false;
     last_ = examiner_->examine(query);
@@ -56,7 +56,7 @@ class SameFailure {
 
   // Whatever is left to spend.
   Examined examine(const Scene& scene, const Query& query) {
-    return Examiner(subject_, scene, plan_.counts.ulps).examine(query);
+    return Examiner(subject_, scene, plan_.counts.ulps, plan_.truth).examine(query);
   }
 
  private:
@@ -82,7 +82,8 @@ struct StintWorker::Case {
 
 // A scene.
 struct StintWorker::Room {
-  Room(Subject& subject, const Scene& scene, double ulps) : examiner(subject, scene, ulps) {}
+  Room(Subject& subject, const Scene& scene, const Plan& plan)
+      : examiner(subject, scene, plan.counts.ulps, plan.truth) {}
   const oracle::Scrutiny& scrutiny() {
     if (!scrutiny_) scrutiny_.emplace(examiner.scene());
     return *scrutiny_;
@@ -127,16 +128,15 @@ void StintWorker::pose(const Stint& stint, Desk& desk) {
     if (index % plan_.shards != plan_.shard) continue;
     const fuzz::Case base = target.make(plan_.seed, index);
     if (desk.rooms.empty() || !same(desk.rooms.back().examiner.scene(), base.scene))
-      desk.rooms.emplace_back(*subject_, base.scene, plan_.counts.ulps);
+      desk.rooms.emplace_back(*subject_, base.scene, plan_);
     Room& room = desk.rooms.back();
-    const oracle::Oracle& oracle = room.examiner.oracle();
-    desk.cases.push_back({&target, index, 0, {base.query, oracle.first_hit(base.query)}, &room});
+    desk.cases.push_back({&target, index, 0, {base.query, room.examiner.exact(base.query)}, &room});
     ++desk.met.cases;
     Random random(plan_.seed, target.name(), index, Use::mutants);
     if (plan_.mutate == 0 || !random.one_in(plan_.mutate)) continue;
     int step = 0;
     const Answer exact = desk.cases.back().question.exact;
-    for (Mutant& mutant : climb(random, base, exact, oracle, room.scrutiny())) {
+    for (Mutant& mutant : climb(random, base, exact, room.examiner, room.scrutiny())) {
       if (mutant.margin > 0 && mutant.margin < desk.met.margin)
         desk.met.margin = mutant.margin, desk.met.margin_index = index;
       desk.cases.push_back({&target, index, ++step, std::move(mutant.question), &room});
@@ -157,6 +157,7 @@ void StintWorker::take(Desk& desk, const std::map<std::string, std::uint64_t>& k
     const Case& one = desk.cases[i];
     const Examined examined = one.room->examiner.judge(one.question, replies[i]);
     ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
+    if (examined.stage) ++result.met.stages[static_cast<std::size_t>(*examined.stage)];
     if (!plan_.counts.is_finding(examined.kind)) continue;
     const std::string sort = sort_of(one.room->examiner.scene(), one.question.query, examined);
     std::uint64_t& number = result.met.sorts[sort];

@@ -29,6 +29,7 @@ constexpr const char* kSchema = R"sql(
     campaign INTEGER NOT NULL, target TEXT NOT NULL, next INTEGER NOT NULL, cases INTEGER NOT NULL,
     mutants INTEGER NOT NULL, fine INTEGER NOT NULL, unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL,
     wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
+    binary64 INTEGER NOT NULL, double_double INTEGER NOT NULL, exact INTEGER NOT NULL,
     margin REAL, margin_index INTEGER NOT NULL,
     PRIMARY KEY (campaign, target)) WITHOUT ROWID;
   CREATE TABLE sort (
@@ -179,15 +180,17 @@ std::int64_t Store::open_campaign(const Manifest& manifest) {
 
 Account Store::account(std::int64_t campaign, std::string_view target) const {
   Account account;
-  Statement row(impl_->connection,
-                "SELECT next, cases, mutants, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
-                "margin, margin_index FROM account WHERE campaign = ? AND target = ?");
+  Statement row(
+      impl_->connection,
+      "SELECT next, cases, mutants, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
+      "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
   if (!row.step()) return account;
   account.next = row.count();
   account.cases = row.count();
   account.mutants = row.count();
   for (std::uint64_t& number : account.kinds) number = row.count();
+  for (std::uint64_t& number : account.stages) number = row.count();
   account.margin = row.real_or_null().value_or(account.margin);
   account.margin_index = row.count();
   Statement sorts(impl_->connection, "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
@@ -226,9 +229,10 @@ std::vector<Stored> Store::findings() const {
 void Store::put(std::int64_t campaign, std::string_view target, const Account& account) {
   impl_->begin();
   Statement row(impl_->connection,
-                "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(target).bind(account.next).bind(account.cases).bind(account.mutants);
   for (const std::uint64_t number : account.kinds) row.bind(number);
+  for (const std::uint64_t number : account.stages) row.bind(number);
   row.bind(std::isfinite(account.margin) ? std::optional(account.margin) : std::nullopt)
       .bind(account.margin_index)
       .done();

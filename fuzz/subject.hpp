@@ -6,13 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "flight.hpp"
 #include "problem.hpp"
 
 namespace lorentz::fuzz {
 
 struct Reply {
   Answer answer;
-  std::optional<double> work;  ///< what it took, in the engine's own count of steps, if it counts
+  std::optional<double> work = {};  ///< what it took, in the engine's own count of steps, if it counts
+  std::optional<Stage> stage = {};  ///< which stage of its ladder decided, if it has one
 };
 
 /// Used by one thread. Answers may be waited for many at a time.

@@ -1,0 +1,62 @@
+// What a campaign costs: cases a second of processor time, by target, by whose answers are the truth, with
+// and without mutants. The subject costs next to nothing: it is the engine `certified`.
+// campaign_rate [SECONDS]
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <utility>
+
+#include "campaign.hpp"
+#include "escalate.hpp"
+
+using namespace lorentz;
+
+namespace {
+
+class CertifiedSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override { replies_.push_back({engine_->first_hit(query)}); }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { engine_.emplace(scene); }
+  std::optional<oracle::Certified> engine_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+class NoJournal final : public fuzz::Journal {
+  void record(const fuzz::Target&, const fuzz::Account&, const std::vector<fuzz::Finding>&) override {}
+  void tick() override {}
+};
+
+double rate(const fuzz::Target& target, fuzz::Truth truth, std::uint64_t mutate, double seconds) {
+  fuzz::Plan plan;
+  plan.targets = {&target};
+  plan.truth = truth;
+  plan.mutate = mutate;
+  fuzz::Bounds bounds;
+  bounds.seconds = seconds;
+  std::vector<fuzz::Account> accounts(1);
+  NoJournal journal;
+  const std::clock_t start = std::clock();
+  fuzz::run(
+      plan, bounds, [] { return std::make_unique<CertifiedSubject>(); }, accounts, journal);
+  return static_cast<double>(accounts[0].cases + accounts[0].mutants) * CLOCKS_PER_SEC /
+         static_cast<double>(std::clock() - start);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const double seconds = count > 1 ? std::atof(arguments[1]) : 5;
+  fmt::print(
+      "cases and mutants a second of one core\ntarget       judged by oracle  with mutants  judged by "
+      "certified\n");
+  for (const char* name : {"generic-2d", "generic-3d"}) {
+    const fuzz::Target& target = *fuzz::target_named(name);
+    fmt::print("{:<12} {:16.0f} {:13.0f} {:20.0f}\n", name, rate(target, fuzz::Truth::oracle, 0, seconds),
+               rate(target, fuzz::Truth::oracle, 32, seconds),
+               rate(target, fuzz::Truth::certified, 0, seconds));
+  }
+}
