@@ -14,8 +14,9 @@ namespace lorentz::cli {
 /// Makes what a campaign examines: any engine by its name, another program among them.
 fuzz::MakeSubject subject_maker(const std::string& engine, double timeout);
 
-/// lorentz fuzz list, show, export, merge.
+/// lorentz fuzz list, show, merge; and export.
 void add_fuzz_store(CLI::App& fuzz, Action& action);
+void add_fuzz_export(CLI::App& fuzz, Action& action);
 
 /// What came of a campaign: its manifest, what each target met, and its findings.
 struct FuzzReport {

@@ -1,4 +1,4 @@
-// lorentz fuzz list, show, export, merge: what a store holds.
+// lorentz fuzz list, show, merge: what a store holds.
 #include <algorithm>
 #include <filesystem>
 
@@ -86,24 +86,6 @@ int show(const Options& options, const std::string& id) {
                                options.store, json_quoted(id)));
 }
 
-// A query stream of shrunk cases: the simplest of each cause, or all.
-int export_stream(const Options& options) {
-  const Store store(options.store, Store::Access::read);
-  const std::vector<Stored> findings = store.findings();
-  std::vector<const Stored*> chosen;
-  for (const Stored& one : findings)
-    if (options.all) chosen.push_back(&one);
-  if (!options.all)
-    for (const Cause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
-  std::string scene;
-  for (const Stored* one : chosen) {
-    if (one->finding.shrunk.scene != scene) print(one->finding.shrunk.scene + '\n');
-    scene = one->finding.shrunk.scene;
-    print(one->finding.shrunk.query + '\n');
-  }
-  return kDone;
-}
-
 int merge_stores(const MergeOptions& options) {
   std::error_code error;
   if (std::filesystem::exists(options.output, error))
@@ -147,10 +129,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
 
-  command = fuzz.add_subcommand("export", "A query stream of the simplest shrunk finding of each cause.");
-  options = add_options(command);
-  command->add_flag("--all", options->all, "of every finding");
-  command->callback([options, &action] { action = [options] { return export_stream(*options); }; });
+  add_fuzz_export(fuzz, action);
 
   command = fuzz.add_subcommand("merge", "Puts the stores of shards together: as if one run had made them.");
   auto merging = std::make_shared<MergeOptions>();

@@ -284,7 +284,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
       least = std::min(least, mutants[i].margin);
     }
     // Each round goes on from the best before it.
-    fuzz::Random random(1, "moves", index);
+    fuzz::Random random(1, "climb", index);
     Query best = base.query;
     double margin = fuzz::narrow_margin(scrutiny, best, exact);
     improved += least < margin;

@@ -39,9 +39,10 @@ class Folder {
     return text.str();
   }
   Run lorentz(const std::string& arguments) const {
-    const std::string command =
-        std::string(LORENTZ_PROGRAM) + " " + arguments + " >" + file("out") + " 2>" + file("err");
-    const int status = std::system(command.c_str());
+    return run(std::string(LORENTZ_PROGRAM) + " " + arguments);
+  }
+  Run run(const std::string& command) const {
+    const int status = std::system((command + " >" + file("out") + " 2>" + file("err")).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
   }
 

@@ -62,7 +62,7 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(contains(again.err, "goes on with campaign 1"));
   CHECK(again.out == run.out);
 
-  const Run stream = folder.lorentz("fuzz export --all" + store);
+  const Run stream = folder.lorentz("fuzz export --all --queries" + store);
   CHECK(stream.status == 0);
   folder.write("queries", stream.out);
   const Run compare =
@@ -73,6 +73,68 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(
       contains(compare.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":" + std::to_string(lines(list.out) - 6)));
 }
+
+TEST_CASE("What a campaign found is exported as a golden set, which check and verify take") {
+  const Folder folder;
+  const std::string store = " --store " + folder.file("store");
+  folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+  const Run set = folder.lorentz("fuzz export" + store);
+  CHECK(set.status == 0);
+  CHECK(contains(set.out, "\"generator\":\"lorentz fuzz --engine published --seed 20161115"));
+  CHECK(contains(set.out, "\"tags\":[\"published-faults\",\"wrong\"]"));
+  const std::string file = folder.write("set.ndjson", set.out);
+  const Run verify = folder.lorentz("golden verify --walk " + file);
+  INFO(verify.out << verify.err);
+  CHECK(verify.status == 0);
+  CHECK(folder.lorentz("golden check " + file + " -e certified").status == 0);
+  CHECK(folder.lorentz("golden check " + file + " -e published").status == 1);
+  const Run check_py =
+      folder.run(std::string(LORENTZ_PYTHON) + " " + LORENTZ_SOURCE_DIR + "/data/check.py " + file);
+  CHECK(check_py.status == 0);
+  CHECK(contains(check_py.out, "all verified"));
+}
+
+TEST_CASE("It says which layers decided, and who judged") {
+  const Folder folder;
+  const Run certified = folder.lorentz("fuzz -e certified -t grazing --count 300 --mutate 0");
+  CHECK(contains(certified.out, "decided in binary64: "));
+  CHECK(contains(certified.out, "; by exact arithmetic: "));
+  CHECK(contains(certified.out, "judged by the oracle"));
+  const Run reduction = folder.lorentz("fuzz -e reduction -t grazing --count 300 --mutate 0 --json");
+  const auto number = [&](const std::string& key) {
+    const std::size_t at = reduction.out.find("\"" + key + "\":");
+    return at == std::string::npos ? -1 : std::stoi(reduction.out.substr(at + key.size() + 3));
+  };
+  CHECK(number("binary64") > 0);
+  CHECK(number("double_double") > 0);
+  CHECK(number("exact") == number("undecided"));
+  CHECK(number("binary64") + number("double_double") + number("exact") == 300 - number("unsupported"));
+  const Run classical = folder.lorentz("fuzz -e classical -t large-radius --count 100 --judge certified");
+  CHECK(contains(classical.out, "judged by certified"));
+  CHECK_FALSE(contains(classical.out, "decided in binary64"));
+}
+
+#ifdef LORENTZ_MPIRUN
+TEST_CASE("Two processes find what one finds, to the bit") {
+  const Folder folder;
+  const std::string what = " fuzz -e published -t leaving,boundary --count 200 --no-undecided --store ";
+  const Run one = folder.lorentz(what + folder.file("one"));
+  const Run two =
+      folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                 LORENTZ_PROGRAM + what + folder.file("two"));
+  INFO(two.err);
+  CHECK(one.status == 1);
+  CHECK(two.status == 1);
+  CHECK(contains(one.out, "1/leaving/"));
+  CHECK(two.out == one.out);
+  CHECK(stored(folder.file("two")) == stored(folder.file("one")));
+  const Run locked =
+      folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                 LORENTZ_PROGRAM + " fuzz -t leaving --count 1 --store /no/such/folder/store");
+  CHECK(locked.status == 3);
+  CHECK(contains(locked.err, "/no/such/folder/store"));
+}
+#endif
 
 TEST_CASE("Where nothing is wrong it says what that means") {
   const Folder folder;
@@ -176,6 +238,8 @@ TEST_CASE("Bad options are refused before any work, with what would do") {
   refused("--mutate -1", "--mutate: ");
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
   refused("--undecided --no-undecided", "excludes");
+  refused("--judge nobody", "--judge: \"nobody\" is none; there are oracle and certified");
+  refused("--judge certified -e reduction", "certified rests on reduction, and is no judge of either");
   refused("--timeout 0", "--timeout: must be above zero");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");
   refused("list", "--store is required");

@@ -1,0 +1,143 @@
+// lorentz fuzz export: what a campaign found, as a golden set or as a query stream.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "exchange.hpp"
+#include "exit_status.hpp"
+#include "fuzz.hpp"
+#include "maker.hpp"
+#include "messages.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fuzz::Store;
+using fuzz::Stored;
+
+struct Options {
+  std::string store;
+  bool all = false, queries = false;
+};
+
+// A shrunk case and what it is an example of.
+struct Example {
+  const Stored* stored;
+  Scene scene;
+  Query query;
+};
+
+// What the store holds was written by append_..._line.
+StreamItem parsed(ExchangeReader& reader, const std::string& line, const Scene* scene) {
+  const std::string padded = line + std::string(LineReader::kPadding, ' ');
+  StreamItem item;
+  reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
+  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds a line that is none: " + line);
+  return item;
+}
+
+// The simplest finding of each cause, or all; those of one scene together.
+std::vector<Example> examples_in(const std::vector<Stored>& findings, bool all) {
+  std::vector<const Stored*> chosen;
+  if (all)
+    for (const Stored& one : findings) chosen.push_back(&one);
+  else
+    for (const Cause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
+  std::stable_sort(chosen.begin(), chosen.end(), [](const Stored* a, const Stored* b) {
+    return a->finding.shrunk.scene < b->finding.shrunk.scene;
+  });
+  ExchangeReader reader;
+  std::vector<Example> examples;
+  for (const Stored* one : chosen) {
+    Example example{one, parsed(reader, one->finding.shrunk.scene, nullptr).scene, {}};
+    example.query = parsed(reader, one->finding.shrunk.query, &example.scene).query;
+    examples.push_back(std::move(example));
+  }
+  return examples;
+}
+
+void print_queries(const std::vector<Example>& examples) {
+  std::string scene;
+  for (const Example& one : examples) {
+    const fuzz::CaseText& text = one.stored->finding.shrunk;
+    if (text.scene != scene) print(text.scene + '\n');
+    scene = text.scene;
+    print(text.query + '\n');
+  }
+}
+
+std::string tag_of(const std::string& kind) {
+  std::string tag = kind;
+  std::replace(tag.begin(), tag.end(), ' ', '-');
+  return tag;
+}
+
+golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
+  golden::Header header;
+  header.name = "findings";
+  header.description = "What campaigns found, shrunk: the answers are the exact ones.";
+  header.version = LORENTZ_VERSION;
+  for (const fuzz::Campaign& campaign : campaigns) {
+    const fuzz::Manifest& m = campaign.manifest;
+    header.generator += fmt::format("lorentz fuzz --engine {} --seed {} --shard {} --target {} ({}); ",
+                                    shell_quoted(m.engine), m.seed, m.shard, m.targets, m.options);
+  }
+  header.generator += "lorentz fuzz export";
+  return header;
+}
+
+// Findings that shrank to the same question are one record.
+void print_golden_set(const std::vector<Example>& examples, golden::Header header) {
+  std::string lines, scene_line;
+  std::set<std::string> ids;
+  std::map<std::string, std::string> tags;
+  std::optional<golden::Maker> maker;
+  for (const Example& one : examples) {
+    const fuzz::Finding& finding = one.stored->finding;
+    if (finding.shrunk.scene != scene_line) maker.emplace(one.scene);
+    golden::Record record =
+        maker->make(golden::question_of(one.query, one.scene.dimension), one.query).record;
+    if (!ids.insert(record.id).second) continue;
+    record.tags = {finding.target, tag_of(finding.kind)};
+    if (const fuzz::Target* target = fuzz::target_named(finding.target))
+      tags.emplace(finding.target, target->description());
+    tags.emplace(record.tags[1], "what was found: an answer of the kind `" + finding.kind + "`");
+    if (finding.shrunk.scene != scene_line) lines += finding.shrunk.scene + '\n';
+    scene_line = finding.shrunk.scene;
+    golden::append_record_line(lines, record, one.scene.dimension);
+  }
+  header.count = ids.size();
+  header.tags.assign(tags.begin(), tags.end());
+  std::string first;
+  golden::append_header_line(first, header);
+  print(first + lines);
+}
+
+int act(const Options& options) {
+  const Store store(options.store, Store::Access::read);
+  const std::vector<Stored> findings = store.findings();
+  const std::vector<Example> examples = examples_in(findings, options.all);
+  if (options.queries)
+    print_queries(examples);
+  else
+    print_golden_set(examples, header_of(store.campaigns()));
+  return kDone;
+}
+
+}  // namespace
+
+void add_fuzz_export(CLI::App& fuzz, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = fuzz.add_subcommand(
+      "export",
+      "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.");
+  command->add_option("--store", options->store, "the store")->required()->type_name("FILE");
+  command->add_flag("--all", options->all, "of every finding");
+  command->add_flag("--queries", options->queries, "a query stream instead");
+  command->footer(
+      "Example:\n  lorentz fuzz export --store published.campaign > findings.ndjson\n"
+      "  lorentz golden check findings.ndjson --engine published");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli
