@@ -12,7 +12,7 @@ namespace {
 SceneNode node_from(const toml::node& node) {
   if (const auto* table = node.as_table()) {
     SceneNode::Object object;
-    for (const auto& [key, value] : *table) object.emplace_back(std::string(key.str()), node_from(value));
+    for (const auto& [key, value] : *table) object.push_back({std::string(key.str()), node_from(value)});
     return {std::move(object)};
   }
   if (const auto* array = node.as_array()) {
