@@ -150,8 +150,8 @@ bool Cylinder<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) c
 
 template <>
 bool Cylinder<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
-  const auto& [b1, b2, b3] = stretch.basis;
-  const Planes planes(view_.flight, reach2_, b1, b2, b3);
+  const LatticePoint<3>& b2 = stretch.basis[1];
+  const Planes planes(view_.flight, reach2_, stretch.basis[0], b2, stretch.basis[2]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
                           [&](const PlaneSection& section, const Range& rows) {
                             LatticePoint<3> row = section.origin;
