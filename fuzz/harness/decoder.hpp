@@ -1,0 +1,41 @@
+// Scenes and queries out of any bytes, so that nearly all bytes make a question without flaws, and a small
+// change of the bytes a small change of the question.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "problem.hpp"
+
+namespace lorentz::harness {
+
+/// What is slow by design (README.md, Limits) is left out by these bounds: 2 or 3 dimensions, 1 to 3 lattices
+/// of 1 to 4 atoms; vectors with components of 2^-20 to 2^4 and a cell's volume of at least 2^-6, as each
+/// obstacle has at most 8 times its cell's volume: for the smallest of very many obstacles around x the
+/// oracle may look long. Starts are within 2^60. Velocities are any.
+class Decoder {
+ public:
+  Decoder(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
+
+  Scene scene();
+  Query query(const Scene& scene);
+  Vec velocity(const Scene& scene);
+  bool flag() { return byte() & 1; }
+
+ private:
+  std::uint8_t byte() { return at_ < end_ ? *at_++ : 0; }  // zeros behind the end
+  double raw();
+
+  /// A finite number, 0 or of a size from 2^low to 2^high: on a coarse grid, of any bits, or near an earlier
+  /// one.
+  double number(int low, int high);
+  Vec vec(int dimension, int low, int high);
+  Lattice lattice(int dimension);
+  Atom atom(const Lattice& lattice, int dimension);
+
+  const std::uint8_t *at_, *end_;
+  std::vector<double> earlier_;
+};
+
+}  // namespace lorentz::harness

@@ -1,0 +1,53 @@
+// Any bytes as a scene file, TOML or JSON. Promised: no crash, no wait; an error is of the documented type
+// and names the file; a scene that is read is free of flaws, and written and read again, as a file and as a
+// line of a stream, it is the same.
+#include "exchange.hpp"
+#include "harness.hpp"
+#include "input_file.hpp"
+#include "scene_check.hpp"
+
+namespace lorentz::harness {
+namespace {
+
+std::string written(const Scene& scene) {
+  std::string line;
+  append_scene_line(line, scene);
+  return line;
+}
+
+// Nothing: it was refused, as it should be.
+std::optional<Scene> scene_in(const InputFile& file) {
+  try {
+    return read_scene_file(file.path());
+  } catch (const InputError& error) {
+    const std::string_view message = error.what();
+    require(message.starts_with(file.path() + ": ") && message.size() > file.path().size() + 2,
+            "an error names the file and says what is wrong", std::string(message));
+    return std::nullopt;
+  }
+}
+
+void check(const Scene& scene) {
+  static InputFile file;
+  const std::string line = written(scene);
+  require(!flaw_of(scene), "a scene that is read has no flaw", line);
+  (void)oracle::dependence_in(scene);
+  file.set(line);
+  const std::optional<Scene> again = scene_in(file);
+  require(again && written(*again) == line, "a scene file that is read again is the same", line);
+  StreamItem item;
+  ExchangeReader().read_query_line(LoneLine(line.substr(0, line.size() - 1)).line(), nullptr, item);
+  require(item.kind == StreamItem::Kind::scene && written(item.scene) == line,
+          "a scene line holds the same as the file", line);
+}
+
+}  // namespace
+}  // namespace lorentz::harness
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lorentz::harness;
+  static InputFile file;
+  file.set(text_of(data, size));
+  if (const auto scene = scene_in(file)) check(*scene);
+  return 0;
+}
