@@ -58,8 +58,10 @@ SceneNode parse_json(const std::string& text) {
   json::parser parser;
   const simdjson::padded_string padded(text);
   json::document document;
+  // A document that was not begun must not be asked where it stands.
+  if (const auto error = parser.iterate(padded).get(document))
+    throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
   try {
-    document = parser.iterate(padded);
     SceneNode node = read_node(document.get_value());
     if (!ended(document)) throw NotJson{"more than one value"};
     const SceneNode* inner = node.member("scene");
