@@ -12,11 +12,14 @@ std::string read_text(json::value value, const std::string& key) {
   return std::string(value.get_string().value());
 }
 
-std::int64_t read_count(json::value value, const std::string& key) {
+std::int64_t read_count(json::value value, const std::string& key, std::int64_t most = 1'000'000'000'000) {
   const Integer n = read_integer(value, key.c_str());
-  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000'000)
-    throw InputError(key + ": is out of range");
+  if (!n.fits_int64() || n.int64() < 0 || n.int64() > most) throw InputError(key + ": is out of range");
   return n.int64();
+}
+
+int read_index(json::value value, const std::string& key) {
+  return static_cast<int>(read_count(value, key, 1'000'000'000));
 }
 
 Header read_header(json::value value) {
@@ -73,9 +76,9 @@ oracle::Window read_window(json::value value) {
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
     if (key == "lattice")
-      window.lattice = static_cast<int>(read_count(field.value(), key));
+      window.lattice = read_index(field.value(), key);
     else if (key == "atom")
-      window.atom = static_cast<int>(read_count(field.value(), key));
+      window.atom = read_index(field.value(), key);
     else if (key == "from")
       window.from = read_end(field.value(), key);
     else if (key == "to")
@@ -96,6 +99,11 @@ oracle::Certificate read_certificate(json::value value) {
       skip(field.value());
       continue;
     }
+    // Of a key that comes twice the last counts.
+    if (key == "windows")
+      certificate.windows.clear();
+    else
+      certificate.rows.clear();
     for (json::value one : field.value().get_array()) {
       const oracle::Window window = read_window(one);
       if (key == "windows")
@@ -179,15 +187,19 @@ struct Reader::Impl {
   void read_expectation(json::object object, Answer& expect) {
     Id id;
     std::size_t components = 0;
-    if (!read_answer(object, id, expect, components)) throw InputError("expect: is no answer");
+    Answer answer;
+    if (!read_answer(object, id, answer, components)) throw InputError("expect: is no answer");
     if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
+    answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
+    expect = std::move(answer);
   }
 
   void read_field(const std::string& key, json::value value, Record& record) {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
+      record.tags.clear();
       for (json::value tag : value.get_array()) record.tags.push_back(read_text(tag, key));
     } else if (key == "expect") {
       read_expectation(value.get_object(), record.expect);
@@ -215,6 +227,8 @@ struct Reader::Impl {
     }
     if (item.kind == StreamItem::Kind::bad && (item.bad_scene || item.no_scene))
       throw InputError(item.message);
+    // A query that is bad for another reason does not say that it has no scene besides.
+    if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {
       if (const auto flaw = oracle::dependence_in(item.scene)) throw InputError(*flaw);
       scene = std::move(item.scene);
