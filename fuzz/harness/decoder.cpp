@@ -39,7 +39,27 @@ double moved(double a, int ulps) {
   return a;
 }
 
+bool is_ordinary(const Atom& atom, double most, int dimension) {
+  if (atom.is_ball()) return std::pow(2 * atom.radius, dimension) <= most;
+  double box = 1;
+  for (const Vec& axis : atom.semiaxes) box *= 2 * length(axis);
+  return box <= most;
+}
+
 }  // namespace
+
+bool is_ordinary(const Scene& scene) {
+  if (flaw_of(scene) || oracle::dependence_in(scene)) return false;
+  for (const Lattice& lattice : scene.lattices) {
+    const double cell = volume(lattice.vectors, scene.dimension);
+    if (!(cell >= 0x1p-6)) return false;
+    for (const Vec& vector : lattice.vectors)
+      if (!(length(vector) <= 0x1p5)) return false;
+    for (const Atom& atom : lattice.atoms)
+      if (!is_ordinary(atom, 8 * cell, scene.dimension)) return false;
+  }
+  return true;
+}
 
 double Decoder::raw() {
   std::uint64_t bits = 0;
@@ -78,41 +98,36 @@ Vec Decoder::vec(int dimension, int low, int high) {
   return a;
 }
 
-Atom Decoder::atom(const Lattice& lattice, int dimension) {
-  const double most = 8 * volume(lattice.vectors, dimension);
+Atom Decoder::atom(int dimension) {
   const bool ellipsoid = byte() % 4 == 3;
   Atom atom;
   atom.position = vec(dimension, -60, 4);
-  if (!ellipsoid) {
+  if (ellipsoid)
+    for (int i = 0; i < dimension; ++i) atom.semiaxes.push_back(vec(dimension, -20, 1));
+  else
     atom.radius = std::fabs(number(-40, 1));
-    if (atom.radius == 0 || std::pow(atom.radius, dimension) > most) atom.radius = 0.125;
-    return atom;
-  }
-  std::array<Vec, 3> axes{};
-  for (int i = 0; i < dimension; ++i) axes[i] = vec(dimension, -20, 1);
-  double box = 1;
-  for (int i = 0; i < dimension; ++i) box *= length(axes[i]);
-  if (volume(axes, dimension) < 0x1p-30 || box > most)
-    axes = {Vec{0.25, 0, 0}, {0, 0.125, 0}, {0, 0, 0.1875}};
-  atom.semiaxes.assign(axes.begin(), axes.begin() + dimension);
   return atom;
 }
 
 Lattice Decoder::lattice(int dimension) {
   const unsigned kind = byte();
-  Lattice lattice;
-  lattice.vectors = unit_scene(dimension, 1).lattices[0].vectors;
-  if (kind & 1) {
-    std::array<Vec, 3> vectors{};
-    for (int i = 0; i < dimension; ++i) vectors[i] = vec(dimension, -20, 4);
-    if (volume(vectors, dimension) >= 0x1p-6) lattice.vectors = vectors;
+  Lattice lattice = unit_scene(dimension, 0.25).lattices[0];
+  if (kind & 1)
+    for (int i = 0; i < dimension; ++i) lattice.vectors[i] = vec(dimension, -20, 4);
+  if (!is_ordinary({dimension, {lattice}})) lattice = unit_scene(dimension, 0.25).lattices[0];
+  // One ball at the origin, which the engines treat apart, or any.
+  const Lattice usual = lattice;
+  if (kind & 2)
+    lattice.atoms[0].radius = std::fabs(number(-40, 1));
+  else
+    lattice.atoms[0] = atom(dimension);
+  for (unsigned more = kind / 4 % 4; !(kind & 2) && more > 0; --more)
+    lattice.atoms.push_back(atom(dimension));
+  for (Atom& atom : lattice.atoms) {
+    Lattice alone = lattice;
+    alone.atoms = {atom};
+    if (!is_ordinary({dimension, {alone}})) atom = usual.atoms[0];
   }
-  if (kind & 2) {  // one ball at the origin, which the engines treat apart
-    lattice.atoms.push_back({{}, std::fabs(number(-40, 0)), {}});
-    if (lattice.atoms[0].radius == 0) lattice.atoms[0].radius = 0.25;
-    return lattice;
-  }
-  for (unsigned a = 0; a <= kind / 4 % 4; ++a) lattice.atoms.push_back(atom(lattice, dimension));
   return lattice;
 }
 
@@ -121,8 +136,7 @@ Scene Decoder::scene() {
   Scene scene;
   scene.dimension = 2 + static_cast<int>(kind & 1);
   for (unsigned l = 0; l <= kind / 2 % 8 % 3; ++l) scene.lattices.push_back(lattice(scene.dimension));
-  // Volumes in binary64 may be rounding errors.
-  return flaw_of(scene) || oracle::dependence_in(scene) ? unit_scene(scene.dimension, 0.25) : scene;
+  return scene;
 }
 
 Vec Decoder::velocity(const Scene& scene) {

@@ -10,10 +10,12 @@
 
 namespace lorentz::harness {
 
-/// What is slow by design (README.md, Limits) is left out by these bounds: 2 or 3 dimensions, 1 to 3 lattices
-/// of 1 to 4 atoms; vectors with components of 2^-20 to 2^4 and a cell's volume of at least 2^-6, as each
-/// obstacle has at most 8 times its cell's volume: for the smallest of very many obstacles around x the
-/// oracle may look long. Starts are within 2^60. Velocities are any.
+/// Nothing in the scene is slow by design (README.md, Limits: for the smallest of very many obstacles around
+/// x the oracle may look long): cells have volumes of 2^-6 and more and vectors of length 2^5 and less, and a
+/// box around an obstacle has at most 8 times its cell's volume.
+bool is_ordinary(const Scene& scene);
+
+/// Scenes are ordinary, with 1 to 3 lattices of 1 to 4 atoms; starts are within 2^60; velocities are any.
 class Decoder {
  public:
   Decoder(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
@@ -32,7 +34,7 @@ class Decoder {
   double number(int low, int high);
   Vec vec(int dimension, int low, int high);
   Lattice lattice(int dimension);
-  Atom atom(const Lattice& lattice, int dimension);
+  Atom atom(int dimension);
 
   const std::uint8_t *at_, *end_;
   std::vector<double> earlier_;
