@@ -124,14 +124,25 @@ double read_size(json::value value, const std::string& key) {
 // The id is made from the text between, so there all of the question must be.
 constexpr const char* kOrder = "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
 
-// The text of a record's question.
-std::string question_in(std::string_view line) {
-  const auto tags = line.find("\"tags\":["), end = line.find(",\"expect\":");
-  const auto begin = tags == std::string_view::npos ? tags : line.find("],", tags);
-  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin + 2)
-    throw InputError(kOrder);
-  return std::string(line.substr(begin + 2, end - begin - 2));
-}
+// Where the members of a record begin in its line that its question lies between. Found by the reader and not
+// in the text, which may hold the same words elsewhere.
+struct QuestionPlace {
+  std::optional<std::size_t> after_tags, expect;
+
+  void see(const std::string& key, std::size_t place) {
+    if (after_tags == 0U) after_tags = place;
+    if (key == "tags") after_tags = 0;  // what comes next
+    if (key == "expect" && !expect) expect = place;
+  }
+
+  // The text from after `],` to before `,"expect"`.
+  std::string in(std::string_view line) const {
+    if (!after_tags || !expect || *after_tags < 2 || *expect <= *after_tags) throw InputError(kOrder);
+    if (line.substr(*after_tags - 2, 2) != "]," || line.substr(*expect - 1, 10) != ",\"expect\":")
+      throw InputError(kOrder);
+    return std::string(line.substr(*after_tags, *expect - 1 - *after_tags));
+  }
+};
 
 }  // namespace
 
@@ -245,15 +256,18 @@ struct Reader::Impl {
       read.flaw = item.message;
     bool has_tags = false, has_expect = false;
     json::document document = open(line);
+    QuestionPlace question;
     for (auto field : document.get_object()) {
+      const char* place = field.key().raw() - 1;
       const std::string key(std::string_view(field.unescaped_key()));
+      question.see(key, static_cast<std::size_t>(place - line.text.data()));
       has_tags |= key == "tags";
       has_expect |= key == "expect";
       if ((!has_tags || has_expect) && (key == "x" || key == "v" || key == "from")) throw InputError(kOrder);
       read_field(key, field.value(), read.record);
     }
     if (!has_expect || read.record.id.empty()) throw InputError("a golden record has an id and `expect`");
-    read.record.question = question_in(line.text);
+    read.record.question = question.in(line.text);
     return true;
   }
 };
