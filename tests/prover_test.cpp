@@ -156,6 +156,17 @@ TEST_CASE("Prover: nearly at right angles to lattice planes, at any angle") {
   CHECK(tally.by_outcome[Outcome::hit] > 100);
 }
 
+TEST_CASE("Prover: never, with a velocity whose components have nothing in common") {
+  Scene scene = unit_scene(3, 0x1p-14);
+  scene.lattices[0].vectors[0] = {1, 3.09375, 4.71875};
+  scene.lattices[0].vectors[2] = {0x1p-10, 0, 1};
+  Tally tally;
+  for (int k = 0; k < 1070; k += 107)
+    for (const double z : {-2.221045572239388e+216, 0x1p1000})
+      require_proved(scene, {{0.84, 0.64, 0}, {2.87e-322, 0, std::ldexp(z, -k)}, {}}, tally);
+  CHECK(tally.by_outcome[Outcome::never] == 20);
+}
+
 TEST_CASE("Ends of windows: their text, and the binary64 that they are exactly") {
   using oracle::WindowEnd;
   const auto text = [](const WindowEnd& end) { return oracle::text_of(end); };
