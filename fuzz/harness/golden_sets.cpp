@@ -7,9 +7,9 @@
 namespace lorentz::harness {
 namespace {
 
-// What a reader makes of a file, as it is written again; nothing if it was refused. (A file that is bad from
-// some line on is refused as a whole.)
-std::optional<std::string> rewritten(const InputFile& file) {
+// What a reader makes of a file, as it is written again; nothing if it was refused, for this reason. (A file
+// that is bad from some line on is refused as a whole.)
+std::optional<std::string> rewritten(const InputFile& file, std::string& reason) {
   try {
     golden::Reader reader(file.path());
     std::string text;
@@ -25,7 +25,8 @@ std::optional<std::string> rewritten(const InputFile& file) {
       append_record_line(text, read.record, reader.scene().dimension);
     }
     return text;
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    reason = error.what();
     return std::nullopt;
   }
 }
@@ -37,11 +38,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz::harness;
   static InputFile file, again;
   file.set(text_of(data, size));
-  const auto first = rewritten(file);
+  std::string reason;
+  const auto first = rewritten(file, reason);
   if (!first) return 0;
   again.set(*first);
-  const auto second = rewritten(again);
-  require(second.has_value(), "a set that was read can be read again", *first);
+  const auto second = rewritten(again, reason);
+  require(second.has_value(), "a set that was read can be read again", *first + reason);
   require(*second == *first, "a set that is read again is the same", *first + "\nnow\n" + *second);
   return 0;
 }
