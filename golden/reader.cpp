@@ -50,13 +50,15 @@ Header read_header(json::value value) {
   return header;
 }
 
-oracle::CertificateBasis read_basis(json::value value) {
+oracle::CertificateBasis read_basis(json::value value, int dimension) {
   oracle::CertificateBasis basis;
+  const auto size = static_cast<std::size_t>(dimension);
   std::size_t i = 0;
   for (json::value row : value.get_array()) {
     std::size_t k = 0;
     for (json::value component : row.get_array()) {
-      if (i >= 3 || k >= 3) throw InputError("basis: has more than three vectors or components");
+      if (i >= size || k >= size)
+        throw InputError("basis: has more than " + std::to_string(size) + " vectors or components");
       basis[i][k++] = read_integer(component, "basis");
     }
     ++i;
@@ -71,7 +73,7 @@ oracle::WindowEnd read_end(json::value value, const std::string& key) {
   return *end;
 }
 
-oracle::Window read_window(json::value value) {
+oracle::Window read_window(json::value value, int dimension) {
   oracle::Window window;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
@@ -84,14 +86,14 @@ oracle::Window read_window(json::value value) {
     else if (key == "to")
       window.to = read_end(field.value(), key);
     else if (key == "basis")
-      window.basis = read_basis(field.value());
+      window.basis = read_basis(field.value(), dimension);
     else
       skip(field.value());
   }
   return window;
 }
 
-oracle::Certificate read_certificate(json::value value) {
+oracle::Certificate read_certificate(json::value value, int dimension) {
   oracle::Certificate certificate;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
@@ -105,7 +107,7 @@ oracle::Certificate read_certificate(json::value value) {
     else
       certificate.rows.clear();
     for (json::value one : field.value().get_array()) {
-      const oracle::Window window = read_window(one);
+      const oracle::Window window = read_window(one, dimension);
       if (key == "windows")
         certificate.windows.push_back(window);
       else
@@ -221,7 +223,7 @@ struct Reader::Impl {
     } else if (key == "condition") {
       record.condition = read_size(value, key);
     } else if (key == "certificate") {
-      record.certificate = read_certificate(value);
+      record.certificate = read_certificate(value, scene->dimension);
     } else {
       skip(value);
     }

@@ -58,7 +58,7 @@ std::vector<GoldenCase> odd_cases() {
   window.to = 0x1.fffffffffffffp1023;
   far.record.margin = 0x1p20;
   far.record.condition = 0x1.5p-3;
-  far.record.tags = {"drawn", "drawn \"\\\n\t, too"};
+  far.record.tags = {"drawn", "drawn \"\\\n\t, too", "no],\"end"};
   cases.push_back(far);
   far.record.certificate->rows.push_back({0, 0, window.basis});  // which prove nothing beside windows
   cases.push_back(far);
@@ -186,7 +186,8 @@ TEST_CASE("Golden: what is no set is refused with the line's number") {
   CHECK(complaint(replaced(good, "\"outcome\":\"hit\"", "\"outcome\":\"hat\"")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
-  CHECK(complaint(replaced(good, "]]}", "],[0,0],[0,0]]}")).starts_with("3: basis"));
+  CHECK(complaint(replaced(good, "]]}", "],[0,0]]}")).starts_with("3: basis: has more than 2 vectors"));
+  CHECK(complaint(replaced(good, "]]}", ",0]]}")).starts_with("3: basis"));
   CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is no number"));
   CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
   CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
@@ -370,4 +371,8 @@ TEST_CASE("Golden: all of a record's question is what its id is made from") {
   refused(good.substr(0, good.size() - 2) + ",\"v\":[1,0]}\n");
   refused(replaced(good, "{\"id\"", "{" + from + ",\"id\""));
   refused(replaced(good, "\"x\":[0.5,0.125],\"v\":[1,0.03125],", ""));
+  // The same words within it do not end it.
+  const std::string more = R"("x":[0.5,0.125],"y":{"a":[1],"expect":{"outcome":"never"}},"v":[1,0.03125])";
+  const std::string odd = replaced(good, R"("x":[0.5,0.125],"v":[1,0.03125])", more);
+  CHECK(read_all(folder.write("set", odd)).at(0).record.question == more);
 }
