@@ -58,7 +58,7 @@ BAD_SETS = {
     "twice": HEADER + SQUARE + '\n{"id":"a","tags":["t"],"tags":["u"],"x":[0.5,0],"v":[1,0],' + EXPECT + ',"margin":1,"margin":2}\n',
     "odd-proof": HEADER + SQUARE + '\n{"id":"a","tags":["t"],"x":[0.5,0],"v":[1,0],' + EXPECT
     + ',"margin":"inf","certificate":{"windows":[{"lattice":0,"atom":0,"from":"-0x1f4p-3","to":"0x1p99","basis":[[1,0],[0,"1"]]}],'
-    + '"rows":[{"lattice":0,"atom":0,"basis":[[1,0,0],[0,1,0],[0,0,1]]}]}}\n',
+    + '"rows":[{"lattice":0,"atom":0,"basis":[[1,0],["-9007199254740993",1]]}]}}\n',
 }
 
 

@@ -4,16 +4,11 @@
 #include "exchange.hpp"
 #include "harness.hpp"
 #include "input_file.hpp"
+#include "same.hpp"
 #include "scene_check.hpp"
 
 namespace lorentz::harness {
 namespace {
-
-std::string written(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  return line;
-}
 
 // Nothing: it was refused, as it should be.
 std::optional<Scene> scene_in(const InputFile& file) {
@@ -29,15 +24,16 @@ std::optional<Scene> scene_in(const InputFile& file) {
 
 void check(const Scene& scene) {
   static InputFile file;
-  const std::string line = written(scene);
+  std::string line;
+  append_scene_line(line, scene);
   require(!flaw_of(scene), "a scene that is read has no flaw", line);
   (void)oracle::dependence_in(scene);
   file.set(line);
   const std::optional<Scene> again = scene_in(file);
-  require(again && written(*again) == line, "a scene file that is read again is the same", line);
+  require(again && same(*again, scene), "a scene file that is read again is the same", line);
   StreamItem item;
   ExchangeReader().read_query_line(LoneLine(line.substr(0, line.size() - 1)).line(), nullptr, item);
-  require(item.kind == StreamItem::Kind::scene && written(item.scene) == line,
+  require(item.kind == StreamItem::Kind::scene && same(item.scene, scene),
           "a scene line holds the same as the file", line);
 }
 
