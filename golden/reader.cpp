@@ -12,11 +12,14 @@ std::string read_text(json::value value, const std::string& key) {
   return std::string(value.get_string().value());
 }
 
-std::int64_t read_count(json::value value, const std::string& key) {
+std::int64_t read_count(json::value value, const std::string& key, std::int64_t most = 1'000'000'000'000) {
   const Integer n = read_integer(value, key.c_str());
-  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000'000)
-    throw InputError(key + ": is out of range");
+  if (!n.fits_int64() || n.int64() < 0 || n.int64() > most) throw InputError(key + ": is out of range");
   return n.int64();
+}
+
+int read_index(json::value value, const std::string& key) {
+  return static_cast<int>(read_count(value, key, 1'000'000'000));
 }
 
 Header read_header(json::value value) {
@@ -47,13 +50,15 @@ Header read_header(json::value value) {
   return header;
 }
 
-oracle::CertificateBasis read_basis(json::value value) {
+oracle::CertificateBasis read_basis(json::value value, int dimension) {
   oracle::CertificateBasis basis;
+  const auto size = static_cast<std::size_t>(dimension);
   std::size_t i = 0;
   for (json::value row : value.get_array()) {
     std::size_t k = 0;
     for (json::value component : row.get_array()) {
-      if (i >= 3 || k >= 3) throw InputError("basis: has more than three vectors or components");
+      if (i >= size || k >= size)
+        throw InputError("basis: has more than " + std::to_string(size) + " vectors or components");
       basis[i][k++] = read_integer(component, "basis");
     }
     ++i;
@@ -68,27 +73,27 @@ oracle::WindowEnd read_end(json::value value, const std::string& key) {
   return *end;
 }
 
-oracle::Window read_window(json::value value) {
+oracle::Window read_window(json::value value, int dimension) {
   oracle::Window window;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
     if (key == "lattice")
-      window.lattice = static_cast<int>(read_count(field.value(), key));
+      window.lattice = read_index(field.value(), key);
     else if (key == "atom")
-      window.atom = static_cast<int>(read_count(field.value(), key));
+      window.atom = read_index(field.value(), key);
     else if (key == "from")
       window.from = read_end(field.value(), key);
     else if (key == "to")
       window.to = read_end(field.value(), key);
     else if (key == "basis")
-      window.basis = read_basis(field.value());
+      window.basis = read_basis(field.value(), dimension);
     else
       skip(field.value());
   }
   return window;
 }
 
-oracle::Certificate read_certificate(json::value value) {
+oracle::Certificate read_certificate(json::value value, int dimension) {
   oracle::Certificate certificate;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
@@ -96,8 +101,13 @@ oracle::Certificate read_certificate(json::value value) {
       skip(field.value());
       continue;
     }
+    // Of a key that comes twice the last counts.
+    if (key == "windows")
+      certificate.windows.clear();
+    else
+      certificate.rows.clear();
     for (json::value one : field.value().get_array()) {
-      const oracle::Window window = read_window(one);
+      const oracle::Window window = read_window(one, dimension);
       if (key == "windows")
         certificate.windows.push_back(window);
       else
@@ -116,14 +126,25 @@ double read_size(json::value value, const std::string& key) {
 // The id is made from the text between, so there all of the question must be.
 constexpr const char* kOrder = "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
 
-// The text of a record's question.
-std::string question_in(std::string_view line) {
-  const auto tags = line.find("\"tags\":["), end = line.find(",\"expect\":");
-  const auto begin = tags == std::string_view::npos ? tags : line.find("],", tags);
-  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin + 2)
-    throw InputError(kOrder);
-  return std::string(line.substr(begin + 2, end - begin - 2));
-}
+// Where the members of a record begin in its line that its question lies between. Found by the reader and not
+// in the text, which may hold the same words elsewhere.
+struct QuestionPlace {
+  std::optional<std::size_t> after_tags, expect;
+
+  void see(const std::string& key, std::size_t place) {
+    if (after_tags == 0U) after_tags = place;
+    if (key == "tags") after_tags = 0;  // what comes next
+    if (key == "expect" && !expect) expect = place;
+  }
+
+  // The text from after `],` to before `,"expect"`.
+  std::string in(std::string_view line) const {
+    if (!after_tags || !expect || *after_tags < 2 || *expect <= *after_tags) throw InputError(kOrder);
+    if (line.substr(*after_tags - 2, 2) != "]," || line.substr(*expect - 1, 10) != ",\"expect\":")
+      throw InputError(kOrder);
+    return std::string(line.substr(*after_tags, *expect - 1 - *after_tags));
+  }
+};
 
 }  // namespace
 
@@ -179,15 +200,19 @@ struct Reader::Impl {
   void read_expectation(json::object object, Answer& expect) {
     Id id;
     std::size_t components = 0;
-    if (!read_answer(object, id, expect, components)) throw InputError("expect: is no answer");
+    Answer answer;
+    if (!read_answer(object, id, answer, components)) throw InputError("expect: is no answer");
     if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
+    answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
+    expect = std::move(answer);
   }
 
   void read_field(const std::string& key, json::value value, Record& record) {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
+      record.tags.clear();
       for (json::value tag : value.get_array()) record.tags.push_back(read_text(tag, key));
     } else if (key == "expect") {
       read_expectation(value.get_object(), record.expect);
@@ -198,7 +223,7 @@ struct Reader::Impl {
     } else if (key == "condition") {
       record.condition = read_size(value, key);
     } else if (key == "certificate") {
-      record.certificate = read_certificate(value);
+      record.certificate = read_certificate(value, scene->dimension);
     } else {
       skip(value);
     }
@@ -215,6 +240,8 @@ struct Reader::Impl {
     }
     if (item.kind == StreamItem::Kind::bad && (item.bad_scene || item.no_scene))
       throw InputError(item.message);
+    // A query that is bad for another reason does not say that it has no scene besides.
+    if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {
       if (const auto flaw = oracle::dependence_in(item.scene)) throw InputError(*flaw);
       scene = std::move(item.scene);
@@ -231,15 +258,18 @@ struct Reader::Impl {
       read.flaw = item.message;
     bool has_tags = false, has_expect = false;
     json::document document = open(line);
+    QuestionPlace question;
     for (auto field : document.get_object()) {
+      const char* place = field.key().raw() - 1;
       const std::string key(std::string_view(field.unescaped_key()));
+      question.see(key, static_cast<std::size_t>(place - line.text.data()));
       has_tags |= key == "tags";
       has_expect |= key == "expect";
       if ((!has_tags || has_expect) && (key == "x" || key == "v" || key == "from")) throw InputError(kOrder);
       read_field(key, field.value(), read.record);
     }
     if (!has_expect || read.record.id.empty()) throw InputError("a golden record has an id and `expect`");
-    read.record.question = question_in(line.text);
+    read.record.question = question.in(line.text);
     return true;
   }
 };

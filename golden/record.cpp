@@ -34,12 +34,17 @@ void append_place(std::string& out, bool first, int lattice, int atom) {
 }
 
 void append_certificate(std::string& out, const oracle::Certificate& certificate, int dimension) {
-  const bool never = !certificate.rows.empty();
-  out += never ? ",\"certificate\":{\"rows\":[" : ",\"certificate\":{\"windows\":[";
-  for (const oracle::Rows& rows : certificate.rows) {
-    append_place(out, &rows == &certificate.rows.front(), rows.lattice, rows.atom);
-    append_basis(out, rows.basis, dimension);
+  out += ",\"certificate\":{";
+  if (!certificate.rows.empty()) {
+    out += "\"rows\":[";
+    for (const oracle::Rows& rows : certificate.rows) {
+      append_place(out, &rows == &certificate.rows.front(), rows.lattice, rows.atom);
+      append_basis(out, rows.basis, dimension);
+    }
+    out += certificate.windows.empty() ? "]}" : "],";
+    if (certificate.windows.empty()) return;
   }
+  out += "\"windows\":[";
   for (const oracle::Window& window : certificate.windows) {
     append_place(out, &window == &certificate.windows.front(), window.lattice, window.atom);
     out += ",\"from\":";

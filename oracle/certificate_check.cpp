@@ -451,7 +451,7 @@ Range planes_near(const View<2>&, const ZMatrix<2>&, const Z&) {
 /// Refutes if the line meets an obstacle of an atom whose lattice has b_1 parallel to v: if
 /// |h_0 + k_3 h_3 + k_2 h_2|^2 < r^2 v^2 for any k_2, k_3.
 template <std::size_t D>
-void check_rows(const Rows& rows, const View<D>& view) {
+void check_rows(const Rows& rows, const View<D>& view, Budget& budget) {
   const Basis<D> basis = read_basis(rows.basis, view);
   const ZMatrix<D>& b = basis.b;
   const Z s1 = dot(view.v, b[0]), s2 = dot(view.v, b[1]);
@@ -459,6 +459,7 @@ void check_rows(const Rows& rows, const View<D>& view) {
   const Z h22 = view.across(b[1], s2, b[1], s2);
   const Range k3 = planes_near(view, b, h22);
   if (k3.hi - k3.lo >= kMaxRows) refute("more than " + std::to_string(kMaxRows) + " rows");
+  if (!k3.empty()) budget.spend(k3.hi - k3.lo + 1);
   for (Z k = k3.lo; k <= k3.hi; ++k) {
     const ZVec<D> w = D == 2 ? view.w0 : sum(view.w0, k, b[D - 1]);
     const Z s = dot(view.v, w);
@@ -473,6 +474,7 @@ void check_rows(const Rows& rows, const View<D>& view) {
 template <std::size_t D>
 void Check<D>::check_never(const Flight& flight, const Certificate& certificate) const {
   if (!certificate.windows.empty()) refute("windows do not prove `never`");
+  Budget budget(most_work_);
   std::vector<std::vector<bool>> seen(bodies_.size());
   for (std::size_t l = 0; l < bodies_.size(); ++l) seen[l].resize(bodies_[l].size());
   for (std::size_t i = 0; i < certificate.rows.size(); ++i) {
@@ -482,7 +484,7 @@ void Check<D>::check_never(const Flight& flight, const Certificate& certificate)
     if (seen[rows.lattice][rows.atom]) refute(name + "the atom's second");
     seen[rows.lattice][rows.atom] = true;
     try {
-      check_rows(rows, flight.views[rows.lattice][rows.atom]);
+      check_rows(rows, flight.views[rows.lattice][rows.atom], budget);
     } catch (const Refuted& refuted) {
       refute(name + refuted.why);
     }

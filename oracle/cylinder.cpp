@@ -9,6 +9,7 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr long kFewRows = 24;
+constexpr long kManyRows = 1000;  // more than a stretch ought to have that is no longer than it is wide
 
 // 4^across |h|^2 + 4^along s^2 in the plane.
 struct StripForm {
@@ -80,14 +81,7 @@ Z Cylinder<2>::shorten(Basis<2>& basis, const Z& low, const Z& high) const {
 }
 
 template <>
-Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
-  const long j = std::max(0L, bit_length(high - low) - bit_length(reach_) - 1);
-  std::array<WindowVector, 3> vectors;
-  for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.flight.v, basis[i].p)};
-  reduce(vectors, WindowForm(view_.flight, j));
-  for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
-  // If v is normal to the planes of b1 and b2, it is not to those of b1 and b3: one can look along these.
-  if (cross(view_.flight.v, cross(basis[0].p, basis[1].p)) == ZVec<3>{}) std::swap(basis[1], basis[2]);
+Z Cylinder<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) const {
   const Planes planes(view_.flight, reach2_, basis[0], basis[1], basis[2]);
   const Count count = count_rows(view_, planes, basis, low, high);
   if (count.rows <= kFewRows || !count.widest) return count.rows;
@@ -99,11 +93,39 @@ Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   return count_rows(view_, planes, basis, low, high).rows;
 }
 
+template <>
+Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
+  const long j = std::max(0L, bit_length(high - low) - bit_length(reach_) - 1);
+  std::array<WindowVector, 3> vectors;
+  for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.flight.v, basis[i].p)};
+  reduce(vectors, WindowForm(view_.flight, j));
+  for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
+  // If v is normal to the planes of b1 and b2, it is not to those of b1 and b3: one can look along these.
+  const auto is_head_on = [this](const Basis<3>& b) {
+    return cross(view_.flight.v, cross(b[0].p, b[1].p)) == ZVec<3>{};
+  };
+  if (is_head_on(basis)) std::swap(basis[1], basis[2]);
+  const Basis<3> reduced = basis;
+  Z fewest = shorten_in_planes(basis, low, high);
+  // If v is nearly normal to the planes, s hardly changes within them, and the ends of the stretch bound
+  // nothing there. Of three families of planes there is one to which v is not.
+  for (int i = 1; i >= 0 && fewest > kManyRows && !is_long(low, high); --i) {
+    Basis<3> other = reduced;
+    std::swap(other[i], other[2]);
+    if (is_head_on(other)) continue;
+    const Z rows = shorten_in_planes(other, low, high);
+    if (rows >= fewest) continue;
+    basis = std::move(other);
+    fewest = rows;
+  }
+  return fewest;
+}
+
 template <std::size_t D>
 bool Cylinder<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
                          const std::function<bool(const Stretch<D>&)>& take) const {
   const Z rows = shorten(basis, low, high);
-  if (rows <= kFewRows || high - low <= reach_ + 1) return take({low, high, basis});
+  if (rows <= kFewRows || !is_long(low, high)) return take({low, high, basis});
   const Z middle = floor_div(low + high, 2);
   return cut_on(basis, low, middle, take) || cut_on(basis, middle, high, take);
 }
@@ -150,8 +172,8 @@ bool Cylinder<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) c
 
 template <>
 bool Cylinder<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
-  const auto& [b1, b2, b3] = stretch.basis;
-  const Planes planes(view_.flight, reach2_, b1, b2, b3);
+  const LatticePoint<3>& b2 = stretch.basis[1];
+  const Planes planes(view_.flight, reach2_, stretch.basis[0], b2, stretch.basis[2]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
                           [&](const PlaneSection& section, const Range& rows) {
                             LatticePoint<3> row = section.origin;

@@ -39,6 +39,10 @@ class Cylinder {
               const std::function<bool(const Stretch<D>&)>& take) const;
   /// Makes the basis short for the stretch; returns the number of rows, or a lower bound that is many.
   Z shorten(Basis<D>& basis, const Z& low, const Z& high) const;
+  /// In space: the same, for the planes of b1 and b2.
+  Z shorten_in_planes(Basis<D>& basis, const Z& low, const Z& high) const;
+  /// Longer than the cylinder is wide: it may be cut.
+  bool is_long(const Z& low, const Z& high) const { return high - low > reach_ + 1; }
   bool visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
 
   const View<D>& view_;

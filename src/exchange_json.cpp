@@ -124,7 +124,7 @@ SceneNode read_node(json::value value, const std::string& place, int depth) {
       for (auto field : value.get_object()) {
         std::string key(field.unescaped_key().value());
         SceneNode node = read_node(field.value(), place + "." + key, depth + 1);
-        object.emplace_back(std::move(key), std::move(node));
+        object.push_back({std::move(key), std::move(node)});
       }
       return {std::move(object)};
     }

@@ -12,7 +12,7 @@ const SceneNode* SceneNode::member(const char* key) const {
   const Object* object = std::get_if<Object>(&value);
   if (!object) return nullptr;
   for (auto member = object->rbegin(); member != object->rend(); ++member)
-    if (member->first == key) return &member->second;
+    if (member->key == key) return &member->node;
   return nullptr;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,12 +11,18 @@ namespace lorentz {
 
 /// A number, a string, an array, an object, or something that no scene has (monostate).
 struct SceneNode {
+  struct Member;
   using Array = std::vector<SceneNode>;
-  using Object = std::vector<std::pair<std::string, SceneNode>>;
+  using Object = std::vector<Member>;
   std::variant<std::monostate, double, std::string, Array, Object> value;
 
   /// The member of that name, or null.
   const SceneNode* member(const char* key) const;
+};
+
+struct SceneNode::Member {
+  std::string key;
+  SceneNode node;
 };
 
 /// Throws InputError with the place of what is missing or wrong, e.g. "lattices[0].atoms[1].radius".

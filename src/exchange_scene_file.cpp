@@ -12,7 +12,7 @@ namespace {
 SceneNode node_from(const toml::node& node) {
   if (const auto* table = node.as_table()) {
     SceneNode::Object object;
-    for (const auto& [key, value] : *table) object.emplace_back(std::string(key.str()), node_from(value));
+    for (const auto& [key, value] : *table) object.push_back({std::string(key.str()), node_from(value)});
     return {std::move(object)};
   }
   if (const auto* array = node.as_array()) {
@@ -58,8 +58,10 @@ SceneNode parse_json(const std::string& text) {
   json::parser parser;
   const simdjson::padded_string padded(text);
   json::document document;
+  // A document that was not begun must not be asked where it stands.
+  if (const auto error = parser.iterate(padded).get(document))
+    throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
   try {
-    document = parser.iterate(padded);
     SceneNode node = read_node(document.get_value());
     if (!ended(document)) throw NotJson{"more than one value"};
     const SceneNode* inner = node.member("scene");

@@ -12,7 +12,7 @@
 namespace lorentz {
 
 LineReader::LineReader(const std::string& path)
-    : name_(path == "-" ? "standard input" : path), buffer_(1 << 20) {
+    : name_(path == "-" ? "standard input" : path), buffer_(1 << 16) {
   descriptor_ = path == "-" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw FileError(path + ": " + std::strerror(errno));
   struct stat status {};

@@ -585,4 +585,9 @@ TEST_CASE("Proofs that are too much work are refused") {
   c.proof.rows[0].basis = {Cell{1, 0, 0}, {0, 10'000'000, 1}, {0, 1, 0}};
   c.proof.rows[0].basis[2] = {0, 9'999'999, 1};
   require_refused(c, "more than 1000000 rows");
+  // Of a few thousand each counts
+  c.proof.rows[0].basis = {Cell{1, 0, 0}, {0, 10'000, 1}, {0, 9'999, 1}};
+  require_accepted(c);
+  CHECK_THAT(CertificateCheck(c.scene, 1000).refutation(c.query, c.answer, c.proof).value_or(""),
+             Catch::Contains("atom 0): more than 1000 rows and obstacles to look at"));
 }

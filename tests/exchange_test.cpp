@@ -346,6 +346,9 @@ TEST_CASE("Scene files: TOML and JSON, with the place of what is wrong") {
                     Catch::Contains("line 2") && Catch::Contains("not TOML"));
   CHECK_THROWS_WITH(read_text("dimension = 2\n"), Catch::Contains("lattices is missing"));
   CHECK_THROWS_WITH(read_text("{\"dimension\":2"), Catch::Contains("not JSON"));
+  // What the parser refuses as a whole, before it stands anywhere.
+  CHECK_THROWS_WITH(read_text("{\"dimension\":2,\"lattices"), Catch::Contains("not JSON"));
+  CHECK_THROWS_WITH(read_text("{\"\xff\":2}"), Catch::Contains("not JSON"));
   CHECK_THROWS_WITH(read_text("dimension = 2\n[[lattices]]\nvectors = [[1, 0], [0, "
                               "inf]]\n[[lattices.atoms]]\nposition = [0, 0]\nradius = 1\n"),
                     Catch::Contains("not finite"));

@@ -58,7 +58,9 @@ std::vector<GoldenCase> odd_cases() {
   window.to = 0x1.fffffffffffffp1023;
   far.record.margin = 0x1p20;
   far.record.condition = 0x1.5p-3;
-  far.record.tags = {"drawn", "drawn \"\\\n\t, too"};
+  far.record.tags = {"drawn", "drawn \"\\\n\t, too", "no],\"end"};
+  cases.push_back(far);
+  far.record.certificate->rows.push_back({0, 0, window.basis});  // which prove nothing beside windows
   cases.push_back(far);
   return cases;
 }
@@ -130,6 +132,21 @@ TEST_CASE("Golden: what is written is read back, whatever the record holds") {
   }
 }
 
+TEST_CASE("Golden: of a key that comes twice the last counts") {
+  const Folder folder;
+  const GoldenCase c = hit_case();
+  std::string text = replaced(set_of({c}), "\"tags\":[", "\"tags\":[\"other\"],\"tags\":[");
+  text = replaced(text, ",\"margin\"", R"(,"expect":{"outcome":"never"},"margin":1,"margin")");
+  text = replaced(text, "\"windows\":", R"("windows":[{"lattice":7}],"rows":[],"windows":)");
+  Record expected = c.record;
+  const Record read = read_all(folder.write("set", text)).at(0).record;
+  CHECK(read.expect.outcome == Outcome::never);
+  CHECK_FALSE(read.expect.time);
+  expected.expect = read.expect;
+  expected.question = read.question;
+  require_same(read, expected);
+}
+
 TEST_CASE("Golden: the header is read back") {
   const Folder folder;
   const golden::Header header{"a name", "a \"description\"\n", "lorentz golden make",
@@ -169,10 +186,23 @@ TEST_CASE("Golden: what is no set is refused with the line's number") {
   CHECK(complaint(replaced(good, "\"outcome\":\"hit\"", "\"outcome\":\"hat\"")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
-  CHECK(complaint(replaced(good, "]]}", "],[0,0],[0,0]]}")).starts_with("3: basis"));
+  CHECK(complaint(replaced(good, "]]}", "],[0,0]]}")).starts_with("3: basis: has more than 2 vectors"));
+  CHECK(complaint(replaced(good, "]]}", ",0]]}")).starts_with("3: basis"));
   CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is no number"));
   CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
   CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
+  // No index that becomes another one in fewer bits.
+  const std::string window = "\"windows\":[{\"lattice\":0,\"atom\":0";
+  CHECK(complaint(replaced(good, window, "\"windows\":[{\"lattice\":4294967296,\"atom\":0"))
+            .starts_with("3: lattice"));
+  CHECK(complaint(replaced(good, window, "\"windows\":[{\"lattice\":0,\"atom\":4294967296"))
+            .starts_with("3: atom"));
+  // A record before any scene, also one that is bad for another reason.
+  const auto scene = good.find('\n') + 1;
+  const std::string no_scene = good.substr(0, scene) + good.substr(good.find('\n', scene) + 1);
+  CHECK_THAT(complaint(no_scene), Catch::Contains("2: no scene"));
+  CHECK_THAT(complaint(replaced(no_scene, "\"x\":[0.5,0.125]", "\"x\":null")),
+             Catch::Contains("2: no scene"));
 }
 
 TEST_CASE("Golden: ids are the beginning of a SHA-256 of scene and question") {
@@ -342,4 +372,8 @@ TEST_CASE("Golden: all of a record's question is what its id is made from") {
   refused(good.substr(0, good.size() - 2) + ",\"v\":[1,0]}\n");
   refused(replaced(good, "{\"id\"", "{" + from + ",\"id\""));
   refused(replaced(good, "\"x\":[0.5,0.125],\"v\":[1,0.03125],", ""));
+  // The same words within it do not end it.
+  const std::string more = R"("x":[0.5,0.125],"y":{"a":[1],"expect":{"outcome":"never"}},"v":[1,0.03125])";
+  const std::string odd = replaced(good, R"("x":[0.5,0.125],"v":[1,0.03125])", more);
+  CHECK(read_all(folder.write("set", odd)).at(0).record.question == more);
 }

@@ -23,11 +23,16 @@ std::vector<std::string> includes_of(const fs::path& file) {
   return names;
 }
 
-std::vector<fs::path> sources(const char* folder) {
+// The harnesses are below fuzz/, but have rules of their own.
+constexpr const char* kHarness = "fuzz/harness";
+
+std::vector<fs::path> sources(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
-    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
-      files.push_back(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    const fs::path& file = entry.path();
+    if (folder == "fuzz" && file.parent_path() == kRoot / kHarness) continue;
+    if (file.extension() == ".cpp" || file.extension() == ".hpp") files.push_back(file);
+  }
   return files;
 }
 
@@ -134,6 +139,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("The harnesses see what a program of ours sees, and no library; nobody else sees them") {
+  auto known = own_headers(kHarness);
+  REQUIRE(known.size() >= 4);
+  for (const char* folder : {"src", "oracle", "fuzz", "golden", "cli", "bench"})
+    for (const fs::path& file : sources(folder))
+      for (const std::string& name : includes_of(file)) {
+        INFO(file << " includes " << name);
+        CHECK_FALSE(known.contains(fs::path(name).filename()));
+      }
+  // The formats, which they feed; the engines and the oracle's public headers, which they hold against each
+  // other. No families: what a harness tries comes from its bytes alone.
+  for (const char* name :
+       {"problem.hpp", "reduction.hpp", "line_reader.hpp", "exchange.hpp", "reader.hpp", "oracle.hpp",
+        "scene_check.hpp", "verdict.hpp", "escalate.hpp", "prover.hpp", "certificate_check.hpp"})
+    known.insert(name);
+  for (const fs::path& file : sources(kHarness))
+    for (const std::string& name : includes_of(file)) {
+      INFO(file << " includes " << name);
+      const bool system = file.stem() == "input_file" && (name == "sys/mman.h" || name == "unistd.h");
+      CHECK((known.contains(name) || name.find_first_of("/.") == std::string::npos || system));
+    }
+}
+
 TEST_CASE("walk sees the problem, CGAL and the standard library; nobody else sees CGAL") {
   for (const fs::path& file : sources("oracle")) {
     const bool is_walk = file.stem() == "walk";
@@ -150,7 +178,7 @@ TEST_CASE("walk sees the problem, CGAL and the standard library; nobody else see
 }
 
 TEST_CASE("The program, the families and the measurements see none of the oracle's libraries") {
-  for (const char* folder : {"cli", "fuzz", "bench"})
+  for (const char* folder : {"cli", "fuzz", kHarness, "bench"})
     for (const fs::path& file : sources(folder))
       for (const std::string& name : includes_of(file)) {
         INFO(file << " includes " << name);

@@ -143,6 +143,30 @@ TEST_CASE("Prover: few windows, however long the flight") {
   CHECK(tally.most_windows < 100);
 }
 
+TEST_CASE("Prover: nearly at right angles to lattice planes, at any angle") {
+  Scene scene = unit_scene(3, 0.25);
+  scene.lattices[0].vectors[1] = {0, 1 + 0x1p-49, 0};
+  scene.lattices[0].vectors[2] = {0, 0x1p-8, 1};
+  Tally tally;
+  for (int k = 0; k < 1000; k += k < 100 ? 3 : 90)
+    for (const Vec& x : {Vec{0, 0, 1}, {0.01, 0.02, 0.5}, {0.4, 0.3, 0.25}})
+      for (const double z : {-1.1, 1.0})
+        require_proved(scene, {x, {0x1.3p-16, 0.58, std::ldexp(z, k)}, {}}, tally);
+  CHECK(tally.by_outcome[Outcome::inside] > 50);
+  CHECK(tally.by_outcome[Outcome::hit] > 100);
+}
+
+TEST_CASE("Prover: never, with a velocity whose components have nothing in common") {
+  Scene scene = unit_scene(3, 0x1p-14);
+  scene.lattices[0].vectors[0] = {1, 3.09375, 4.71875};
+  scene.lattices[0].vectors[2] = {0x1p-10, 0, 1};
+  Tally tally;
+  for (int k = 0; k < 1070; k += 107)
+    for (const double z : {-2.221045572239388e+216, 0x1p1000})
+      require_proved(scene, {{0.84, 0.64, 0}, {2.87e-322, 0, std::ldexp(z, -k)}, {}}, tally);
+  CHECK(tally.by_outcome[Outcome::never] == 20);
+}
+
 TEST_CASE("Ends of windows: their text, and the binary64 that they are exactly") {
   using oracle::WindowEnd;
   const auto text = [](const WindowEnd& end) { return oracle::text_of(end); };

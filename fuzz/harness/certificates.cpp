@@ -1,0 +1,119 @@
+// Any bytes as scene lines and golden records, the header being given. Promised: no crash, no wait; and a
+// claim that the checker accepts, whatever its proof, is the oracle's answer, to the last digit. Besides the
+// record's own claim one is made that is false, but in nothing that can be seen of it alone: the obstacle
+// that would be hit if the first were not there, at the time at which it would be.
+#include <algorithm>
+
+#include "certificate_check.hpp"
+#include "decoder.hpp"
+#include "harness.hpp"
+#include "input_file.hpp"
+#include "oracle.hpp"
+#include "reader.hpp"
+
+namespace lorentz::harness {
+namespace {
+
+// A proof that needs more is refused, and no loss: those of the golden sets need some tens.
+constexpr long kMostWork = 20'000;
+
+// A decimal number however it is written: its digits without zeros at either end, and its power of ten.
+struct Digits {
+  std::string digits;
+  long exponent = 0;
+
+  explicit Digits(std::string_view text) {
+    const std::string_view mantissa = text.substr(0, text.find('e'));
+    if (mantissa.size() < text.size()) exponent = std::stol(std::string(text.substr(mantissa.size() + 1)));
+    const auto point = mantissa.find('.');
+    if (point != std::string_view::npos) exponent -= static_cast<long>(mantissa.size() - point - 1);
+    std::copy_if(mantissa.begin(), mantissa.end(), std::back_inserter(digits),
+                 [](char c) { return c != '.'; });
+    digits.erase(0, digits.find_first_not_of('0'));
+    written = static_cast<int>(digits.size());
+    while (digits.ends_with('0')) digits.pop_back(), ++exponent;
+    if (digits.empty()) exponent = 0;
+  }
+  int written = 0;  ///< significant digits as they stand in the text
+  friend bool operator==(const Digits& a, const Digits& b) {
+    return a.digits == b.digits && a.exponent == b.exponent;
+  }
+};
+
+void hold_against_oracle(const Scene& scene, const Query& query, const Answer& claim,
+                         const std::string& text) {
+  oracle::Request request;
+  const Digits claimed(claim.time_decimal);
+  request.digits = claim.outcome == Outcome::hit ? claimed.written : 0;
+  const Answer exact = oracle::Oracle(scene).first_hit(query, request);
+  const auto same = [&](bool holds, const char* what) {
+    require(holds, "what the checker accepts is the oracle's answer", std::string(what) + " of\n" + text);
+  };
+  same(claim.outcome == exact.outcome, "the outcome");
+  if (exact.outcome == Outcome::never) return;
+  same(claim.obstacle == exact.obstacle, "the obstacle");
+  if (exact.outcome != Outcome::hit) return;
+  same(claim.time == exact.time, "the time");
+  if (request.digits > 0) same(claimed == Digits(exact.time_decimal), "the decimal time");
+}
+
+/// The scene that holds, with its checker.
+class Court {
+ public:
+  explicit Court(const Scene& scene)
+      : scene_(scene), checker_(scene, kMostWork), is_ordinary_(harness::is_ordinary(scene)) {}
+
+  void hear(const golden::ReadRecord& read, const std::string& text) const {
+    const Answer& claim = read.record.expect;
+    const auto refutation = checker_.refutation(*read.query, claim, *read.record.certificate);
+    if (!refutation) hold_against_oracle(scene_, *read.query, claim, text);
+    if (refutation)
+      require(!refutation->empty() && refutation->find('\n') == std::string::npos,
+              "a refutation is a line that says why", text);
+    if (!is_ordinary_) return;  // the oracle may be slow
+    const Answer second = second_hit(*read.query);
+    if (second.outcome == Outcome::hit)
+      require(checker_.refutation(*read.query, second, *read.record.certificate).has_value(),
+              "no proof makes the second obstacle the first", text);
+  }
+
+ private:
+  Answer second_hit(Query query) const {
+    const oracle::Oracle oracle(scene_);
+    const Answer first = oracle.first_hit(query);
+    if (first.outcome != Outcome::hit) return Answer::undecided();
+    query.from = first.obstacle;
+    return oracle.first_hit(query);
+  }
+
+  const Scene scene_;
+  const oracle::CertificateCheck checker_;
+  const bool is_ordinary_;
+};
+
+void check(const std::string& path) {
+  golden::Reader reader(path);
+  std::optional<Court> court;
+  std::size_t scenes = 0;
+  for (golden::ReadRecord read; reader.next(read);) {
+    if (!read.query || !read.record.certificate) continue;
+    if (scenes != reader.scene_number()) court.emplace(reader.scene());
+    scenes = reader.scene_number();
+    court->hear(read, reader.scene_line() + '\n' + read.text);
+  }
+}
+
+}  // namespace
+}  // namespace lorentz::harness
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lorentz;
+  using namespace lorentz::harness;
+  static InputFile file;
+  file.set("{\"golden\":{\"format\":1}}\n" + std::string(text_of(data, size)));
+  try {
+    check(file.path());
+  } catch (const InputError&) {
+  }
+  return 0;
+}
