@@ -4,6 +4,7 @@
 #include "fuzz.hpp"
 #include "published.hpp"
 #include "registry.hpp"
+#include "walk.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -31,6 +32,21 @@ class AnswererSubject final : public fuzz::Subject {
 
   std::unique_ptr<Answerer> answerer_;
   bool is_command_;
+  std::vector<Reply> replies_;
+};
+
+// The second oracle, cell by cell. What takes it more cells than this it leaves undecided: a flight of its
+// usual 10^5 takes seconds, in which it could answer thousands of others.
+class WalkSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr std::int64_t kCells = 200;
+  void change_scene(const Scene& scene) override { walk_.emplace(scene, kCells); }
+
+  std::optional<oracle::Walk> walk_;
   std::vector<Reply> replies_;
 };
 
@@ -64,6 +80,7 @@ class PublishedSubject final : public fuzz::Subject {
 fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
   check_name(engine);
   if (engine == "published") return [] { return std::make_unique<PublishedSubject>(); };
+  if (engine == "walk") return [] { return std::make_unique<WalkSubject>(); };
   return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
 }
 

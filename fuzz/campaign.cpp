@@ -153,6 +153,7 @@ class Crew {
       const std::uint64_t before = track.account.next;
       for (auto first = track.ready.begin(); first != track.ready.end() && first->first == track.account.next;
            first = track.ready.begin()) {
+        if (bounds_.first && found_) break;
         record(track, first->second.first, first->second.second, kept);
         track.ready.erase(first);
       }
@@ -171,6 +172,8 @@ class Crew {
     track.account.add(result.met);
     track.account.next = stint.end;
     --track.in_work;
+    found_ |= !result.met.sorts.empty();
+    if (bounds_.first && found_) stop_ = true;
   }
 
   const Plan& plan_;
@@ -181,6 +184,7 @@ class Crew {
   std::vector<Track> tracks_;
   std::atomic<bool> stop_ = false;
   bool subject_failed_ = false;
+  bool found_ = false;  // a finding is recorded
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;
