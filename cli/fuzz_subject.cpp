@@ -1,4 +1,6 @@
 // Engines as the subjects of campaigns.
+#include <cmath>
+
 #include "answerer.hpp"
 #include "engine.hpp"
 #include "fuzz.hpp"
@@ -50,6 +52,28 @@ class WalkSubject final : public fuzz::Subject {
   std::vector<Reply> replies_;
 };
 
+// Cell to cell, too: up to a time in which the flight passes about this many cells, for the same reason.
+class ClassicalSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    const Vec &u = scene_->lattices[0].vectors[0], &v = query.v;
+    const double cells = std::hypot(u[0], u[1], u[2]) / std::hypot(v[0], v[1], v[2]);
+    replies_.push_back({engine_->first_hit(query, kCells * cells), {}});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr double kCells = 10'000;
+  void change_scene(const Scene& scene) override {
+    scene_ = scene;
+    engine_ = make_engine("classical", scene);
+  }
+
+  std::optional<Scene> scene_;
+  std::unique_ptr<Engine> engine_;
+  std::vector<Reply> replies_;
+};
+
 // `published` counts its passes: how much work an answer was.
 class PublishedSubject final : public fuzz::Subject {
  public:
@@ -80,6 +104,7 @@ class PublishedSubject final : public fuzz::Subject {
 fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
   check_name(engine);
   if (engine == "published") return [] { return std::make_unique<PublishedSubject>(); };
+  if (engine == "classical") return [] { return std::make_unique<ClassicalSubject>(); };
   if (engine == "walk") return [] { return std::make_unique<WalkSubject>(); };
   return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
 }
