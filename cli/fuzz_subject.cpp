@@ -5,6 +5,7 @@
 #include "engine.hpp"
 #include "fuzz.hpp"
 #include "published.hpp"
+#include "reduction.hpp"
 #include "registry.hpp"
 #include "walk.hpp"
 
@@ -74,6 +75,31 @@ class ClassicalSubject final : public fuzz::Subject {
   std::vector<Reply> replies_;
 };
 
+// Both ways that it flies: at once, and along a direction prepared for many starts. The two must say the
+// same.
+class ReductionSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    Answer answer;
+    engine_->first_hit(query, std::numeric_limits<double>::infinity(), answer);
+    if (const auto* reduction = dynamic_cast<const Reduction*>(engine_.get())) {
+      const ObstacleId* from = query.from ? &*query.from : nullptr;
+      const Answer prepared = answer_of(reduction->fly(reduction->direction(query.v), query.x, from));
+      if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
+          prepared.time != answer.time)
+        answer = Answer::error("a prepared direction gives another answer");
+    }
+    replies_.push_back({std::move(answer), {}});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { engine_ = make_engine("reduction", scene); }
+
+  std::unique_ptr<Engine> engine_;
+  std::vector<Reply> replies_;
+};
+
 // `published` counts its passes: how much work an answer was.
 class PublishedSubject final : public fuzz::Subject {
  public:
@@ -105,6 +131,7 @@ fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
   check_name(engine);
   if (engine == "published") return [] { return std::make_unique<PublishedSubject>(); };
   if (engine == "classical") return [] { return std::make_unique<ClassicalSubject>(); };
+  if (engine == "reduction") return [] { return std::make_unique<ReductionSubject>(); };
   if (engine == "walk") return [] { return std::make_unique<WalkSubject>(); };
   return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
 }

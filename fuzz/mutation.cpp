@@ -73,7 +73,13 @@ Query next_query(Random& random, const Scene& scene, const oracle::Oracle& oracl
     if (auto aimed =
             aimed_query(random, scene, here.question.query, here.question.exact, here.hardest, oracle))
       return *aimed;
-  return moved_query(random, scene, here.question.query);
+  Query query = here.question.query;
+  const Answer& exact = here.question.exact;
+  if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
+    query.from = exact.obstacle;  // what comes next?
+    return query;
+  }
+  return moved_query(random, scene, query);
 }
 
 Mutant seen(const oracle::Oracle& oracle, const oracle::Scrutiny& scrutiny, const Query& query) {

@@ -25,7 +25,8 @@ struct Mutant {
 /// A query with its answer and its margin.
 Mutant seen(const oracle::Oracle& oracle, const oracle::Scrutiny& scrutiny, const Query& query);
 
-/// What is tried as move number `move` of a round: first an aimed query (aim.hpp), then small moves.
+/// What is tried as move number `move` of a round: first an aimed query (aim.hpp), then small moves, or the
+/// obstacle that was the answer taken out of the question.
 Query next_query(Random& random, const Scene& scene, const oracle::Oracle& oracle, const Mutant& here,
                  int move);
 
