@@ -32,7 +32,7 @@ struct Options {
   std::optional<std::string> seconds, count, store, ulps, timeout;
   std::string engine = "reduction", seed = std::to_string(kDefaultSeed), jobs = "1", shard = "0/1",
               keep = "3", mutate = "32", judge = "oracle";
-  bool json = false, times = false, undecided = false, no_undecided = false;
+  bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
 std::vector<const fuzz::Target*> targets_of(const Options& options) {
@@ -83,7 +83,10 @@ fuzz::Plan plan_of(const Options& options) {
   plan.counts.times = options.times;
   plan.counts.undecided =
       options.undecided || (!options.no_undecided && options.engine != kSaysWhatItDoesNotKnow);
-  plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
+  if (options.ulps != "0")  // which allows for nothing
+    plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
+  else
+    plan.counts.ulps = 0;
   if (plan.counts.ulps > oracle::kLargestMargin)
     throw InputError(fmt::format("--ulps: {} is above {}, up to which margins are known", plan.counts.ulps,
                                  oracle::kLargestMargin));
@@ -95,6 +98,7 @@ fuzz::Bounds bounds_of(const Options& options) {
   if (options.count) bounds.count = whole_number(*options.count, "--count", 1, kMostCases);
   const auto seconds = positive_number(options.seconds, "--time");
   if (seconds || !options.count) bounds.seconds = seconds.value_or(kDefaultSeconds);
+  bounds.first = options.first;
   bounds.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
   return bounds;
 }
@@ -234,7 +238,10 @@ void add_options(CLI::App* command, Options& options) {
           "whose answers are the truth: oracle, or certified, which is faster and rests on reduction")
       ->capture_default_str()
       ->type_name("J");
-  command->add_option("--ulps", options.ulps, "the tolerance k, as in `compare` (default: 4)")
+  command->add_flag("--first", options.first, "stop at the first finding");
+  command
+      ->add_option("--ulps", options.ulps,
+                   "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other")
       ->type_name("K");
   command->add_option("--timeout", options.timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--times", options.times, "wrong times are findings, too");

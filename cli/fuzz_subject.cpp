@@ -1,10 +1,14 @@
 // Engines as the subjects of campaigns.
+#include <cmath>
+
 #include "answerer.hpp"
+#include "engine.hpp"
 #include "escalate.hpp"
 #include "fuzz.hpp"
 #include "published.hpp"
 #include "reduction.hpp"
 #include "registry.hpp"
+#include "walk.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -32,6 +36,43 @@ class AnswererSubject final : public fuzz::Subject {
 
   std::unique_ptr<Answerer> answerer_;
   bool is_command_;
+  std::vector<Reply> replies_;
+};
+
+// The second oracle, cell by cell. What takes it more cells than this it leaves undecided: a flight of its
+// usual 10^5 takes seconds, in which it could answer thousands of others.
+class WalkSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr std::int64_t kCells = 200;
+  void change_scene(const Scene& scene) override { walk_.emplace(scene, kCells); }
+
+  std::optional<oracle::Walk> walk_;
+  std::vector<Reply> replies_;
+};
+
+// Cell to cell, too: up to a time in which the flight passes about this many cells, for the same reason.
+class ClassicalSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    const Vec &u = scene_->lattices[0].vectors[0], &v = query.v;
+    const double cells = std::hypot(u[0], u[1], u[2]) / std::hypot(v[0], v[1], v[2]);
+    replies_.push_back({engine_->first_hit(query, kCells * cells), {}});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr double kCells = 10'000;
+  void change_scene(const Scene& scene) override {
+    scene_ = scene;
+    engine_ = make_engine("classical", scene);
+  }
+
+  std::optional<Scene> scene_;
+  std::unique_ptr<Engine> engine_;
   std::vector<Reply> replies_;
 };
 
@@ -70,10 +111,17 @@ class PublishedSubject final : public TellingSubject<Published> {
   }
 };
 
+// Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
 class ReductionSubject final : public TellingSubject<Reduction> {
   Reply reply_to(const Query& query) const override {
     const Flight flight = engine().fly(query);
-    return {answer_of(flight), {}, flight.stage};
+    const Answer answer = answer_of(flight),
+                 prepared = answer_of(
+                     engine().fly(engine().direction(query.v), query.x, query.from ? &*query.from : nullptr));
+    if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
+        prepared.time != answer.time)
+      return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
+    return {answer, {}, flight.stage};
   }
 };
 
@@ -99,6 +147,8 @@ fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
   check_name(engine);
   if (engine == "published") return maker_of<PublishedSubject>();
   if (engine == "reduction") return maker_of<ReductionSubject>();
+  if (engine == "classical") return maker_of<ClassicalSubject>();
+  if (engine == "walk") return maker_of<WalkSubject>();
   if (engine == "certified") return maker_of<CertifiedSubject>();
   return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
 }

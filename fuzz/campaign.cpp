@@ -42,7 +42,7 @@ void Account::add(const Account& other) {
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
          std::vector<Account>& accounts, Journal& journal, Ranks* ranks) {
   const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
-  Ledger ledger(plan, bounds.count, processes * bounds.jobs, accounts, journal);
+  Ledger ledger(plan, bounds, processes * bounds.jobs, accounts, journal);
   Workers workers(plan, make_subject, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);

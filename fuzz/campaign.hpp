@@ -56,11 +56,12 @@ class Journal {
   virtual void tick() = 0;
 };
 
-/// When to stop: each target at so many cases, or all after so many seconds, or both.
+/// When to stop: each target at so many cases, or all after so many seconds, or both; or at a finding.
 struct Bounds {
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< indices, of all shards together
   double seconds = std::numeric_limits<double>::infinity();
   unsigned jobs = 1;
+  bool first = false;                       ///< also as soon as a finding is recorded
   const std::atomic<bool>* stop = nullptr;  ///< set by somebody else, to stop early
 };
 

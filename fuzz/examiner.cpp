@@ -102,8 +102,13 @@ Examined Examiner::judge(const Question& question, Reply& reply) {
     case oracle::Verdict::missing:
       one.kind = Kind::error;
       break;
-    case oracle::Verdict::agree:
     case oracle::Verdict::ill_posed:
+      if (impl_->ulps == 0) {  // a tie decided the wrong way needs no change of the inputs
+        one.kind = Kind::wrong;
+        break;
+      }
+      [[fallthrough]];
+    case oracle::Verdict::agree:
       one.kind = too_slow() ? Kind::slow : Kind::fine;
   }
   return one;

@@ -35,9 +35,9 @@ inline constexpr int kDrawnFlights = 33;
 
 /// Which kinds are findings.
 struct Counts {
-  bool times = false;     ///< wrong_time
-  bool undecided = true;  ///< undecided
-  double ulps = oracle::kDefaultUlps;
+  bool times = false;                  ///< wrong_time
+  bool undecided = true;               ///< undecided
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance; at 0 an answer is the exact one or wrong
   bool is_finding(Kind kind) const;
 };
 

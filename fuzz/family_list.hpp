@@ -26,5 +26,7 @@ Family never();
 // Of campaigns only: golden sets are made of families(), and these are not among them.
 Family leaving();
 Family scale();
+Family mixture();
+Family rounding();
 
 }  // namespace lorentz::fuzz

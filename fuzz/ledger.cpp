@@ -20,9 +20,14 @@ constexpr std::uint64_t kMostCases = 1024;
 
 }  // namespace
 
-Ledger::Ledger(const Plan& plan, std::uint64_t count, std::size_t threads, std::vector<Account>& accounts,
+Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<Account>& accounts,
                Journal& journal)
-    : plan_(plan), count_(count), most_ahead_(kAhead * threads), accounts_(accounts), journal_(journal) {
+    : plan_(plan),
+      count_(bounds.count),
+      first_(bounds.first),
+      most_ahead_(kAhead * threads),
+      accounts_(accounts),
+      journal_(journal) {
   for (const Account& account : accounts) {
     tracks_.emplace_back().account = account;
     tracks_.back().handed_out = account.next;
@@ -124,6 +129,7 @@ bool Ledger::record() {
     const std::uint64_t before = track.account.next;
     for (auto first = track.ready.begin(); first != track.ready.end() && first->first == track.account.next;
          first = track.ready.begin()) {
+      if (first_ && found_) break;
       record(track, first->second.first, first->second.second, kept);
       track.ready.erase(first);
     }
@@ -135,13 +141,15 @@ bool Ledger::record() {
 }
 
 // Only now it is certain how many findings of each sort come before.
-void Ledger::record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) const {
+void Ledger::record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) {
   for (StintResult::Kept& one : result.kept)
     if (track.account.sorts[one.finding.sort] + one.ordinal <= plan_.keep)
       kept.push_back(std::move(one.finding));
   track.account.add(result.met);
   track.account.next = stint.end;
   --track.in_work;
+  found_ |= !result.met.sorts.empty();
+  if (first_ && found_) stop_ = true;
 }
 
 }  // namespace lorentz::fuzz

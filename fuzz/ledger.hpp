@@ -13,7 +13,7 @@ namespace lorentz::fuzz {
 class Ledger final : public WorkSource {
  public:
   /// `threads`: of all processes together.
-  Ledger(const Plan& plan, std::uint64_t count, std::size_t threads, std::vector<Account>& accounts,
+  Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<Account>& accounts,
          Journal& journal);
 
   std::optional<Assignment> take(std::uint64_t batch) override;
@@ -45,16 +45,18 @@ class Ledger final : public WorkSource {
 
   Track* next_track();
   Assignment assign(Track& track, std::uint64_t batch, double seconds);
-  void record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) const;
+  void record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept);
   bool all_handed_out() const;
 
   const Plan& plan_;
   const std::uint64_t count_;
+  const bool first_;
   const std::size_t most_ahead_;
   std::vector<Account>& accounts_;
   Journal& journal_;
   std::vector<Track> tracks_;
   std::atomic<bool> stop_ = false, subject_failed_ = false;
+  bool found_ = false;  // a finding is recorded
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;

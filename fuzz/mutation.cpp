@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "aim.hpp"
 #include "parts.hpp"
 
 namespace lorentz::fuzz {
@@ -62,25 +63,41 @@ Query moved_query(Random& random, const Scene& scene, const Query& query) {
   return query;
 }
 
-double narrow_margin(const oracle::Scrutiny& scrutiny, const Query& query, const Answer& exact) {
-  const auto decision = scrutiny.hardest_decision(query, exact, 0);
-  return decision ? decision->margin : kInfinity;
+double Mutant::margin() const {
+  return hardest ? hardest->margin : kInfinity;
 }
 
-std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const Examiner& examiner,
+Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move) {
+  if (move == 0)
+    if (auto aimed =
+            aimed_query(random, scene, here.question.query, here.question.exact, here.hardest, examiner))
+      return *aimed;
+  Query query = here.question.query;
+  const Answer& exact = here.question.exact;
+  if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
+    query.from = exact.obstacle;  // what comes next?
+    return query;
+  }
+  return moved_query(random, scene, query);
+}
+
+Mutant seen(const Examiner& examiner, const oracle::Scrutiny& scrutiny, const Query& query) {
+  Mutant mutant{{query, examiner.exact(query)}, {}};
+  mutant.hardest = scrutiny.hardest_decision(query, mutant.question.exact, 0);
+  return mutant;
+}
+
+std::vector<Mutant> climb(Random random, const Case& base, const Examiner& examiner,
                           const oracle::Scrutiny& scrutiny) {
   std::vector<Mutant> tried;
-  Mutant best{{base.query, exact}, narrow_margin(scrutiny, base.query, exact)};
+  Mutant best = seen(examiner, scrutiny, base.query);
   for (int round = 0; round < kRounds; ++round) {
-    const Query from_here = best.question.query;
+    const Mutant here = best;
     for (int move = 0; move < kMovesPerRound; ++move) {
-      Mutant mutant{{moved_query(random, base.scene, from_here), {}}, kInfinity};
-      mutant.question.exact = examiner.exact(mutant.question.query);
-      mutant.margin = narrow_margin(scrutiny, mutant.question.query, mutant.question.exact);
-      if (mutant.margin < best.margin) best = mutant;
-      tried.push_back(std::move(mutant));
+      tried.push_back(seen(examiner, scrutiny, next_query(random, base.scene, examiner, here, move)));
+      if (tried.back().margin() < best.margin()) best = tried.back();
     }
-    if (best.margin == 0) break;
+    if (best.margin() == 0) break;
   }
   return tried;
 }

@@ -16,19 +16,25 @@ Query moved_query(Random& random, const Scene& scene, const Query& query);
 
 struct Mutant {
   Question question;
-  double margin;  ///< an upper bound; infinite for `never`
+  std::optional<oracle::Decision> hardest;  ///< of those that a narrow search sees; nothing for `never`
+
+  double margin() const;  ///< an upper bound; infinite for `never`
 };
+
+/// A query with its answer and its margin.
+Mutant seen(const Examiner& examiner, const oracle::Scrutiny& scrutiny, const Query& query);
+
+/// What is tried as move number `move` of a round: first an aimed query (aim.hpp), then small moves, or the
+/// obstacle that was the answer taken out of the question.
+Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move);
 
 /// A climb's rounds, and the moves tried in each.
 inline constexpr int kRounds = 6, kMovesPerRound = 4;
 
-/// In each round some moves of the best query so far are tried; the one with the smallest margin is the next
-/// to be moved. Returns all that was tried, in order. Costs kRounds * kMovesPerRound exact answers and narrow
-/// searches for a margin: about 1 ms in 2D and 5 ms in 3D. Ends early at a margin of 0.
-std::vector<Mutant> climb(Random random, const Case& base, const Answer& exact, const Examiner& examiner,
+/// In each round an aim and some moves of the best query so far are tried; the one with the smallest margin
+/// is the next to be moved. Returns all that was tried, in order. Costs kRounds * kMovesPerRound exact
+/// answers and narrow searches for a margin: about 1 ms in 2D and 5 ms in 3D. Ends early at a margin of 0.
+std::vector<Mutant> climb(Random random, const Case& base, const Examiner& examiner,
                           const oracle::Scrutiny& scrutiny);
-
-/// The margin that guides a climb.
-double narrow_margin(const oracle::Scrutiny& scrutiny, const Query& query, const Answer& exact);
 
 }  // namespace lorentz::fuzz

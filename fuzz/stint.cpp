@@ -135,10 +135,9 @@ void StintWorker::pose(const Stint& stint, Desk& desk) {
     Random random(plan_.seed, target.name(), index, Use::mutants);
     if (plan_.mutate == 0 || !random.one_in(plan_.mutate)) continue;
     int step = 0;
-    const Answer exact = desk.cases.back().question.exact;
-    for (Mutant& mutant : climb(random, base, exact, room.examiner, room.scrutiny())) {
-      if (mutant.margin > 0 && mutant.margin < desk.met.margin)
-        desk.met.margin = mutant.margin, desk.met.margin_index = index;
+    for (Mutant& mutant : climb(random, base, room.examiner, room.scrutiny())) {
+      if (mutant.margin() > 0 && mutant.margin() < desk.met.margin)
+        desk.met.margin = mutant.margin(), desk.met.margin_index = index;
       desk.cases.push_back({&target, index, ++step, std::move(mutant.question), &room});
     }
     desk.met.mutants += static_cast<std::uint64_t>(step);

@@ -20,6 +20,8 @@ const std::vector<Target>& targets() {
                                        {"boundary", {boundary_starts()}},
                                        {"scale", {scale()}},
                                        {"leaving", {leaving()}},
+                                       {"mixture", {mixture()}},
+                                       {"rounding", {rounding()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},

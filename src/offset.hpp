@@ -33,9 +33,11 @@ template <class Arch, bool kUnit, int D>
 inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) {
   using DD = DoubleDouble<Arch>;
   if constexpr (kUnit) {
+    // Not 0.5, which takes 1/2 - 2^-54 to 1: from there it would be seen with a rounding.
+    constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
     for (int k = 0; k < D; ++k) {
       if (!(std::fabs(x[k]) < kMaxStart)) return false;
-      offset.home[k] = std::floor(x[k] + 0.5);
+      offset.home[k] = std::floor(x[k] + kBelowHalf);
       offset.d[k] = Wide(flushed(offset.home[k] - x[k]));
     }
     return true;

@@ -136,6 +136,29 @@ TEST_CASE("Two processes find what one finds, to the bit") {
 }
 #endif
 
+TEST_CASE("A campaign can end at its first finding") {
+  const Folder folder;
+  const std::string what = "fuzz -e published -t published-faults --no-undecided --json --count 3000 ";
+  const Run run = folder.lorentz(what + "--first");
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "\"cases\":4,"));  // as many as are asked at a time
+  CHECK(contains(run.out, "\"id\":\"1/published-faults/0\""));
+  CHECK(run.out == folder.lorentz(what + "--first --jobs 3").out);
+  const Run none = folder.lorentz("fuzz -e certified -t grazing --count 300 --first --json");
+  CHECK(none.status == 0);
+  CHECK(contains(none.out, "\"cases\":300,"));
+}
+
+TEST_CASE("With no ulp forgiven an answer is the exact one or wrong") {
+  const Folder folder;
+  const std::string what = "fuzz -e classical -t tie --count 64 --mutate 0 --no-undecided ";
+  const Run lenient = folder.lorentz(what + "--ulps 4"), strict = folder.lorentz(what + "--ulps 0");
+  CHECK(lenient.status == 0);
+  CHECK(strict.status == 1);
+  CHECK(contains(strict.out, "wrong, an obstacle"));
+  CHECK(folder.lorentz("fuzz -e certified -t tie --count 64 --mutate 0 --ulps 0 --times").status == 0);
+}
+
 TEST_CASE("Where nothing is wrong it says what that means") {
   const Folder folder;
   const Run run = folder.lorentz("fuzz -e certified -t grazing --count 300");

@@ -186,6 +186,22 @@ TEST_CASE("Starts up to 2^40 cells from the origin lose nothing on the unit latt
   CHECK(count.stages.undecided == 0);
 }
 
+TEST_CASE("Starts within ulps of the middle between two cells are seen exactly") {
+  Count count;
+  Draw draw(31);
+  for (const int dimension : {2, 3})
+    for (const double middle : {0.5, -0.5, 1.5, -7.5, 0x1p40 + 0.5})
+      for (int i = 0; i < 40; ++i) {
+        const Scene scene = unit_scene(dimension, i % 2 ? 0.5 : draw.between(0.4, 0.5));
+        Query query{
+            {draw.between(-1, 1), middle, 0.3}, {draw.between(-1, 1), draw.between(-1e-9, 1e-9), 0}, {}};
+        if (dimension == 2) query.x[2] = 0;
+        for (int ulps = i % 4; ulps > 0; --ulps) query.x[1] = std::nextafter(query.x[1], 0);
+        check(scene, query, count);
+      }
+  CHECK(count.hit > 200);
+}
+
 TEST_CASE("Exactly rational directions: never is known, and so is the hit") {
   const Query corridor{{0, 0.445, 0}, {1, 0, 0}, {}}, diagonal{{0.5, 0, 0}, {1, 1, 0}, {}};
   CHECK(Reduction(square(0.1)).fly(corridor).outcome == Outcome::never);
