@@ -189,7 +189,14 @@ template <class Arch, int D, Model kModel, bool kBall>
 std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
   using Item = Aim<D, kModel == Model::unit, kBall>;
   auto aims = std::make_shared<std::vector<Item>>();
-  for (const Bravais& lattice : scene.atoms) aims->emplace_back(Arch{}, lattice, v);
+  // As fly_several sets them, one from the one before: so that both decide alike, to the bit.
+  std::optional<Item> aim;
+  const Bravais* before = nullptr;
+  for (const Bravais& lattice : scene.atoms) {
+    Item::set(aim, Arch{}, before, lattice, v);
+    aims->push_back(*aim);
+    before = &lattice;
+  }
   return std::shared_ptr<const void>(aims, aims->data());
 }
 

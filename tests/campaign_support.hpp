@@ -34,6 +34,7 @@ inline std::string text_of(const fuzz::Account& a) {
   std::ostringstream out;
   out << a.next << ' ' << a.cases << ' ' << a.mutants << ' ' << a.margin << ' ' << a.margin_index;
   for (const std::uint64_t n : a.kinds) out << ' ' << n;
+  for (const std::uint64_t n : a.stages) out << ' ' << n;
   for (const auto& [sort, number] : a.sorts)
     if (number > 0) out << '\n' << sort << ": " << number;
   return out.str() + '\n';

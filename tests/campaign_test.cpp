@@ -99,7 +99,7 @@ TEST_CASE("A campaign that is gone on with is the one that was never stopped") {
   const Plan plan = plan_of({"leaving", "boundary"});
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   for (const std::uint64_t count : {1, 7, 40, 41, 150}) run_in(store, plan, count, 2);
-  CHECK(text_of(store) == one_run(plan, 300, 1));
+  CHECK(text_of(store) == one_run(plan, 150, 1));
 }
 
 TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on from there") {

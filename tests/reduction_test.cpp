@@ -302,3 +302,25 @@ TEST_CASE("certified is the oracle, to the bit") {
       CHECK(tally.undecided > 100);
     }
 }
+
+TEST_CASE("A prepared direction is prepared atom by atom as a flight goes from atom to atom") {
+  // Two radii in one lattice: the second atom's short basis is the first's, reduced on. Seen from scratch it
+  // is another one, and the last digit of the time, or even what is decided, with it.
+  Scene fcc = unit_scene(3, 0x1p-12), three = fcc;
+  fcc.lattices[0].vectors = {Vec{0, 0.5, 0.5}, Vec{1, 0, 0.5}, Vec{0.5, 0.5, 0}};
+  fcc.lattices[0].atoms.push_back({{}, 0x1p-15, {}});
+  three.lattices[0].vectors = {Vec{0.75, 0.5, 1}, Vec{1, -0.5, -0.75}, Vec{0, -0.75, 0.5}};
+  three.lattices[0].atoms = {{{-1, -0.25, 0.75}, 1.0902520244131204e-06, {}},
+                             {{0, 0, 0}, 8.176890183098403e-07, {}},
+                             {{-0.5, -1, 0.5}, 1.0902520244131204e-06, {}}};
+  Count count;
+  check(fcc, {{1, 0, 0}, {0.4144180417060852, 1.5, 0.4144180417060852}, {}}, count);
+  check(three, {{-546723.75, -8944, 220979.5}, {-7.25459323277305e-07, -1.75, 2}, {}}, count);
+  Draw draw(73);
+  for (int i = 0; i < 4000; ++i) {
+    Query query = query_of(draw, Style::grid, fcc);
+    query.v[draw.below(3)] *= draw.uniform();
+    check(i % 2 ? fcc : three, query, count);
+  }
+  CHECK(count.hit > 1000);
+}
