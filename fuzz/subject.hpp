@@ -29,8 +29,8 @@ class Subject {
   /// A query without flaws.
   virtual void ask(const Query& query) = 0;
 
-  /// How many cases it likes to be asked before the replies are waited for.
-  virtual std::uint64_t batch() const { return 4; }
+  /// How many cases it likes to be asked at least before the replies are waited for.
+  virtual std::uint64_t batch() const { return 1; }
 
   /// The replies to all that was asked since the last call, in order.
   virtual std::vector<Reply> replies() = 0;
