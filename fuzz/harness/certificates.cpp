@@ -71,21 +71,19 @@ class Court {
       require(!refutation->empty() && refutation->find('\n') == std::string::npos,
               "a refutation is a line that says why", text);
     if (!is_ordinary_) return;  // the oracle may be slow
-    const Answer second = second_hit(*read.query);
+    const oracle::Oracle oracle(scene_);
+    const Answer first = oracle.first_hit(*read.query);
+    const auto require_refuted = [&](const Answer& lie, const char* promise) {
+      require(checker_.refutation(*read.query, lie, *read.record.certificate).has_value(), promise, text);
+    };
+    if (first.outcome != Outcome::never) require_refuted(Answer::never(), "no proof makes a hit none");
+    if (first.outcome != Outcome::hit) return;
+    const Answer second = oracle.first_hit({read.query->x, read.query->v, first.obstacle});
     if (second.outcome == Outcome::hit)
-      require(checker_.refutation(*read.query, second, *read.record.certificate).has_value(),
-              "no proof makes the second obstacle the first", text);
+      require_refuted(second, "no proof makes the second obstacle the first");
   }
 
  private:
-  Answer second_hit(Query query) const {
-    const oracle::Oracle oracle(scene_);
-    const Answer first = oracle.first_hit(query);
-    if (first.outcome != Outcome::hit) return Answer::undecided();
-    query.from = first.obstacle;
-    return oracle.first_hit(query);
-  }
-
   const Scene scene_;
   const oracle::CertificateCheck checker_;
   const bool is_ordinary_;

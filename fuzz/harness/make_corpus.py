@@ -18,6 +18,8 @@ BAD_LINES = {
     "cut-scene": SQUARE + '\n{"scene":{"dimension":2,"latt\n{"id":2,"x":[0.5,0.5],"v":[1,0]}\n',
     "deep": '{"a":' + "[" * 70 + "]" * 70 + "}\n{" + '"a":{' * 70 + "}" * 71 + "\n",
     "twice": SQUARE + '\n{"id":1,"id":"b","x":[0],"x":[0.25,0.5],"v":[0,0],"v":[1,0]}\n',
+    "one-word": SQUARE + "".join('\n{"id":"%s","x":[%s,0.5],"v":[1,0.5]}\n{"id":"%s","x":[0.5,0.5],"v":[1,%s]}' % (w, q, w, q)
+                                 for w in ["NaN", "nan", "inf", "-inf", "Infinity", "1e999"] for q in ['"%s"' % w, w]),
     "words": SQUARE + '\n{"id":null,"x":["NaN",0],"v":["inf",1e999]}\n{"x":["0x1.8p-1","-0x1p-1074"],"v":["0x1p1023",-0.0]}\n',
     "ids": SQUARE + "".join('\n{"id":%s,"x":[0.5,0.5],"v":[1,0.5]}' % i
                             for i in ["27.0", "1e3", "9007199254740993", '"\\u0000\\n\\"\\\\"', "true", "[]", "-0"]),
@@ -47,6 +49,10 @@ BAD_SCENES = {
     "deep.json": "{" + '"scene":{' * 70,
     "deep.toml": "a = " + "[" * 300 + "\n",
 }
+# Claimed to miss both rows of balls, and hits the second.
+NO_NEVER = ('{"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.125},'
+            '{"position":[0.5,0.5],"radius":0.125}]}]}}\n{"id":"a","tags":["t"],"x":[0.25,0.5],"v":[1,0],"expect":{"outcome":"never"},'
+            '"certificate":{"rows":[{"lattice":0,"atom":0,"basis":[[1,0],[0,1]]},{"lattice":0,"atom":1,"basis":[[1,0],[0,1]]}]}}\n')
 HEADER = '{"golden":{"format":1,"name":"n","count":1,"tags":{"t":"what it is"}}}\n'
 EXPECT = '"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[1,2],"time":2}'
 BAD_SETS = {
@@ -56,6 +62,8 @@ BAD_SETS = {
     "no-scene-no-query": HEADER + '{"id":"a","tags":["t"],"x":null,"v":[1,0],' + EXPECT + "}\n",
     "order": HEADER + SQUARE + '\n{"id":"a","x":[0,0],"v":[1,0],"tags":["t"],"expect":{"outcome":"never"}}\n',
     "twice": HEADER + SQUARE + '\n{"id":"a","tags":["t"],"tags":["u"],"x":[0.5,0],"v":[1,0],' + EXPECT + ',"margin":1,"margin":2}\n',
+    "odd-tags": HEADER.replace('"t"', '"\\"],\\n"') + SQUARE
+    + '\n{"id":"\\u0001","tags":["\\"],\\n","]"],"x":[0.5,0],"v":[1,0],"expect":{"outcome":"error","message":"\\t\\\\"}}\n',
     "odd-proof": HEADER + SQUARE + '\n{"id":"a","tags":["t"],"x":[0.5,0],"v":[1,0],' + EXPECT
     + ',"margin":"inf","certificate":{"windows":[{"lattice":0,"atom":0,"from":"-0x1f4p-3","to":"0x1p99","basis":[[1,0],[0,"1"]]}],'
     + '"rows":[{"lattice":0,"atom":0,"basis":[[1,0],["-9007199254740993",1]]}]}}\n',
@@ -88,6 +96,22 @@ def query_of(record):
 def answer_of(record):
     parsed = json.loads(record)
     return json.dumps({"id": parsed["id"], **parsed["expect"]}, separators=(",", ":"))
+
+
+def looking_farther(record):
+    """The record with a proof that looks four times as far as it need, in pieces: what it then leaves out may be less."""
+    parsed, last = json.loads(record), {}
+    windows = parsed["certificate"].get("windows", [])
+    for window in windows:
+        last[window["lattice"], window["atom"]] = window
+    for window in last.values():
+        if any(isinstance(window[end], str) for end in ("from", "to")):
+            continue
+        begin, end = window["from"], 4 * window["to"]
+        cuts = [begin, *(begin + (end - begin) * part / 16 for part in (1, 2, 4, 8)), end]
+        place = windows.index(window)
+        windows[place : place + 1] = [{**window, "from": a, "to": b} for a, b in zip(cuts, cuts[1:])]
+    return json.dumps(parsed, separators=(",", ":"))
 
 
 class Encoder:
@@ -145,9 +169,10 @@ def main():
         write("golden_sets", path.stem, HEADER + "".join(f"{scene}\n{record}\n" for scene, record in pairs[:2]))
     for path in good:
         for i, (scene, record) in enumerate(records(path, 2)):
-            write("certificates", f"{path.stem}-{i}", f"{scene}\n{record}\n")
+            write("certificates", f"{path.stem}-{i}", f"{scene}\n{looking_farther(record) if i == 1 else record}\n")
         for i, (scene, record) in enumerate(records(path, 3)):
             write("first_hit", f"{path.stem}-{i}", bytes(Encoder(json.loads(scene)["scene"], json.loads(record)).bytes))
+    write("certificates", "no-never", NO_NEVER)
     write("queries", "answers", "".join(answer_of(records(path, 1)[0][1]) + "\n" for path in good))
     write("queries", "bad-answers", BAD_ANSWERS)
     for name, text in BAD_LINES.items():
