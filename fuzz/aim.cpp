@@ -2,7 +2,8 @@
 // centre, less the radius; or of the difference of two times of entry. Newton's steps along one component of
 // x lead to a zero of f, up to the last bit of that component. If another component is set to zero before, it
 // then takes up what is left: near zero binary64 is as fine as one likes, and so f comes to about 2^-100, the
-// precision (double-double) that all this is computed in.
+// precision (double-double) that all this is computed in. From there the exact answers themselves lead on, by
+// bisection, to two neighbouring binary64 values between which the answer changes.
 //
 // Ellipsoids { A y : |y| < 1 } become balls of the radius |det A| by adj(A).
 #include "aim.hpp"
@@ -11,6 +12,7 @@
 
 #include "double_double.hpp"
 #include "dual.hpp"
+#include "parts.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -126,9 +128,10 @@ bool approach(const F& f, Vec& x, int k) {
   return true;
 }
 
-// To a zero of f: along the component that f changes most with, or finely, to the end by another one.
+// To a zero of f: along the component that f changes most with, or finely, to the end by another one. The
+// last component that was moved; nothing where there is no way.
 template <class F>
-bool approach(Random& random, int dimension, const F& f, Vec& x) {
+std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
   const bool finely = random.one_in(2);
   const auto last = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
   if (finely) x[last] = 0;
@@ -136,7 +139,29 @@ bool approach(Random& random, int dimension, const F& f, Vec& x) {
   int first = finely ? (last + 1) % dimension : last;
   for (int k = 0; k < dimension; ++k)
     if (!(finely && k == last) && std::fabs(slope.along[k]) > std::fabs(slope.along[first])) first = k;
-  return approach(f, x, first) && (!finely || approach(f, x, last));
+  if (!approach(f, x, first)) return std::nullopt;
+  if (!finely) return first;
+  return approach(f, x, last) ? std::optional(last) : std::nullopt;
+}
+
+// Where the exact answer changes, between neighbouring binary64 values of component k: by bisection, if an
+// answer is another one near there.
+void bisect(const oracle::Oracle& oracle, const Scene& scene, Query& query, int k) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
+  const auto answer_at = [&](double place) {
+    Query there = query;
+    there.x[k] = place;
+    Answer answer = flaw_of(there, scene) ? Answer::undecided() : oracle.first_hit(there);
+    return std::pair(answer.outcome, std::move(answer.obstacle));
+  };
+  double here = query.x[k], there = here;
+  const auto answer = answer_at(here);
+  for (std::int64_t ulps = 1; there == here && ulps <= kFarthest; ulps *= -32)
+    if (const double place = moved(here, ulps); answer_at(place) != answer) there = place;
+  if (there == here) return;
+  for (double place = middle(here, there); place != here && place != there; place = middle(here, there))
+    (answer_at(place) == answer ? here : there) = place;
+  query.x[k] = here;
 }
 
 bool has_small_cell(const ObstacleId& id) {
@@ -183,7 +208,9 @@ std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query
     return difference;
   };
   Query aimed = query;
-  if (!approach(random, scene.dimension, off, aimed.x) || flaw_of(aimed, scene)) return std::nullopt;
+  const auto last = approach(random, scene.dimension, off, aimed.x);
+  if (!last || flaw_of(aimed, scene)) return std::nullopt;
+  if (random.one_in(4)) bisect(oracle, scene, aimed, *last);
   return aimed;
 }
 

@@ -43,6 +43,11 @@ double moved(double x, std::int64_t ulps) {
   return std::isfinite(there) ? there : std::copysign(kLargest, x);
 }
 
+double middle(double a, double b) {
+  const std::int64_t one = rank_of(a), other = rank_of(b);
+  return of_rank((one >> 1) + (other >> 1) + (one & other & 1));
+}
+
 void jitter(Random& random, Vec& a, int dimension, std::int64_t most) {
   for (int i = 0; i < dimension; ++i)
     if (a[i] != 0) a[i] = moved(a[i], random.integer(-most, most));

@@ -15,6 +15,9 @@ namespace lorentz::fuzz {
 /// x moved by so many ulps, through 0 and the subnormals too; an infinity is not passed.
 double moved(double x, std::int64_t ulps);
 
+/// Midway between two binary64 in their order, through 0 and the subnormals too.
+double middle(double a, double b);
+
 /// Each of the first `dimension` components moved by -most to most ulps; a zero stays what it is.
 void jitter(Random& random, Vec& a, int dimension, std::int64_t most);
 
