@@ -146,12 +146,12 @@ std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
 
 // Where the exact answer changes, between neighbouring binary64 values of component k: by bisection, if an
 // answer is another one near there.
-void bisect(const oracle::Oracle& oracle, const Scene& scene, Query& query, int k) {
+void bisect(const Examiner& examiner, const Scene& scene, Query& query, int k) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
   const auto answer_at = [&](double place) {
     Query there = query;
     there.x[k] = place;
-    Answer answer = flaw_of(there, scene) ? Answer::undecided() : oracle.first_hit(there);
+    Answer answer = flaw_of(there, scene) ? Answer::undecided() : examiner.exact(there);
     return std::pair(answer.outcome, std::move(answer.obstacle));
   };
   double here = query.x[k], there = here;
@@ -210,7 +210,7 @@ std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query
   Query aimed = query;
   const auto last = approach(random, scene.dimension, off, aimed.x);
   if (!last || flaw_of(aimed, scene)) return std::nullopt;
-  if (random.one_in(4)) bisect(oracle, scene, aimed, *last);
+  if (random.one_in(4)) bisect(examiner, scene, aimed, *last);
   return aimed;
 }
 
