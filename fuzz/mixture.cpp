@@ -1,6 +1,7 @@
 // mixture: superpositions of lattices that are themselves motifs, of balls and ellipsoids, some of which hold
-// many cells. Whoever keeps lists by lattice, by atom and by shape has to keep them apart here; and where
-// obstacles of many cells contain the start, the smallest of a thousand is asked for.
+// many cells, and some 2^13 times as long as wide. Whoever keeps lists by lattice, by atom and by shape has
+// to keep them apart here; and where obstacles of many cells contain the start, the smallest of a thousand is
+// asked for.
 #include <cmath>
 
 #include "crystals.hpp"
@@ -19,7 +20,8 @@ Atom drawn_obstacle(Random& drawn, int dimension, double size) {
     return atom;
   }
   const Vec a = drawn.direction(2);
-  atom.semiaxes = {scaled(a, size), scaled({-a[1], a[0], 0}, size * drawn.between(0.1, 1))};
+  const double slender = drawn.one_in(3) ? drawn.octave(-13, -4) : drawn.between(0.1, 1);
+  atom.semiaxes = {scaled(a, size), scaled({-a[1], a[0], 0}, size * slender)};
   if (dimension == 3) atom.semiaxes.push_back({0, 0, size * drawn.between(0.2, 1)});
   return atom;
 }
@@ -33,7 +35,7 @@ Lattice drawn_lattice(Random& drawn, int dimension, bool many_cells) {
   for (std::int64_t n = drawn.integer(1, 3); n > 0; --n)
     lattice.atoms.push_back(drawn_obstacle(drawn, dimension, drawn.octave(-9, -3)));
   if (many_cells)
-    lattice.atoms[0] = drawn_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 4 : 2));
+    lattice.atoms[0] = drawn_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 3 : 1));
   return lattice;
 }
 
@@ -71,7 +73,7 @@ Family mixture() {
   return {"mixture",
           "Superposed motifs of balls and ellipsoids, some of many cells.",
           {{"small", "one to three lattices, each with one to three obstacles a cell, 2^-9 to 2^-3 large"},
-           {"many-cells", "an obstacle of the last lattice holds up to 2^4 cells (2^2 in space) and more"},
+           {"many-cells", "an obstacle of the last lattice holds up to 2^6 cells, and more in space"},
            {"leaving", "`from` is one of the obstacles that contain the start"}},
           make_mixture};
 }

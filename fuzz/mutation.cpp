@@ -67,6 +67,24 @@ double Mutant::margin() const {
   return hardest ? hardest->margin : kInfinity;
 }
 
+std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Mutant& here) {
+  const Answer& exact = here.question.exact;
+  if (exact.outcome != Outcome::hit) return std::nullopt;
+  const Lattice& lattice = scene.lattices[exact.obstacle.lattice];
+  const Atom& atom = lattice.atoms[exact.obstacle.atom];
+  const std::vector<Vec>& axes = atom.semiaxes;
+  if (axes.empty() || random.one_in(2)) return std::nullopt;
+  const Vec &axis = axes[random.below(axes.size())], &other = axes[random.below(axes.size())];
+  Query query = here.question.query;
+  query.v = sum(axis, scaled(other, random.octave(-6, 3) * random.sign()));
+  if (random.one_in(2)) {  // towards the atom of the cell 0, from nearby
+    query.x = sum(atom.position, scaled(axis, -random.between(1.1, 3)));
+    query.from.reset();
+  }
+  if (flaw_of(query, scene)) return std::nullopt;
+  return query;
+}
+
 Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move) {
   if (move == 0)
     if (auto aimed =
@@ -91,6 +109,8 @@ std::vector<Mutant> climb(Random random, const Case& base, const Examiner& exami
                           const oracle::Scrutiny& scrutiny) {
   std::vector<Mutant> tried;
   Mutant best = seen(examiner, scrutiny, base.query);
+  if (const auto along = along_semiaxis(random, base.scene, best))
+    tried.push_back(best = seen(examiner, scrutiny, *along));
   for (int round = 0; round < kRounds; ++round) {
     const Mutant here = best;
     for (int move = 0; move < kMovesPerRound; ++move) {

@@ -285,6 +285,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
     // Each round goes on from the best before it.
     fuzz::Random random(1, "climb", index);
     fuzz::Mutant best = fuzz::seen(examiner, scrutiny, base.query);
+    REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
     improved += least < best.margin();
     at_the_edge += least < 4;
     for (std::size_t i = 0; i < mutants.size();) {
