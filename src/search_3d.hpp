@@ -202,6 +202,21 @@ class Search3 {
     return true;
   }
 
+  // By how much xi, where the line passes the plane of this point, may be off. A plane that the line passes
+  // at nearly the radius leaves a section of the half width sqrt(1 - xi^2), whose square is off by twice
+  // that: more than all of it, when the section is thin. kPlane: dual_2's relative error (|b_i| |dual_i| <=
+  // 8) and the rounding of three products and their sum, generously.
+  double xi_error(const Point& point) const {
+    constexpr double kPlane = 512;
+    const Basis3& basis = *basis_;
+    const auto& g = basis.dual[2];
+    const double terms =
+        1 + std::max(std::fabs(g[0]), std::fabs(g[1])) * point.size + std::fabs(g[2]) * point.extent;
+    return p_error_ + to_.scale_error +
+           basis.inverse_g *
+               (basis.tilt_error + std::fabs(g[2]) * s_error_ / basis.length + kPlane * kRoundoff * terms);
+  }
+
   // The lines of a plane: in the coordinates xi (along e), eta (across e), z the plane is g xi + tilt z =
   // kappa.
   bool scan_plane(const Point& point, double kappa) {
@@ -222,7 +237,7 @@ class Search3 {
                  xi_last = (kappa - tilt * z_last) * basis.inverse_g;
     double nearest = 0;
     if (xi_first * xi_last > 0) nearest = std::min(std::fabs(xi_first), std::fabs(xi_last));
-    const double eta = std::sqrt(std::max(0.0, 1 - nearest * nearest)) + kSlop;
+    const double eta = std::sqrt(std::max(0.0, 1 - nearest * nearest) + 2 * xi_error(point)) + kSlop;
     const auto& g1 = basis.dual[1];
     const double a = basis.g1_e * xi_first + g1[2] * z_first, b = basis.g1_e * xi_last + g1[2] * z_last;
     const double here = g1[0] * point.p[0] + g1[1] * point.p[1] + g1[2] * point.z,
@@ -243,10 +258,11 @@ class Search3 {
                                            double kappa) {
     const Basis3& basis = *basis_;
     const double tilt = basis.dual[2][2];
+    const double unsure = 2 * xi_error(in_plane);
     const auto half_width = [&](double z1, double z2) {
       const double xi_1 = (kappa - tilt * z1) * basis.inverse_g, xi_2 = (kappa - tilt * z2) * basis.inverse_g;
       const double nearest = xi_1 * xi_2 > 0 ? std::min(std::fabs(xi_1), std::fabs(xi_2)) : 0;
-      return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest))) + kSlop * kSlop;
+      return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest)) + unsure) + kSlop * kSlop;
     };
     const auto eta = [&](const double* p) { return p[1] * basis.e[0] - p[0] * basis.e[1]; };
     Arm3 c[2] = {basis.b[0], basis.b[1]};

@@ -324,3 +324,27 @@ TEST_CASE("A prepared direction is prepared atom by atom as a flight goes from a
   }
   CHECK(count.hit > 500);
 }
+
+TEST_CASE(
+    "A lattice plane that is passed at nearly the radius: the slivers that are left of its balls are found") {
+  // Beside the plane y = 0 at the height (1 - e) r a ball is a disc of the radius r sqrt(2 e), and of a
+  // flight along the plane only the width of that section says which are met.
+  Count count;
+  check(unit_scene(3, 0.5),
+        {{0.8632337152957916, 0.4999999999999727, 0.3692743228748441},
+         {1.7690900713205338, 0, 0.4915317893028261},
+         {}},
+        count);
+  Draw draw(74);
+  for (int i = 0; i < 6000; ++i) {
+    const double r = std::exp2(draw.between(-17, -1));
+    Query query{{draw.uniform(), r * (1 - std::exp2(-draw.between(10, 52))), draw.uniform()},
+                {draw.between(-2, 2), 0, draw.between(-2, 2)},
+                {}};
+    if (draw.one_in(2)) query.v[1] = std::exp2(-draw.between(40, 1000));
+    const std::size_t turn = draw.below(3);
+    std::swap(query.x[1], query.x[turn]), std::swap(query.v[1], query.v[turn]);
+    check(unit_scene(3, r), query, count);
+  }
+  CHECK(count.hit > 4000);
+}
