@@ -68,6 +68,7 @@ double Decoder::raw() {
 }
 
 double Decoder::number(int low, int high) {
+  constexpr int kUsual = 200;  // beyond 2^200 flights of a thousand bits are right, and slow
   const unsigned kind = byte();
   const auto any_earlier = [&] { return earlier_.empty() ? 1.0 : earlier_[byte() % earlier_.size()]; };
   const auto small = [&] { return static_cast<std::int8_t>(byte()); };
@@ -87,7 +88,8 @@ double Decoder::number(int low, int high) {
       a = any_earlier();
       a *= std::ldexp(small(), -static_cast<int>(kind / 4 % 8));
   }
-  a = folded(a, low, high);
+  const bool any_size = kind & 0x40;
+  a = folded(a, any_size ? low : std::max(low, -kUsual), any_size ? high : std::min(high, kUsual));
   earlier_.push_back(a);
   return a;
 }

@@ -15,7 +15,8 @@ namespace lorentz::harness {
 /// box around an obstacle has at most 8 times its cell's volume.
 bool is_ordinary(const Scene& scene);
 
-/// Scenes are ordinary, with 1 to 3 lattices of 1 to 4 atoms; starts are within 2^60; velocities are any.
+/// Scenes are ordinary, with 1 to 3 lattices of 1 to 4 atoms; starts are within 2^60; velocities are any, but
+/// seldom beyond 2^200 or below 2^-200, where an exact answer can take a second under the sanitizers.
 class Decoder {
  public:
   Decoder(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}

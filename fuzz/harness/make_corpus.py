@@ -139,7 +139,7 @@ class Encoder:
     def numbers(self, values):
         for value in values:
             number = float.fromhex(value) if isinstance(value, str) else float(value)
-            self.byte(1)
+            self.byte(1 if number == 0 or 2.0**-200 < abs(number) < 2.0**200 else 0x41)
             self.bytes += struct.pack("<d", number)
 
     def lattice(self, lattice, dimension):
