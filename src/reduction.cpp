@@ -46,8 +46,9 @@ bool has_fma() {
 // Times in other units; a time that leaves the normal numbers is no longer known to be correctly rounded.
 void rescale(Flight& flight, int exponent) {
   if (exponent == 0 || flight.outcome != Outcome::hit) return;
+  const bool is_zero = flight.time == 0;  // and stays so; a time that becomes zero was not
   flight.time = scaled_time(flight.time, exponent);
-  if (flight.time != 0 && !std::isnormal(flight.time)) flight.time_is_rounded = false;
+  if (!is_zero && !std::isnormal(flight.time)) flight.time_is_rounded = false;
 }
 
 void give_up(Flight& flight) {

@@ -348,3 +348,10 @@ TEST_CASE(
   }
   CHECK(count.hit > 4000);
 }
+
+TEST_CASE("certified: a time that vanishes in other units is rounded by the oracle") {
+  const Scene scene = unit_scene(3, 7.719446386253216e-05);
+  const Query query{{0x1p-59, 0, -7.71944638627542e-05}, {0, 0, 0x1p1023}, {}};
+  CHECK(oracle::Oracle(scene).first_hit(query).time == 0x1p-1074);
+  CHECK(oracle::Certified(scene).first_hit(query).time == 0x1p-1074);
+}
