@@ -94,7 +94,7 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   if (name == "walk") {
     auto walk = std::make_shared<oracle::Walk>(scene);
     return [walk, scene](const Query& query, const oracle::Request& request, Answer& answer) {
-      answer = limited(walk->first_hit(query), limit_of(request));
+      answer = walk->first_hit(query, limit_of(request));
       if (request.detail) add_detail(query, scene, answer);
     };
   }

@@ -97,7 +97,8 @@ class AtomWalk {
     return found;
   }
 
-  End walk(std::int64_t max_cells, std::optional<Hit>& best) const {
+  // What is entered from `limit` on, if there is one, need not be found.
+  End walk(std::int64_t max_cells, const std::optional<Ratio>& limit, std::optional<Hit>& best) const {
     Index n = home_;
     around(n, -1, 0, [&](const Index& m) { test(m, best); });
     Index first_crossing{};
@@ -105,7 +106,9 @@ class AtomWalk {
     for (std::int64_t step = 0; step < max_cells; ++step) {
       const int axis = next_axis(n);
       const int sign = W_[axis] > Real(0) ? 1 : -1;
-      if (best && CGAL::compare(Root(leaving(n, axis)), best->time) != CGAL::SMALLER) return End::done;
+      const Ratio end = leaving(n, axis);
+      if (limit && end >= *limit) return End::done;
+      if (best && CGAL::compare(Root(end), best->time) != CGAL::SMALLER) return End::done;
       n[axis] += sign;
       around(n, axis, sign, [&](const Index& m) { test(m, best); });
       // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing
@@ -270,7 +273,7 @@ Cell to_cell(const Index& n) {
 
 }  // namespace
 
-Answer Walk::first_hit(const Query& query) const {
+Answer Walk::first_hit(const Query& query, double max_time) const {
   if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
   std::vector<AtomWalk> walks;
   for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
@@ -279,9 +282,12 @@ Answer Walk::first_hit(const Query& query) const {
       if (!walks.back().can_walk()) return Answer::undecided();
       if (auto n = walks.back().inside()) return Answer::inside({l, a, to_cell(*n)});
     }
+  std::optional<Ratio> limit;
+  if (std::isfinite(max_time)) limit = Ratio(Real(max_time));
   std::optional<Hit> best;
   for (const AtomWalk& walk : walks)
-    if (walk.walk(max_cells_, best) == End::gave_up) return Answer::undecided();
+    if (walk.walk(max_cells_, limit, best) == End::gave_up) return Answer::undecided();
+  if (limit && !(best && CGAL::compare(best->time, Root(*limit)) == CGAL::SMALLER)) return Answer::later();
   if (!best) return Answer::never();
   return Answer::hit({best->lattice, best->atom, to_cell(best->n)}, rounded(best->time));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "../src/problem.hpp"
@@ -15,10 +16,11 @@ class Walk {
   explicit Walk(Scene scene, std::int64_t max_cells = 100'000)
       : scene_(std::move(scene)), max_cells_(max_cells) {}
 
-  /// The exact answer, time correctly rounded; `undecided` if the flight passes more than max_cells cells, or
-  /// if a start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth trying; `error` for a
-  /// query that is none.
-  Answer first_hit(const Query& query) const;
+  /// The exact answer, time correctly rounded, or `later` if nothing is entered before `max_time` (an
+  /// infinity: no limit), which is compared with the exact time; `undecided` if the flight passes more than
+  /// max_cells cells, or if a start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth
+  /// trying; `error` for an invalid query.
+  Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const;
 
  private:
   Scene scene_;

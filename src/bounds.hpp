@@ -16,6 +16,13 @@ inline constexpr double kFlushed = 0x1p-390;
 /// |computed height - height| <= kHeight u (|y| + |n D_R| + |m D_L|): predicates.hpp, height_in_row.
 inline constexpr double kHeight = 8;
 
+/// A coordinate dual_i . a of a vector a, times |B_i| / (|a|_1 kappa^2), kappa = |B_1| |B_2| |B_3| / volume.
+inline constexpr double kCoordinate = 32;
+
+/// A start's coordinates from its home cell are within 1/2 and this; scenes for which they are not known so
+/// well are not done.
+inline constexpr double kMaxHomeError = 0x1p-12;
+
 /// |d|^2 - r^2, relative to |d|^2 + r^2.
 inline constexpr double kInside = 6;
 

@@ -5,11 +5,18 @@
 #include <utility>
 
 #include "ball.hpp"
+#include "bounds.hpp"
 
 namespace lorentz {
 namespace {
 
 constexpr double kMaxTransform = 0x1p20;  // cells more skewed than that are not done
+constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
+
+// Components of lattice vectors (which are about 1) below this are taken as zero, so that no product with a
+// velocity's underflows. What that changes, times 2^20 of the short basis, over 2^53 cells, is below
+// kFlushed.
+constexpr double kTinyVectorComponent = 0x1p-480;
 
 Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -37,6 +44,9 @@ struct Metric {
   double length_of_form(const Vec& g) const {
     return shape ? length(times(shape->cofactor, g)) / shape->volume : length(g);
   }
+
+  // Of all forms g with |g| = 1.
+  double length_of_longest_form() const { return shape ? shape->cofactor_size / shape->volume : 1; }
 };
 
 // A basis while it is made shorter: integer combinations of the primitive vectors, recomputed from these at
@@ -47,16 +57,23 @@ struct Shortening {
   Metric metric;
   double T[3][3]{};
   WideVec B[3];
+  bool complete = true;  // no component was taken as zero
 
   Shortening(const Lattice& lattice, int d, double scale, Metric in)
       : dimension(d), primitive(lattice.vectors), metric(in) {
     for (int i = 0; i < d; ++i)
-      for (double& component : primitive[i]) component *= scale;
+      for (double& component : primitive[i]) set_component(component, scale);
     for (int i = d; i < 3; ++i) primitive[i] = Vec{double(i == 0), double(i == 1), double(i == 2)};
     for (int i = 0; i < 3; ++i) {
       T[i][i] = 1;
       recompute(i);
     }
+  }
+
+  void set_component(double& component, double scale) {
+    const bool was_zero = component == 0;
+    component *= scale;
+    if (std::fabs(component) < kTinyVectorComponent) component = 0, complete &= was_zero;
   }
 
   void recompute(int i) {
@@ -66,8 +83,9 @@ struct Shortening {
     }
   }
 
-  // Are all components of B sums without rounding?
+  // Are all components of B those of the scene's lattice, sums without rounding?
   bool is_exact() const {
+    if (!complete) return false;
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         double sum = 0;
@@ -128,10 +146,23 @@ void set_dual(Bravais& bravais) {
     for (double& component : bravais.dual[i]) component /= volume;
   }
   bravais.volume = std::fabs(volume);
+  double defect = 1 / bravais.volume, shortest = 0x1p1000;
+  for (int i = 0; i < 3; ++i) defect *= length(b[i]);
+  for (int i = 0; i < bravais.dimension; ++i) shortest = std::min(shortest, length(b[i]));
+  bravais.coordinate_error = kCoordinate * kRoundoff * defect * defect / shortest;
 }
 
-// The adjugate: the determinant is 1 or -1. Entries are below 2^20, or the scene is not done.
-void set_inverse(Bravais& bravais) {
+// Of the coordinates of what lies within half a cell of a lattice point.
+double home_error(const Bravais& bravais) {
+  double size = 0;
+  for (int i = 0; i < bravais.dimension; ++i)
+    for (const Wide& component : bravais.basis[i]) size += std::fabs(component.hi);
+  return 0.6 * size * bravais.coordinate_error;
+}
+
+// The adjugate. Entries are below 2^20, or the scene is not done. False if the determinant is not 1 or -1:
+// then integers were rounded on the way.
+bool set_inverse(Bravais& bravais) {
   const auto& t = bravais.transform;
   const auto minor = [&](int i, int j) {
     const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
@@ -140,6 +171,7 @@ void set_inverse(Bravais& bravais) {
   const std::int64_t determinant = t[0][0] * minor(0, 0) + t[0][1] * minor(0, 1) + t[0][2] * minor(0, 2);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) bravais.inverse[i][j] = determinant * minor(j, i);
+  return determinant == 1 || determinant == -1;
 }
 
 // A lower bound of the shortest lattice vector: a vector with a coefficient of 2 or more in absolute value is
@@ -172,18 +204,21 @@ std::string beyond(const Bravais& bravais, const Metric& metric) {
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
   const double shortest =
       bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - 0x1p-40);
-  if (!(shortest > 0x1p-60 && shortest < 0x1p60))
+  const Vec& reach = bravais.reach;
+  if (!(shortest > 0x1p-60 && shortest < 0x1p60 && home_error(bravais) < kMaxHomeError))
     return "does not do lattices of so different spacings, or so flat a cell";
   if (metric.shape && !(2 * bravais.radius <= shortest))
     return "does ellipsoids only that do not overlap their own translates";
   if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
+  if (!(std::max({reach[0], reach[1], reach[2]}) < 1 - 2 * kMaxHomeError))
+    return "does not do obstacles that reach so far into a cell so flat";
   if (!(bravais.radius >= smallest * shortest))
     return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
            " of the shortest lattice vector only";
   return "";
 }
 
-void set_basis(Bravais& bravais, const Shortening& shortening) {
+bool set_basis(Bravais& bravais, const Shortening& shortening) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
     bravais.basis[i] = shortening.B[i];
@@ -195,8 +230,8 @@ void set_basis(Bravais& bravais, const Shortening& shortening) {
   }
   bravais.exact = shortening.is_exact();
   bravais.basis_error = bravais.exact ? 0 : 32 * 0x1p-106 * largest;  // three sums of 3 u^2 each, generously
-  set_inverse(bravais);
   set_dual(bravais);
+  return set_inverse(bravais);
 }
 
 // One lattice, in the scale of the scene.
@@ -213,7 +248,7 @@ class LatticePreparation {
 
   /// Adds the atoms; why it cannot, or nothing.
   std::string add_to(PreparedScene& prepared) {
-    if (is_too_skewed(short_)) return "does not do cells as skewed as this one";
+    if (is_too_skewed(short_)) return kTooSkewed;
     for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
       Bravais bravais;
       bravais.dimension = scene_.dimension;
@@ -238,8 +273,7 @@ class LatticePreparation {
     set_place(bravais);
     bravais.unit = is_unit_ && atom.position == Vec{};
     bravais.radius = atom.radius * scale_;
-    set_basis(bravais, short_);
-    return finish(bravais, {});
+    return set_basis(bravais, short_) ? finish(bravais, {}) : kTooSkewed;
   }
 
   // A short basis in the metric of the shape; that of the atom before, if it has the same shape.
@@ -258,11 +292,11 @@ class LatticePreparation {
       shaped_ = shortened({&*shape_});
       last_semiaxes_ = std::move(semiaxes);
     }
-    if (is_too_skewed(*shaped_)) return "does not do cells as skewed as this one";
+    if (is_too_skewed(*shaped_)) return kTooSkewed;
     set_place(bravais);
     bravais.shape = *shape_;
     bravais.radius = shape_->radius;
-    set_basis(bravais, *shaped_);
+    if (!set_basis(bravais, *shaped_)) return kTooSkewed;
     std::string why = finish(bravais, {&*shape_});
     if (is_unit_ && atom.position == Vec{} && why.empty()) use_axes(bravais);
     return why;
@@ -283,8 +317,10 @@ class LatticePreparation {
   }
 
   static void set_reach(Bravais& bravais, const Metric& metric) {
-    for (int i = 0; i < 3; ++i)
-      bravais.reach[i] = bravais.radius * metric.length_of_form(bravais.dual[i]) * (1 + 0x1p-30);
+    for (int i = 0; i < bravais.dimension; ++i)
+      bravais.reach[i] = bravais.radius * (1 + 0x1p-30) *
+                         (metric.length_of_form(bravais.dual[i]) +
+                          2 * bravais.coordinate_error * metric.length_of_longest_form());
     bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < 0.499);
   }
 

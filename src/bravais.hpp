@@ -27,11 +27,12 @@ struct Bravais {
       basis[3];  ///< a short basis B_i = sum_j transform[i][j] u_j; columns beyond the dimension: the axes
   std::int64_t transform[3][3]{};
   Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64
+  double coordinate_error = 0;   ///< a coordinate dual_i . a errs by at most this times |a_1| + |a_2| + |a_3|
   Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
   bool reaches_out = true;       ///< some reach is so large that x may lie in an obstacle of another cell
   double volume = 0;             ///< of a cell (2D: area)
   double basis_error = 0;        ///< of each component of a basis vector, at most
-  bool exact = false;            ///< the basis vectors are binary64, without error
+  bool exact = false;            ///< the basis vectors are binary64, and those of the scene, without error
   std::int64_t inverse[3][3]{};  ///< of transform: u_i = sum_j inverse[i][j] B_j
   Shape shape;                   ///< only in scenes that have ellipsoids, there of balls too
 };

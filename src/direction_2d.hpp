@@ -61,6 +61,7 @@ struct WidthOfShape {
 template <bool kUnit, bool kBall>
 struct Direction2 {
   static constexpr bool kTurned = kUnit && kBall;
+  static constexpr double kSmallestHeight = 0x1p-800;
 
   Vec v;                    ///< turned, components below kTinyComponent taken as zero
   double v2 = 0;            ///< in the metric of the shape
@@ -225,6 +226,8 @@ struct Direction2 {
       usable = usable && forward && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
                std::fabs(arm->n[1]) < kMaxCoefficient;
     }
+    // Inverses are finite, and a height times the inverse of an area is above zero if the height is.
+    usable = usable && (L.D == 0 || L.D > kSmallestHeight);
     inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);
     inverse_D_L = 1 / L.D;
     inverse_S_L = 1 / L.S;

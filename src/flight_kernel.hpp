@@ -272,9 +272,8 @@ class Finding {
   int neighbours(double (&other)[D]) const {
     int count = 0;
     for (int i = 0; i < D; ++i) {
-      double coordinate = 0;  // of x, from the ball of the home cell
-      for (int k = 0; k < D; ++k) coordinate -= lattice_->dual[i][k] * offset_.d[k].hi;
-      if (std::fabs(coordinate) + lattice_->reach[i] < 1 - 0x1p-30) continue;
+      const double coordinate = coordinate_from_home(*lattice_, offset_, i);
+      if (std::fabs(coordinate) + lattice_->reach[i] < 1 - kMaxHomeError) continue;
       other[i] = std::copysign(1, coordinate);
       ++count;
     }
@@ -291,19 +290,25 @@ class Finding {
     }
   }
 
-  // `from` from the home cell, if it is of this atom and not absurdly far away.
+  // `from` from the home cell, in the short basis; false if it is of another atom, or farther away than any
+  // obstacle that the search names (2^61, and 2^53 more). In a skewed cell what is near may have coordinates
+  // of 84 bits: those of the search times a transform's 2^20, three of these. They times an inverse's 2^41,
+  // three of these, are below 2^127.
   [[gnu::noinline]] bool find_from(const ObstacleId* from, Wide (&here)[D]) const {
     if (!from || from->lattice != lattice_->lattice || from->atom != lattice_->atom) return false;
+    constexpr WideInteger kFarthestCell = WideInteger{1} << 84, kFarthestHere = WideInteger{1} << 62;
+    WideInteger cell[D];
+    for (int k = 0; k < D; ++k) {
+      const auto n = from->cell[k].int128();
+      if (!n || *n > kFarthestCell || *n < -kFarthestCell) return false;
+      cell[k] = *n;
+    }
     for (int i = 0; i < D; ++i) {
-      std::int64_t sum = -static_cast<std::int64_t>(offset_.home[i]), step;
-      for (int k = 0; k < D; ++k)
-        if (!from->cell[k].fits_int64() ||
-            __builtin_mul_overflow(from->cell[k].int64(), kUnit ? k == i : lattice_->inverse[k][i], &step) ||
-            __builtin_add_overflow(sum, step, &sum))
-          return false;
-      if (sum > (std::int64_t{1} << 61) || sum < -(std::int64_t{1} << 61)) return false;
+      WideInteger sum = -static_cast<WideInteger>(offset_.home[i]);
+      for (int k = 0; k < D; ++k) sum += cell[k] * (kUnit ? k == i : lattice_->inverse[k][i]);
+      if (sum > kFarthestHere || sum < -kFarthestHere) return false;
       const double high = static_cast<double>(sum);
-      here[i] = Wide(high, static_cast<double>(sum - static_cast<std::int64_t>(high)));
+      here[i] = Wide(high, static_cast<double>(sum - static_cast<WideInteger>(high)));
     }
     return true;
   }

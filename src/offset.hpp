@@ -28,7 +28,55 @@ struct Offset {
 /// lattices go to kMaxStart.
 inline constexpr double kMaxGeneralStart = 0x1p44;
 
-/// Reduces x to its home cell; false if x is too far away for that. On the unit lattices d is exact.
+/// d, and its error, for a home cell that is chosen; `place` is x seen from the atom's origin, of this size.
+template <class Arch, int D>
+inline void set_offset_from_home(const Bravais& lattice, const DoubleDouble<Arch> (&place)[D], double size,
+                                 Offset<D>& offset) {
+  using DD = DoubleDouble<Arch>;
+  DD d[D];
+  for (int k = 0; k < D; ++k) d[k] = -place[k];
+  offset.error = kFlushed;
+  for (int i = 0; i < D; ++i) {
+    if (offset.home[i] == 0) continue;
+    for (int k = 0; k < D; ++k) {
+      const DD step(lattice.basis[i][k].hi, lattice.basis[i][k].lo);
+      d[k] = add_product(d[k], step, offset.home[i]);
+      size += std::fabs(step.hi * offset.home[i]);
+    }
+    offset.error += std::fabs(offset.home[i]) * lattice.basis_error;
+  }
+  for (int k = 0; k < D; ++k) offset.d[k] = Wide(d[k]);
+  offset.error += 0x1p-102 * size;
+}
+
+/// The coordinate i of x, seen from the ball of the home cell.
+template <int D>
+inline double coordinate_from_home(const Bravais& lattice, const Offset<D>& offset, int i) {
+  double coordinate = 0;
+  for (int k = 0; k < D; ++k) coordinate -= lattice.dual[i][k] * offset.d[k].hi;
+  return coordinate;
+}
+
+/// Far out a coordinate errs by so much of a cell that the home cell is a neighbour's, or farther off. What
+/// is left of x in it is small, and tells the rest of the way. False if that does not settle.
+template <class Arch, int D>
+[[gnu::noinline]] bool refine_home(const Bravais& lattice, const DoubleDouble<Arch> (&place)[D], double size,
+                                   Offset<D>& offset) {
+  for (int pass = 0; pass < 8; ++pass) {
+    bool at_home = true;
+    for (int i = 0; i < D; ++i) {
+      const double step = std::nearbyint(coordinate_from_home(lattice, offset, i));
+      offset.home[i] += step;
+      at_home &= step == 0;
+    }
+    if (at_home) return true;
+    set_offset_from_home(lattice, place, size, offset);
+  }
+  return false;
+}
+
+/// Reduces x to its home cell, whose coordinates are within 1/2 of those of x, and kMaxHomeError; false if x
+/// is too far away for that. On the unit lattices d is exact.
 template <class Arch, bool kUnit, int D>
 inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) {
   using DD = DoubleDouble<Arch>;
@@ -42,29 +90,20 @@ inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) 
     }
     return true;
   }
-  DD place[D], d[D];
+  DD place[D];
   double size = 0;
   for (int k = 0; k < D; ++k) {
     place[k] = DD::sum(x[k], -lattice.position[k]);
     size += std::fabs(place[k].hi);
-    d[k] = -place[k];
   }
   for (int i = 0; i < D; ++i) {
     double coordinate = 0;
     for (int k = 0; k < D; ++k) coordinate += lattice.dual[i][k] * place[k].hi;
     if (!(std::fabs(coordinate) < kMaxGeneralStart)) return false;
     offset.home[i] = std::nearbyint(coordinate);
-    if (offset.home[i] == 0) continue;
-    for (int k = 0; k < D; ++k) {
-      const DD step(lattice.basis[i][k].hi, lattice.basis[i][k].lo);
-      d[k] = add_product(d[k], step, offset.home[i]);
-      size += std::fabs(step.hi * offset.home[i]);
-    }
-    offset.error += std::fabs(offset.home[i]) * lattice.basis_error;
   }
-  for (int k = 0; k < D; ++k) offset.d[k] = Wide(d[k]);
-  offset.error += 0x1p-102 * size + kFlushed;
-  return true;
+  set_offset_from_home(lattice, place, size, offset);
+  return size * lattice.coordinate_error < kMaxHomeError || refine_home(lattice, place, size, offset);
 }
 
 /// The symmetry of the unit lattices of balls that brings a velocity into the first octant, v_0 >= v_1 >= v_2

@@ -23,6 +23,16 @@ std::optional<Integer> Integer::from_decimal(std::string_view text) {
   return result;
 }
 
+std::optional<WideInteger> Integer::int128_of_digits() const {
+  constexpr std::size_t kDigits = 38;  // 10^38 < 2^127
+  const bool negative = digits_->front() == '-';
+  const std::string_view digits = std::string_view(*digits_).substr(negative ? 1 : 0);
+  if (digits.size() > kDigits) return std::nullopt;
+  WideInteger n = 0;
+  for (const char c : digits) n = 10 * n + (c - '0');
+  return negative ? -n : n;
+}
+
 std::string Integer::decimal() const {
   return fits_int64() ? std::to_string(value_) : *digits_;
 }

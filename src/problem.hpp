@@ -41,6 +41,9 @@ struct Scene {
   std::vector<Lattice> lattices;
 };
 
+/// 128 bits, for what must not overflow where 64 do.
+__extension__ using WideInteger = __int128;
+
 /// An integer of any size. Cell coordinates nearly always fit 64 bits; exact answers sometimes do not.
 class Integer {
  public:
@@ -63,6 +66,9 @@ class Integer {
 
   bool fits_int64() const { return !digits_; }
   std::int64_t int64() const { return value_; }  ///< only if fits_int64()
+  std::optional<WideInteger> int128() const {    ///< nothing beyond 10^38
+    return fits_int64() ? std::optional<WideInteger>(value_) : int128_of_digits();
+  }
   std::string decimal() const;
 
   friend bool operator==(const Integer& a, const Integer& b) {
@@ -74,6 +80,8 @@ class Integer {
   std::int64_t value_ = 0;
   std::unique_ptr<const std::string>
       digits_;  ///< canonical decimal form when 64 bits do not hold it, else null
+
+  std::optional<WideInteger> int128_of_digits() const;
 };
 
 /// Coordinates n of a lattice cell; a 2D problem keeps the third at zero.

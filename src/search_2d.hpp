@@ -119,6 +119,7 @@ class Search2 {
     if (L.D > 0) {
       m = std::max(m, (y - rho) * to_.inverse_D_L);
       unsure += (16 * kRoundoff * (std::fabs(y) + std::fabs(n * R.D) + rho) + y_error_) * to_.inverse_D_L;
+      if constexpr (!kUnit) unsure += (std::fabs(n) * R.D_error + std::fabs(m) * L.D_error) * to_.inverse_D_L;
     }
     if (unsure > 0.25) return look_closely_in_row(n);
     return look_from(n, std::ceil(m - unsure));

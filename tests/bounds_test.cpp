@@ -73,6 +73,18 @@ TEST_CASE("Across the line in 3D: kAcross") {
   covers(kAcross, first.error);
 }
 
+TEST_CASE("Coordinates in a cell: kCoordinate") {
+  // In units of |B_j| |B_k|, kappa = 1. A component of B_j x B_k, from rounded vectors: the sizes of its two
+  // terms add up to 1 at most.
+  const Carried b{1, 1};
+  const Carried cross = b * b - exact(0);
+  // The volume: its three terms add up to 1, but each component of the cross product may err by as much as
+  // the largest, so sqrt(3) times its error comes in.
+  const Carried volume = b * Carried{1, std::sqrt(3) * cross.error} + exact(0) + exact(0);
+  const Carried dual = cross / volume;
+  covers(kCoordinate, (dual * b + exact(0) + exact(0)).error);
+}
+
 TEST_CASE("Scale and radius: kScale, kRho, kInside") {
   // rho = r sqrt(v.v); the comparison rounds once more, and so does the sum with the spread.
   const Carried c = exact(1);

@@ -39,7 +39,7 @@ class Draw {
   double between(double low, double high) { return low + (high - low) * uniform(); }
   double sign() { return one_in(2) ? 1 : -1; }
   /// Log-uniform in size from 2^low to 2^high, either sign.
-  double tiny(int low, int high) { return sign() * std::exp2(between(low, high)); }
+  double tiny(double low, double high) { return sign() * std::exp2(between(low, high)); }
   /// A multiple of 1/denominator in [-range, range].
   double fraction(int denominator, int range) {
     const auto steps = static_cast<std::uint64_t>(2 * range * denominator + 1);
