@@ -133,8 +133,9 @@ TEST_CASE(
       INFO(file << " includes " << name);
       const bool system = name.starts_with("sys/") || name == "fcntl.h" || name == "unistd.h";
       CHECK((known.contains(name) || name.find_first_of("/.") == std::string::npos ||
-             (source == "finding" && name == "exchange.hpp") || (source == "store" && system) ||
-             (rewords && name == "dyadic.hpp") || (source == "sqlite" && name == "sqlite3.h") ||
+             ((source == "finding" || source == "notation") && name == "exchange.hpp") ||
+             (source == "store" && system) || (rewords && name == "dyadic.hpp") ||
+             (source == "sqlite" && name == "sqlite3.h") ||
              (file.filename() == "ranks_mpi.cpp" && (name == "mpi.h" || name.starts_with("boost/"))) ||
              (file.filename() == "random.cpp" && name == "Random123/philox.h")));
       if (name == "sqlite.hpp") CHECK((keeps && file.extension() == ".cpp"));
