@@ -31,7 +31,7 @@ struct Options {
   std::vector<std::string> targets;
   std::optional<std::string> seconds, count, store, ulps, timeout;
   std::string engine = "reduction", seed = std::to_string(kDefaultSeed), jobs = "1", shard = "0/1",
-              keep = "3", mutate = "32", judge = "oracle";
+              keep = "3", mutate = "32", reword = "1", judge = "oracle";
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
@@ -79,6 +79,7 @@ fuzz::Plan plan_of(const Options& options) {
   set_shard(options.shard, plan);
   plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
   plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
+  plan.reword = whole_number(options.reword, "--reword", 0, 1'000'000'000);
   plan.truth = truth_of(options);
   plan.counts.times = options.times;
   plan.counts.undecided =
@@ -112,8 +113,9 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
   manifest.options =
-      fmt::format("ulps {}, mutants of 1 in {}, {} kept{}{}{}", plan.counts.ulps, plan.mutate, plan.keep,
-                  plan.counts.times ? ", times" : "", plan.counts.undecided ? "" : ", without undecided",
+      fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.counts.ulps,
+                  plan.mutate, plan.reword, plan.keep, plan.counts.times ? ", times" : "",
+                  plan.counts.undecided ? "" : ", without undecided",
                   plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
   manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
   return manifest;
@@ -230,6 +232,11 @@ void add_options(CLI::App* command, Options& options) {
   command
       ->add_option("--mutate", options.mutate,
                    "climb to smaller margins from one in so many cases; 0: from none")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--reword", options.reword,
+                   "ask one in so many cases, and its mutants, in other words, too; 0: none")
       ->capture_default_str()
       ->type_name("N");
   command

@@ -34,11 +34,12 @@ std::string number(double value) {
 }
 
 std::string target_table(const FuzzReport& report) {
-  Table table({"target", "cases", "mutants", "wrong", "times", "undecided", "slow", "error", "unsupported",
-               "smallest margin"});
+  Table table({"target", "cases", "mutants", "reworded", "wrong", "times", "undecided", "slow", "error",
+               "unsupported", "smallest margin"});
   Account all;
   const auto add = [&](const std::string& name, const Account& account) {
-    std::vector<std::string> row{name, std::to_string(account.cases), std::to_string(account.mutants)};
+    std::vector<std::string> row{name, std::to_string(account.cases), std::to_string(account.mutants),
+                                 std::to_string(account.reworded)};
     for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(account, kind)));
     row.push_back(std::isfinite(account.margin) ? fmt::format("{:.2g}", account.margin) : "-");
     table.add(std::move(row));
@@ -72,8 +73,9 @@ std::string bounds(const FuzzReport& report) {
   if (n == 0) return "no case was answered\n";
   if (report.total(Kind::wrong) > 0) return {};
   return fmt::format(
-      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); mutants not counted\n", n,
-      3.0 / static_cast<double>(n), n);
+      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); mutants and other words not "
+      "counted\n",
+      n, 3.0 / static_cast<double>(n), n);
 }
 
 }  // namespace
@@ -105,8 +107,9 @@ std::string FuzzReport::json() const {
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const Account& a = accounts[t];
     const std::uint64_t n = answered(a);
-    out += fmt::format("{}{{\"target\":{},\"next\":{},\"cases\":{},\"mutants\":{},\"fine\":{}", t ? "," : "",
-                       json_quoted(targets[t]), a.next, a.cases, a.mutants, number_of(a, Kind::fine));
+    out += fmt::format(
+        "{}{{\"target\":{},\"next\":{},\"cases\":{},\"mutants\":{},\"reworded\":{},\"fine\":{}", t ? "," : "",
+        json_quoted(targets[t]), a.next, a.cases, a.mutants, a.reworded, number_of(a, Kind::fine));
     for (const Kind kind : kCounted) {
       std::string key(name_of(kind));
       std::replace(key.begin(), key.end(), ' ', '_');
@@ -160,10 +163,12 @@ std::string json_of(const fuzz::Stored& stored) {
                        text.query, text.given, text.exact);
   };
   return fmt::format(
-      "{{\"id\":{},\"kind\":{},\"cause\":{},\"departs\":{},\"margin\":{},\"bits\":{},\"tries\":{},"
+      "{{\"id\":{},\"words\":{},\"kind\":{},\"cause\":{},\"departs\":{},\"margin\":{},\"bits\":{},\"tries\":{"
+      "},"
       "\"case\":{},\"shrunk\":{}}}",
-      json_quoted(stored.label()), json_quoted(f.kind), json_quoted(f.cause), number(f.departs),
-      f.margin ? number(*f.margin) : "null", f.bits, f.tries, lines(f.text), lines(f.shrunk));
+      json_quoted(stored.label()), f.words.empty() ? "null" : json_quoted(f.words), json_quoted(f.kind),
+      json_quoted(f.cause), number(f.departs), f.margin ? number(*f.margin) : "null", f.bits, f.tries,
+      lines(f.text), lines(f.shrunk));
 }
 
 }  // namespace lorentz::cli

@@ -75,6 +75,7 @@ int show(const Options& options, const std::string& id) {
     }
     const fuzz::Finding& f = one.finding;
     print(fmt::format("{}: {}\ncause: {}\n", id, f.kind, f.cause));
+    if (!f.words.empty()) print(fmt::format("in other words: {}\n", f.words));
     if (f.departs > 0) print(fmt::format("departs by {:.3g} ulps at least\n", f.departs));
     if (f.margin) print(fmt::format("margin of the exact answer: {:.3g} ulps\n", *f.margin));
     print(

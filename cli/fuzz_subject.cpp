@@ -1,5 +1,6 @@
 // Engines as the subjects of campaigns.
 #include <cmath>
+#include <limits>
 
 #include "answerer.hpp"
 #include "engine.hpp"
@@ -44,6 +45,10 @@ class AnswererSubject final : public fuzz::Subject {
 class WalkSubject final : public fuzz::Subject {
  public:
   void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
+  Limits limits() const override { return Limits::exact; }
+  void ask_until(const Query& query, double max_time) override {
+    replies_.push_back({limited(walk_->first_hit(query), max_time), {}});
+  }
   std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
 
  private:
@@ -81,8 +86,9 @@ class ClassicalSubject final : public fuzz::Subject {
 template <class E>
 class TellingSubject : public fuzz::Subject {
  public:
-  void ask(const Query& query) final {
-    replies_.push_back(why_not_ ? Reply{Answer::unsupported_because(*why_not_)} : reply_to(query));
+  void ask(const Query& query) final { ask_until(query, std::numeric_limits<double>::infinity()); }
+  void ask_until(const Query& query, double max_time) final {
+    replies_.push_back(why_not_ ? Reply{Answer::unsupported_because(*why_not_)} : reply_to(query, max_time));
   }
   std::vector<Reply> replies() final { return std::exchange(replies_, {}); }
 
@@ -90,7 +96,7 @@ class TellingSubject : public fuzz::Subject {
   const E& engine() const { return *engine_; }
 
  private:
-  virtual Reply reply_to(const Query& query) const = 0;
+  virtual Reply reply_to(const Query& query, double max_time) const = 0;
 
   void change_scene(const Scene& scene) final {
     if constexpr (requires { E::beyond(scene); }) why_not_ = E::beyond(scene);
@@ -104,20 +110,25 @@ class TellingSubject : public fuzz::Subject {
 
 // Counts its passes: how much work an answer was.
 class PublishedSubject final : public TellingSubject<Published> {
-  Reply reply_to(const Query& query) const override {
+  Reply reply_to(const Query& query, double max_time) const override {
     Proposals proposals;
-    Answer answer = engine().first_hit_counted(query, std::numeric_limits<double>::infinity(), proposals);
+    Answer answer = engine().first_hit_counted(query, max_time, proposals);
     return {std::move(answer), static_cast<double>(proposals.passes)};
   }
 };
 
 // Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
 class ReductionSubject final : public TellingSubject<Reduction> {
-  Reply reply_to(const Query& query) const override {
-    const Flight flight = engine().fly(query);
-    const Answer answer = answer_of(flight),
-                 prepared = answer_of(
-                     engine().fly(engine().direction(query.v), query.x, query.from ? &*query.from : nullptr));
+ public:
+  Limits limits() const override { return Limits::rough; }
+
+ private:
+  Reply reply_to(const Query& query, double max_time) const override {
+    const Flight flight = engine().fly(query, max_time);
+    const Answer answer = limited(answer_of(flight), max_time);
+    const ObstacleId* from = query.from ? &*query.from : nullptr;
+    const Answer prepared =
+        limited(answer_of(engine().fly(engine().direction(query.v), query.x, from, max_time)), max_time);
     if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
         prepared.time != answer.time)
       return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
@@ -126,9 +137,15 @@ class ReductionSubject final : public TellingSubject<Reduction> {
 };
 
 class CertifiedSubject final : public TellingSubject<oracle::Certified> {
-  Reply reply_to(const Query& query) const override {
+ public:
+  Limits limits() const override { return Limits::exact; }
+
+ private:
+  Reply reply_to(const Query& query, double max_time) const override {
     StageTally tally;
-    Answer answer = engine().first_hit(query, {}, &tally);
+    oracle::Request request;
+    if (std::isfinite(max_time)) request.max_time = max_time;
+    Answer answer = engine().first_hit(query, request, &tally);
     const Stage stage = tally.binary64        ? Stage::binary64
                         : tally.double_double ? Stage::double_double
                                               : Stage::undecided;

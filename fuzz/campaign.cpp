@@ -32,6 +32,7 @@ void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) 
 void Account::add(const Account& other) {
   cases += other.cases;
   mutants += other.mutants;
+  reworded += other.reworded;
   for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] += other.kinds[k];
   for (std::size_t s = 0; s < stages.size(); ++s) stages[s] += other.stages[s];
   for (const auto& [sort, number] : other.sorts) sorts[sort] += number;

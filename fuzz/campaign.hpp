@@ -27,6 +27,8 @@ struct Plan {
   Counts counts;
   std::uint64_t keep = 3;     ///< findings kept and shrunk of each sort, of each target; all are counted
   std::uint64_t mutate = 32;  ///< one in so many cases is climbed from; 0: none
+  std::uint64_t reword =
+      1;  ///< one in so many cases, with its mutants, is asked in other words, too; 0: none
   Truth truth = Truth::oracle;
 };
 
@@ -34,7 +36,8 @@ struct Plan {
 struct Account {
   std::uint64_t next = 0;  ///< the first index that is not done
   std::uint64_t cases = 0, mutants = 0;
-  std::array<std::uint64_t, kKinds> kinds{};                ///< of cases and mutants, by Kind
+  std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
+  std::array<std::uint64_t, kKinds> kinds{};                ///< of all of these, by Kind
   std::array<std::uint64_t, 3> stages{};                    ///< of the same, by Stage, where it is told
   std::map<std::string, std::uint64_t> sorts;               ///< findings met, by sort, kept or not
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,

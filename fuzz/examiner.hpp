@@ -9,6 +9,7 @@
 
 #include "problem.hpp"
 #include "subject.hpp"
+#include "time_limit.hpp"
 #include "verdict.hpp"
 
 namespace lorentz::fuzz {
@@ -49,7 +50,9 @@ enum class Truth {
 
 struct Question {
   Query query;
-  Answer exact;
+  Answer exact;             ///< without the limit
+  bool is_carried = false;  ///< the answer is of the question in its own words: asked anew where in doubt
+  LimitAt limit = LimitAt::none;
 };
 
 struct Examined {
@@ -71,14 +74,19 @@ class Examiner {
   /// The true answer to a query without flaws.
   Answer exact(const Query& query) const;
 
+  /// Which limits the subject can be asked with.
+  Subject::Limits limits() const;
+
   /// Asks the subject. Its replies are for the caller to wait for, and to hand to judge().
   void ask(const Question& question);
   Examined judge(const Question& question, Reply& reply);
 
   /// One query, which must have no flaw, while no replies are due.
-  Examined examine(const Query& query);
+  Examined examine(const Query& query, LimitAt limit = LimitAt::none);
 
  private:
+  Examined judge_unlimited(const Question& question, Reply& reply);
+  Examined judge_limited(const Question& question, Reply& reply);
   bool is_slow(double work);
 
   struct Impl;

@@ -18,8 +18,9 @@ std::string_view name_of(Outcome outcome) {
       return "never";
     case Outcome::inside:
       return "inside";
-    case Outcome::undecided:
     case Outcome::later:
+      return "later";
+    case Outcome::undecided:
       return "undecided";
     case Outcome::error:
       break;

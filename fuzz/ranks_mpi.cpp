@@ -50,7 +50,7 @@ void serialize(Archive& archive, Stint& s, unsigned) {
 }
 template <class Archive>
 void serialize(Archive& archive, Account& a, unsigned) {
-  archive& a.next& a.cases& a.mutants& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
+  archive& a.next& a.cases& a.mutants& a.reworded& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
 }
 template <class Archive>
 void serialize(Archive& archive, CaseText& t, unsigned) {
@@ -58,7 +58,7 @@ void serialize(Archive& archive, CaseText& t, unsigned) {
 }
 template <class Archive>
 void serialize(Archive& archive, Finding& f, unsigned) {
-  archive& f.target& f.index& f.step& f.kind& f.sort& f.cause& f.text& f.shrunk& f.departs;
+  archive& f.target& f.index& f.step& f.words& f.kind& f.sort& f.cause& f.text& f.shrunk& f.departs;
   transfer(archive, f.margin);
   archive& f.bits& f.complexity& f.tries;
 }

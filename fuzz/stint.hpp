@@ -46,8 +46,11 @@ class StintWorker {
   struct Room;
   struct Desk;
   void pose(const Stint& stint, Desk& desk);
+  void pose_in_other_words(Random& random, Desk& desk, std::size_t first);
+  static std::optional<Case> in_other_digits(Random& random, const Case& one);
+  void ask(Desk& desk);
   void take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result);
-  Finding finding_of(const Case& one, const Examined& examined);
+  Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
   void shrink_into(Finding& finding, const Case& one, const Examined& examined);
 
   const Plan& plan_;
@@ -57,7 +60,8 @@ class StintWorker {
   bool subject_failed_ = false;
 };
 
-/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a mutant.
-std::string label_of(std::string_view target, std::uint64_t index, int step);
+/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a mutant; with an `r` behind
+/// it if it was found in other words.
+std::string label_of(const Finding& finding);
 
 }  // namespace lorentz::fuzz

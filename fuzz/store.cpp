@@ -17,7 +17,7 @@ namespace lorentz::fuzz {
 namespace {
 
 constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;                // 1 had no questions in other words
 constexpr const char* kMemory = ":memory:";
 
 constexpr const char* kSchema = R"sql(
@@ -27,7 +27,7 @@ constexpr const char* kSchema = R"sql(
     UNIQUE (version, engine, targets, seed, options, keep, shard));
   CREATE TABLE account (
     campaign INTEGER NOT NULL, target TEXT NOT NULL, next INTEGER NOT NULL, cases INTEGER NOT NULL,
-    mutants INTEGER NOT NULL, fine INTEGER NOT NULL, unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL,
+    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, fine INTEGER NOT NULL, unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL,
     wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
     binary64 INTEGER NOT NULL, double_double INTEGER NOT NULL, exact INTEGER NOT NULL,
     margin REAL, margin_index INTEGER NOT NULL,
@@ -37,16 +37,16 @@ constexpr const char* kSchema = R"sql(
     PRIMARY KEY (campaign, target, sort)) WITHOUT ROWID;
   CREATE TABLE finding (
     campaign INTEGER NOT NULL, target TEXT NOT NULL, place INTEGER NOT NULL, step INTEGER NOT NULL,
-    kind TEXT NOT NULL, sort TEXT NOT NULL, cause TEXT NOT NULL,
+    words TEXT NOT NULL, kind TEXT NOT NULL, sort TEXT NOT NULL, cause TEXT NOT NULL,
     scene TEXT NOT NULL, query TEXT NOT NULL, given TEXT NOT NULL, exact TEXT NOT NULL,
     shrunk_scene TEXT NOT NULL, shrunk_query TEXT NOT NULL, shrunk_given TEXT NOT NULL,
     shrunk_exact TEXT NOT NULL, departs REAL NOT NULL, margin REAL, bits INTEGER NOT NULL,
     complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
-    PRIMARY KEY (campaign, target, place, step)) WITHOUT ROWID;
+    PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
 )sql";
 
 constexpr const char* kFindingColumns =
-    "campaign, target, place, step, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
+    "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
     "shrunk_query, shrunk_given, shrunk_exact, departs, margin, bits, complexity, tries";
 
 // Held by whoever writes, beside the store; the system lets go of it however the process ends. (A lock on the
@@ -85,7 +85,7 @@ std::string existing(const std::string& path, Store::Access access) {
 }  // namespace
 
 std::string Stored::label() const {
-  return std::to_string(campaign) + '/' + label_of(finding.target, finding.index, finding.step);
+  return std::to_string(campaign) + '/' + label_of(finding);
 }
 
 struct Store::Impl {
@@ -118,8 +118,9 @@ struct Store::Impl {
     if (pragma("PRAGMA application_id") != kApplication)
       throw FileError(connection.path() + ": is a database, but no store of lorentz fuzz");
     if (pragma("PRAGMA user_version") != kFormat)
-      throw FileError(connection.path() + ": is a store of another format; this program has format " +
-                      std::to_string(kFormat));
+      throw FileError(connection.path() + ": is a store of another format (" +
+                      std::to_string(pragma("PRAGMA user_version")) + "); this program has format " +
+                      std::to_string(kFormat) + ", and another version made it");
   }
 
   void begin() {
@@ -182,13 +183,14 @@ Account Store::account(std::int64_t campaign, std::string_view target) const {
   Account account;
   Statement row(
       impl_->connection,
-      "SELECT next, cases, mutants, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
+      "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
       "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
   if (!row.step()) return account;
   account.next = row.count();
   account.cases = row.count();
   account.mutants = row.count();
+  account.reworded = row.count();
   for (std::uint64_t& number : account.kinds) number = row.count();
   for (std::uint64_t& number : account.stages) number = row.count();
   account.margin = row.real_or_null().value_or(account.margin);
@@ -204,7 +206,7 @@ Account Store::account(std::int64_t campaign, std::string_view target) const {
 
 std::vector<Stored> Store::findings() const {
   Statement row(impl_->connection, std::string("SELECT ") + kFindingColumns +
-                                       " FROM finding ORDER BY campaign, target, place, step");
+                                       " FROM finding ORDER BY campaign, target, place, step, words");
   std::vector<Stored> all;
   while (row.step()) {
     Stored one{row.integer(), {}};
@@ -213,7 +215,7 @@ std::vector<Stored> Store::findings() const {
     f.index = row.count();
     f.step = static_cast<int>(row.integer());
     for (std::string* text :
-         {&f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
+         {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
           &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
       *text = row.text();
     f.departs = row.real();
@@ -228,9 +230,15 @@ std::vector<Stored> Store::findings() const {
 
 void Store::put(std::int64_t campaign, std::string_view target, const Account& account) {
   impl_->begin();
-  Statement row(impl_->connection,
-                "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  row.bind(campaign).bind(target).bind(account.next).bind(account.cases).bind(account.mutants);
+  Statement row(
+      impl_->connection,
+      "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  row.bind(campaign)
+      .bind(target)
+      .bind(account.next)
+      .bind(account.cases)
+      .bind(account.mutants)
+      .bind(account.reworded);
   for (const std::uint64_t number : account.kinds) row.bind(number);
   for (const std::uint64_t number : account.stages) row.bind(number);
   row.bind(std::isfinite(account.margin) ? std::optional(account.margin) : std::nullopt)
@@ -245,10 +253,10 @@ void Store::put(std::int64_t campaign, const Finding& f) {
   impl_->begin();
   Statement row(impl_->connection,
                 std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
-                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
   for (const std::string* text :
-       {&f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
+       {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
         &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
     row.bind(*text);
   row.bind(f.departs)

@@ -74,7 +74,7 @@ std::vector<Finding> kept_of(const std::vector<Shard>& shards, std::size_t c) {
     for (const Stored& one : shard.findings)
       if (one.campaign == shard.campaigns[c].id) all.push_back(one.finding);
   std::sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return std::tie(a.target, a.index, a.step) < std::tie(b.target, b.index, b.step);
+    return std::tie(a.target, a.index, a.step, a.words) < std::tie(b.target, b.index, b.step, b.words);
   });
   std::map<std::pair<std::string, std::string>, std::uint64_t> number;
   for (Finding& one : all)

@@ -29,6 +29,13 @@ class Subject {
   /// A query without flaws.
   virtual void ask(const Query& query) = 0;
 
+  /// Which time limits it can be asked with: none; those that are not too close to the time of a hit; any.
+  enum class Limits { none, rough, exact };
+  virtual Limits limits() const { return Limits::none; }
+
+  /// The same, to be answered `later` if nothing is entered before max_time.
+  virtual void ask_until(const Query& query, double /*max_time*/) { ask(query); }
+
   /// How many cases it likes to be asked at least before the replies are waited for.
   virtual std::uint64_t batch() const { return 1; }
 

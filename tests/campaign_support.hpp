@@ -32,7 +32,8 @@ inline fuzz::MakeSubject skewed_subjects() {
 
 inline std::string text_of(const fuzz::Account& a) {
   std::ostringstream out;
-  out << a.next << ' ' << a.cases << ' ' << a.mutants << ' ' << a.margin << ' ' << a.margin_index;
+  out << a.next << ' ' << a.cases << ' ' << a.mutants << ' ' << a.reworded << ' ' << a.margin << ' '
+      << a.margin_index;
   for (const std::uint64_t n : a.kinds) out << ' ' << n;
   for (const std::uint64_t n : a.stages) out << ' ' << n;
   for (const auto& [sort, number] : a.sorts)
@@ -44,8 +45,8 @@ inline std::string text_of(const fuzz::Stored& stored) {
   const fuzz::Finding& f = stored.finding;
   std::ostringstream out;
   out << stored.label() << '\n'
-      << f.kind << '|' << f.sort << '|' << f.cause << '|' << f.departs << '|' << f.margin.value_or(-1) << '|'
-      << f.bits << '|' << f.complexity << '|' << f.tries << '\n';
+      << f.words << '|' << f.kind << '|' << f.sort << '|' << f.cause << '|' << f.departs << '|'
+      << f.margin.value_or(-1) << '|' << f.bits << '|' << f.complexity << '|' << f.tries << '\n';
   for (const fuzz::CaseText* text : {&f.text, &f.shrunk})
     out << text->scene << '\n' << text->query << '\n' << text->given << '\n' << text->exact << '\n';
   return out.str();
