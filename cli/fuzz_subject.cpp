@@ -111,17 +111,38 @@ class PublishedSubject final : public TellingSubject<Published> {
   }
 };
 
-// Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
+// Flies both ways: at once, and along a direction prepared for many starts. The two must say the same; also
+// with a time limit of half and of twice the time of a hit. (Of what comes after a limit any or nothing is
+// found.)
 class ReductionSubject final : public TellingSubject<Reduction> {
+  static bool same(const Flight& a, const Flight& b) {
+    return a.outcome == b.outcome && a.lattice == b.lattice && a.atom == b.atom && a.cell == b.cell &&
+           a.time == b.time;
+  }
+
   Reply reply_to(const Query& query) const override {
+    const Reduction::Direction direction = engine().direction(query.v);
     const Flight flight = engine().fly(query);
-    const Answer answer = answer_of(flight),
-                 prepared = answer_of(
-                     engine().fly(engine().direction(query.v), query.x, query.from ? &*query.from : nullptr));
-    if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
-        prepared.time != answer.time)
-      return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
-    return {answer, {}, flight.stage};
+    if (const char* why = contradiction(query, direction, flight))
+      return {Answer::error(why), {}, flight.stage};
+    return {answer_of(flight), {}, flight.stage};
+  }
+
+  const char* contradiction(const Query& query, const Reduction::Direction& direction,
+                            const Flight& flight) const {
+    const ObstacleId* from = query.from ? &*query.from : nullptr;
+    if (!same(engine().fly(direction, query.x, from), flight))
+      return "a prepared direction gives another answer";
+    if (flight.outcome != Outcome::hit || !std::isnormal(flight.time)) return nullptr;
+    for (const double limit : {flight.time / 2, flight.time * 2}) {
+      const Flight cut = engine().fly(query, limit);
+      if (!same(engine().fly(direction, query.x, from, limit), cut))
+        return "a prepared direction gives another answer up to a time limit";
+      if (cut.outcome == Outcome::undecided) continue;
+      const bool nothing = cut.outcome == Outcome::never || (cut.outcome == Outcome::hit && cut.time > limit);
+      if (limit > flight.time ? !same(cut, flight) : !nothing) return "a time limit gives another answer";
+    }
+    return nullptr;
   }
 };
 
