@@ -28,5 +28,7 @@ Family leaving();
 Family scale();
 Family mixture();
 Family rounding();
+Family dense_layers();
+Family slender();
 
 }  // namespace lorentz::fuzz

@@ -22,6 +22,8 @@ const std::vector<Target>& targets() {
                                        {"leaving", {leaving()}},
                                        {"mixture", {mixture()}},
                                        {"rounding", {rounding()}},
+                                       {"dense-layers", {dense_layers()}},
+                                       {"slender", {slender()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},

@@ -99,6 +99,12 @@ std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<
   return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.flight.v2 * row.gg, row.A};
 }
 
+// An entry as this view times it: another atom's may be in other coordinates, with another v^2.
+RealEntry as_timed_in(const Flight<3>& flight, const Entry<3>& entry) {
+  if (entry.v2 == flight.v2) return {entry.s, entry.d, 1};
+  return {entry.s * flight.v2, entry.d * flight.v2 * flight.v2, entry.v2};
+}
+
 int compare(const RealEntry& a, const RealEntry& b) {
   return compare_entries(a.s, a.d, a.q, b.s, b.d, b.q);
 }
@@ -134,8 +140,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
       row.add_multiple(k, section.next.point);
       const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);
       if (entry && search_.earliest.found()) {
-        const Entry<3>& best = search_.earliest.entry();
-        const bool after_best = compare(*entry, RealEntry{best.s, best.d, 1}) > 0;
+        const bool after_best = compare(*entry, as_timed_in(flight, search_.earliest.entry())) > 0;
         if (after_best && previous && compare(*entry, *previous) >= 0) break;
       }
       previous = entry;

@@ -77,6 +77,32 @@ class WorkingSubject final : public fuzz::Subject {
   std::vector<fuzz::Reply> replies_;
 };
 
+// Says what it is told to.
+class ToldSubject final : public fuzz::Subject {
+ public:
+  using Says = std::function<Answer(const Query&)>;
+  explicit ToldSubject(Says says) : says_(std::move(says)) {}
+  void ask(const Query& query) override { replies_.push_back({says_(query)}); }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene&) override {}
+  Says says_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+// What an answer is taken for with a tolerance of so many ulps.
+Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
+  ToldSubject subject([&](const Query&) { return answer; });
+  return fuzz::Examiner(subject, scene, ulps).examine(query).kind;
+}
+
+std::string outcome_in(const std::string& answer) {
+  const std::string key = "\"outcome\":\"";
+  const std::size_t begin = answer.find(key) + key.size();
+  return answer.substr(begin, answer.find('"', begin) - begin);
+}
+
 }  // namespace
 
 TEST_CASE("A campaign is the same for any number of threads") {
@@ -208,6 +234,67 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
   CHECK(found[{0, "error"}] > 0);
 }
 
+TEST_CASE("With no ulp forgiven a tie decided the other way is wrong, and so is a tangent that is hit") {
+  Scene two = unit_scene(2, 0.625);  // above and below the line, entered together
+  two.lattices[0].vectors = {Vec{4, 0}, Vec{0, 1}};
+  Scene same_place = unit_scene(2, 0.25);
+  same_place.lattices[0].atoms.push_back(same_place.lattices[0].atoms[0]);
+  const ObstacleId below{0, 0, {Integer(1)}}, above{0, 0, {Integer(1), Integer(1)}}, second{0, 1, {}};
+  struct {
+    Scene scene;
+    Query query;
+    Answer right, wrong;
+  } const cases[] = {
+      {two, {{1, 0.5}, {1, 0}, {}}, Answer::hit(below, 2.625), Answer::hit(above, 2.625)},
+      {same_place, {{-0.5, 0}, {1, 0}, {}}, Answer::hit({}, 0.25), Answer::hit(second, 0.25)},
+      {unit_scene(2, 0.25), {{0.5, 0.25}, {1, 0}, {}}, Answer::never(), Answer::hit(below, 0.5)},
+      {unit_scene(2, 0.25), {{0.25, 0}, {1, 0.5}, {}}, {}, Answer::inside({})},  // on the surface
+  };
+  for (const auto& one : cases) {
+    INFO(stream(one.scene, one.query) << line(one.wrong, 2));
+    Answer right = oracle::Oracle(one.scene).first_hit(one.query);
+    if (one.right.outcome != Outcome::undecided) REQUIRE(same_obstacle(right, one.right));
+    Answer wrong = one.wrong;
+    if (right.time && wrong.time) wrong.time = right.time;
+    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::fine);
+    CHECK(kind_of(one.scene, one.query, wrong, 0) == Kind::wrong);
+    CHECK(kind_of(one.scene, one.query, wrong, 4) == Kind::fine);
+    if (!right.time) continue;
+    right.time = std::nextafter(*right.time, 10);
+    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::wrong_time);
+    CHECK(kind_of(one.scene, one.query, right, 4) == Kind::fine);
+  }
+}
+
+TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is true") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"generic", "boundary", "never"});
+  plan.mutate = 0;
+  plan.keep = 4;
+  // Wrong in two ways, and about hits, starts inside, and flights without end.
+  const auto subjects = [] {
+    return std::make_unique<ToldSubject>([](const Query& query) {
+      return query.v[0] > 0 ? Answer::never() : Answer::inside(fuzz::obstacle(7, 7));
+    });
+  };
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 60, 2, subjects);
+  std::map<std::string, int> met;
+  for (const fuzz::Stored& one : store.findings()) {
+    const auto& [text, shrunk] = std::tie(one.finding.text, one.finding.shrunk);
+    INFO(text.scene << text.query << '\n' << shrunk.scene << shrunk.query);
+    CHECK(outcome_in(shrunk.given) == outcome_in(text.given));
+    CHECK(outcome_in(shrunk.exact) == outcome_in(text.exact));
+    CHECK(one.finding.complexity < 6000);
+    ++met[outcome_in(text.given) + " for " + outcome_in(text.exact)];
+  }
+  for (const char* sort :
+       {"never for hit", "inside for hit", "never for inside", "inside for inside", "inside for never"}) {
+    INFO(sort);
+    CHECK(met[sort] > 0);
+  }
+}
+
 TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all") {
   INFO("seed " << kSeed);
   for (const fuzz::Target& target : fuzz::targets()) {
@@ -224,7 +311,8 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
   }
   CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
   CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
-  for (const fuzz::Family& family : {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding()}) {
+  for (const fuzz::Family& family : {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(),
+                                     fuzz::dense_layers(), fuzz::slender()}) {
     std::map<std::string, int> met;
     for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();

@@ -359,6 +359,32 @@ TEST_CASE("never: any basis with b_1 along the flight proves the same, and a hit
   CHECK(hits > 1000);
 }
 
+TEST_CASE("never: of several atoms and lattices nobody's rows may be missing") {
+  for (const int dimension : {2, 3}) {
+    Scene scene = unit_scene(dimension, 0.125);
+    for (const double x : {0.25, 0.5}) scene.lattices[0].atoms.push_back(Atom{{x, 0}, 0.125, {}});
+    scene.lattices.push_back(scene.lattices[0]);
+    const Query query{{0, 0.5, 0.5}, {1, 0}, {}};
+    const Case whole = proved(scene, dimension == 2 ? Query{{0, 0.5}, {1, 0}, {}} : query);
+    REQUIRE(whole.answer.outcome == Outcome::never);
+    require_accepted(whole);
+    REQUIRE(whole.proof.rows.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      Case c = whole;
+      c.proof.rows.erase(c.proof.rows.begin() + static_cast<long>(i));
+      const std::string name = "lattice " + std::to_string(i / 3) + ", atom " + std::to_string(i % 3);
+      require_refused(c, name + ": no rows");
+      // Also if it is this atom that is hit, and with another's rows twice in place of its own.
+      c.scene.lattices[i / 3].atoms[i % 3].position[1] = 0.5;
+      if (dimension == 3) c.scene.lattices[i / 3].atoms[i % 3].position[2] = 0.5;
+      REQUIRE(oracle::Oracle(c.scene).first_hit(c.query).outcome != Outcome::never);
+      require_refused(c, name + ": no rows");
+      c.proof.rows.push_back(c.proof.rows[0]);
+      require_refused(c, "the atom's second");
+    }
+  }
+}
+
 // ---- inside, from, ties, tangents
 
 TEST_CASE("inside: only the smallest obstacle around x, but `from`") {

@@ -212,6 +212,24 @@ class Refuses(unittest.TestCase):
                      lambda case: case["scene"]["lattices"].append({"vectors": [[1, 0], [0, 1]], "atoms": [{"position": [0, 0], "radius": 0.1}]}))
         self.claim("exact", "Error", {"outcome": "never"})
 
+    def test_never_of_several_atoms(self):
+        """Nobody's rows may be missing, of two lattices with three atoms each, wherever the atom is."""
+        def several(case):
+            lattice, rows = case["scene"]["lattices"][0], case["certificate"]["rows"][0]
+            lattice["atoms"] = [{"position": [x, 0], "radius": 0.125} for x in (0, 0.25, 0.5)]
+            case["scene"]["lattices"] = [lattice, copy.deepcopy(lattice)]
+            case["certificate"]["rows"] = [{**rows, "lattice": l, "atom": a} for l in range(2) for a in range(3)]
+            return case
+        whole = several(copy.deepcopy(CASES["never2"]))
+        self.assertEqual(run(golden(whole))[0], 0)
+        for missing in range(6):
+            def without(case):
+                several(case)["certificate"]["rows"].pop(missing)
+            def in_the_way(case):
+                without(case)
+                case["scene"]["lattices"][missing // 3]["atoms"][missing % 3]["position"][1] = 0.5
+            self.refused("never2", "no rows", without, in_the_way)
+
     def test_what_cannot_be(self):
         self.claim("plane", "outcome", {"outcome": "later"}, {"outcome": "undecided"}, {"outcome": "error"}, {"outcome": None}, {"outcome": []})
         self.claim("never2", "outcome", {"outcome": "error"})

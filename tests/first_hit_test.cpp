@@ -133,6 +133,19 @@ TEST_CASE("A scene of two lattices: the earlier of their hits") {
   CHECK(first_hit(scene, {{0.5, 0}, {1, 0}, {}}).obstacle == at(1, 0));
 }
 
+TEST_CASE("Times of a ball and an ellipsoid are compared as times, also where a plane has many rows") {
+  // The wall's ball is found first. In the ellipsoid's own coordinates times are longer by v^2, and the
+  // search of its rows must not end for that.
+  const Scene scene{
+      3,
+      {{{Vec{0.0625, 0, 0}, Vec{0, 0.078125, 0}, Vec{0, 0, 2}},
+        {{{}, 1, {}}, {{0, 0.03125, 0x1p-11}, 0, {{1, 0.5, 0}, {0, 1, 0}, {-0.5, -0.015625, 1}}}}}}};
+  const Answer answer = oracle::Oracle(scene).first_hit({{0, -0.0234375, 1}, {0, 0, -1}, {}});
+  CHECK(answer.outcome == Outcome::hit);
+  CHECK(answer.obstacle == ObstacleId{0, 1, {Integer(8), Integer(0), Integer(0)}});
+  CHECK(*answer.time == 0.0002681065563184844);
+}
+
 TEST_CASE("A query that is none gets an error that says why") {
   const oracle::Oracle oracle(kQuarter);
   CHECK(oracle.first_hit({{0, 0.5}, {0, 0}, {}}).message.find("v is zero") != std::string::npos);

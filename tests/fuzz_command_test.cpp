@@ -229,6 +229,33 @@ TEST_CASE("A program that is wrong on purpose is found") {
   CHECK(contains(run.out, "\"cell\":[0,2"));
 }
 
+TEST_CASE("The exit status where an engine only errs, or is wrong in times only") {
+  const Folder folder;
+  const auto engine = [&](const std::string& edit) {
+    return " --engine 'cmd:sh " +
+           folder.write("engine.sh", std::string(LORENTZ_PROGRAM) +
+                                         " first-hit --engine certified | sed -u '" + edit + "'\n") +
+           "'";
+  };
+  const std::string campaign = "fuzz -t generic --count 64 --mutate 0 --json";
+  const std::string errs = engine(R"(s/"outcome".*/"outcome":"error","message":"no"}/)");
+  const Run only_errors = folder.lorentz(campaign + errs);
+  CHECK(only_errors.status == 1);
+  CHECK(contains(only_errors.out, "\"wrong\":0,"));
+  CHECK(contains(only_errors.out, "\"error\":64,"));
+  const Run compared = folder.lorentz("compare --json --count 64" + errs);
+  CHECK(compared.status == 0);  // it owns to not knowing
+  CHECK(contains(compared.out, "\"wrong\":0,"));
+  CHECK(contains(compared.out, "\"error\":64,"));
+  const std::string late = engine(R"(s/"time":.*/"time":1e9}/)");
+  const Run times = folder.lorentz(campaign + late), strict = folder.lorentz(campaign + " --times" + late);
+  CHECK(contains(times.out, "\"wrong\":0,"));
+  CHECK(contains(times.out, "\"findings\":[]"));
+  CHECK(times.status == 0);
+  CHECK(contains(strict.out, "\"cause\":\"wrong time"));
+  CHECK(strict.status == 1);
+}
+
 TEST_CASE("A program that breaks is reported, and is no reason to stop") {
   const Folder folder;
   const Run run = folder.lorentz("fuzz -t generic --count 8 --mutate 0 --json --engine 'cmd:exit 7'");
