@@ -28,5 +28,10 @@ Family leaving();
 Family scale();
 Family mixture();
 Family rounding();
+Family early();
+Family nearly_parallel();
+Family ellipsoid_edges();
+Family drift();
+Family vast_ellipsoids();
 
 }  // namespace lorentz::fuzz
