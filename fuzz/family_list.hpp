@@ -30,5 +30,10 @@ Family mixture();
 Family rounding();
 Family dense_layers();
 Family slender();
+Family early();
+Family nearly_parallel();
+Family ellipsoid_edges();
+Family drift();
+Family vast_ellipsoids();
 
 }  // namespace lorentz::fuzz
