@@ -1,10 +1,9 @@
 #include "exchange_scene.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "exchange.hpp"
+#include "exchange_number.hpp"
 
 namespace lorentz {
 
@@ -18,27 +17,13 @@ const SceneNode* SceneNode::member(const char* key) const {
 
 namespace {
 
-// [+-] digits as `format` has them, nothing else. Nearest binary64, ties to even; what is too small becomes 0
-// or subnormal, as in any JSON reader.
-double parse_digits(std::string_view text, std::chars_format format, const std::string& place,
-                    const char* what) {
-  const std::string_view whole = text;
-  const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+')) text.remove_prefix(1);
-  const bool hexadecimal = format == std::chars_format::hex;
-  if (hexadecimal) text.remove_prefix(2);
-  const bool digits = !text.empty() && std::string_view("0123456789abcdefABCDEF.").find(text.front()) !=
-                                           std::string_view::npos;
-  double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value, format);
-  if (!digits || status == std::errc::invalid_argument || end != text.data() + text.size())
-    throw InputError(place + ": " + json_quoted(whole) + what);
-  if (status == std::errc::result_out_of_range) {  // too large or too small: strtod tells which
-    value = std::strtod(((hexadecimal ? "0x" : "") + std::string(text)).c_str(), nullptr);
-    if (std::isinf(value))
-      throw InputError(place + ": " + json_quoted(whole) + " is beyond the range of binary64");
-  }
-  return negative ? -value : value;
+// The number that a text was found to be, or why it is none.
+double finite(std::optional<double> number, std::string_view text, const std::string& place,
+              const char* what) {
+  if (!number) throw InputError(place + ": " + json_quoted(text) + what);
+  if (std::isinf(*number))
+    throw InputError(place + ": " + json_quoted(text) + " is beyond the range of binary64");
+  return *number;
 }
 
 bool looks_hexadecimal(std::string_view text) {
@@ -52,12 +37,12 @@ double parse_hexadecimal(std::string_view text, const std::string& place) {
   constexpr const char* kWhat =
       " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
   if (!looks_hexadecimal(text)) throw InputError(place + ": the string " + json_quoted(text) + kWhat);
-  return parse_digits(text, std::chars_format::hex, place, kWhat);
+  return finite(nearest_hexadecimal(text), text, place, kWhat);
 }
 
 double parse_number(std::string_view text) {
   if (looks_hexadecimal(text)) return parse_hexadecimal(text, "number");
-  return parse_digits(text, std::chars_format::general, "number", " is no finite number");
+  return finite(nearest_decimal(text), text, "number", " is no finite number");
 }
 
 namespace {

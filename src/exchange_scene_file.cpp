@@ -5,6 +5,7 @@
 
 #include "exchange.hpp"
 #include "exchange_json.hpp"
+#include "exchange_toml.hpp"
 
 namespace lorentz {
 namespace {
@@ -40,7 +41,7 @@ void check_dotted_keys(const std::string& text) {
 SceneNode parse_toml(const std::string& text) {
   check_dotted_keys(text);
   try {
-    return node_from(toml::parse(text));
+    return node_from(toml::parse(with_hexadecimal_numbers(text)));
   } catch (const toml::parse_error& error) {
     throw InputError("line " + std::to_string(error.source().begin.line) +
                      ": not TOML: " + std::string(error.description()));
