@@ -5,25 +5,27 @@ sys.set_int_max_str_digits(0)  # all integers can be read
 def require(condition, flaw):  # where something is missing or of a wrong type, Python's own errors say so
     if not condition: raise ValueError(flaw)
 # ---- READ. Numbers are integers in units of 2^-1074, as every binary64 is. What is planar gets a third coordinate.
+HEXADECIMAL = "([+-]?0[xX][0-9a-fA-F]*)[.]?([0-9a-fA-F]*)(?:[pP]([+-]?[0-9]+))?"  # with a digit at least
 def number(value):
-    if type(value) is str and re.fullmatch("-?0[xX][0-9a-fA-F.]+([pP][+-]?\\d+)?", value): value = float.fromhex(value)
+    if type(value) is str and re.fullmatch(HEXADECIMAL, value): value = float.fromhex(value)
     require(type(value) in (int, float), f"no number: {value!r:.40}")
     return int(fractions.Fraction(float(value)) * 2**1074)  # an error, if it is not finite
-def integer(value):
-    require(type(value) is int or type(value) is str and re.fullmatch("-?[0-9]+", value), f"no integer: {value!r:.40}")
-    return int(value)
-def bound(e):  # a window's: a number, or "-0x1f4p-3" with an integer of any length; rounding would only move it
-    m, p = (int(e.split("p")[0], 16), int(e.split("p")[1]) + 1074) if type(e) is str else (number(e), 0)
-    return m << min(p, 9**6) if p >= 0 else m >> -p
-def loose(n): return int(n) if type(n) is float and abs(n) <= 2**53 and n == int(n) else integer(n)  # 27.0 in queries
+def integer(value):  # 27, 27.0, 2.7e1, "27"
+    whole = value % 1 == 0 and abs(value) <= 2**53 if type(value) is float else re.fullmatch("-?[0-9]+", str(value))
+    return require(whole, f"no integer: {value!r:.40}") or int(value)
+def bound(end):  # a window's: in hexadecimal, exact; rounding to our unit would only move it
+    if type(end) is not str: return number(end)
+    whole, part, power = re.fullmatch(HEXADECIMAL, end).groups()
+    require(abs(p := int(power or 0) - 4 * len(part)) <= 2**16, "an exponent beyond 65536")
+    return int(whole + part, 16) << 2**17 + p >> 2**17 - 1074
 def vector(value, size, read, rest=0):
     require(type(value) is list and len(value) == size, f"no array of {size} items: {value!r:.40}")
     return tuple(read(item) for item in value) + (rest,) * (3 - size)
 def matrix(value, size, read): return vector(value, size, lambda row: vector(row, size, read), (0, 0, read(1)))
-def obstacle(box, size, read): return read(box["lattice"]), read(box["atom"]), vector(box["cell"], size, read)
+def obstacle(box, size): return integer(box["lattice"]), integer(box["atom"]), vector(box["cell"], size, integer)
 def read_scene(scene):
-    size, atoms = scene["dimension"], {}
-    require(size in (2, 3) and scene["lattices"] and all(u["atoms"] for u in scene["lattices"]), "an empty scene")
+    size, atoms = {2 << 1074: 2, 3 << 1074: 3}[number(scene["dimension"])], {}
+    require(scene["lattices"] and all(u["atoms"] for u in scene["lattices"]), "an empty scene")
     for l, lattice in enumerate(scene["lattices"]):
         for a, atom in enumerate(lattice["atoms"]):
             r, b = number(atom.get("radius", 1)), matrix(lattice["vectors"], size, number)
@@ -41,7 +43,7 @@ def add(w, k, b): return w[0] + k * b[0], w[1] + k * b[1], w[2] + k * b[2]
 def combine(n, b): return add(add(add((0, 0, 0), n[0], b[0]), n[1], b[1]), n[2], b[2])
 def read_query(query, size, atoms, factor):  # `from`; by atom, in its coordinates: v, v^2, r^2 v^2, w_0, lattice
     x, v, balls = vector(query["x"], size, number), vector(query["v"], size, number), {}
-    leaving = obstacle(query["from"], size, loose) if "from" in query else None
+    leaving = obstacle(query["from"], size) if "from" in query else None
     require(any(v) and (not leaving or leaving[:2] in atoms), "v is zero, or `from` is no obstacle of the scene")
     unit = math.gcd(factor, *x, *v)
     for key, vectors in atoms.items():
@@ -100,11 +102,15 @@ def check_time(t, time, text):
     require(len(n) == 40 and rounds(t, int(n), 10, k, 40) if t[0]**2 > t[1] else text == "0", "time_decimal is wrong")
 def verify(record, scene):
     outcome, size = record["expect"]["outcome"], scene[0]
+    own = {"hit": "lattice atom cell time time_decimal", "inside": "lattice atom cell"}.get(str(outcome), "").split()
+    has = {*record["expect"]} & {"id", "lattice", "atom", "cell", "time"} | {*record} & {"time_decimal"}
+    require(has == {*own} and (outcome != "error" or "certificate" not in record), f"keys: {outcome!r:.20} has {own}")
     try: leaving, balls = read_query(record, *scene)
     except Exception as flaw: return require(outcome == "error", flaw)
     require(outcome in ("hit", "inside", "never"), f"the outcome is not {outcome!r:.20}")
     times, ends = {}, {key: -1 - math.isqrt(((R << 2148) - 1) // Q**2) for key, (_, Q, R, *_) in balls.items()}
-    for piece in record["certificate"]["rows" if outcome == "never" else "windows"]:
+    kind, = {"rows", "windows"} & {*record["certificate"]}  # one of them
+    for piece in record["certificate"][kind if (kind == "rows") == (outcome == "never") else ""]:
         key, basis = (integer(piece["lattice"]), integer(piece["atom"])), matrix(piece["basis"], size, integer)
         v, Q, _, _, u = balls[key]
         require(abs(det(*basis)) == 1, "a determinant is not +-1: obstacles are missing")
@@ -119,27 +125,43 @@ def verify(record, scene):
             if s * s < D: times[*key, n] = -1, 0, 1  # it contains x, and comes before all that are entered
             elif s > 0: times[*key, n] = s, D, Q
     if outcome == "never": return require(not ends and not times, f"no rows of {[*ends]}, or met is {[*times][:1]}")
-    X = obstacle(record["expect"], size, integer)
+    X = obstacle(record["expect"], size)
     require(X != leaving and X in times and (outcome == "inside") == (times[X][0] < 0), f"{X} is no {outcome}")
     if outcome == "hit": check_time(times[X], record["expect"]["time"], record["time_decimal"])
     for Y, t in times.items(): require(Y == leaving or (order(t, times[X]), Y) >= (0, X), f"{Y} comes first")
     for key, end in ends.items():  # end - r / |v| against 0, or the time of X
         (_, Q, R, *_), t = balls[key], times[X] if outcome == "hit" else (0, 0, 1)
         require(outcome == "inside" and key > X[:2] or order((end * Q, R << 2148, Q << 1074), t) >= 0, f"{key}: a gap")
-def check(name):  # ---- FILES.
+def depth(x): return type(x) in (dict, list) and 1 + max(map(depth, x.values() if type(x) is dict else x), default=0)
+def read(text):  # ---- FILES. A line's object, and its keys in order: the outermost object ends last.
+    def members(pairs): keys[:] = [key for key, _ in pairs]; return dict(pairs)
+    keys, hooks = [], {"parse_int": lambda n: -0.0 if n == "-0" else int(n), "parse_constant": integer}
+    box = json.loads(text.decode(), object_pairs_hook=members, **hooks)
+    json.dumps(box, ensure_ascii=False).encode()  # an error where half a surrogate stands alone
+    return require(depth(box) <= 64, "nested too deep") or (box, keys)
+def check(name):
     flaws, records, ids, scene, text, version, count, tags = [], 0, set(), None, b"", None, None, ()
     for i, line in enumerate(fileinput.FileInput(name, mode="rb"), 1):
-        line, identity = line.rstrip(b"\r\n"), None
+        line, identity = line.rstrip(b"\r\n").removeprefix(b"\xef\xbb\xbf" if i == 1 else b""), None
         try:
-            box = json.loads(line, parse_constant=integer)
-            if i == 1: version, count, tags = (box["golden"][key] for key in ("format", "count", "tags"))
-            elif "scene" in box: scene, text = read_scene(box["scene"]), line
+            if i > 1 and not line.strip(b" \t\r"): continue
+            box, keys = read(line)
+            require((i == 1) == ("golden" in box), "a golden set begins with its header, and has one")
+            if i == 1:
+                version, count, tags = integer((head := box["golden"])["format"]), integer(head["count"]), head["tags"]
+                named = [head[key] for key in ("name", "description", "generator", "version") if key in head]
+                require({*map(type, named + [*tags.values()])} <= {str}, "names and tags are explained in strings")
+            elif "scene" in box:
+                require(not {"id", "x", "v", "from"} & {*box}, "a scene's line with a key of a record")
+                scene, text = read_scene(box["scene"]), line
             else:
                 records, identity = records + 1, box["id"]
-                asked = json.loads(b"{%b}" % (question := line[line.index(b'],"') + 2:line.index(b',"expect"')]))
-                require({*box} & {"x", "v", "from"} <= {*asked} and all(box[k] == asked[k] for k in asked), "order")
+                question = line[line.index(b'],"') + 2:line.index(b',"expect"')]
+                asked, n = ["id", "tags", *read(b"{%b}" % question)[1]], keys.index("expect")
+                require(keys[:n] == asked and not {"x", "v", "from"} & {*keys[n:]}, "the order of the keys")
                 require(hashlib.sha256(text + b"\n" + question).hexdigest()[:16] == identity, "the id does not belong")
-                require(identity not in ids and not ids.add(identity) and {*box["tags"]} <= {*tags}, "id twice, or tags")
+                require(identity not in ids and not ids.add(identity), "the id is there twice")
+                require(type(box["tags"]) is list and box["tags"] and {*box["tags"]} <= {*tags}, "unknown tags")
                 verify(box, scene)
         except Exception as e: flaws.append((2 - bool(identity), f"{name}:{i}: {identity}: {type(e).__name__}: {e}"))
     if (version, count) != (1, records): flaws.append((1, f"{name}:1: {version, count} are not (1, {records})"))

@@ -17,6 +17,8 @@ struct MadeRecord {
 class Maker {
  public:
   explicit Maker(const Scene& scene);
+  /// For a scene that stands in a set, in this line: ids depend on how it is written.
+  Maker(const Scene& scene, std::string scene_line);
   Maker(Maker&&) noexcept;
   ~Maker();
 

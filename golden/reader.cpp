@@ -1,5 +1,7 @@
 #include "reader.hpp"
 
+#include <set>
+
 #include "exchange_json.hpp"
 #include "line_reader.hpp"
 #include "scene_check.hpp"
@@ -24,10 +26,12 @@ int read_index(json::value value, const std::string& key) {
 
 Header read_header(json::value value) {
   Header header;
+  bool has_format = false, has_count = false, has_tags = false;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
     if (key == "format") {
       if (read_count(field.value(), key) != 1) throw InputError("format: only format 1 is known here");
+      has_format = true;
     } else if (key == "name") {
       header.name = read_text(field.value(), key);
     } else if (key == "description") {
@@ -38,7 +42,10 @@ Header read_header(json::value value) {
       header.version = read_text(field.value(), key);
     } else if (key == "count") {
       header.count = static_cast<std::uint64_t>(read_count(field.value(), key));
+      has_count = true;
     } else if (key == "tags") {
+      has_tags = true;
+      header.tags.clear();
       for (auto tag : field.value().get_object()) {
         std::string name(std::string_view(tag.unescaped_key()));
         header.tags.emplace_back(std::move(name), read_text(tag.value(), "tags"));
@@ -47,25 +54,36 @@ Header read_header(json::value value) {
       skip(field.value());
     }
   }
+  if (!has_format || !has_count || !has_tags) throw InputError("the header needs format, count and tags");
   return header;
+}
+
+// A basis has as many vectors as the scene dimensions, and these as many components.
+void check_size(std::size_t count, int dimension) {
+  if (count != static_cast<std::size_t>(dimension))
+    throw InputError("basis: has " +
+                     std::string(count < static_cast<std::size_t>(dimension) ? "less" : "more") + " than " +
+                     std::to_string(dimension) + " vectors or components");
 }
 
 oracle::CertificateBasis read_basis(json::value value, int dimension) {
   oracle::CertificateBasis basis;
-  const auto size = static_cast<std::size_t>(dimension);
   std::size_t i = 0;
   for (json::value row : value.get_array()) {
+    if (i == basis.size()) check_size(i + 1, dimension);
     std::size_t k = 0;
     for (json::value component : row.get_array()) {
-      if (i >= size || k >= size)
-        throw InputError("basis: has more than " + std::to_string(size) + " vectors or components");
+      if (k == basis[i].size()) check_size(k + 1, dimension);
       basis[i][k++] = read_integer(component, "basis");
     }
+    check_size(k, dimension);
     ++i;
   }
+  check_size(i, dimension);
   return basis;
 }
 
+// A number as elsewhere, but its hexadecimal form is taken exactly.
 oracle::WindowEnd read_end(json::value value, const std::string& key) {
   if (value.type() != json::json_type::string) return read_number(value, key);
   const auto end = oracle::window_end_from(value.get_string().value());
@@ -73,47 +91,52 @@ oracle::WindowEnd read_end(json::value value, const std::string& key) {
   return *end;
 }
 
-oracle::Window read_window(json::value value, int dimension) {
+// A window, or of a row what it has of one.
+oracle::Window read_window(json::value value, int dimension, bool is_row) {
   oracle::Window window;
+  std::set<std::string> missing{"lattice", "atom", "basis"};
+  if (!is_row) missing.insert({"from", "to"});
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
+    missing.erase(key);
     if (key == "lattice")
       window.lattice = read_index(field.value(), key);
     else if (key == "atom")
       window.atom = read_index(field.value(), key);
-    else if (key == "from")
+    else if (key == "from" && !is_row)
       window.from = read_end(field.value(), key);
-    else if (key == "to")
+    else if (key == "to" && !is_row)
       window.to = read_end(field.value(), key);
     else if (key == "basis")
       window.basis = read_basis(field.value(), dimension);
     else
       skip(field.value());
   }
+  if (!missing.empty()) throw InputError("certificate: " + *missing.begin() + " is missing");
   return window;
 }
 
 oracle::Certificate read_certificate(json::value value, int dimension) {
   oracle::Certificate certificate;
+  bool has_windows = false, has_rows = false;
   for (auto field : value.get_object()) {
     const std::string key(std::string_view(field.unescaped_key()));
     if (key != "windows" && key != "rows") {
       skip(field.value());
       continue;
     }
+    (key == "windows" ? has_windows : has_rows) = true;
     // Of a key that comes twice the last counts.
-    if (key == "windows")
-      certificate.windows.clear();
-    else
-      certificate.rows.clear();
+    certificate = {};
     for (json::value one : field.value().get_array()) {
-      const oracle::Window window = read_window(one, dimension);
+      const oracle::Window window = read_window(one, dimension, key == "rows");
       if (key == "windows")
         certificate.windows.push_back(window);
       else
         certificate.rows.push_back({window.lattice, window.atom, window.basis});
     }
   }
+  if (has_windows == has_rows) throw InputError("certificate: has either windows or rows");
   return certificate;
 }
 
@@ -126,25 +149,64 @@ double read_size(json::value value, const std::string& key) {
 // The id is made from the text between, so there all of the question must be.
 constexpr const char* kOrder = "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
 
-// Where the members of a record begin in its line that its question lies between. Found by the reader and not
-// in the text, which may hold the same words elsewhere.
-struct QuestionPlace {
-  std::optional<std::size_t> after_tags, expect;
+// A record's question is the text from behind the first `],` to before the first `,"expect"`: simple to find
+// for any program. Here the keys are seen one after the other, to be sure that the text is what it should be.
+class QuestionPlace {
+ public:
+  explicit QuestionPlace(std::string_view line) : line_(line) {
+    const auto tags_end = line.find("],\""), end = line.find(",\"expect\"");
+    if (tags_end == line.npos || end == line.npos || end < tags_end + 2) return;
+    begin_ = tags_end + 2;
+    end_ = end;
+  }
 
+  /// The record's keys in order, with their places in the line.
   void see(const std::string& key, std::size_t place) {
-    if (after_tags == 0U) after_tags = place;
-    if (key == "tags") after_tags = 0;  // what comes next
-    if (key == "expect" && !expect) expect = place;
+    if (keys_ < 2) in_order_ &= key == (keys_ == 0 ? "id" : "tags");
+    if (keys_ == 2) in_order_ &= place == begin_;
+    if (key == "expect" && !ended_) {
+      in_order_ &= place == end_ + 1;
+      ended_ = true;
+    }
+    if (ended_) in_order_ &= key != "x" && key != "v" && key != "from";
+    ++keys_;
   }
 
-  // The text from after `],` to before `,"expect"`.
-  std::string in(std::string_view line) const {
-    if (!after_tags || !expect || *after_tags < 2 || *expect <= *after_tags) throw InputError(kOrder);
-    if (line.substr(*after_tags - 2, 2) != "]," || line.substr(*expect - 1, 10) != ",\"expect\":")
-      throw InputError(kOrder);
-    return std::string(line.substr(*after_tags, *expect - 1 - *after_tags));
+  std::string text() const {
+    if (!in_order_) throw InputError(kOrder);
+    return std::string(line_.substr(begin_, end_ - begin_));
   }
+
+ private:
+  std::string_view line_;
+  std::size_t begin_ = 0, end_ = 0, keys_ = 0;
+  bool ended_ = false, in_order_ = true;
 };
+
+// Brackets open at the same time. Deeper than anything here needs no reader should have to go.
+void check_nesting(std::string_view line) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') in_string = !in_string;
+    if (in_string)
+      i += line[i] == '\\' ? 1 : 0;
+    else if (line[i] == '[' || line[i] == '{')
+      check_depth(++depth);
+    else if (line[i] == ']' || line[i] == '}')
+      --depth;
+  }
+}
+
+// An expectation has what its outcome has, and no id.
+void check_members(const std::set<std::string>& keys, Outcome outcome) {
+  const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
+  const std::pair<const char*, bool> members[] = {
+      {"id", false}, {"lattice", named}, {"atom", named}, {"cell", named}, {"time", outcome == Outcome::hit}};
+  for (const auto& [key, needed] : members)
+    if (keys.contains(key) != needed)
+      throw InputError(std::string("expect: ") + key + (needed ? " is missing" : " does not belong there"));
+}
 
 }  // namespace
 
@@ -161,6 +223,7 @@ struct Reader::Impl {
 
   json::document open(const LineReader::Line& line) {
     if (line.too_long) throw InputError("the line is too long");
+    check_nesting(line.text);
     return parser.iterate(line.text.data(), line.text.size(), line.text.size() + LineReader::kPadding);
   }
 
@@ -198,10 +261,14 @@ struct Reader::Impl {
   }
 
   void read_expectation(json::object object, Answer& expect) {
+    std::set<std::string> keys;
+    for (auto field : object) keys.emplace(std::string_view(field.unescaped_key()));
+    object.reset();
     Id id;
     std::size_t components = 0;
     Answer answer;
     if (!read_answer(object, id, answer, components)) throw InputError("expect: is no answer");
+    check_members(keys, answer.outcome);
     if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
     answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
@@ -218,6 +285,7 @@ struct Reader::Impl {
       read_expectation(value.get_object(), record.expect);
     } else if (key == "time_decimal") {
       record.expect.time_decimal = read_text(value, key);
+      if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
     } else if (key == "margin") {
       record.margin = read_size(value, key);
     } else if (key == "condition") {
@@ -229,8 +297,42 @@ struct Reader::Impl {
     }
   }
 
+  // Its first keys are looked at only to refuse what would be read as something else.
+  void read_scene(const LineReader::Line& line, Scene&& read) {
+    json::document document = open(line);
+    for (auto field : document.get_object()) {
+      const std::string key(std::string_view(field.unescaped_key()));
+      for (const char* other : {"golden", "id", "x", "v", "from"})
+        if (key == other) throw InputError("a scene's line has no " + key);
+      skip(field.value());
+    }
+    if (const auto flaw = oracle::dependence_in(read)) throw InputError(*flaw);
+    scene = std::move(read);
+    scene_line = line.text;
+    ++scenes;
+  }
+
+  void read_record(const LineReader::Line& line, ReadRecord& read) {
+    bool has_tags = false, has_expect = false;
+    json::document document = open(line);
+    QuestionPlace question(line.text);
+    for (auto field : document.get_object()) {
+      const char* place = field.key().raw() - 1;
+      const std::string key(std::string_view(field.unescaped_key()));
+      if (key == "golden") throw InputError("a golden set has one header, its first line");
+      question.see(key, static_cast<std::size_t>(place - line.text.data()));
+      has_tags |= key == "tags";
+      has_expect |= key == "expect";
+      read_field(key, field.value(), read.record);
+    }
+    if (!has_tags || !has_expect || read.record.id.empty())
+      throw InputError("a golden record has an id, tags and `expect`");
+    read.record.question = question.text();
+  }
+
   // A record, or nothing if the line is a scene or blank.
   bool read(const LineReader::Line& line, ReadRecord& read) {
+    if (!line.too_long) check_nesting(line.text);
     StreamItem item;
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
     if (item.kind == StreamItem::Kind::nothing) {
@@ -243,10 +345,7 @@ struct Reader::Impl {
     // A query that is bad for another reason does not say that it has no scene besides.
     if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {
-      if (const auto flaw = oracle::dependence_in(item.scene)) throw InputError(*flaw);
-      scene = std::move(item.scene);
-      scene_line = line.text;
-      ++scenes;
+      read_scene(line, std::move(item.scene));
       return false;
     }
     read = {};
@@ -256,20 +355,7 @@ struct Reader::Impl {
       read.query = std::move(item.query);
     else
       read.flaw = item.message;
-    bool has_tags = false, has_expect = false;
-    json::document document = open(line);
-    QuestionPlace question;
-    for (auto field : document.get_object()) {
-      const char* place = field.key().raw() - 1;
-      const std::string key(std::string_view(field.unescaped_key()));
-      question.see(key, static_cast<std::size_t>(place - line.text.data()));
-      has_tags |= key == "tags";
-      has_expect |= key == "expect";
-      if ((!has_tags || has_expect) && (key == "x" || key == "v" || key == "from")) throw InputError(kOrder);
-      read_field(key, field.value(), read.record);
-    }
-    if (!has_expect || read.record.id.empty()) throw InputError("a golden record has an id and `expect`");
-    read.record.question = question.in(line.text);
+    read_record(line, read);
     return true;
   }
 };
@@ -297,6 +383,7 @@ std::size_t Reader::scene_number() const {
 
 bool Reader::next(ReadRecord& record) {
   for (LineReader::Line line; impl_->lines.next(line);) {
+    while (line.text.ends_with('\r')) line.text.remove_suffix(1);
     bool found = false;
     impl_->at(line, [&] { found = impl_->read(line, record); });
     if (found) return true;

@@ -13,19 +13,36 @@ std::string text_of(const WindowEnd& end) {
 }
 
 std::optional<WindowEnd> window_end_from(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
   const bool negative = text.starts_with('-');
-  if (negative) text.remove_prefix(1);
-  if (!text.starts_with("0x")) return std::nullopt;
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
   text.remove_prefix(2);
-  const std::size_t digits = std::min(text.find_first_not_of(kDigits), text.size());
-  if (digits == 0 || digits == text.size() || text[digits] != 'p') return std::nullopt;
-  const std::string_view exponent_text = text.substr(digits + 1);
-  long exponent = 0;
-  const auto [end, error] =
-      std::from_chars(exponent_text.data(), exponent_text.data() + exponent_text.size(), exponent);
-  if (error != std::errc() || end != exponent_text.data() + exponent_text.size()) return std::nullopt;
-  const Z mantissa(std::string(text.substr(0, digits)), 16);
+  const auto take_digits = [&] {
+    const std::string_view taken = text.substr(0, text.find_first_not_of(kDigits));
+    text.remove_prefix(taken.size());
+    return taken;
+  };
+  std::string digits(take_digits());
+  long exponent = 0, fraction = 0;
+  if (text.starts_with('.')) {
+    text.remove_prefix(1);
+    const std::string_view behind = take_digits();
+    digits += behind;
+    fraction = static_cast<long>(behind.size());
+  }
+  if (digits.empty()) return std::nullopt;
+  if (!text.empty()) {
+    if (text.front() != 'p' && text.front() != 'P') return std::nullopt;
+    text.remove_prefix(text.substr(1).starts_with('+') ? 2 : 1);
+    if (text.starts_with("+") || text.starts_with("-+")) return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  }
+  constexpr long kMost = WindowEnd::kMostExponent;
+  if (exponent < 4 * fraction - kMost || exponent > 4 * fraction + kMost) return std::nullopt;
+  exponent -= 4 * fraction;
+  const Z mantissa(digits, 16);
   return WindowEnd(to_integer(negative ? Z(-mantissa) : mantissa), exponent);
 }
 

@@ -18,6 +18,8 @@ using CertificateBasis = std::array<Cell, 3>;
 
 /// An end of a window: mantissa * 2^exponent.
 struct WindowEnd {
+  static constexpr long kMostExponent = 1 << 16;  ///< in absolute value; no checker has to go further
+
   Integer mantissa;
   long exponent = 0;
 
@@ -33,7 +35,8 @@ struct WindowEnd {
 /// "0x1f4p-3", with an integer mantissa of any length.
 std::string text_of(const WindowEnd& end);
 
-/// What such a text says, or nothing.
+/// What a text in hexadecimal says, exactly ("0x1f4p-3", "-0X1.8"); nothing if it is none, or has an exponent
+/// beyond kMostExponent once the mantissa is an integer.
 std::optional<WindowEnd> window_end_from(std::string_view text);
 
 /// The binary64 that an end is exactly, if there is one.

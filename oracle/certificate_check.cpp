@@ -252,7 +252,7 @@ std::string place_of(const Window& window, std::size_t index) {
 }
 
 Dyadic read_end(const WindowEnd& end) {
-  constexpr long kMost = 1 << 16;
+  constexpr long kMost = WindowEnd::kMostExponent;
   if (std::labs(end.exponent) > kMost) refute("an end has an exponent beyond " + std::to_string(kMost));
   return {read_integer(end.mantissa), end.exponent};
 }

@@ -142,8 +142,8 @@ class Refuses(unittest.TestCase):
         self.claim("superposition", "is no hit", {"atom": 1}, {"lattice": 0})
         self.claim("far", "is no hit", {"cell": ["100000000000000007858", 1]})
         self.claim("inside", "is no inside", {"cell": [0, 2]})
-        self.claim("plane", "is no inside", {"outcome": "inside"})
-        self.claim("inside", "is no hit", {"outcome": "hit"})
+        self.refused("plane", "is no inside", lambda c: [c["expect"].pop("time"), c.pop("time_decimal"), c["expect"].update(outcome="inside")])
+        self.refused("inside", "is no hit", lambda c: c.update(time_decimal="1") or c["expect"].update(outcome="hit", time=1))
 
     def test_later_obstacle(self):
         def later(case):
@@ -231,8 +231,8 @@ class Refuses(unittest.TestCase):
             self.refused("never2", "no rows", without, in_the_way)
 
     def test_what_cannot_be(self):
-        self.claim("plane", "outcome", {"outcome": "later"}, {"outcome": "undecided"}, {"outcome": "error"}, {"outcome": None}, {"outcome": []})
-        self.claim("never2", "outcome", {"outcome": "error"})
+        self.claim("plane", "keys", {"outcome": "later"}, {"outcome": "undecided"}, {"outcome": "error"}, {"outcome": None}, {"outcome": []})
+        self.claim("never2", "keys", {"outcome": "error"})
         self.refused("never2", "v is zero", lambda case: case["query"].update(v=[0, 0]))
         self.refused("plane", "Error", lambda case: case.pop("expect"), lambda case: case.update(expect=[]))
 
@@ -251,7 +251,7 @@ class Refuses(unittest.TestCase):
         lines = golden(error(x=[0, 12345]))
         question = lines[2][lines[2].index('"x"'):lines[2].index(',"expect"')].replace("12345", "1e999")
         identity = hashlib.sha256((lines[1] + "\n" + question).encode()).hexdigest()[:16]
-        self.assertEqual(run(lines[:2] + ['{"id":"%s","tags":[],%s,"expect":{"outcome":"error"}}' % (identity, question)])[0], 0)
+        self.assertEqual(run(lines[:2] + ['{"id":"%s","tags":["t"],%s,"expect":{"outcome":"error"}}' % (identity, question)])[0], 0)
         for case in error(), error(x=["0x1p3", "-0X.8"]), error(v=[5e-324, 0]), error(**{"from": {**at, "cell": [27.0, "-5"]}}):
             self.refused("error", "outcome", lambda _: case)
 
@@ -260,10 +260,10 @@ class Refuses(unittest.TestCase):
             return lambda case: case["certificate"]["windows"][1].update(change)
         self.refused("plane", "Error", lambda case: case.pop("certificate"), lambda case: case.update(certificate=[]), lambda case: case.update(
             certificate={"rows": []}), lambda case: case["certificate"].update(windows={}), lambda case: case["certificate"].update(windows=[[]]))
-        self.refused("plane", "Error", *map(w, ({"lattice": 1}, {"atom": "x"}, {"atom": 0.0}, {"atom": None}, {"from": None}, {"to": "1e3"}, {"to": True},
-                                                {"basis": None}, {"basis": [[1, 0]]}, {"basis": [[1, 0], [0]]}, {"basis": [[1.0, 0], [0, 1]]},
+        self.refused("plane", "Error", *map(w, ({"lattice": 1}, {"atom": "x"}, {"atom": 0.5}, {"atom": None}, {"from": None}, {"to": "1e3"}, {"to": True},
+                                                {"basis": None}, {"basis": [[1, 0]]}, {"basis": [[1, 0], [0]]}, {"basis": [[1.5, 0], [0, 1]]},
                                                 {"basis": [[1, 0], [0, "1.0"]]}, {"basis": [[True, 0], [0, 1]]}, {"basis": [1, 0]})))
-        self.claim("plane", "Error", {"cell": [26.0, 1]}, {"cell": [26]}, {"cell": [26, 1, 0]}, {"cell": "26"}, {"lattice": 0.0}, {"atom": None})
+        self.claim("plane", "Error", {"cell": [26.5, 1]}, {"cell": [26]}, {"cell": [26, 1, 0]}, {"cell": "26"}, {"lattice": 0.5}, {"atom": None})
 
     def test_too_large(self):
         self.window("plane", "too many", lambda w: w[1].update(to=10**9), lambda w: w[1].update(to="0x" + "1" * 99 + "p0"))

@@ -182,7 +182,16 @@ TEST_CASE("golden verify: good sets, tampered ones, garbage, and none") {
   refuted(replaced(text, record, replaced(record, "\"windows\":[{", "\"windows\":[],\"old\":[{")), place, "");
   refuted(replaced(text, record, record + "\n" + record), folder.file("t:"), "came before");
   refuted(replaced(text, record + "\n", ""), folder.file("t:1: "), "640 records, there are 639");
-  refuted(replaced(text, "{\"scene\":{", "{\"scene\": {"), folder.file("t:3: "), "as lorentz writes it");
+  refuted(replaced(text, "{\"scene\":{", "{\"scene\": {"), folder.file("t:3: "), "the id");
+  // A time that is false by an ulp, in a notation of 20 digits and more.
+  const std::string time = between(record, "\"expect\":{", "}");
+  const double right = std::stod(time.substr(time.find("\"time\":") + 7));
+  char digits[512];
+  std::snprintf(digits, sizeof digits, "\"time\":%.25f", std::nextafter(right, 2 * right));
+  const std::string exact = "\"time\":" + time.substr(time.find("\"time\":") + 7);
+  refuted(replaced(text, record, replaced(record, exact, digits)), place, "time");
+  std::snprintf(digits, sizeof digits, "\"time\":%.60f", right);
+  CHECK(verified(replaced(text, record, replaced(record, exact, digits))).status == 0);
   // Twenty complaints are enough.
   const Run many = verified(replaced(text, "\"tags\":{\"", "\"tags\":{\"no-"));
   CHECK(many.status == 1);

@@ -11,12 +11,15 @@
 #include <cstdio>
 #include <fstream>
 
+#include "command_line.hpp"
 #include "exchange.hpp"
 #include "exchange_toml.hpp"
 #include "support.hpp"
 
 using namespace lorentz;
 using test::Draw;
+using test::Folder;
+using test::Run;
 
 namespace {
 
@@ -373,4 +376,31 @@ TEST_CASE("Numbers of TOML: any number of digits, underscores, and what only loo
                     "line 3: \"-1e400\" is beyond the range of binary64");
   CHECK_THROWS_AS(with_hexadecimal_numbers("a = 1" + std::string(400, '0')), InputError);
   CHECK_THROWS_WITH(in_toml({"1_"}), Catch::Contains("not TOML"));
+}
+
+TEST_CASE("Numbers of 20 digits, in queries and in answers that were logged with them") {
+  const Folder folder;
+  const std::string scene =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.05}]}]}})"
+      "\n";
+  const std::string query = R"({"id":0,"x":[0.20000000000000001110,0],"v":[1,0]})"
+                            "\n";
+  const Run hit = folder.lorentz("first-hit " + folder.write("q", scene + query));
+  CHECK(hit.out == R"({"id":0,"outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75})"
+                   "\n");
+  std::string queries, answers;
+  Draw draw(75);
+  for (int i = 0; i < 200; ++i) {
+    append_query_line(queries, std::to_string(i), {{0.5, 0.5}, {draw.uniform(), draw.uniform()}, {}}, 2);
+  }
+  const std::string path = folder.write("queries", scene + queries);
+  std::istringstream lines(folder.lorentz("first-hit " + path).out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto time = line.find("\"time\":") + 7;
+    answers += line.substr(0, time) + printed("%.20f", std::stod(line.substr(time))) + "}\n";
+  }
+  const Run run =
+      folder.lorentz("compare --queries " + path + " --answers logged=" + folder.write("a", answers));
+  INFO("seed 75\n" << run.out << run.err);
+  CHECK(run.status == 0);
 }
