@@ -33,5 +33,7 @@ Family nearly_parallel();
 Family ellipsoid_edges();
 Family drift();
 Family vast_ellipsoids();
+Family nearby();
+Family unequal_radii();
 
 }  // namespace lorentz::fuzz

@@ -27,6 +27,8 @@ const std::vector<Target>& targets() {
                                        {"ellipsoid-edges", {ellipsoid_edges()}},
                                        {"drift", {drift()}},
                                        {"vast-ellipsoids", {vast_ellipsoids()}},
+                                       {"nearby", {nearby()}},
+                                       {"unequal-radii", {unequal_radii()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},
