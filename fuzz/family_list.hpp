@@ -35,5 +35,6 @@ Family drift();
 Family vast_ellipsoids();
 Family nearby();
 Family unequal_radii();
+Family dense_rows();
 
 }  // namespace lorentz::fuzz

@@ -29,6 +29,7 @@ const std::vector<Target>& targets() {
                                        {"vast-ellipsoids", {vast_ellipsoids()}},
                                        {"nearby", {nearby()}},
                                        {"unequal-radii", {unequal_radii()}},
+                                       {"dense-rows", {dense_rows()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},
