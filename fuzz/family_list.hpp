@@ -35,5 +35,8 @@ Family nearly_parallel();
 Family ellipsoid_edges();
 Family drift();
 Family vast_ellipsoids();
+Family nearby();
+Family unequal_radii();
+Family dense_rows();
 
 }  // namespace lorentz::fuzz

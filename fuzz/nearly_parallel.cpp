@@ -39,14 +39,15 @@ Case make_nearly_parallel(Source& source) {
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const Symmetry symmetry(drawn, dimension);
   const Vec b2 = dimension == 3 ? Vec{0, 0, drawn.between(1, 2)} : Vec{};
-  made.scene = lattice_scene(dimension, {symmetry(b0), symmetry(b1), symmetry(b2)}, drawn.octave(-8, -2));
+  const double r = drawn.octave(-8, -2);
+  made.scene = lattice_scene(dimension, {symmetry(b0), symmetry(b1), symmetry(b2)}, r);
   const bool exactly = random.one_in(8);
   made.tags.push_back(exactly ? "parallel" : "nearly");
   const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, 21));
   const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j);
-  // The corridor is in the middle between two rows along w.
+  // The corridor is in the middle between two rows along w; in space near their plane, or no plane is met.
   const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
-  made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? random.between(-0.1, 0.1) : 0}));
+  made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}));
   made.query.v = symmetry(v);
   return made;
 }

@@ -311,8 +311,10 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
   }
   CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
   CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
-  for (const fuzz::Family& family : {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(),
-                                     fuzz::dense_layers(), fuzz::slender()}) {
+  for (const fuzz::Family& family :
+       {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(), fuzz::early(),
+        fuzz::nearly_parallel(), fuzz::ellipsoid_edges(), fuzz::drift(), fuzz::vast_ellipsoids(),
+        fuzz::nearby(), fuzz::unequal_radii(), fuzz::dense_rows(), fuzz::dense_layers(), fuzz::slender()}) {
     std::map<std::string, int> met;
     for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();
