@@ -26,7 +26,10 @@ std::array<Vec, 3> drawn_frame(Random& drawn, int dimension) {
 // Needles, and in space blades, too.
 Atom drawn_needle(Random& drawn, int dimension, Case& made) {
   const std::array<Vec, 3> frame = drawn_frame(drawn, dimension);
-  const double size = drawn.between(0.2, 0.49), thin = size * drawn.octave(-12, -2);
+  const bool cell = drawn.one_in(2);
+  const double size = cell ? drawn.between(0.2, 0.49) : drawn.octave(-1, 2),
+               thin = size * drawn.octave(-12, -2);
+  made.tags.push_back(cell ? "in-its-cell" : "through-cells");
   const bool blade = dimension == 3 && drawn.one_in(2);
   made.tags.push_back(blade ? "blade" : "needle");
   Atom atom;
@@ -57,7 +60,7 @@ Case make_slender(Source& source) {
   if (random.one_in(2)) {
     made.tags.push_back("leaning");
     made.query.v =
-        sum(made.query.v, scaled(random.direction(dimension), length(along) * random.octave(-40, -4)));
+        sum(made.query.v, scaled(random.direction(dimension), length(made.query.v) * random.octave(-40, -4)));
   } else {
     made.tags.push_back("lengthwise");
   }
@@ -78,6 +81,8 @@ Family slender() {
           "Slender tilted ellipses and ellipsoids in unit cells, flown along their long axis.",
           {{"needle", "2^1 to 2^12 times as long as wide"},
            {"blade", "two long semiaxes and a short one"},
+           {"in-its-cell", "shorter than the cell"},
+           {"through-cells", "up to eight cells long, between its translates or through them"},
            {"lengthwise", "along the long axis but for rounding"},
            {"leaning", "2^-40 to 2^-4 off it"},
            {"anywhere", "from anywhere in the cell"},
