@@ -28,5 +28,7 @@ Family leaving();
 Family scale();
 Family mixture();
 Family rounding();
+Family far_starts();
+Family specks();
 
 }  // namespace lorentz::fuzz

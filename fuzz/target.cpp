@@ -22,6 +22,8 @@ const std::vector<Target>& targets() {
                                        {"leaving", {leaving()}},
                                        {"mixture", {mixture()}},
                                        {"rounding", {rounding()}},
+                                       {"far-starts", {far_starts()}},
+                                       {"specks", {specks()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},
