@@ -3,9 +3,10 @@
 //
 // An engine takes a start to its home cell, x - U n with n the nearest integers to U^-1 x. Where x is far and
 // U is no short number, n itself is off in the last bits of the quotient: near the boundary between two cells
-// by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour cell. So:
-// radii within 2^-1 to 2^-40 of half the cell, starts midway between two neighbours or on an obstacle's edge
-// towards the next, the other coordinates exactly or nearly those of a row of centres.
+// by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour's. So:
+// radii within 2^-1 to 2^-40 of half the cell, often about the error of a quotient of 2^43, starts midway
+// between two neighbours or on an obstacle's edge towards the next, the other coordinates exactly or nearly
+// those of a row of centres.
 #include <cmath>
 
 #include "crystals.hpp"
@@ -34,12 +35,13 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   std::array<Vec, 3> vectors{};
   for (int i = 0; i < dimension; ++i)
     vectors[i][i] = i == 0 || drawn.one_in(2) ? size : size * drawn.between(1, 2);
-  return lattice_scene(dimension, vectors, size / 2 * (1 - drawn.octave(-40, drawn.one_in(4) ? -1 : -8)));
+  const double gap = drawn.one_in(2) ? drawn.octave(-12, -7) : drawn.octave(-40, -1);
+  return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
 }
 
 // So many cells out along one vector; along all of them in every third case.
 IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, std::vector<std::string>& tags) {
-  const auto size = std::int64_t{1} << (random.one_in(2) ? random.integer(36, 46) : random.integer(10, 50));
+  const auto size = std::int64_t{1} << (random.one_in(2) ? random.integer(41, 44) : random.integer(10, 50));
   IntVec cell{};
   const bool all = random.one_in(3);
   tags.push_back(all ? "anywhere" : "along-a-row");
@@ -61,7 +63,7 @@ Case make_far_start(Source& source) {
   const bool midway = random.one_in(2) || !atom.is_ball();
   made.tags.push_back(midway ? "midway" : "edge");
   const double arm = (midway ? 0.5 : atom.radius / length(u)) *
-                     (1 + (random.one_in(2) ? 0 : random.octave(-40, -4)) * random.sign());
+                     (1 + (random.one_in(2) ? 0 : random.octave(-40, -6)) * random.sign());
   made.query.x = sum(sum(atom.position, cartesian(lattice, cell)), scaled(u, arm * random.sign()));
   if (random.one_in(4))
     for (int i = 0; i < dimension; ++i) made.query.x[i] += random.octave(-30, -8) * length(u) * random.sign();
