@@ -38,5 +38,7 @@ Family vast_ellipsoids();
 Family nearby();
 Family unequal_radii();
 Family dense_rows();
+Family far_starts();
+Family specks();
 
 }  // namespace lorentz::fuzz

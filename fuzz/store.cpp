@@ -27,8 +27,8 @@ constexpr const char* kSchema = R"sql(
     UNIQUE (version, engine, targets, seed, options, keep, shard));
   CREATE TABLE account (
     campaign INTEGER NOT NULL, target TEXT NOT NULL, next INTEGER NOT NULL, cases INTEGER NOT NULL,
-    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, fine INTEGER NOT NULL, unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL,
-    wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
+    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, fine INTEGER NOT NULL,
+    unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL, wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
     binary64 INTEGER NOT NULL, double_double INTEGER NOT NULL, exact INTEGER NOT NULL,
     margin REAL, margin_index INTEGER NOT NULL,
     PRIMARY KEY (campaign, target)) WITHOUT ROWID;

@@ -32,6 +32,8 @@ const std::vector<Target>& targets() {
                                        {"nearby", {nearby()}},
                                        {"unequal-radii", {unequal_radii()}},
                                        {"dense-rows", {dense_rows()}},
+                                       {"far-starts", {far_starts()}},
+                                       {"specks", {specks()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},

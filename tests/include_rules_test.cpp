@@ -126,15 +126,12 @@ TEST_CASE(
     const std::string source = file.stem();
     // What is kept of a campaign is kept in the words of the formats, and in SQLite.
     const bool keeps = source == "finding" || source == "store" || source == "store_merge";
-    // Other words for a scene are worked out in integers.
-    const bool rewords = source == "exact_sums" || source == "rewording" || source == "cell_rewording" ||
-                         source == "tie" || source == "frame_rewording";
     for (const std::string& name : includes_of(file)) {
       INFO(file << " includes " << name);
       const bool system = name.starts_with("sys/") || name == "fcntl.h" || name == "unistd.h";
       CHECK((known.contains(name) || name.find_first_of("/.") == std::string::npos ||
              ((source == "finding" || source == "notation") && name == "exchange.hpp") ||
-             (source == "store" && system) || (rewords && name == "dyadic.hpp") ||
+             (source == "store" && system) || (source == "exact_sums" && name == "dyadic.hpp") ||
              (source == "sqlite" && name == "sqlite3.h") ||
              (file.filename() == "ranks_mpi.cpp" && (name == "mpi.h" || name.starts_with("boost/"))) ||
              (file.filename() == "random.cpp" && name == "Random123/philox.h")));

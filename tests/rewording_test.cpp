@@ -4,10 +4,12 @@
 #include <deque>
 #include <filesystem>
 
+#include "notation.hpp"
 #include "parts.hpp"
 #include "reader.hpp"
 #include "scene_check.hpp"
 #include "target.hpp"
+#include "time_limit.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
@@ -108,7 +110,7 @@ TEST_CASE("Rewording: the oracle says the same in other words") {
   Tally tally;
   for (const fuzz::Target& target : fuzz::targets())
     require_same_in_other_words(target, kSeed, 512, Who::oracle, tally);
-  tally.print("the oracle in other words, 20 targets, 512 cases each, seed " + std::to_string(kSeed));
+  tally.print("the oracle in other words, all targets, 512 cases each, seed " + std::to_string(kSeed));
   // A generator that rots is seen.
   for (const char* word : {"basis", "superlattice", "axes", "scene moved", "lengths", "plane in space",
                            "semiaxes", "order", "start moved", "start moved and rounded", "velocity"}) {
@@ -124,6 +126,51 @@ TEST_CASE("Rewording: the oracle says the same in other words") {
   CHECK(tally.nearest["lengths"] < -950);
   CHECK(tally.farthest["velocity"] > 1000);
   CHECK(tally.nearest["velocity"] < -1000);
+}
+
+TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers") {
+  std::map<std::string, int> misread;
+  int questions = 0;
+  for (const fuzz::Target& target : fuzz::targets())
+    for (std::uint64_t index = 0; index < 320; ++index, ++questions) {
+      const fuzz::Case one = target.make(kSeed, index);
+      Random random(kSeed, target.name(), index, fuzz::Use::rewordings);
+      const auto misreading = fuzz::misreading(random, one.scene, one.query);
+      if (misreading && ++misread[misreading->notation] == 1)
+        UNSCOPED_INFO(target.name() << ' ' << index << ", " << misreading->notation << ": "
+                                    << misreading->line);
+    }
+  INFO("seed " << kSeed << ", " << questions << " questions");
+  CHECK(misread.empty());
+}
+
+TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the time itself") {
+  constexpr std::uint64_t kOther = 1303;
+  std::map<fuzz::LimitAt, int> met, later;
+  for (const fuzz::Target& target : fuzz::targets())
+    for (std::uint64_t index = 0; index < 64; ++index) {
+      const fuzz::Case one = target.make(kOther, index);
+      const oracle::Oracle& oracle = fuzz::oracle_of(one.scene);
+      const Answer exact = oracle.first_hit(one.query);
+      Random random(kOther, target.name(), index, fuzz::Use::rewordings);
+      const fuzz::LimitAt at = fuzz::drawn_limit(random, fuzz::Subject::Limits::exact, exact);
+      if (at == fuzz::LimitAt::none) continue;
+      oracle::Request request;
+      request.max_time = fuzz::limit_of(at, exact);
+      const bool is_later = oracle.first_hit(one.query, request).outcome == Outcome::later;
+      ++met[at];
+      later[at] += is_later;
+      INFO("seed " << kOther << ", " << target.name() << ' ' << index << ": " << fuzz::words_of(at));
+      if (exact.outcome != Outcome::hit)
+        CHECK(is_later == (exact.outcome == Outcome::never));
+      else if (at != fuzz::LimitAt::time)
+        CHECK(is_later == (at == fuzz::LimitAt::below || at == fuzz::LimitAt::half));
+    }
+  for (const auto at :
+       {fuzz::LimitAt::below, fuzz::LimitAt::above, fuzz::LimitAt::half, fuzz::LimitAt::twice})
+    CHECK(met[at] > 50);
+  CHECK(later[fuzz::LimitAt::time] > 50);
+  CHECK(met[fuzz::LimitAt::time] - later[fuzz::LimitAt::time] > 50);
 }
 
 TEST_CASE("Rewording: every golden record holds in other words") {
