@@ -47,7 +47,7 @@ class WalkSubject final : public fuzz::Subject {
   void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
   Limits limits() const override { return Limits::exact; }
   void ask_until(const Query& query, double max_time) override {
-    replies_.push_back({limited(walk_->first_hit(query), max_time), {}});
+    replies_.push_back({walk_->first_hit(query, max_time), {}});
   }
   std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
 

@@ -30,9 +30,10 @@ class Reduction : public Engine {
   /// so).
   enum class Time { close, rounded };
 
-  /// The answer without strings; for a query without flaws. Allocates nothing. `later` is not used: a flight
-  /// with nothing before `max_time` is `never`. Starts too far away (2^51 cells on the unit lattices, 2^44 on
-  /// others) are `undecided`.
+  /// The answer without strings; for a query without flaws. Allocates nothing. `later` is not used: of a
+  /// flight with nothing before `max_time` it says `never`, or names an obstacle that is entered after it,
+  /// which need not be the first one. Starts too far away (2^51 cells on the unit lattices, 2^44 on others)
+  /// are `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
