@@ -226,11 +226,18 @@ struct Direction2 {
       usable = usable && forward && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
                std::fabs(arm->n[1]) < kMaxCoefficient;
     }
-    // Inverses are finite, and a height times the inverse of an area is above zero if the height is.
-    usable = usable && (L.D == 0 || L.D > kSmallestHeight);
+    usable = usable && knows_slope(lattice);
     inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);
     inverse_D_L = 1 / L.D;
     inverse_S_L = 1 / L.S;
+  }
+
+  // Rows are parallel to the line, exactly, or they certainly rise towards it: by a height of whose error the
+  // half does not change its sign, and which does not vanish when it is multiplied by the inverse of an area.
+  bool knows_slope(const Bravais& lattice) {
+    if (L.D > 0) return L.D > 2 * L.D_error && L.D > kSmallestHeight;
+    L.D_error = 0;
+    return is_parallel(lattice, v, L.n);
   }
 };
 

@@ -33,20 +33,18 @@ class Search2 {
     const Arm2 &R = to_.R, &L = to_.L;
     const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = L.S * to_.rho * to_.inverse_A;
     if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
-    for (double n = std::ceil(nu - reach - kSlop);; ++n) {
-      const double farthest = std::min(best_s, s_limit);
-      const double last =
-          L.D > 0 ? nu + reach + kSlop + farthest * (L.D * to_.inverse_A) : nu + reach + kSlop;
+    const double slope = (L.D + L.D_error) * (1 + 0x1p-48) * to_.inverse_A, slop = slop_of_rows();
+    for (double n = std::ceil(nu - reach - slop);; ++n) {
+      double last = nu + reach + slop;
+      if (L.D > 0) last += std::min(best_s, s_limit) * slope;
       if (!(n <= last)) break;
       if (!look_in_row(n)) return give_up();
-      if (best_s < std::numeric_limits<double>::infinity() && R.D > 2 * to_.rho * (1 + kSlop) &&
+      if (best_s < std::numeric_limits<double>::infinity() && R.D > 2 * to_.rho * (1 + kSlop) + R.D_error &&
           (kBall || R.S >= 0))
         break;  // rows come one after the other
     }
     if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
-    // Rows parallel to the line were all passed: with exact heights that is a proof.
-    if (L.D > 0 || is_parallel(lattice_, to_.v, L.n)) return Outcome::never;
-    return give_up();
+    return Outcome::never;  // before s_limit; or rows exactly parallel to the line were all passed
   }
 
  private:
@@ -55,6 +53,15 @@ class Search2 {
   Outcome give_up() {
     stage = Stage::undecided;
     return Outcome::undecided;
+  }
+
+  // By how much the first and the last row near the start may be off: their number is a sum of terms that may
+  // be large, each rounded some six times.
+  double slop_of_rows() const {
+    constexpr double kRows = 16 * kRoundoff;
+    const Arm2& L = to_.L;
+    return kSlop + to_.inverse_A * (L.S * (kRows * (std::fabs(y_) + to_.rho) + y_error_) +
+                                    L.D * (kRows * std::fabs(s_) + s_error_));
   }
 
   // Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice

@@ -104,8 +104,9 @@ class Search3 {
     p_error_ = error * to_.inverse_r;
     s_error_ = to_.along_size * error + kRoundoff * begin_;
     if constexpr (!kBall) s_error_ += 4 * lattice_.shape.metric_error * terms;
-    z_first_ = -(s_error_ / basis_->length + 0x1p-48);
-    return true;
+    z_error_ = s_error_ / basis_->length;
+    z_first_ = -(2 * z_error_ + 0x1p-48);
+    return p_error_ < kSlop / 2;
   }
 
   // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice
@@ -186,7 +187,7 @@ class Search3 {
     return std::fabs(low) < kMaxCoefficient && std::fabs(high) < kMaxCoefficient;
   }
 
-  double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop; }
+  double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop + 2 * z_error_; }
 
   // The planes k b_2 + (b_0, b_1) that meet the window.
   bool scan_window() {
@@ -480,7 +481,7 @@ class Search3 {
   double begin_ = 0;  ///< of the window, in units of s
   Wide anchor_[3];
   Point anchor_point_;
-  double p_error_ = 0, s_error_ = 0;
+  double p_error_ = 0, s_error_ = 0, z_error_ = 0;
   double z_first_ = 0;  ///< of a window, with its error
   bool no_plane_met_ = true;
 };

@@ -331,6 +331,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   INFO("seed " << kSeed);
   Plan plan = plan_of({"generic", "boundary", "never"});
   plan.mutate = 0;
+  plan.reword = 0;
   plan.keep = 4;
   // Wrong in two ways, and about hits, starts inside, and flights without end.
   const auto subjects = [] {

@@ -92,3 +92,17 @@ TEST_CASE("Fault: a time limit was held against the rounded time") {
   CHECK(oracle::Walk(unit_scene(2, 1e-6), 100).first_hit({{0, 0.5}, {1, 0.37}, {}}, 10).outcome ==
         Outcome::later);
 }
+
+TEST_CASE("Fault: a hit just before a time limit was not found, 10^24 cells out") {
+  const Scene scene = one_atom(2, {Vec{1, 4}, Vec{-1, 3}}, 0.25);
+  const Query query{{0, 1.5}, {1.9777177083685562, 1.0224560545442454e-25}, {}};
+  const double time = *oracle::Oracle(scene).first_hit(query).time;
+  for (const double limit : {std::nextafter(time, 0), time, std::nextafter(time, 1e300), time * (1 + 0x1p-40),
+                             time * (1 + 0x1p-25), 2 * time}) {
+    INFO("limit " << limit);
+    const Answer exact = oracle::Oracle(scene).first_hit(query, {.max_time = limit});
+    CHECK(test::same(oracle::Certified(scene).first_hit(query, {.max_time = limit}), exact));
+    const Answer given = make_engine("reduction", scene)->first_hit(query, limit);
+    if (given.outcome != Outcome::undecided) CHECK(given.outcome == exact.outcome);
+  }
+}

@@ -100,7 +100,8 @@ TEST_CASE("It says which layers decided, and who judged") {
   CHECK(contains(certified.out, "decided in binary64: "));
   CHECK(contains(certified.out, "; by exact arithmetic: "));
   CHECK(contains(certified.out, "judged by the oracle"));
-  const Run reduction = folder.lorentz("fuzz -e reduction -t grazing --count 300 --mutate 0 --json");
+  const Run reduction =
+      folder.lorentz("fuzz -e reduction -t grazing --count 300 --mutate 0 --reword 0 --json");
   const auto number = [&](const std::string& key) {
     const std::size_t at = reduction.out.find("\"" + key + "\":");
     return at == std::string::npos ? -1 : std::stoi(reduction.out.substr(at + key.size() + 3));
@@ -237,7 +238,7 @@ TEST_CASE("The exit status where an engine only errs, or is wrong in times only"
                                          " first-hit --engine certified | sed -u '" + edit + "'\n") +
            "'";
   };
-  const std::string campaign = "fuzz -t generic --count 64 --mutate 0 --json";
+  const std::string campaign = "fuzz -t generic --count 64 --mutate 0 --reword 0 --json";
   const std::string errs = engine(R"(s/"outcome".*/"outcome":"error","message":"no"}/)");
   const Run only_errors = folder.lorentz(campaign + errs);
   CHECK(only_errors.status == 1);
@@ -258,7 +259,8 @@ TEST_CASE("The exit status where an engine only errs, or is wrong in times only"
 
 TEST_CASE("A program that breaks is reported, and is no reason to stop") {
   const Folder folder;
-  const Run run = folder.lorentz("fuzz -t generic --count 8 --mutate 0 --json --engine 'cmd:exit 7'");
+  const Run run =
+      folder.lorentz("fuzz -t generic --count 8 --mutate 0 --reword 0 --json --engine 'cmd:exit 7'");
   CHECK(run.status == 3);
   CHECK(contains(run.out, "\"error\":8"));
   CHECK(contains(run.err, "exit 7"));

@@ -179,8 +179,11 @@ TEST_CASE("Ends of windows: their text, and the binary64 that they are exactly")
   CHECK(text(WindowEnd(*Integer::from_decimal("-1180591620717411303424"), 0)) == "-0x400000000000000000p0");
   for (const char* good : {"0x0p0", "-0x1p-1100", "0x123456789abcdef0123456789p77", "-0xfp5"})
     CHECK(read(good) == good);
-  for (const char* bad : {"", "0x", "0xp1", "x1p1", "0x1", "0x1p", "0x1p1 ", "0x1q1", "0x1p1.5", "--0x1p1",
-                          "0xAp1", "1p1", "0x1p99999999999999999999", "+0x1p1", "0x-1p1"}) {
+  CHECK(read("0x1") == "0x1p0");
+  CHECK(read("0xAp1") == "0xap1");
+  CHECK(read("+0x1p1") == "0x1p1");
+  for (const char* bad : {"", "0x", "0xp1", "x1p1", "0x1p", "0x1p1 ", "0x1q1", "0x1p1.5", "--0x1p1", "1p1",
+                          "0x1p99999999999999999999", "0x-1p1"}) {
     INFO(bad);
     CHECK(read(bad) == "none");
   }
