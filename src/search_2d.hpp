@@ -31,16 +31,16 @@ class Search2 {
     s_limit_ = s_limit;
     if (!to_.usable || !set_anchor()) return give_up();
     const Arm2 &R = to_.R, &L = to_.L;
-    const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = L.S * to_.rho * to_.inverse_A;
+    const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = reach_of_rows();
     if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
-    const double slope = (L.D + L.D_error) * (1 + 0x1p-48) * to_.inverse_A, slop = slop_of_rows();
-    for (double n = std::ceil(nu - reach - slop);; ++n) {
-      double last = nu + reach + slop;
+    const double slope = (kUnit ? L.D : (L.D + L.D_error) * (1 + 0x1p-48)) * to_.inverse_A;
+    for (double n = std::ceil(nu - reach);; ++n) {
+      double last = nu + reach;
       if (L.D > 0) last += std::min(best_s, s_limit) * slope;
       if (!(n <= last)) break;
       if (!look_in_row(n)) return give_up();
-      if (best_s < std::numeric_limits<double>::infinity() && R.D > 2 * to_.rho * (1 + kSlop) + R.D_error &&
-          (kBall || R.S >= 0))
+      if (best_s < std::numeric_limits<double>::infinity() &&
+          R.D > 2 * to_.rho * (1 + kSlop) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
         break;  // rows come one after the other
     }
     if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
@@ -55,13 +55,16 @@ class Search2 {
     return Outcome::undecided;
   }
 
-  // By how much the first and the last row near the start may be off: their number is a sum of terms that may
-  // be large, each rounded some six times.
-  double slop_of_rows() const {
-    constexpr double kRows = 16 * kRoundoff;
+  // Rows in the strip beside the start: within this of nu, which errs, too. On the unit lattices D_R >= 2
+  // rho, so the terms of nu are below 2^20, each rounded some ten times: 2^-29 in all; among tiny balls they
+  // are about 1, and what y errs by counts. On other lattices the terms are what they are.
+  double reach_of_rows() const {
+    constexpr double kRowSlop = 0x1p-28, kRows = 16 * kRoundoff;
     const Arm2& L = to_.L;
-    return kSlop + to_.inverse_A * (L.S * (kRows * (std::fabs(y_) + to_.rho) + y_error_) +
-                                    L.D * (kRows * std::fabs(s_) + s_error_));
+    if constexpr (kUnit && kBall) return kRowSlop + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
+    const double height = to_.rho + kRows * (std::fabs(y_) + to_.rho) + y_error_,
+                 along = kRows * std::fabs(s_) + s_error_;
+    return kRowSlop + (L.S * height + L.D * along) * to_.inverse_A;
   }
 
   // Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice
@@ -97,6 +100,7 @@ class Search2 {
     }
     y_ = to_.sigma * compensated(h);
     y_error_ += kAnchor * kRoundoff * std::fabs(y_) + kAnchorTerms * terms;
+    anchor_error_ = y_error_;
     s_ += anchor_[0] * to_.S[0] + anchor_[1] * to_.S[1];
     s_error_ += kAlong * kRoundoff * along;
     return true;
@@ -239,7 +243,8 @@ class Search2 {
   const Offset<2>& offset_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;
-  double anchor_[2]{}, y_ = 0, y_error_ = 0, s_ = 0, s_error_ = 0;
+  double anchor_[2]{}, anchor_error_ = 0;  // of an anchor that is not the home cell
+  double y_ = 0, y_error_ = 0, s_ = 0, s_error_ = 0;
 };
 
 }  // namespace lorentz
