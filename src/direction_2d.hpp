@@ -234,9 +234,10 @@ struct Direction2 {
 
   // Rows are parallel to the line, exactly, or they certainly rise towards it: by a height of whose error the
   // half does not change its sign, and which does not vanish when it is multiplied by the inverse of an area.
-  // (On the unit lattices heights are exact, and none is so small.)
+  // (On the unit lattices heights are exact, and none is so small; below zero is one whose last quotient was
+  // rounded up.)
   bool knows_slope(const Bravais& lattice) {
-    if constexpr (kUnit) return true;
+    if constexpr (kUnit) return L.D >= 0;
     if (L.D > 0) return L.D > 2 * L.D_error && L.D > kSmallestHeight;
     L.D_error = 0;
     return is_parallel(lattice, v, L.n);
