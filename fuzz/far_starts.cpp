@@ -35,13 +35,13 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   std::array<Vec, 3> vectors{};
   for (int i = 0; i < dimension; ++i)
     vectors[i][i] = i == 0 || drawn.one_in(2) ? size : size * drawn.between(1, 2);
-  const double gap = drawn.one_in(2) ? drawn.octave(-12, -7) : drawn.octave(-40, -1);
+  const double gap = drawn.one_in(4) ? drawn.octave(-40, -1) : drawn.between(0.001, 0.008);
   return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
 }
 
 // So many cells out along one vector; along all of them in every third case.
 IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, std::vector<std::string>& tags) {
-  const auto size = std::int64_t{1} << (random.one_in(2) ? random.integer(41, 44) : random.integer(10, 50));
+  const auto size = std::int64_t{1} << (random.one_in(4) ? random.integer(10, 50) : random.integer(42, 44));
   IntVec cell{};
   const bool all = random.one_in(3);
   tags.push_back(all ? "anywhere" : "along-a-row");
@@ -62,8 +62,10 @@ Case make_far_start(Source& source) {
   const Vec& u = lattice.vectors[along];
   const bool midway = random.one_in(2) || !atom.is_ball();
   made.tags.push_back(midway ? "midway" : "edge");
-  const double arm = (midway ? 0.5 : atom.radius / length(u)) *
-                     (1 + (random.one_in(2) ? 0 : random.octave(-40, -6)) * random.sign());
+  const double off = random.one_in(4)   ? 0
+                     : random.one_in(4) ? random.octave(-40, -6)
+                                        : random.between(0, 0.008);  // about what a quotient of 2^43 errs by
+  const double arm = (midway ? 0.5 : atom.radius / length(u)) * (1 + off * random.sign());
   made.query.x = sum(sum(atom.position, cartesian(lattice, cell)), scaled(u, arm * random.sign()));
   if (random.one_in(4))
     for (int i = 0; i < dimension; ++i) made.query.x[i] += random.octave(-30, -8) * length(u) * random.sign();

@@ -57,7 +57,7 @@ TEST_CASE("Fault: in a skewed cell `from` was forgotten, 64 bits being too few f
 
 TEST_CASE("Fault: `never` was said where a component that vanishes in other units leads to a hit") {
   const Query along{{0, 1}, {1, 0}, {}};
-  for (const double tiny : {5e-324, 0x1p-1000, 0x1p-700}) {
+  for (const double tiny : {5e-324, 0x1p-700}) {
     const Scene drifting = one_atom(2, {Vec{2, tiny}, Vec{0, 2}}, 0.5);
     CHECK(oracle::Oracle(drifting).first_hit(along).outcome == Outcome::hit);
     check_all(drifting, along, oracle::Oracle(drifting).first_hit(along));
