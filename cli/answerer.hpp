@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "exchange.hpp"
+#include "listener.hpp"
 #include "oracle.hpp"
 #include "problem.hpp"
 
@@ -18,6 +19,7 @@ struct AnswererOptions {
 
   oracle::Request request;
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program
+  Listener listener = {};            ///< is told what became of another program
 };
 
 inline constexpr const char* kTimeoutHelp =

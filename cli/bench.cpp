@@ -12,6 +12,7 @@
 #include "numbers.hpp"
 #include "scene_option.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -90,9 +91,9 @@ class Report {
       }
       CaseSet set = all;
       set.cases.resize(count);
-      const Tally t =
-          measure(set, exact_answers(set), {summary.engine}, {}, {oracle::kDefaultUlps, kRounds, timeout_})
-              .front();
+      const Tally t = measure(set, exact_answers(set, terminal()), {summary.engine}, {},
+                              {oracle::kDefaultUlps, kRounds, timeout_, terminal()})
+                          .front();
       failed_ |= t.failed;
       summary.add(t);
       table_.add({what, summary.engine, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
@@ -123,9 +124,9 @@ class Report {
     CaseSet pilot = all;
     pilot.cases.resize(std::min(all.cases.size(), kPilot));
     // The first round of another program has its start in it; it is not the median of three.
-    const Tally t =
-        measure(pilot, {}, {engine}, {}, {oracle::kDefaultUlps, is_command(engine) ? 3 : 1, timeout_})
-            .front();
+    const Tally t = measure(pilot, {}, {engine}, {},
+                            {oracle::kDefaultUlps, is_command(engine) ? 3 : 1, timeout_, terminal()})
+                        .front();
     const double ns = t.ns_per_query;
     failed_ |= t.failed;
     return std::min(all.cases.size(), static_cast<std::size_t>(kSecondsPerRound * 1e9 / std::max(ns, 1.0)));
@@ -166,7 +167,7 @@ int act(const Options& options) {
         const bool own = radius == kOwnSize;
         set.scenes.push_back(load_scene(name, own ? std::nullopt : positive_number(radius, "--radius")));
         const oracle::Oracle oracle(set.scenes[0]);
-        for (const Query& query : hard_queries(difficulty, set.scenes[0], oracle, seed, count))
+        for (const Query& query : hard_queries(difficulty, set.scenes[0], oracle, seed, count, terminal()))
           set.cases.push_back({std::to_string(set.cases.size()), 0, query});
         report.cell(name, radius, difficulty, set);
       }

@@ -1,5 +1,6 @@
 #include "command_engine.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <optional>
 
-#include "messages.hpp"
 #include "registry.hpp"
 
 namespace lorentz::cli {
@@ -86,7 +86,7 @@ void CommandEngine::drain() {
 
 void CommandEngine::finish() {
   while (run_ || !open_.empty()) step(Wait::for_good);
-  if (complaints_ > kMaxComplaints) say("cmd:{}: {} more failures", command_, complaints_ - kMaxComplaints);
+  if (complaints_ > kMaxComplaints) tell(fmt::format("{} more failures", complaints_ - kMaxComplaints));
   complaints_ = 0;
 }
 
@@ -262,7 +262,7 @@ void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t compon
   if (number < first_number_) return take_unasked(number);
   if (run.nameless && number > first_number_) settle_nameless();
   while (number > first_number_) pass_over();
-  if (run.nameless) say("cmd:{}: says of the scene: {}", command_, run.nameless->message);
+  if (run.nameless) tell(fmt::format("says of the scene: {}", run.nameless->message));
   run.nameless.reset();
   const std::string flaw = flaw_of_answer(answer, components);
   if (flaw.empty())
@@ -370,9 +370,9 @@ void CommandEngine::run_is_over() {
   if (!run->ending)
     complain(fmt::format("ended ({}) before it was told to", ending.text()), nullptr);
   else if (ending.how == Ending::How::still_ran)
-    say("cmd:{}: did not end when its input did, and was killed", command_);
+    tell("did not end when its input did, and was killed");
   else if (!ending.is_good())
-    say("cmd:{}: ended with {} after its last answer", command_, ending.text());
+    tell(fmt::format("ended with {} after its last answer", ending.text()));
   learn_from_run();
   run_.reset();
 }
@@ -407,7 +407,7 @@ void CommandEngine::run_failed(const std::string& what) {
   deliver_first(answer);
   if (limit_ != kNoLimit) limit_ = 1;
   if (++failures_in_row_ < kMaxFailuresInRow) return;
-  say("cmd:{}: is given up after {} failures in a row without an answer", command_, kMaxFailuresInRow);
+  tell(fmt::format("is given up after {} failures in a row without an answer", kMaxFailuresInRow));
   given_up_in_ = recent_.back().scene;
   give_up();
 }
@@ -427,6 +427,10 @@ void CommandEngine::give_up() {
   }
 }
 
+void CommandEngine::tell(const std::string& what) const {
+  if (options_.listener.message) options_.listener.message("cmd:" + command_ + ": " + what);
+}
+
 // Says what went wrong, with a stream that shows it again.
 void CommandEngine::complain(const std::string& what, const Asked* asked) {
   failed_ = true;
@@ -439,7 +443,7 @@ void CommandEngine::complain(const std::string& what, const Asked* asked) {
     append_line(stream, asked->id, *asked);
     stream.pop_back();
   }
-  say("cmd:{}: {}{}{}", command_, what, asked ? ":\n" : "", stream);
+  tell(fmt::format("{}{}{}", what, asked ? ":\n" : "", stream));
 }
 
 }  // namespace lorentz::cli

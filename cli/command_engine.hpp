@@ -98,6 +98,7 @@ class CommandEngine final : public Answerer {
   void learn_from_run();
   void run_failed(const std::string& what);
   void give_up();
+  void tell(const std::string& what) const;
   void complain(const std::string& what, const Asked* asked);
 
   std::string command_;

@@ -3,6 +3,7 @@
 #include <unordered_set>
 
 #include "app.hpp"
+#include "compare_table.hpp"
 #include "disagreement_file.hpp"
 #include "draw.hpp"
 #include "exchange.hpp"
@@ -12,6 +13,7 @@
 #include "numbers.hpp"
 #include "query_stream.hpp"
 #include "scene_option.hpp"
+#include "terminal.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -41,7 +43,7 @@ CaseSet read_cases(const std::string& path, std::optional<Scene> initial, bool& 
 CaseSet draw_cases(const Scene& scene, std::uint64_t seed, std::size_t count) {
   CaseSet set;
   set.scenes.push_back(scene);
-  const auto queries = draw_queries(scene, oracle::Oracle(scene), seed, count);
+  const auto queries = draw_queries(scene, oracle::Oracle(scene), seed, count, terminal());
   for (std::size_t i = 0; i < queries.size(); ++i) set.cases.push_back({std::to_string(i), 0, queries[i]});
   return set;
 }
@@ -243,8 +245,9 @@ int act(const Options& options) {
                                const Answer& given, const oracle::Judgement& judgement) {
     disagreements.add(one, exact, name, given, judgement);
   };
-  const std::vector<Answer> exact = options.no_oracle ? std::vector<Answer>{} : exact_answers(set);
-  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout});
+  const std::vector<Answer> exact =
+      options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal());
+  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout, terminal()});
   for (const Logged& logged : all_logged) {
     const Answers answers = read_answers(logged.file, bad_input);
     tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, ulps, bad_input));

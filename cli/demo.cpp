@@ -9,6 +9,7 @@
 #include "measure.hpp"
 #include "messages.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -37,7 +38,8 @@ CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
 CaseSet drawn(int dimension, double radius, std::size_t count) {
   CaseSet set;
   set.scenes.push_back(unit_scene(dimension, radius));
-  for (const Query& query : draw_queries(set.scenes[0], oracle::Oracle(set.scenes[0]), kDefaultSeed, count))
+  for (const Query& query :
+       draw_queries(set.scenes[0], oracle::Oracle(set.scenes[0]), kDefaultSeed, count, terminal()))
     set.cases.push_back({"null", 0, query});
   return set;
 }
@@ -52,7 +54,10 @@ class Report {
                                  const Answer& given, const oracle::Judgement& judgement) {
       disagreements_.add(one, exact, name, given, judgement);
     };
-    const auto tallies = measure(set, exact_answers(set), {"classical", "published", "oracle"}, on_wrong);
+    MeasureOptions options;
+    options.listener = terminal();
+    const auto tallies =
+        measure(set, exact_answers(set, terminal()), {"classical", "published", "oracle"}, on_wrong, options);
     for (const Tally& t : tallies)
       table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "",
                   t.name, std::to_string(t.agree + t.wrong_time), std::to_string(t.ill_posed),

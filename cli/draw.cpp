@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "exchange.hpp"
-#include "progress.hpp"
 #include "random.hpp"
 
 namespace lorentz::cli {
@@ -11,14 +10,13 @@ namespace lorentz::cli {
 using fuzz::Random;
 
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
-                                std::size_t count) {
+                                std::size_t count, const Listener& listener) {
   constexpr int kTries = 10'000;
   const bool superposition = scene.lattices.size() > 1;
   const Vec one_cell{1, 1, 1}, box = scene.dimension == 2 ? Vec{40, 25, 0} : Vec{10, 10, 10};
   const Vec& cells = superposition ? box : one_cell;
   std::vector<Query> queries;
   queries.reserve(count);
-  Progress progress("drawing", count);
   for (std::size_t index = 0; index < count; ++index) {
     Random random(seed, "drawn queries", index);
     Query query;
@@ -36,7 +34,7 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
     } while (!oracle.is_free(query.x));
     query.v = random.direction(scene.dimension);
     queries.push_back(query);
-    progress.at(queries.size());
+    report(listener, "drawing", queries.size(), count);
   }
   return queries;
 }

@@ -15,6 +15,7 @@
 #include "query_stream.hpp"
 #include "registry.hpp"
 #include "scene_option.hpp"
+#include "terminal.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -117,6 +118,7 @@ oracle::Request request_of(const Options& options) {
 
 int act(const Options& options) {
   AnswererOptions answerer_options{request_of(options)};
+  answerer_options.listener = terminal();
   if (const auto timeout = positive_number(options.timeout, "--timeout")) answerer_options.timeout = *timeout;
   const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
   const std::optional<double> radius = positive_number(options.radius, "--radius");

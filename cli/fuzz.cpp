@@ -7,6 +7,7 @@
 
 #include "answerer.hpp"
 #include "draw.hpp"
+#include "engine_subject.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
 #include "margin.hpp"
@@ -15,6 +16,7 @@
 #include "progress.hpp"
 #include "ranks.hpp"
 #include "registry.hpp"
+#include "terminal.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -188,7 +190,7 @@ int act(const Options& options) {
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
-  const fuzz::MakeSubject make_subject = subject_maker(options.engine, timeout);
+  const fuzz::MakeSubject make_subject = subject_maker(options.engine, {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks = fuzz::Ranks::join();
   if (!ranks) return run_campaign(options, plan, make_subject, nullptr);
   try {

@@ -11,9 +11,6 @@
 
 namespace lorentz::cli {
 
-/// Makes what a campaign examines: any engine by its name, another program among them.
-fuzz::MakeSubject subject_maker(const std::string& engine, double timeout);
-
 /// lorentz fuzz list, show, merge; and export.
 void add_fuzz_store(CLI::App& fuzz, Action& action);
 void add_fuzz_export(CLI::App& fuzz, Action& action);

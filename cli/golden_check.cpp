@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "compare_table.hpp"
 #include "exchange.hpp"
 #include "exit_status.hpp"
 #include "golden.hpp"
@@ -14,6 +15,7 @@
 #include "reader.hpp"
 #include "registry.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 #include "verdict.hpp"
 
 namespace lorentz::cli {
@@ -58,7 +60,7 @@ class Examination {
       : engine_(std::move(engine)),
         ulps_(ulps),
         most_failures_(most_failures),
-        answerer_(make_answerer(engine_, {{}, timeout})) {
+        answerer_(make_answerer(engine_, {{}, timeout, terminal()})) {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
   }
 

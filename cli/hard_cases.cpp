@@ -18,8 +18,8 @@ const char* name_of(Difficulty difficulty) {
 }
 
 std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const oracle::Oracle& oracle,
-                                std::uint64_t seed, std::size_t count) {
-  std::vector<Query> queries = draw_queries(scene, oracle, seed, count);
+                                std::uint64_t seed, std::size_t count, const Listener& listener) {
+  std::vector<Query> queries = draw_queries(scene, oracle, seed, count, listener);
   if (difficulty == Difficulty::drawn) return queries;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     fuzz::Random random(seed, "hard queries", i);

@@ -18,6 +18,6 @@ const char* name_of(Difficulty difficulty);
 
 /// `count` queries for a scene of balls; depends on the seed only.
 std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const oracle::Oracle& oracle,
-                                std::uint64_t seed, std::size_t count);
+                                std::uint64_t seed, std::size_t count, const Listener& listener = {});
 
 }  // namespace lorentz::cli

@@ -1,15 +1,8 @@
 #include "measure.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include "margin.hpp"
-#include "numbers.hpp"
-#include "progress.hpp"
-#include "table.hpp"
 
 namespace lorentz::cli {
 
@@ -63,15 +56,14 @@ double Tally::ulp_at(double share) const {
   return quantile(ulps, share);
 }
 
-std::vector<Answer> exact_answers(const CaseSet& set) {
+std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener) {
   std::vector<oracle::Oracle> oracles;
   for (const Scene& scene : set.scenes) oracles.emplace_back(scene);
   std::vector<Answer> answers;
   answers.reserve(set.cases.size());
-  Progress progress("exact answers", set.cases.size());
   for (const Case& one : set.cases) {
     answers.push_back(oracles[one.scene].first_hit(one.query));
-    progress.at(answers.size());
+    report(listener, "exact answers", answers.size(), set.cases.size());
   }
   return answers;
 }
@@ -90,9 +82,8 @@ struct Round {
 // One answerer over all cases; `look` sees each answer, outside the timed stretches.
 template <class Look>
 Round run_round(const CaseSet& set, const std::string& name, const std::vector<FirstHit>& first_hit,
-                Look look) {
+                const Listener& listener, Look look) {
   Round round;
-  Progress progress(name.c_str(), set.cases.size());
   std::vector<Answer> answers(kBlock);
   const oracle::Request request;
   for (std::size_t begin = 0; begin < set.cases.size(); begin += kBlock) {
@@ -104,20 +95,20 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
     round.total_ns += ns;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
     for (std::size_t i = begin; i < end; ++i) look(i, answers[i - begin]);
-    progress.at(begin);
+    report(listener, name, end, set.cases.size());
   }
   return round;
 }
 
 // The same of another program, which has many queries at a time.
 template <class Look>
-Round run_round(const CaseSet& set, const std::string& name, Answerer& program, Look look) {
-  Progress progress(name.c_str(), set.cases.size());
+Round run_round(const CaseSet& set, const std::string& name, Answerer& program, const Listener& listener,
+                Look look) {
   std::vector<Answer> answers;
   answers.reserve(set.cases.size());
   program.on_answer([&](Answer& answer) {
     answers.push_back(std::move(answer));
-    progress.at(answers.size());
+    report(listener, name, answers.size(), set.cases.size());
   });
   const auto start = Clock::now();
   for (std::size_t i = 0; i < set.cases.size(); ++i) {
@@ -136,16 +127,17 @@ struct Contestant {
   std::vector<FirstHit> first_hit;    // by scene
   std::unique_ptr<Answerer> program;  // or this
 
-  Contestant(const CaseSet& set, const std::string& name, double timeout) {
+  Contestant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
     if (is_command(name))
-      program = make_answerer(name, {{}, timeout});
+      program = make_answerer(name, {{}, options.timeout, options.listener});
     else
       for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
   }
 
   template <class Look>
-  Round run(const CaseSet& set, const std::string& name, Look look) {
-    return program ? run_round(set, name, *program, look) : run_round(set, name, first_hit, look);
+  Round run(const CaseSet& set, const std::string& name, const Listener& listener, Look look) {
+    return program ? run_round(set, name, *program, listener, look)
+                   : run_round(set, name, first_hit, listener, look);
   }
 
   bool failed() const { return program && program->failed(); }
@@ -161,7 +153,7 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
   std::vector<std::vector<Round>> rounds(names.size());
   for (std::size_t e = 0; e < names.size(); ++e) {
     tallies[e].name = names[e];
-    contestants.emplace_back(set, names[e], options.timeout);
+    contestants.emplace_back(set, names[e], options);
   }
   std::vector<oracle::Judge> judges;
   for (const Scene& scene : set.scenes) judges.emplace_back(scene);
@@ -169,19 +161,20 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
   for (int r = 0; r < options.rounds; ++r) {
     for (std::size_t e = 0; e < names.size(); ++e) {
       if (contestants[e].failed()) continue;
-      rounds[e].push_back(contestants[e].run(set, names[e], [&](std::size_t i, const Answer& given) {
-        if (r > 0) return;
-        if (exact.empty()) {
-          ++tallies[e].queries;
-          return;
-        }
-        const oracle::Judgement judgement =
-            judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, options.ulps);
-        tallies[e].count(judgement);
-        if (on_wrong &&
-            (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed))
-          on_wrong(set.cases[i], exact[i], names[e], given, judgement);
-      }));
+      rounds[e].push_back(
+          contestants[e].run(set, names[e], options.listener, [&](std::size_t i, const Answer& given) {
+            if (r > 0) return;
+            if (exact.empty()) {
+              ++tallies[e].queries;
+              return;
+            }
+            const oracle::Judgement judgement =
+                judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, options.ulps);
+            tallies[e].count(judgement);
+            if (on_wrong && (judgement.verdict == oracle::Verdict::wrong ||
+                             judgement.verdict == oracle::Verdict::ill_posed))
+              on_wrong(set.cases[i], exact[i], names[e], given, judgement);
+          }));
     }
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
@@ -199,48 +192,6 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     tallies[e].ns_high = quantile(middle.block_means, 0.75);
   }
   return tallies;
-}
-
-double tolerance(const std::optional<std::string>& text) {
-  const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
-  if (ulps > oracle::kLargestMargin)
-    throw InputError(
-        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
-  return ulps;
-}
-
-namespace {
-
-std::string share(std::size_t part, std::size_t whole) {
-  if (part == 0 || whole == 0) return std::to_string(part);
-  return fmt::format("{} ({:.3g} %)", part, 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
-std::string nanoseconds(double ns) {
-  return ns == 0 ? "-" : fmt::format("{:.0f}", ns);
-}
-
-}  // namespace
-
-std::string table_of(const std::vector<Tally>& tallies, bool judged) {
-  if (!judged) {
-    Table table({"engine", "queries", "ns/query", "ns median"});
-    for (const Tally& t : tallies)
-      table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
-    return table.text();
-  }
-  Table table({"engine", "queries", "agree", "ill-posed", "wrong", "in time only", "undecided", "unsupported",
-               "error", "missing", "max ulp", "mean ulp", "ns/query", "ns median"});
-  for (const Tally& t : tallies) {
-    const std::size_t judged_answers = t.agree + t.ill_posed + t.wrong;
-    table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), std::to_string(t.ill_posed),
-               share(t.wrong, judged_answers), std::to_string(t.wrong_time), std::to_string(t.undecided),
-               std::to_string(t.unsupported), std::to_string(t.error), std::to_string(t.missing),
-               t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
-               t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.ns_per_query),
-               nanoseconds(t.ns_median)});
-  }
-  return table.text();
 }
 
 }  // namespace lorentz::cli

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,10 +53,11 @@ struct MeasureOptions {
   double ulps = oracle::kDefaultUlps;  ///< the tolerance of the verdicts
   int rounds = 5;
   double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
+  Listener listener = {};
 };
 
 /// The exact answers to all cases.
-std::vector<Answer> exact_answers(const CaseSet& set);
+std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener = {});
 
 /// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
 /// is empty (nothing is judged) or as many answers as there are cases. Another program is timed by the wall,
@@ -65,11 +65,5 @@ std::vector<Answer> exact_answers(const CaseSet& set);
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options = {});
-
-/// The tolerance k of the verdicts, as given on the command line. Throws InputError.
-double tolerance(const std::optional<std::string>& ulps);
-
-/// A table for people, one row a tally.
-std::string table_of(const std::vector<Tally>& tallies, bool judged);
 
 }  // namespace lorentz::cli

@@ -12,13 +12,15 @@ namespace lorentz::cli {
 class Progress {
  public:
   /// Looks at the clock at every `stride`-th count only.
-  Progress(const char* what, std::size_t total, std::size_t stride = 64)
-      : what_(what), total_(total), stride_(stride), shown_(isatty(STDERR_FILENO) == 1) {}
+  explicit Progress(std::string what, std::size_t total, std::size_t stride = 64)
+      : what_(std::move(what)), total_(total), stride_(stride), shown_(isatty(STDERR_FILENO) == 1) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
+  const std::string& what() const { return what_; }
 
   /// `done` of the total are done; draws a few times a second, from the first second on.
   void at(std::size_t done) {
@@ -28,13 +30,13 @@ class Progress {
     next_ = now + std::chrono::milliseconds(200);
     constexpr std::size_t kWidth = 40;
     const std::size_t full = total_ ? kWidth * done / total_ : kWidth;
-    std::fprintf(stderr, "\r%s [%s%s] %zu of %zu", what_, std::string(full, '#').c_str(),
+    std::fprintf(stderr, "\r%s [%s%s] %zu of %zu", what_.c_str(), std::string(full, '#').c_str(),
                  std::string(kWidth - full, ' ').c_str(), done, total_);
     drawn_ = true;
   }
 
  private:
-  const char* what_;
+  std::string what_;
   std::size_t total_, stride_;
   bool shown_, drawn_ = false;
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "drawing_parts.hpp"
-#include "dual.hpp"
 #include "errors.hpp"
+#include "geometry.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "drawing_parts.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 
 namespace lorentz::cli {
 namespace {

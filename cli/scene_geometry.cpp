@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 
 namespace lorentz::cli {
 

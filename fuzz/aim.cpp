@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "double_double.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "parts.hpp"
 
 namespace lorentz::fuzz {

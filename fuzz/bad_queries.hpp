@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "family.hpp"
+#include "case.hpp"
 
 namespace lorentz::fuzz {
 

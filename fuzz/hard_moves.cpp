@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 
 namespace lorentz::fuzz {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "crystals.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "family_list.hpp"
 #include "parts.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "examiner.hpp"
-#include "family.hpp"
+#include "case.hpp"
 #include "margin.hpp"
 
 namespace lorentz::fuzz {

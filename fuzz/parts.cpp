@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "escalate.hpp"
 
 namespace lorentz::fuzz {

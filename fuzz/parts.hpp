@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "family.hpp"
+#include "case.hpp"
 #include "hard_moves.hpp"
 #include "integer_vectors.hpp"
 #include "oracle.hpp"

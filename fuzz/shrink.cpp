@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "parts.hpp"
 
 namespace lorentz::fuzz {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 #include "bounds.hpp"
 
 namespace lorentz {

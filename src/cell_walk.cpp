@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "double_double.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 
 namespace lorentz {
 namespace {

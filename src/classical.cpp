@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 
 namespace lorentz {
 namespace {

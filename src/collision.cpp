@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 
 namespace lorentz {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "published_search.hpp"
 
 namespace lorentz {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 #include "engine.hpp"
 #include "published.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 #include "bounds.hpp"
 
 namespace lorentz {

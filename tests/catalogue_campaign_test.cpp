@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "draw.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 #include "engine.hpp"
 #include "escalate.hpp"
 #include "hard_cases.hpp"

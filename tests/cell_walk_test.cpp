@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 #include "classical.hpp"
 #include "oracle.hpp"
 #include "support.hpp"

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "ball.hpp"
+#include "geometry.hpp"
 #include "oracle.hpp"
 #include "support.hpp"
 

@@ -1,6 +1,6 @@
 // Volumes, surfaces, mean free paths: against closed forms, and against quadrature.
 #include "scene_geometry.hpp"
-#include "dual.hpp"
+#include "geometry.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,8 @@
 
 #include "answerer.hpp"
 #include "engine.hpp"
+#include "engine_subject.hpp"
 #include "escalate.hpp"
-#include "fuzz.hpp"
 #include "published.hpp"
 #include "reduction.hpp"
 #include "registry.hpp"
@@ -19,8 +19,8 @@ using fuzz::Reply;
 // Whoever answers. Another program gets many queries before its answers are waited for.
 class AnswererSubject final : public fuzz::Subject {
  public:
-  AnswererSubject(const std::string& engine, double timeout)
-      : answerer_(make_answerer(engine, {{}, timeout})), is_command_(is_command(engine)) {
+  AnswererSubject(const std::string& engine, const AnswererOptions& options)
+      : answerer_(make_answerer(engine, options)), is_command_(is_command(engine)) {
     answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer}); });
   }
 
@@ -160,14 +160,14 @@ fuzz::MakeSubject maker_of() {
 
 }  // namespace
 
-fuzz::MakeSubject subject_maker(const std::string& engine, double timeout) {
+fuzz::MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
   check_name(engine);
   if (engine == "published") return maker_of<PublishedSubject>();
   if (engine == "reduction") return maker_of<ReductionSubject>();
   if (engine == "classical") return maker_of<ClassicalSubject>();
   if (engine == "walk") return maker_of<WalkSubject>();
   if (engine == "certified") return maker_of<CertifiedSubject>();
-  return [engine, timeout] { return std::make_unique<AnswererSubject>(engine, timeout); };
+  return [engine, options] { return std::make_unique<AnswererSubject>(engine, options); };
 }
 
 }  // namespace lorentz::cli

@@ -1,12 +1,29 @@
-// Dual vectors, in plain binary64: a lattice's for coordinates, an ellipsoid's for the unit ball behind it.
+// Elementary geometry in plain binary64: products, a line and a ball, coordinates in a cell or an ellipsoid.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "ball.hpp"
+#include "problem.hpp"
 
 namespace lorentz {
+
+inline double dot(const Vec& a, const Vec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
+/// quadratic t = -B - sqrt(B^2 - C), B = x.v / v^2, C = (x^2 - r^2) / v^2; may be negative; nothing if B^2 <
+/// C.
+inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
+  const double v2 = dot(v, v);
+  const double B = dot(x, v) / v2;
+  const double C = (dot(x, x) - r * r) / v2;
+  const double discriminant = B * B - C;
+  if (discriminant < 0) return std::nullopt;
+  return -B - std::sqrt(discriminant);
+}
 
 /// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
 /// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.

@@ -1,0 +1,26 @@
+// The person at the terminal, for work that tells a listener how it goes.
+#pragma once
+
+#include <memory>
+
+#include "listener.hpp"
+#include "messages.hpp"
+#include "progress.hpp"
+
+namespace lorentz::cli {
+
+/// Messages on stderr; progress bars, one after the other, if that is a terminal.
+inline Listener terminal() {
+  Listener listener;
+  listener.message = [](const std::string& text) { say("{}", text); };
+  if (isatty(STDERR_FILENO) == 1)
+    listener.progress = [bar = std::shared_ptr<Progress>()](const std::string& what, std::size_t done,
+                                                            std::size_t total) mutable {
+      if (!bar || bar->what() != what) bar = std::make_shared<Progress>(what, total);
+      bar->at(done);
+      if (done >= total) bar.reset();
+    };
+  return listener;
+}
+
+}  // namespace lorentz::cli
