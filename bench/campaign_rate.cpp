@@ -7,8 +7,8 @@
 #include <ctime>
 #include <utility>
 
-#include "campaign.hpp"
-#include "escalate.hpp"
+#include <lorentz/certified.hpp>
+#include "fuzz/campaign/campaign.hpp"
 
 using namespace lorentz;
 

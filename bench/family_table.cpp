@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
-#include "family.hpp"
-#include "oracle.hpp"
+#include <lorentz/oracle.hpp>
+#include "cases/families/family.hpp"
 
 using namespace lorentz;
 

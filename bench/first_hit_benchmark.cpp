@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "draw.hpp"
-#include "escalate.hpp"
-#include "hard_cases.hpp"
-#include "reduction.hpp"
+#include <lorentz/certified.hpp>
+#include <lorentz/reduction.hpp>
+#include "compare/hard_cases.hpp"
+#include "compare/sampling.hpp"
 
 using namespace lorentz;
 

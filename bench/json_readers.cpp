@@ -1,6 +1,6 @@
 // Which JSON reader? The same million query lines through three of them, in alternating rounds: simdjson
-// On-Demand with every value looked at (what src/exchange_read.cpp does), simdjson's DOM, RapidJSON (full
-// precision, iterative). Each sums all components of x and v, so that none can skip its work.
+// On-Demand with every value looked at (what src/exchange/exchange_read.cpp does), simdjson's DOM, RapidJSON
+// (full precision, iterative). Each sums all components of x and v, so that none can skip its work.
 #include <rapidjson/document.h>
 #include <simdjson.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exchange.hpp"
+#include <lorentz/exchange.hpp>
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "draw.hpp"
-#include "oracle.hpp"
+#include <lorentz/oracle.hpp>
+#include "compare/sampling.hpp"
 
 using namespace lorentz;
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "draw.hpp"
-#include "measure.hpp"
-#include "published.hpp"
+#include "compare/measure.hpp"
+#include "compare/sampling.hpp"
+#include "src/engines/published/published.hpp"
 
 using namespace lorentz;
 

@@ -1,15 +1,15 @@
-#include "app.hpp"
+#include "cli/app.hpp"
 
 #include <CLI/Version.hpp>
 #include <cerrno>
 #include <cstring>
 #include <iostream>
 
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "messages.hpp"
-#include "oracle.hpp"
-#include "walk.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/walk.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
 
 namespace lorentz::cli {
 namespace {

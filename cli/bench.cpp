@@ -3,16 +3,16 @@
 #include <cmath>
 #include <fstream>
 
-#include "app.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "hard_cases.hpp"
-#include "measure.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "scene_option.hpp"
-#include "table.hpp"
-#include "terminal.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "compare/hard_cases.hpp"
+#include "compare/measure.hpp"
 
 namespace lorentz::cli {
 namespace {

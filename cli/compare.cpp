@@ -2,18 +2,18 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "app.hpp"
-#include "compare_table.hpp"
-#include "disagreement_file.hpp"
-#include "draw.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "measure.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "query_stream.hpp"
-#include "scene_option.hpp"
-#include "terminal.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/compare_table.hpp"
+#include "cli/disagreement_file.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/query_stream.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/terminal.hpp"
+#include "compare/measure.hpp"
+#include "compare/sampling.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -1,10 +1,10 @@
-#include "compare_table.hpp"
+#include "cli/compare_table.hpp"
 
 #include <fmt/format.h>
 
-#include "margin.hpp"
-#include "numbers.hpp"
-#include "table.hpp"
+#include <lorentz/margin.hpp>
+#include "cli/numbers.hpp"
+#include "cli/table.hpp"
 
 namespace lorentz::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measure.hpp"
+#include "compare/measure.hpp"
 
 namespace lorentz::cli {
 

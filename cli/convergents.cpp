@@ -1,11 +1,11 @@
 // lorentz convergents: the exact continued fraction of a slope.
-#include "app.hpp"
-#include "continued_fraction.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "table.hpp"
+#include <lorentz/continued_fraction.hpp>
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/table.hpp"
 
 namespace lorentz::cli {
 namespace {

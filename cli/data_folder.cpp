@@ -1,4 +1,4 @@
-#include "data_folder.hpp"
+#include "cli/data_folder.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,6 +17,7 @@ std::vector<fs::path> data_folders() {
   if (!error) {
     folders.push_back(program.parent_path() / "../data");
     folders.push_back(program.parent_path() / "../../data");
+    folders.push_back(program.parent_path() / "../share/lorentz");  // installed
   }
   return folders;
 }

@@ -1,4 +1,4 @@
-// The project's own data, wherever the program was built.
+// The project's own data, wherever the program was built or installed.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace lorentz::cli {
 
 /// The files with this extension in data/FOLDER, in order: of the data folder that LORENTZ_DATA names, or of
-/// the one beside the build folder. None if there is no such folder.
+/// the one beside the build folder, or of the one installed. None if there is no such folder.
 std::vector<std::string> data_files(const std::string& folder, const std::string& extension);
 
 }  // namespace lorentz::cli

@@ -2,14 +2,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "app.hpp"
-#include "disagreement_file.hpp"
-#include "draw.hpp"
-#include "exit_status.hpp"
-#include "measure.hpp"
-#include "messages.hpp"
-#include "table.hpp"
-#include "terminal.hpp"
+#include "cli/app.hpp"
+#include "cli/disagreement_file.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "compare/measure.hpp"
+#include "compare/sampling.hpp"
 
 namespace lorentz::cli {
 namespace {

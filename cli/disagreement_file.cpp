@@ -1,9 +1,9 @@
-#include "disagreement_file.hpp"
+#include "cli/disagreement_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 
-#include "exchange.hpp"
+#include <lorentz/exchange.hpp>
 
 namespace lorentz::cli {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "measure.hpp"
+#include "compare/measure.hpp"
 
 namespace lorentz::cli {
 

@@ -6,16 +6,16 @@
 #include <cstring>
 #include <deque>
 
-#include "answerer.hpp"
-#include "app.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "query_stream.hpp"
-#include "registry.hpp"
-#include "scene_option.hpp"
-#include "terminal.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/query_stream.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/terminal.hpp"
+#include "compare/answerer.hpp"
+#include "compare/registry.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -1,22 +1,22 @@
 // lorentz fuzz: runs a campaign, or goes on with one, and reports.
-#include "fuzz.hpp"
+#include "cli/fuzz.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
-#include "answerer.hpp"
-#include "draw.hpp"
-#include "engine_subject.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "margin.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "progress.hpp"
-#include "ranks.hpp"
-#include "registry.hpp"
-#include "terminal.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
+#include "compare/answerer.hpp"
+#include "compare/registry.hpp"
+#include "compare/sampling.hpp"
+#include "fuzz/campaign/ranks.hpp"
+#include "fuzz/examine/engine_subject.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app.hpp"
-#include "store.hpp"
+#include "cli/app.hpp"
+#include "fuzz/campaign/store.hpp"
 
 namespace lorentz::cli {
 

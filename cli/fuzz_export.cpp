@@ -3,11 +3,11 @@
 #include <map>
 #include <set>
 
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "fuzz.hpp"
-#include "maker.hpp"
-#include "messages.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/fuzz.hpp"
+#include "cli/messages.hpp"
+#include "golden/maker.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
-#include "exchange.hpp"
-#include "fuzz.hpp"
-#include "messages.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/fuzz.hpp"
+#include "cli/messages.hpp"
+#include "cli/table.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "fuzz.hpp"
-#include "messages.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/fuzz.hpp"
+#include "cli/messages.hpp"
+#include "cli/table.hpp"
 
 namespace lorentz::cli {
 namespace {

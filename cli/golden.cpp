@@ -1,15 +1,15 @@
 // lorentz golden: sets of cases with their exact answers and the proofs of these.
-#include "golden.hpp"
+#include "cli/golden.hpp"
 
 #include <filesystem>
 
-#include "data_folder.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "messages.hpp"
-#include "reader.hpp"
-#include "sets.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/data_folder.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/table.hpp"
+#include "golden/reader.hpp"
+#include "golden/sets.hpp"
 
 namespace lorentz::cli {
 namespace {

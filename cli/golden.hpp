@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app.hpp"
+#include "cli/app.hpp"
 
 namespace lorentz::cli {
 

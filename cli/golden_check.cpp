@@ -3,20 +3,20 @@
 #include <filesystem>
 #include <map>
 
-#include "compare_table.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "golden.hpp"
-#include "margin.hpp"
-#include "measure.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "progress.hpp"
-#include "reader.hpp"
-#include "registry.hpp"
-#include "table.hpp"
-#include "terminal.hpp"
-#include "verdict.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/verdict.hpp>
+#include "cli/compare_table.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/golden.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/progress.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "compare/measure.hpp"
+#include "compare/registry.hpp"
+#include "golden/reader.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -1,12 +1,12 @@
 // lorentz golden explain: one record in full.
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "golden.hpp"
-#include "margin.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "reader.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/golden.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/table.hpp"
+#include "golden/reader.hpp"
 
 namespace lorentz::cli {
 namespace {

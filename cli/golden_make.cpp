@@ -3,14 +3,14 @@
 #include <fstream>
 #include <thread>
 
-#include "draw.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "golden.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "production.hpp"
-#include "progress.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/golden.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/progress.hpp"
+#include "compare/sampling.hpp"
+#include "golden/production.hpp"
 
 namespace lorentz::cli {
 namespace {

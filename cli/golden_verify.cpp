@@ -1,14 +1,14 @@
 // lorentz golden verify: are the sets' certificates proofs of their answers?
 #include <set>
 
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "golden.hpp"
-#include "maker.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "progress.hpp"
-#include "reader.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/golden.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/progress.hpp"
+#include "golden/maker.hpp"
+#include "golden/reader.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -1,13 +1,13 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
-#include "horizon_verdict.hpp"
+#include "cli/horizon_verdict.hpp"
 
-#include "app.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "scene_option.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/table.hpp"
 
 namespace lorentz::cli {
 namespace {

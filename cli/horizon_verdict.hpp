@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "horizon.hpp"
+#include <lorentz/horizon.hpp>
 
 namespace lorentz::cli {
 

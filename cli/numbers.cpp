@@ -1,11 +1,11 @@
-#include "numbers.hpp"
+#include "cli/numbers.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 
-#include "exchange.hpp"
+#include <lorentz/exchange.hpp>
 
 namespace lorentz::cli {
 

@@ -1,8 +1,8 @@
-#include "query_stream.hpp"
+#include "cli/query_stream.hpp"
 
-#include "messages.hpp"
-#include "scene_check.hpp"
-#include "scene_option.hpp"
+#include <lorentz/scene_check.hpp>
+#include "cli/messages.hpp"
+#include "cli/scene_option.hpp"
 
 namespace lorentz::cli {
 

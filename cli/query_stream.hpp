@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "exchange.hpp"
+#include <lorentz/exchange.hpp>
 
 namespace lorentz::cli {
 

@@ -3,19 +3,19 @@
 #include <cstring>
 #include <fstream>
 
-#include "app.hpp"
-#include "exchange.hpp"
-#include "exit_status.hpp"
-#include "horizon_verdict.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "query_stream.hpp"
-#include "registry.hpp"
-#include "scene_check.hpp"
-#include "scene_drawing.hpp"
-#include "scene_geometry.hpp"
-#include "scene_option.hpp"
-#include "table.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/scene_check.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/horizon_verdict.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/query_stream.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/table.hpp"
+#include "compare/registry.hpp"
+#include "pictures/scene_drawing.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cli {
 namespace {

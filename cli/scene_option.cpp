@@ -1,4 +1,4 @@
-#include "scene_option.hpp"
+#include "cli/scene_option.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "data_folder.hpp"
-#include "exchange.hpp"
-#include "messages.hpp"
-#include "scene_check.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/scene_check.hpp>
+#include "cli/data_folder.hpp"
+#include "cli/messages.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "problem.hpp"
+#include <lorentz/problem.hpp>
 
 namespace lorentz::cli {
 

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "listener.hpp"
-#include "messages.hpp"
-#include "progress.hpp"
+#include "cli/messages.hpp"
+#include "cli/progress.hpp"
+#include "compare/listener.hpp"
 
 namespace lorentz::cli {
 

@@ -1,12 +1,12 @@
-#include "maker.hpp"
+#include "golden/maker.hpp"
 
 #include <stdexcept>
 
-#include "certificate_check.hpp"
-#include "margin.hpp"
-#include "oracle.hpp"
-#include "prover.hpp"
-#include "walk.hpp"
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/walk.hpp>
 
 namespace lorentz::golden {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "record.hpp"
+#include "golden/record.hpp"
 
 namespace lorentz::golden {
 

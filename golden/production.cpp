@@ -1,4 +1,4 @@
-#include "production.hpp"
+#include "golden/production.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -15,7 +15,7 @@
 #include <thread>
 #include <unordered_set>
 
-#include "maker.hpp"
+#include "golden/maker.hpp"
 
 namespace lorentz::golden {
 namespace {

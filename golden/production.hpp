@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "sets.hpp"
+#include "golden/sets.hpp"
 
 namespace lorentz::golden {
 

@@ -1,10 +1,10 @@
-#include "reader.hpp"
+#include "golden/reader.hpp"
 
 #include <set>
 
-#include "exchange_json.hpp"
-#include "line_reader.hpp"
-#include "scene_check.hpp"
+#include <lorentz/line_reader.hpp>
+#include <lorentz/scene_check.hpp>
+#include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::golden {
 namespace {

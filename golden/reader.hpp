@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "record.hpp"
+#include "golden/record.hpp"
 
 namespace lorentz::golden {
 

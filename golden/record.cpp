@@ -1,4 +1,4 @@
-#include "record.hpp"
+#include "golden/record.hpp"
 
 #include <openssl/evp.h>
 

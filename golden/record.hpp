@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "certificate.hpp"
-#include "exchange.hpp"
+#include <lorentz/certificate.hpp>
+#include <lorentz/exchange.hpp>
 
 namespace lorentz::golden {
 

@@ -1,8 +1,8 @@
-#include "sets.hpp"
+#include "golden/sets.hpp"
 
 #include <limits>
 
-#include "bad_queries.hpp"
+#include "cases/bad_queries.hpp"
 
 namespace lorentz::golden {
 namespace {

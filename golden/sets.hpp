@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "family.hpp"
-#include "record.hpp"
+#include "cases/families/family.hpp"
+#include "golden/record.hpp"
 
 namespace lorentz::golden {
 

@@ -1,10 +1,10 @@
-#include "oracle.hpp"
+#include <lorentz/oracle.hpp>
 
 #include <variant>
 
-#include "exact_query.hpp"
-#include "first_hit.hpp"
-#include "inside.hpp"
+#include "oracle/exact/exact_query.hpp"
+#include "oracle/exact/inside.hpp"
+#include "oracle/first_hit/first_hit.hpp"
 
 namespace lorentz::oracle {
 namespace {

@@ -4,12 +4,12 @@
 // that would be hit if the first were not there, at the time at which it would be.
 #include <algorithm>
 
-#include "certificate_check.hpp"
-#include "decoder.hpp"
-#include "harness.hpp"
-#include "input_file.hpp"
-#include "oracle.hpp"
-#include "reader.hpp"
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/oracle.hpp>
+#include "fuzz/harness/decoder.hpp"
+#include "fuzz/harness/harness.hpp"
+#include "fuzz/harness/input_file.hpp"
+#include "golden/reader.hpp"
 
 namespace lorentz::harness {
 namespace {

@@ -1,10 +1,10 @@
-#include "decoder.hpp"
+#include "fuzz/harness/decoder.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "scene_check.hpp"
+#include <lorentz/scene_check.hpp>
 
 namespace lorentz::harness {
 namespace {

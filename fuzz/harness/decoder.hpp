@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "problem.hpp"
+#include <lorentz/problem.hpp>
 
 namespace lorentz::harness {
 

@@ -6,13 +6,13 @@
 #include <cstring>
 #include <limits>
 
-#include "certificate_check.hpp"
-#include "decoder.hpp"
-#include "escalate.hpp"
-#include "exchange.hpp"
-#include "harness.hpp"
-#include "prover.hpp"
-#include "verdict.hpp"
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/certified.hpp>
+#include <lorentz/exchange.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/verdict.hpp>
+#include "fuzz/harness/decoder.hpp"
+#include "fuzz/harness/harness.hpp"
 
 namespace lorentz::harness {
 namespace {

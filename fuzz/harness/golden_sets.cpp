@@ -1,9 +1,9 @@
 // Any bytes as a golden set. Promised: no crash, no wait; an error is of the documented type; each record is
 // either a query or says why it is none; and the set that is written of what was read reads the same again.
-#include "harness.hpp"
-#include "input_file.hpp"
-#include "reader.hpp"
-#include "same.hpp"
+#include "fuzz/harness/harness.hpp"
+#include "fuzz/harness/input_file.hpp"
+#include "fuzz/harness/same.hpp"
+#include "golden/reader.hpp"
 
 namespace lorentz::harness {
 namespace {

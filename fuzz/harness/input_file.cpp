@@ -1,11 +1,11 @@
-#include "input_file.hpp"
+#include "fuzz/harness/input_file.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 
-#include "harness.hpp"
+#include "fuzz/harness/harness.hpp"
 
 namespace lorentz::harness {
 

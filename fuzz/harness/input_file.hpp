@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "line_reader.hpp"
+#include <lorentz/line_reader.hpp>
 
 namespace lorentz::harness {
 

@@ -1,4 +1,4 @@
-#include "json_edit.hpp"
+#include "fuzz/harness/json_edit.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "input_file.hpp"
-#include "json_edit.hpp"
+#include "fuzz/harness/input_file.hpp"
+#include "fuzz/harness/json_edit.hpp"
 
 /// libFuzzer's own, or replay_main.cpp's.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);

@@ -1,11 +1,11 @@
 // Any bytes as a query stream and as an answer stream. Promised: no crash, no wait; an error is of the
 // documented type, and its message makes a line of an answer stream; what is read is free of flaws, and
 // written and read again it is the same.
-#include "exchange.hpp"
-#include "harness.hpp"
-#include "input_file.hpp"
-#include "same.hpp"
-#include "scene_check.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/scene_check.hpp>
+#include "fuzz/harness/harness.hpp"
+#include "fuzz/harness/input_file.hpp"
+#include "fuzz/harness/same.hpp"
 
 namespace lorentz::harness {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "harness.hpp"
+#include "fuzz/harness/harness.hpp"
 
 // The harness's own way to change an input, if it has one.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,

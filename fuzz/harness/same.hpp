@@ -4,7 +4,7 @@
 #include <cstring>
 #include <optional>
 
-#include "problem.hpp"
+#include <lorentz/problem.hpp>
 
 namespace lorentz::harness {
 

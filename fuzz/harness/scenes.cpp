@@ -1,11 +1,11 @@
 // Any bytes as a scene file, TOML or JSON. Promised: no crash, no wait; an error is of the documented type
 // and names the file; a scene that is read is free of flaws, and written and read again, as a file and as a
 // line of a stream, it is the same.
-#include "exchange.hpp"
-#include "harness.hpp"
-#include "input_file.hpp"
-#include "same.hpp"
-#include "scene_check.hpp"
+#include <lorentz/exchange.hpp>
+#include <lorentz/scene_check.hpp>
+#include "fuzz/harness/harness.hpp"
+#include "fuzz/harness/input_file.hpp"
+#include "fuzz/harness/same.hpp"
 
 namespace lorentz::harness {
 namespace {

@@ -1,0 +1,36 @@
+// A case: a scene, a query, and what is hard about them. A case follows from (seed, family, index) and
+// nothing else: it is the same whoever asks, in whatever order, on whatever thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::fuzz {
+
+struct Case {
+  Scene scene;
+  Query query;
+  std::vector<std::string> tags;
+};
+
+/// What a case may be marked with, and what it is out to break.
+struct Tag {
+  std::string_view name, note;
+};
+
+/// So many cases in a row share a scene, bit for bit, because a stream has a line for each new scene. (The
+/// examples that `published-faults` begins with do not.)
+inline constexpr std::uint64_t kCasesPerScene = 32;
+
+/// What one case is made from.
+struct Source {
+  std::uint64_t index;
+  Random scene;   ///< the same for all cases that share a scene: the scene follows from this alone
+  Random random;  ///< the case's own
+};
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,74 @@
+#include "cases/crystals.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+Scene scene(int dimension, const std::array<Vec, 3>& vectors, std::vector<Atom> atoms) {
+  return {dimension, {{vectors, std::move(atoms)}}};
+}
+
+Atom ball(const Vec& position, double radius) {
+  return {position, radius, {}};
+}
+
+constexpr double kRoot3Half = 0.8660254037844386;  // rounded, as in the catalogue
+constexpr std::array<Vec, 3> kSquare{Vec{1, 0}, Vec{0, 1}, Vec{}};
+constexpr std::array<Vec, 3> kTriangular{Vec{1, 0}, Vec{0.5, kRoot3Half}, Vec{}};
+constexpr std::array<Vec, 3> kCubic{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+constexpr std::array<Vec, 3> kFcc{Vec{0, 0.5, 0.5}, Vec{0.5, 0, 0.5}, Vec{0.5, 0.5, 0}};
+constexpr std::array<Vec, 3> kBcc{Vec{-0.5, 0.5, 0.5}, Vec{0.5, -0.5, 0.5}, Vec{0.5, 0.5, -0.5}};
+constexpr std::array<Vec, 3> kHexagonal{Vec{1, 0, 0}, Vec{-0.5, kRoot3Half, 0}, Vec{0, 0, 1.632993161855452}};
+constexpr std::array<Vec, 3> kTriclinic{Vec{1, 0, 0}, Vec{0.25, 1, 0}, Vec{-0.125, 0.25, 1.125}};
+
+std::vector<Crystal> flat() {
+  const Vec middle{0.5, 0.28867513459481287};
+  return {
+      {"square", scene(2, kSquare, {ball({}, 0.1)})},
+      {"rectangular", scene(2, {Vec{1, 0}, Vec{0, 1.5}, Vec{}}, {ball({}, 0.4)})},
+      {"oblique", scene(2, {Vec{1, 0}, Vec{0.25, 1.25}, Vec{}}, {ball({}, 0.4)})},
+      {"triangular", scene(2, kTriangular, {ball({}, 0.45)})},
+      {"hexagonal", scene(2, {Vec{1, 0}, Vec{-0.5, kRoot3Half}, Vec{}}, {ball({}, 0.4)})},
+      {"honeycomb", scene(2, kTriangular, {ball({}, 0.23), ball(middle, 0.23)})},
+      {"kagome",
+       scene(2, kTriangular, {ball({}, 0.2), ball({0.5, 0}, 0.2), ball({0.25, 0.4330127018922193}, 0.2)})},
+  };
+}
+
+std::vector<Crystal> solid() {
+  const Vec middle{0.5, 0.5, 0.5}, quarter{0.25, 0.25, 0.25};
+  return {
+      {"cubic", scene(3, kCubic, {ball({}, 0.1)})},
+      {"bcc", scene(3, kBcc, {ball({}, 0.35)})},
+      {"fcc", scene(3, kFcc, {ball({}, 0.28)})},
+      {"hcp", scene(3, kHexagonal,
+                    {ball({0, 0.5773502691896257, 0.408248290463863}, 0.4),
+                     ball({0.5, 0.28867513459481287, 1.224744871391589}, 0.4)})},
+      {"diamond", scene(3, kFcc, {ball({}, 0.17), ball(quarter, 0.17)})},
+      {"rock-salt", scene(3, kFcc, {ball({}, 0.28), ball(middle, 0.14)})},
+      {"cesium-chloride", scene(3, kCubic, {ball({}, 0.4), ball(middle, 0.3)})},
+      {"perovskite", scene(3, kCubic,
+                           {ball(middle, 0.35), ball({}, 0.15), ball({0.5, 0, 0}, 0.25),
+                            ball({0, 0.5, 0}, 0.25), ball({0, 0, 0.5}, 0.25)})},
+      {"triclinic", scene(3, kTriclinic, {ball({}, 0.4)})},
+  };
+}
+
+}  // namespace
+
+const std::vector<Crystal>& crystals() {
+  static const std::vector<Crystal> all = [] {
+    std::vector<Crystal> both = flat();
+    for (Crystal& crystal : solid()) both.push_back(std::move(crystal));
+    return both;
+  }();
+  return all;
+}
+
+const Crystal& drawn_crystal(Random& random, int dimension) {
+  static const std::uint64_t count = flat().size();
+  const std::uint64_t first = dimension == 2 ? 0 : count,
+                      number = dimension == 2 ? count : crystals().size() - count;
+  return crystals()[first + random.below(number)];
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,91 @@
+// axis-and-diagonal: the numbers that people type, and the ends of binary64's range. Directions along axes,
+// diagonals and other small integers, with zeros of either sign or components too small to matter in any cell
+// that will be reached; starts at halves, on cell edges and corners, in negative cells and beyond 2^53;
+// velocities that are subnormal or near overflow, whose squares are neither. All of them exact, so that every
+// formula that divides by a component, takes a floor of a coordinate, or squares a velocity, meets its worst
+// arguments.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+void set_direction(Random& random, int dimension, Case& made) {
+  Vec& v = made.query.v;
+  const bool axis = random.one_in(3);
+  const IntVec g = drawn_primitive(random, dimension, random.one_in(2) ? 1 : 6);
+  for (int i = 0; i < dimension; ++i) v[i] = static_cast<double>(g[i]);
+  const auto kept = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+  if (axis)
+    for (int i = 0; i < dimension; ++i) v[i] = i == kept ? random.sign() : 0.0;
+  made.tags.push_back(axis ? "axis" : "small-integers");
+  bool minus_zero = false, tiny = false;
+  for (int i = 0; i < dimension; ++i) {
+    if (v[i] != 0) continue;
+    const std::uint64_t how = random.below(4);
+    if (how == 0) v[i] = -0.0, minus_zero = true;
+    if (how == 1)
+      v[i] = random.sign() * (random.one_in(3) ? 0x1p-1074 : random.octave(-1022, -30)), tiny = true;
+  }
+  if (minus_zero) made.tags.push_back("minus-zero");
+  if (tiny) made.tags.push_back("tiny-component");
+  if (tiny || !random.one_in(3)) return;
+  const bool huge = random.one_in(2);
+  made.tags.push_back(huge ? "huge-velocity" : "subnormal-velocity");
+  const double factor = huge ? random.octave(900, 1020) : std::ldexp(1, -1074);
+  for (int i = 0; i < dimension; ++i)
+    if (v[i] != 0) v[i] *= huge ? factor : factor * static_cast<double>(random.integer(1, 4096));
+}
+
+// A multiple of 1/8 in a cell near or far, mostly moved along v, which keeps it on the same line.
+void set_start(Random& random, int dimension, const Lattice& lattice, Case& made) {
+  Vec& x = made.query.x;
+  const bool far = random.one_in(4);
+  const std::int64_t range = far ? std::int64_t{1} << random.integer(20, 56) : 50;
+  const double grid = random.one_in(2) ? 2 : 8;
+  for (int i = 0; i < dimension; ++i) {
+    const double share = static_cast<double>(random.integer(0, static_cast<std::int64_t>(grid)));
+    const double coordinate = static_cast<double>(random.integer(-range, range)) + share / grid;
+    x = sum(x, scaled(lattice.vectors[i], coordinate));
+  }
+  if (far) made.tags.push_back("far-cell");
+  if (random.one_in(4)) {
+    made.tags.push_back("ulps-off");
+    jitter(random, x, dimension, 2);
+  }
+}
+
+Case make_axis(Source& source) {
+  static constexpr double kRadii[] = {0.5, 0.25, 0.125, 0.3125, 0.1, 0.01, 0x1p-20};
+  Case made;
+  Random& drawn = source.scene;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  made.scene = drawn.one_in(3) ? drawn_crystal(drawn, dimension).scene : unit_scene(dimension, 1);
+  set_radius(made.scene, kRadii[drawn.below(7)]);
+  set_start(source.random, dimension, made.scene.lattices[0], made);
+  set_direction(source.random, dimension, made);
+  return made;
+}
+
+}  // namespace
+
+Family axis_and_diagonal() {
+  return {
+      "axis-and-diagonal",
+      "Directions of zeros and small integers, starts at halves and in far cells, velocities at the ends of "
+      "binary64's range.",
+      {{"axis", "along an axis: slopes of 0 and infinity"},
+       {"small-integers", "along a small integer vector: periodic, through corners and middles of cells"},
+       {"minus-zero", "a component is -0, which is 0"},
+       {"tiny-component", "a component of 2^-30 down to 2^-1074, which is not 0"},
+       {"huge-velocity", "components beyond 1e270: their squares overflow"},
+       {"subnormal-velocity", "components below 1e-307: their squares vanish"},
+       {"far-cell", "starts in cells up to 2^56: the offset in the cell keeps few bits, or none"},
+       {"ulps-off", "a start moved up to 2 ulps in each component"}},
+      make_axis};
+}
+
+}  // namespace lorentz::fuzz

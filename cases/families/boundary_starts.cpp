@@ -1,0 +1,159 @@
+// boundary-starts: particles on an obstacle's surface, and ulps from it.
+//
+// x - c is on the sphere exactly where r = w 2^-m and x - c = (a, b, c) 2^-m with a^2 + b^2 + c^2 = w^2; w
+// with many prime factors of the kind 4k + 1 has many such points in the plane, rows of a quaternion's matrix
+// are some in space. From there a flight inwards hits at t = 0, one outwards or along the tangent does not
+// hit this obstacle at all; an ulp inwards the start is inside, an ulp outwards the hit comes at t > 0. In
+// other lattices the nearest binary64 to a point of the surface is a start that is as likely inside as
+// outside. `from` takes one obstacle out of the question, wherever x lies: on it, in it, or far from it.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// An integer point of the circle of radius w, found upwards from a drawn one; (w, 0) ends the search.
+IntVec circle_point(Random& random, std::int64_t w) {
+  for (std::int64_t a = random.integer(0, w);; ++a) {
+    const auto b = static_cast<std::int64_t>(std::sqrt(static_cast<double>(w * w - a * a)));
+    if (a * a + b * b == w * w) return {a, b, 0};
+  }
+}
+
+// Rows and columns of a quaternion's rotation matrix have its norm's length.
+IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternion) {
+  const auto [a, b, c, d] = quaternion;
+  const IntVec rows[] = {{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+                         {2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)},
+                         {2 * (b * d + a * c), 2 * (c * d - a * b), a * a - b * b - c * c + d * d}};
+  const std::uint64_t i = random.below(6);
+  return i < 3 ? rows[i] : IntVec{rows[0][i - 3], rows[1][i - 3], rows[2][i - 3]};
+}
+
+// A velocity at a surface point with the outward normal n.
+Vec drawn_velocity(Random& random, const Vec& n, int dimension, std::vector<std::string>& tags) {
+  Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
+  if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
+  const double side = random.sign();
+  switch (random.below(4)) {
+    case 0:
+      tags.push_back("inwards");
+      return sum(scaled(n, -1), scaled(tangent, random.between(-2, 2)));
+    case 1:
+      tags.push_back("outwards");
+      return sum(n, scaled(tangent, random.between(-2, 2)));
+    case 2:
+      tags.push_back("tangential");
+      return scaled(tangent, side);
+    default:
+      tags.push_back("nearly-tangential");
+      return sum(scaled(tangent, side), scaled(n, random.octave(-53, -4) * random.sign()));
+  }
+}
+
+// What `from` says, if anything; `own` is the obstacle that x is on.
+void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension, Case& made) {
+  switch (random.below(6)) {
+    case 0:
+    case 1:
+      made.tags.push_back("leaving");
+      made.query.from = own;
+      break;
+    case 2:
+      made.tags.front() = "from-around-x";  // in place of how near the surface x was
+      made.query.from = own;
+      made.query.x = sum(made.query.x, scaled(n, -random.between(0, 1)));
+      break;
+    case 3: {
+      made.tags.push_back("from-elsewhere");
+      ObstacleId other = own;
+      const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
+      for (int i = 0; i < dimension; ++i) other.cell[i] = Integer(random.integer(-far, far));
+      made.query.from = other;
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+// x on or ulps from the surface around `centre`.
+void set_start(Random& random, const Vec& centre, const Vec& n, int dimension, bool exact, Case& made) {
+  made.query.x = sum(centre, n);
+  const bool off = random.one_in(2);
+  made.tags.push_back(exact && !off ? "on-surface" : "near-surface");
+  if (off)
+    for (int i = 0; i < dimension; ++i)
+      if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4));
+}
+
+Case make_exact(Source& source) {
+  static constexpr std::int64_t kRich[] = {65, 85, 325, 425, 1105, 5525};
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  std::array<std::int64_t, 4> quaternion{1, 1, 1, 0};
+  for (std::int64_t& component : quaternion) component += drawn.integer(0, 12);
+  std::int64_t w = kRich[drawn.below(6)];
+  if (dimension == 3) {
+    w = 0;
+    for (const std::int64_t component : quaternion) w += component * component;
+  }
+  const int exponent = std::ilogb(static_cast<double>(w)) + static_cast<int>(drawn.integer(3, 9));
+  made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(w), -exponent));
+  const IntVec point = dimension == 2 ? circle_point(random, w) : sphere_point(random, quaternion);
+  const Symmetry symmetry(random, dimension);
+  const Vec n = scaled(symmetry(to_vec(point)), std::ldexp(1, -exponent));
+  ObstacleId own;
+  Vec centre{};
+  for (int i = 0; i < dimension; ++i) {
+    const std::int64_t cell = random.integer(-9, 9);
+    own.cell[i] = Integer(cell);
+    centre[i] = static_cast<double>(cell);
+  }
+  set_start(random, centre, n, dimension, true, made);
+  made.query.v = drawn_velocity(random, n, dimension, made.tags);
+  set_from(random, own, n, dimension, made);
+  return made;
+}
+
+Case make_rounded(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  made.scene = drawn_crystal(drawn, drawn.one_in(2) ? 3 : 2).scene;
+  scale_obstacles(made.scene, drawn.one_in(2) ? 1 : drawn.octave(-14, 0));
+  const Lattice& lattice = made.scene.lattices[0];
+  ObstacleId own;
+  own.atom = static_cast<int>(random.below(lattice.atoms.size()));
+  IntVec cell{};
+  for (int i = 0; i < made.scene.dimension; ++i)
+    cell[i] = random.integer(-3, 3), own.cell[i] = Integer(cell[i]);
+  const Vec centre = sum(lattice.atoms[own.atom].position, cartesian(lattice, cell)),
+            n = scaled(random.direction(made.scene.dimension), lattice.atoms[own.atom].radius);
+  set_start(random, centre, n, made.scene.dimension, false, made);
+  made.query.v = drawn_velocity(random, n, made.scene.dimension, made.tags);
+  set_from(random, own, n, made.scene.dimension, made);
+  return made;
+}
+
+}  // namespace
+
+Family boundary_starts() {
+  return {"boundary-starts",
+          "Starts on an obstacle's surface, exactly or within ulps; with and without `from`.",
+          {{"on-surface", "exactly on the surface, which belongs to no open obstacle"},
+           {"near-surface", "within ulps of it: inside or outside, and the time 0 or tiny"},
+           {"inwards", "hits at once, at t = 0 if it starts on the surface"},
+           {"outwards", "does not hit the obstacle that it starts on"},
+           {"tangential", "touches, which is no hit"},
+           {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness"},
+           {"leaving", "`from` is the obstacle that x is on"},
+           {"from-around-x", "`from` contains x, and is ignored all the same"},
+           {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},
+          [](Source& source) { return source.scene.one_in(3) ? make_rounded(source) : make_exact(source); }};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,147 @@
+// corridor-edge: starts on the edge of a corridor, or ulps from it, along its axis or ulps off it.
+//
+// Rows of obstacles along the lattice vector g stand at the distances area / |g|; a line parallel to g at the
+// distance y from a row meets none of it iff y >= r: on the edge, y = r, it is tangent to every one, and
+// flies for ever; an ulp below it hits. An ulp off the axis the hit comes after some 10^15 cells. In the
+// square lattice the edge of g is exact in binary64 where |g| is an integer: along the axes, and Pythagorean
+// triples. In space the channel between planes with the indices n (|n| an integer) takes the corridor's
+// place. Elsewhere the nearest binary64 start stands for the edge.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr int kGrid = 40;  // exact starts and radii are multiples of 2^-40
+
+// A radius below the half width, or within ulps of it; a multiple of 2^-40 if `exact` and not closing.
+double drawn_radius(Random& random, double closing, bool exact, std::vector<std::string>& tags) {
+  if (random.one_in(3)) {
+    tags.push_back("closing");
+    return moved(closing, random.one_in(3) ? 0 : drawn_ulps(random));
+  }
+  const double r = closing * random.between(0.05, 0.95);
+  return exact ? std::ldexp(std::floor(std::ldexp(r, kGrid)), -kGrid) : r;
+}
+
+bool on_grid(double r) {
+  const double steps = std::ldexp(r, kGrid);
+  return steps == std::floor(steps);
+}
+
+// v parallel to the axis, or ulps off it; a zero component of the axis becomes an ulp of the length.
+void set_direction(Random& random, Vec v, int dimension, Case& made) {
+  const double factor = static_cast<double>(random.integer(1, 1000)) * random.sign();
+  for (int i = 0; i < dimension; ++i) v[i] = v[i] == 0 ? 0.0 : v[i] * factor;
+  made.tags.push_back("along");
+  if (random.one_in(2)) {
+    made.tags.back() = "off-axis";
+    const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+    const double ulps = static_cast<double>(random.integer(1, 4)) * random.sign();
+    v[i] = v[i] == 0 ? std::ldexp(ulps * length(v), -52) : moved(v[i], static_cast<std::int64_t>(ulps));
+  }
+  made.query.v = v;
+}
+
+// Moves a start on the edge off it in one component, or leaves it there.
+void move_off(Random& random, bool exact, int dimension, Case& made) {
+  const bool off = random.below(3) > 0;
+  made.tags.push_back(exact && !off ? "on-edge" : "near-edge");
+  if (!off) return;
+  const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+  double& component = made.query.x[i];
+  component = component == 0 ? std::ldexp(static_cast<double>(drawn_ulps(random)), -53)
+                             : moved(component, drawn_ulps(random));
+}
+
+Case make_square(Source& source) {
+  Case made;
+  const bool axis = source.scene.one_in(3);
+  const Squared triple = drawn_triple(source.scene, source.scene.one_in(2) ? 3 : 9);
+  const IntVec g = axis ? IntVec{1, 0, 0} : triple.v;
+  const std::int64_t w = axis ? 1 : triple.length;
+  const double r = drawn_radius(source.scene, 0.5 / static_cast<double>(w), true, made.tags);
+  made.scene = unit_scene(2, r);
+  Random& random = source.random;
+  const auto turns = static_cast<std::int64_t>(std::ldexp(r, kGrid)) * w;
+  const auto x = start_beside(g, {0, 0, 1}, turns, kGrid, random.between(-9, 9));
+  const Symmetry symmetry(random, 2);
+  made.query.x = symmetry(*x);
+  set_direction(random, symmetry(to_vec(g)), 2, made);
+  move_off(random, on_grid(r), 2, made);
+  return made;
+}
+
+Case make_lattice(Source& source) {
+  Case made;
+  made.scene = source.scene.one_in(3) ? unit_scene(2, 1) : drawn_crystal(source.scene, 2).scene;
+  const Lattice& lattice = made.scene.lattices[0];
+  const IntVec g = drawn_primitive(source.scene, 2, 5), u = bezout(g);
+  const double half = half_width(lattice, 2, g);
+  set_radius(made.scene, drawn_radius(source.scene, half, false, made.tags));
+  Random& random = source.random;
+  const double height = lattice.atoms[0].radius / (2 * half);  // the edge, in distances of rows
+  made.query.x = sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
+                     scaled(cartesian(lattice, {-u[1], u[0], 0}), height * random.sign()));
+  set_direction(random, cartesian(lattice, g), 2, made);
+  move_off(random, false, 2, made);
+  return made;
+}
+
+Case make_planar(Source& source) {
+  static constexpr struct {
+    IntVec n;
+    int length;
+  } kNormals[] = {{{1, 0, 0}, 1}, {{0, 3, 4}, 5}, {{1, 2, 2}, 3}, {{2, 3, 6}, 7}, {{1, 4, 8}, 9}};
+  Case made;
+  made.tags.push_back("planar-channel");
+  const auto& [n, w] = kNormals[source.scene.below(5)];
+  const auto [g1, g2] = across_of(n);
+  const double r = drawn_radius(source.scene, 0.5 / w, true, made.tags);
+  made.scene = unit_scene(3, r);
+  // n . x = r |n| exactly: x = s_1 g_1 + s_2 g_2 + r |n| u with n . u = 1, all multiples of 2^-40.
+  Random& random = source.random;
+  const std::int64_t s1 = random.integer(-(1l << kGrid), 1l << kGrid),
+                     s2 = random.integer(-(1l << kGrid), 1l << kGrid),
+                     off = static_cast<std::int64_t>(std::ldexp(r, kGrid)) * w;
+  const IntVec u = bezout(n);
+  const std::int64_t a = random.integer(-(1 << 20), 1 << 20), b = random.integer(1, 1 << 20);
+  Vec x{}, v{};
+  for (int i = 0; i < 3; ++i) {
+    x[i] = std::ldexp(static_cast<double>(s1 * g1[i] + s2 * g2[i] + off * u[i]), -kGrid);
+    v[i] = static_cast<double>(a * g1[i] + b * g2[i]);
+  }
+  const Symmetry symmetry(random, 3);
+  made.query.x = symmetry(x);
+  set_direction(random, symmetry(v), 3, made);
+  move_off(random, on_grid(r), 3, made);
+  return made;
+}
+
+}  // namespace
+
+Family corridor_edge() {
+  return {"corridor-edge",
+          "Starts on or ulps from the edge of a corridor or planar channel, along its axis or ulps off it.",
+          {{"on-edge", "exactly on the edge: the line is tangent to every obstacle of a row, and hits none"},
+           {"near-edge", "within 2^10 ulps of the edge, on either side: never, or a grazing hit"},
+           {"along", "v as nearly along the axis as binary64 has it"},
+           {"off-axis", "v a few ulps off the axis: the corridor is left after some 10^15 cells"},
+           {"closing", "the radius is within 2^10 ulps of half the corridor's width"},
+           {"planar-channel", "the same beside lattice planes, in space"}},
+          [](Source& source) {
+            switch (source.scene.below(4)) {
+              case 0:
+                return make_planar(source);
+              case 1:
+                return make_lattice(source);
+              default:
+                return make_square(source);
+            }
+          }};
+}
+
+}  // namespace lorentz::fuzz

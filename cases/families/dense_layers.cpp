@@ -1,0 +1,164 @@
+// dense-layers: lattice planes so dense that a radius spans 5 to 24 spacings, in one direction or two, with
+// up to three atoms. Balls then merge into a wall (or, where one direction is dense, into corrugated rods)
+// whose surface is rough by some s^2 / 8r, s the spacing: a flight comes down on hundreds of rows that all
+// lead to nearly the same time. Which row is first depends on the slope; which atom, on heights that differ
+// by no more than the roughness. Searches that take rows by their order, that stop at the first row with a
+// hit, or that hold the times of two atoms against each other in different units go wrong here and nowhere
+// else.
+//
+// Starts are a few spacings above the wall, so that a walk from cell to cell can go there, too.
+#include <algorithm>
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// A wall at z = 0 of thickness 2 (its largest obstacle) and period `period`, spacings s and `other`.
+struct Layers {
+  double s, other, period;
+  bool coarse;
+};
+
+// An obstacle whose highest point is at z = 1 but for the roughness of the wall. An ellipsoid has two
+// semiaxes in the plane of the layer, and one that leads out of it.
+Atom drawn_atom(Random& drawn, const Layers& layers, bool ellipsoid) {
+  Atom atom;
+  const double size = drawn.one_in(2) ? 1 : drawn.between(0.6, 1), rough = layers.s * layers.s;
+  atom.position = {layers.s * drawn.uniform(), layers.other * drawn.uniform(),
+                   1 - size + rough * drawn.between(-0.25, 0.25)};
+  if (!ellipsoid) {
+    atom.radius = size;
+    return atom;
+  }
+  const Vec a = drawn.direction(2);
+  const double wide = drawn.between(0.7, 1.2), narrow = wide * (drawn.one_in(2) ? 1 : drawn.between(0.6, 1));
+  atom.semiaxes = {scaled(a, wide),
+                   scaled({-a[1], a[0], 0}, narrow),
+                   {drawn.between(-0.3, 0.3), drawn.between(-0.3, 0.3), size}};
+  return atom;
+}
+
+// Every number on a grid of a 16th of the spacing, which is a power of two: ties among rows and atoms.
+void coarsen(Scene& scene, double s) {
+  const auto round = [&](double& a) { a = std::round(a / s * 16) * (s / 16); };
+  Lattice& lattice = scene.lattices[0];
+  for (Vec& u : lattice.vectors)
+    for (double& component : u) round(component);
+  for (Atom& atom : lattice.atoms) {
+    round(atom.radius);
+    for (double& component : atom.position) round(component);
+    for (Vec& axis : atom.semiaxes)
+      for (double& component : axis) round(component);
+  }
+}
+
+Layers drawn_layers(Random& drawn, Case& made) {
+  Layers layers{};
+  const bool rods = drawn.one_in(4);
+  made.tags.push_back(rods ? "rods" : "walls");
+  layers.coarse = drawn.one_in(3);
+  if (layers.coarse) made.tags.push_back("coarse");
+  const bool usual = !drawn.one_in(4);  // the cost of a walk grows with the square
+  layers.s =
+      layers.coarse ? (usual ? 0.125 : 0.0625) : 1 / (usual ? drawn.between(8, 14) : drawn.between(5, 24));
+  layers.other = rods ? drawn.between(0.5, 1.5) : layers.s * (layers.coarse ? 1 : drawn.between(0.7, 1.5));
+  layers.period = 2 + layers.s * drawn.octave(-2, 4);
+  return layers;
+}
+
+Scene drawn_scene(Random& drawn, const Layers& layers, Case& made) {
+  Scene scene{3, {Lattice{}}};
+  Lattice& lattice = scene.lattices[0];
+  const double skew = drawn.one_in(4) ? 0 : drawn.one_in(2) ? 0.5 : drawn.between(-0.5, 0.5);
+  lattice.vectors = {Vec{layers.s, 0, 0}, Vec{layers.s * skew, layers.other, 0},
+                     Vec{layers.s * drawn.between(-1, 1), layers.other * skew, layers.period}};
+  const bool ellipsoids = !drawn.one_in(3);
+  const std::int64_t atoms = drawn.integer(ellipsoids ? 2 : 1, 3);
+  made.tags.push_back(atoms == 1 ? "one-atom" : "several-atoms");
+  if (ellipsoids) made.tags.push_back("ellipsoids");
+  const std::int64_t first = drawn.one_in(4) ? 0 : 1;  // then every other one
+  for (std::int64_t n = 0; n < atoms; ++n)
+    lattice.atoms.push_back(drawn_atom(drawn, layers, ellipsoids && n % 2 == first));
+  if (layers.coarse) coarsen(scene, layers.s);
+  return scene;
+}
+
+// Down onto the wall: at any slope, steeply, straight down, or as integers say.
+Vec drawn_velocity(Random& random, Case& made) {
+  switch (random.below(8)) {
+    case 0:
+      made.tags.push_back("straight");
+      return {0, 0, -1};
+    case 1:
+      made.tags.push_back("steep");
+      return {random.octave(-40, -2) * random.sign(), random.octave(-40, -2) * random.sign(), -1};
+    case 2:
+    case 3:
+      made.tags.push_back("few-bits");
+      return {static_cast<double>(random.integer(-8, 8)), static_cast<double>(random.integer(-8, 8)),
+              static_cast<double>(random.integer(-8, -1))};
+    default: {
+      made.tags.push_back("any-slope");
+      Vec v = random.direction(3);
+      v[2] = -std::max(std::fabs(v[2]) * random.octave(-3, 0), 0.0625);
+      return v;
+    }
+  }
+}
+
+// On top of the first obstacle but for rounding, and off to the next layer.
+void leave(Random& random, const Layers& layers, Case& made) {
+  const Atom& atom = made.scene.lattices[0].atoms[0];
+  made.tags.push_back("leaving");
+  made.query.x = atom.position;
+  if (atom.is_ball())
+    made.query.x[2] += atom.radius;
+  else
+    made.query.x = sum(made.query.x, atom.semiaxes[2]);
+  made.query.v[2] = -made.query.v[2];
+  made.query.from = ObstacleId{};
+  if (!random.one_in(3)) return;
+  made.query.x[2] += layers.s * random.uniform();
+}
+
+Case make_dense(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const Layers layers = drawn_layers(drawn, made);
+  made.scene = drawn_scene(drawn, layers, made);
+  made.query.v = drawn_velocity(random, made);
+  if (random.one_in(6)) {
+    leave(random, layers, made);
+    return made;
+  }
+  const bool coarse = random.one_in(2);
+  const auto place = [&](double across) {
+    return coarse ? across * static_cast<double>(random.integer(-8, 8)) / 8 : across * random.between(-1, 1);
+  };
+  made.query.x = {place(layers.s), place(layers.other), 1 + layers.s * random.octave(-6, 1)};
+  return made;
+}
+
+}  // namespace
+
+Family dense_layers() {
+  return {"dense-layers",
+          "Layers so dense that a radius spans 5 to 24 spacings: one wall of many rows, of several atoms.",
+          {{"walls", "dense in two directions"},
+           {"rods", "dense in one direction, with gaps or grooves in the other"},
+           {"coarse", "on a grid of a 16th of the spacing: rows and atoms that are entered together"},
+           {"one-atom", "one obstacle a cell"},
+           {"several-atoms", "two or three, as high as each other but for the roughness of the wall"},
+           {"ellipsoids", "some of them in metrics of their own"},
+           {"straight", "at right angles to the layers"},
+           {"steep", "nearly so, down to 2^-40"},
+           {"few-bits", "along a small integer vector"},
+           {"any-slope", "isotropic, but not along the layers"},
+           {"leaving", "from the top of an obstacle to the next layer"}},
+          make_dense};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,42 @@
+// dense-rows: layers far apart, made of dense rows at right angles to the flight, which comes down to a layer
+// at a small slope. Within rows obstacles are some eightieth of r apart, rows stand 1 apart, and layers so
+// far that a free path is some thousand rows. The layer's section of the cylinder begins at a tip, as wide as
+// sqrt(2 r slope s) after s, which is soon more than obstacles are apart: the first row after the tip is the
+// one that is hit, and the search has to find it in a stretch of many. Who looks in parts of the stretch,
+// short ones first, has to let them join.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+Case make_dense_rows(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const double r = drawn.octave(-5, -3), apart = r / drawn.between(66, 95);
+  const double layers = 400 * r * r / apart * drawn.octave(0, 4);
+  const Symmetry symmetry(drawn, 3);
+  made.scene = lattice_scene(3,
+                             {symmetry(Vec{apart, 0, 0}), symmetry(Vec{apart * drawn.uniform(), 1, 0}),
+                              symmetry(Vec{drawn.uniform(), drawn.uniform(), layers})},
+                             r);
+  const bool skew = random.one_in(4);
+  made.tags.push_back(skew ? "skew" : "straight");
+  const double slope = r * random.octave(-10, -6);
+  made.query.x = symmetry(Vec{apart * random.uniform(), random.uniform(), -r - slope * random.between(0, 2)});
+  made.query.v = symmetry(Vec{skew ? random.octave(-12, -4) : 0, 1, slope});
+  return made;
+}
+
+}  // namespace
+
+Family dense_rows() {
+  return {"dense-rows",
+          "Down to layers of dense rows at right angles to the flight: the first of many rows.",
+          {{"straight", "at right angles"}, {"skew", "off that by 2^-12 to 2^-4"}},
+          make_dense_rows};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,97 @@
+// drift: flights in a channel between lattice planes that drift out of it, by the last bits of v or by a
+// small slope, and start just out of a plane's reach. Who jumps to where the next plane comes within reach
+// has to know which one it is: the sign of the drift, which is v . N for the planes' normal N, a sum whose
+// terms cancel. Planes through (1, 0, P 2^-k) and (0, 1, Q 2^-k), P and Q odd, have N = (-P, -Q, 2^k), and
+// for integers V_0, V_1 with P V_0 + Q V_1 = -j modulo 2^k there is a V_2 with N . V = j: of 2^50 or so each
+// these drift by j 2^-50-k, below what binary64 knows of the sum.
+//
+// Once the line is within reach of a plane, the plane's section of the cylinder is as long as r over the
+// slope, and the first of many obstacles is asked for in an ellipse as slender as the slope is small.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+__extension__ typedef __int128 Wide;
+
+// Lattice planes whose normal has k bits.
+struct Layers {
+  std::int64_t P, Q;
+  int k;
+
+  explicit Layers(Random& drawn) : k(static_cast<int>(drawn.integer(4, 20))) {
+    const std::int64_t half = std::int64_t{1} << (k - 1);
+    P = drawn.integer(-half, half) | 1, Q = drawn.integer(-half, half) | 1;
+  }
+  Scene scene(double apart) const {
+    const auto place = [&](std::int64_t a) { return std::ldexp(static_cast<double>(a), -k); };
+    return lattice_scene(3, {Vec{1, 0, place(P)}, Vec{0, 1, place(Q)}, Vec{0, 0, apart}}, 1);
+  }
+  // In the layers but for N . v = j 2^-50-k.
+  Vec velocity(Random& random, std::int64_t j) const {
+    constexpr std::int64_t kLarge = std::int64_t{1} << 50;
+    const std::int64_t V0 = random.integer(-kLarge, kLarge);
+    std::int64_t inverse =
+        Q;  // of Q modulo 2^3, and after each of Newton's steps modulo a power twice as high
+    for (int step = 0; step < 3; ++step) inverse = (inverse * ((2 - Q * inverse) & low())) & low();
+    const std::int64_t rest = (-j - P * (V0 & low())) & low();
+    const std::int64_t V1 = (random.integer(-kLarge, kLarge) & ~low()) + ((rest * inverse) & low());
+    const Wide V2 = (j + static_cast<Wide>(P) * V0 + static_cast<Wide>(Q) * V1) >> k;
+    Vec v{static_cast<double>(V0), static_cast<double>(V1), static_cast<double>(V2)};
+    return scaled(v, 0x1p-50);
+  }
+
+ private:
+  std::int64_t low() const { return (std::int64_t{1} << k) - 1; }
+};
+
+Case make_drift(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const bool layers = drawn.one_in(2);
+  const Layers drawn_layers(drawn);
+  const IntVec n = layers ? IntVec{0, 0, 1} : drawn_primitive(drawn, 3, drawn.one_in(4) ? 12 : 2);
+  made.scene = layers            ? drawn_layers.scene(drawn.between(1, 2))
+               : drawn.one_in(2) ? unit_scene(3, 1)
+                                 : drawn_crystal(drawn, 3).scene;
+  const Lattice& lattice = made.scene.lattices[0];
+  const auto [g1, g2] = across_of(n);
+  const double half = half_width(lattice, 3, n);
+  const double r = half * (drawn.one_in(2) ? drawn.between(0.05, 0.95) : drawn.octave(-6, -1));
+  set_radius(made.scene, r);
+  const Vec a = cartesian(lattice, g1), b = cartesian(lattice, g2), across = cross(a, b);
+  const Vec normal = scaled(across, (across[2] < 0 ? -1 : 1) / length(across));
+  const double side = random.sign();
+  made.query.v = sum(scaled(a, random.between(-1, 1)), scaled(b, random.between(0.1, 1)));
+  if (layers && !random.one_in(3)) {
+    made.tags.push_back("by-bits");
+    made.query.v = drawn_layers.velocity(random, static_cast<std::int64_t>(-side) * random.integer(1, 4));
+  } else if (random.one_in(2)) {
+    made.tags.push_back("by-slope");
+    const double slope = random.octave(-40, -4) * length(made.query.v);
+    made.query.v = sum(made.query.v, scaled(normal, -side * slope));
+  } else {
+    made.tags.push_back("by-rounding");
+  }
+  const double out = r + (half - r) * random.octave(-20, random.one_in(2) ? 0 : -8);
+  made.query.x =
+      sum(sum(scaled(a, random.uniform()), scaled(b, random.uniform())), scaled(normal, side * out));
+  return made;
+}
+
+}  // namespace
+
+Family drift() {
+  return {"drift",
+          "Flights between lattice planes that drift out of the channel, from just out of a plane's reach.",
+          {{"by-bits", "towards the near plane, at a slope of 2^-70 to 2^-52"},
+           {"by-rounding", "the velocity is in the planes but for its rounding"},
+           {"by-slope", "towards the near plane, at a slope of 2^-40 to 2^-4"}},
+          make_drift};
+}
+
+}  // namespace lorentz::fuzz

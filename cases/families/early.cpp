@@ -1,0 +1,49 @@
+// early: times that fall short of midway between two binary64 by less than double-double can tell.
+//
+// A flight along an axis that passes the centre of a ball of radius 5 k at the distance 3 k enters it 4 k
+// before the centre: at the time (u - 4 k) / v, u the distance along the axis. With k = K 2^-57, K odd, 4 k
+// is an odd multiple of 2^-55, with u a multiple of 2^-54 and u - 4 k in [1/4, 1/2), whose last place is
+// 2^-54, and v a power of two, that is midway. Nearer to the centre by d it is earlier by 3 d / 4, and is to
+// be rounded down: of d = 2^-112 and less a pair of binary64 next to the midpoint keeps nothing. The atom,
+// not the start, stands 3 k off the axis, since 3 k - d would be no binary64. (Times a little late are in
+// `rounding`.)
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr int kGrid = 55;  // places are whole multiples of 2^-55
+constexpr std::int64_t kQuarter = std::int64_t{1} << (kGrid - 2);
+
+Case make_early(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(3) ? 3 : 2;
+  const std::int64_t K = drawn.integer(1, std::int64_t{1} << drawn.integer(dimension == 2 ? 20 : 36, 49)) | 1;
+  const double k = std::ldexp(static_cast<double>(K), -kGrid - 2);
+  const Symmetry symmetry(drawn, dimension);
+  made.scene = unit_scene(dimension, 5 * k);
+  made.scene.lattices[0].atoms[0].position = symmetry(Vec{0, 3 * k, 0});
+  // u - 4 k from a quarter to a half, u even.
+  const std::int64_t u = 2 * random.integer((K + kQuarter + 1) / 2, (K + 2 * kQuarter - 1) / 2);
+  const bool late = random.one_in(4);
+  const double beside = random.octave(-200, -112) * (late ? -1 : 1);
+  made.tags.push_back(late ? "late" : "early");
+  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -kGrid), beside, 0});
+  made.query.v = symmetry(Vec{std::ldexp(1, static_cast<int>(random.integer(-60, 60))), 0, 0});
+  return made;
+}
+
+}  // namespace
+
+Family early() {
+  return {"early",
+          "Times short of midway between two binary64 by less than double-double can tell.",
+          {{"early", "by a relative 2^-200 to 2^-112: to be rounded down"}, {"late", "later by as little"}},
+          make_early};
+}
+
+}  // namespace lorentz::fuzz

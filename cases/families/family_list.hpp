@@ -1,0 +1,44 @@
+// The families, each defined in a file of its own or with its kin. Private to fuzz/.
+#pragma once
+
+#include "cases/families/family.hpp"
+
+namespace lorentz::fuzz {
+
+Family generic_2d();
+Family generic_3d();
+Family near_rational();
+Family corridor_edge();
+Family grazing();
+Family large_radius();
+Family tiny_radius();
+Family long_flight();
+Family boundary_starts();
+Family axis_and_diagonal();
+Family ties();
+Family tricylinder();
+Family published_faults();
+Family crystal_lattices();
+Family superpositions();
+Family ellipsoids();
+Family never();
+
+// Of campaigns only: golden sets are made of families(), and these are not among them.
+Family leaving();
+Family scale();
+Family mixture();
+Family rounding();
+Family dense_layers();
+Family slender();
+Family early();
+Family nearly_parallel();
+Family ellipsoid_edges();
+Family drift();
+Family vast_ellipsoids();
+Family nearby();
+Family unequal_radii();
+Family dense_rows();
+Family far_starts();
+Family specks();
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,90 @@
+// far-starts: starts up to 2^50 cells away beside obstacles that nearly touch, in cells whose vectors have 53
+// bits.
+//
+// An engine takes a start to its home cell, x - U n with n the nearest integers to U^-1 x. Where x is far and
+// U is no short number, n itself is off in the last bits of the quotient: near the boundary between two cells
+// by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour's. So:
+// radii within 2^-1 to 2^-40 of half the cell, often about the error of a quotient of 2^43, starts midway
+// between two neighbours or on an obstacle's edge towards the next, the other coordinates exactly or nearly
+// those of a row of centres.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// A row of cubes or boxes, or a crystal, of any size.
+Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
+  const int dimension = drawn.one_in(3) ? 2 : 3;
+  const double size = drawn.one_in(2) ? drawn.between(0.5, 2) : drawn.octave(-20, 20);
+  const bool box = drawn.one_in(2);
+  tags.push_back(box ? "box" : "crystal");
+  if (!box) {
+    Scene scene = drawn_crystal(drawn, dimension).scene;
+    for (Lattice& lattice : scene.lattices) {
+      for (Vec& u : lattice.vectors) u = scaled(u, size);
+      for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, size);
+    }
+    scale_obstacles(scene,
+                    size * (drawn.one_in(2) ? 1.25 * (1 - drawn.octave(-40, -8)) : drawn.between(0.9, 1.25)));
+    return scene;
+  }
+  std::array<Vec, 3> vectors{};
+  for (int i = 0; i < dimension; ++i)
+    vectors[i][i] = i == 0 || drawn.one_in(2) ? size : size * drawn.between(1, 2);
+  const double gap = drawn.one_in(4) ? drawn.octave(-40, -1) : drawn.between(0.001, 0.008);
+  return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
+}
+
+// So many cells out along one vector; along all of them in every third case.
+IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, std::vector<std::string>& tags) {
+  const auto size = std::int64_t{1} << (random.one_in(4) ? random.integer(10, 50) : random.integer(42, 44));
+  IntVec cell{};
+  const bool all = random.one_in(3);
+  tags.push_back(all ? "anywhere" : "along-a-row");
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(dimension); ++i)
+    cell[i] = all || i == along ? random.integer(-size, size) : random.integer(-6, 6);
+  return cell;
+}
+
+Case make_far_start(Source& source) {
+  Case made;
+  Random& random = source.random;
+  made.scene = drawn_scene(source.scene, made.tags);
+  const int dimension = made.scene.dimension;
+  const Lattice& lattice = made.scene.lattices[0];
+  const std::uint64_t along = random.below(static_cast<std::uint64_t>(dimension));
+  const IntVec cell = drawn_cell(random, dimension, along, made.tags);
+  const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
+  const Vec& u = lattice.vectors[along];
+  const bool midway = random.one_in(2) || !atom.is_ball();
+  made.tags.push_back(midway ? "midway" : "edge");
+  const double off = random.one_in(4)   ? 0
+                     : random.one_in(4) ? random.octave(-40, -6)
+                                        : random.between(0, 0.008);  // about what a quotient of 2^43 errs by
+  const double arm = (midway ? 0.5 : atom.radius / length(u)) * (1 + off * random.sign());
+  made.query.x = sum(sum(atom.position, cartesian(lattice, cell)), scaled(u, arm * random.sign()));
+  if (random.one_in(4))
+    for (int i = 0; i < dimension; ++i) made.query.x[i] += random.octave(-30, -8) * length(u) * random.sign();
+  made.query.v = random.direction(dimension);
+  return made;
+}
+
+}  // namespace
+
+Family far_starts() {
+  return {"far-starts",
+          "Starts 2^10 to 2^50 cells away, between obstacles that nearly touch.",
+          {{"box", "square, cubic or orthogonal cells of a size of 53 bits"},
+           {"crystal", "another lattice, or several obstacles a cell, of such a size"},
+           {"along-a-row", "far away along one lattice vector, near the origin along the others"},
+           {"anywhere", "far away along all of them"},
+           {"midway", "where two cells meet, to 2^-40 or nearer"},
+           {"edge", "at the edge of an obstacle towards the next, to 2^-40 or nearer"}},
+          make_far_start};
+}
+
+}  // namespace lorentz::fuzz

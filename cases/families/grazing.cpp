@@ -1,0 +1,122 @@
+// grazing: lines that pass an obstacle at the distance r, exactly or nearly.
+//
+// With d = c - x the line meets the ball iff |v x d|^2 < r^2 v^2. For integer v and dyadic r, d both sides
+// are integers over a power of two, and can be equal, or next to equal.
+//
+// Squares: |v| = w an integer (Pythagorean triples; in space quaternions give an integer vector h of length
+// w at a right angle to v). A dyadic d has v x d = r h (start_beside), and the line is exactly tangent.
+//
+// Near squares: v^2 = w^2 +- 1. Then v x d = r w misses tangency by r / (2 w^2), less than an ulp for
+// w > 2^26.
+//
+// Pell: r = R 2^-m and v x d = K 2^-m h with K / R a convergent of |v| / |h|. K^2 h^2 - R^2 v^2 solves
+// Pell's equation or nearly, so dist / r is 1 within about 1 / R^2: down to 2^-100, beyond twice binary64's
+// precision.
+//
+// Then up to 4 ulps off, in x, v or r, or up to 2^10 in x. The start lies within 1.8 r of the centre, so that
+// nothing is met before: whether this obstacle is, is the whole question.
+#include <algorithm>
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr int kGrid = 40;
+
+// Moves x and v by ulps, and says so; mostly nothing moves.
+void move_off(Random& random, int dimension, Case& made) {
+  const std::uint64_t how = random.below(8);
+  if (how < 4) return;
+  const auto i = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(dimension)));
+  made.tags.push_back(how < 7 ? "ulps-off" : "near-graze");
+  const std::int64_t ulps =
+      (how < 7 ? random.integer(1, 4) : random.integer(5, 1024)) * (random.one_in(2) ? 1 : -1);
+  double& component = how == 6 ? made.query.v[i] : made.query.x[i];
+  component = component == 0 ? std::ldexp(static_cast<double>(ulps), -53) : moved(component, ulps);
+}
+
+// The query that passes the obstacle of the cell 0 with v x d = turns 2^-exponent across, in one of the
+// lattice's symmetries. r is at most 0.3.
+void set_query(Random& random, int dimension, const IntVec& v, const IntVec& across, std::int64_t turns,
+               int exponent, double r, Case& made) {
+  std::optional<Vec> x;
+  for (double along = r * random.between(0.1, 1.5); !x && along > 0; along = along > 0.01 * r ? along / 2 : 0)
+    x = start_beside(v, across, turns, exponent, along);
+  if (!x) x = Vec{-1.5 * r, 0, 0};  // no exact start: any
+  const Symmetry symmetry(random, dimension);
+  made.query.x = symmetry(*x);
+  made.query.v = symmetry(to_vec(v));
+  if (random.one_in(4))
+    made.query.v = scaled(made.query.v, std::ldexp(1, static_cast<int>(random.integer(-60, 60))));
+}
+
+// Whole numbers give the distance exactly. r is a multiple of 2^-40, or some ulps from that.
+Case make_squares(Source& source) {
+  Case made;
+  const int dimension = source.scene.one_in(3) ? 3 : 2;
+  const auto steps = static_cast<std::int64_t>(std::ldexp(
+      source.scene.one_in(2) ? source.scene.between(0.05, 0.3) : source.scene.octave(-14, -4), kGrid));
+  const double r = std::ldexp(static_cast<double>(steps), -kGrid);
+  const bool r_moved = source.scene.one_in(6);
+  made.scene = unit_scene(
+      dimension, r_moved ? moved(r, source.scene.integer(1, 4) * (source.scene.one_in(2) ? 1 : -1)) : r);
+  if (r_moved) made.tags.push_back("ulps-off");
+  Random& random = source.random;
+  if (dimension == 3) {
+    const Squared quadruple = drawn_quadruple(random, random.one_in(2) ? 4 : 60);
+    set_query(random, 3, quadruple.v, quadruple.across, steps, kGrid, r, made);
+  } else if (random.one_in(2)) {
+    const Squared triple = drawn_triple(random, random.one_in(2) ? 9 : 2000);
+    set_query(random, 2, triple.v, triple.across, steps, kGrid, r, made);
+  } else {
+    made.tags.push_back("near-square");
+    const NearSquare near = drawn_near_square(random);
+    set_query(random, 2, near.v, {0, 0, near.w}, steps, kGrid, r, made);
+  }
+  if (!r_moved) move_off(random, dimension, made);
+  if (made.tags.empty()) made.tags.push_back("exact-tangent");
+  return made;
+}
+
+// v and h belong to the scene, since r follows from them.
+Case make_pell(Source& source) {
+  Case made;
+  made.tags.push_back("pell");
+  Random& drawn = source.scene;
+  const int dimension = drawn.one_in(3) ? 3 : 2;
+  IntVec v{}, h{0, 0, 1};
+  std::vector<Fraction> fractions;
+  for (int tries = 0; tries < 16 && fractions.size() < 8; ++tries) {
+    v = drawn_primitive(drawn, dimension, dimension == 2 ? 60 : 12);
+    if (dimension == 3) h = across_of(v)[0];
+    fractions = convergents_of_root(dot(v, v), dot(h, h));
+  }
+  const std::size_t few = fractions.size() / 4;  // the first are not near
+  const auto [k, r_steps] = fractions[few + drawn.below(fractions.size() - few)];
+  const int exponent = std::ilogb(static_cast<double>(r_steps)) + static_cast<int>(drawn.integer(3, 6));
+  const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
+  made.scene = unit_scene(dimension, r);
+  // On a finer grid, so that there are starts enough.
+  const int finer = std::max(0, 43 - std::ilogb(static_cast<double>(r_steps)));
+  set_query(source.random, dimension, v, h, k << finer, exponent + finer, r, made);
+  move_off(source.random, dimension, made);
+  return made;
+}
+
+}  // namespace
+
+Family grazing() {
+  return {"grazing",
+          "Lines that pass an obstacle at the distance of its radius, exactly or within ulps.",
+          {{"exact-tangent", "exactly tangent: the line touches, and does not hit"},
+           {"near-square", "v^2 is a square plus or minus 1: tangent but for a relative 1/(2 v^2)"},
+           {"pell", "radius and distance from Pell's equation: tangent but for as little as 2^-100"},
+           {"ulps-off", "one of x, v, r up to 4 ulps from such a case"},
+           {"near-graze", "x 5 to 1024 ulps from such a case"}},
+          [](Source& source) { return source.scene.one_in(3) ? make_pell(source) : make_squares(source); }};
+}
+
+}  // namespace lorentz::fuzz

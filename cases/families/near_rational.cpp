@@ -1,0 +1,147 @@
+// near-rational: directions ulps from a lattice vector g, or with g as a convergent that a huge partial
+// quotient follows. In the plane the first hit is a question of the continued fraction of the slope in
+// lattice coordinates: v = n g + g' with det(g, g') = 1 has the convergent g and the next quotient about n,
+// and the flight follows a row along g for about n cells. A slope of golden ratio's convergents is the
+// contrary: the most steps. In space v ~ a g_1 + b g_2 lies near a lattice plane, at distance 1 / |g_1 x g_2|
+// from the next. Radii put the corridors (channels) of g within 2^-10 to 2^-50 of closing, relatively, or
+// close them by as much.
+#include <cmath>
+#include <utility>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// A radius beside the half width at which the corridors close.
+double drawn_radius(Random& random, double closing, std::vector<std::string>& tags) {
+  switch (random.below(4)) {
+    case 0:
+      tags.push_back("corridor-open");
+      return closing * random.between(0.05, 0.9);
+    case 1:
+      tags.push_back("just-open");
+      return closing * (1 - random.octave(-51, -10));
+    case 2:
+      tags.push_back("just-closed");
+      return closing * (1 + random.octave(-51, -10));
+    default:
+      tags.push_back("small-radius");
+      return closing * random.octave(-18, -4);
+  }
+}
+
+// F_(n+1) u_1 + F_n u_2
+IntVec golden(Random& random) {
+  std::int64_t a = 1, b = 1;
+  for (std::int64_t steps = random.integer(5, 70); steps > 0; --steps) b = std::exchange(a, a + b);
+  return {a, b, 0};
+}
+
+Vec flat_direction(Random& random, const Lattice& lattice, const IntVec& g, const IntVec& next,
+                   std::vector<std::string>& tags) {
+  switch (random.below(4)) {
+    case 0: {
+      tags.push_back("ulps-off-rational");
+      Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
+      jitter(random, v, 2, 3);
+      return v;
+    }
+    case 1: {
+      tags.push_back("neighbours");
+      const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44));
+      return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
+    }
+    case 2: {
+      tags.push_back("huge-quotient");
+      const double drift = random.octave(-52, -8) * random.sign();
+      return sum(cartesian(lattice, g), scaled(cartesian(lattice, next), drift));
+    }
+    default: {
+      tags.push_back("golden");
+      Vec v = cartesian(lattice, golden(random));
+      jitter(random, v, 2, 2);
+      return v;
+    }
+  }
+}
+
+Case make_flat(Source& source) {
+  Case made;
+  made.scene = source.scene.one_in(2) ? unit_scene(2, 1) : drawn_crystal(source.scene, 2).scene;
+  const Lattice& lattice = made.scene.lattices[0];
+  const IntVec g = drawn_primitive(source.scene, 2, source.scene.one_in(4) ? 200 : 9), u = bezout(g);
+  const IntVec next{-u[1], u[0], 0};  // det(g, next) = 1
+  set_radius(made.scene, drawn_radius(source.scene, half_width(lattice, 2, g), made.tags));
+  Random& random = source.random;
+  made.query.v = flat_direction(random, lattice, g, next, made.tags);
+  if (random.one_in(2)) {  // in the middle of a corridor
+    const double off = random.one_in(2) ? 0 : random.octave(-50, -10) * random.sign();
+    made.query.x = sum(scaled(cartesian(lattice, g), random.between(-1, 1)),
+                       scaled(cartesian(lattice, next), 0.5 + off));
+  } else {
+    made.query.x = free_point(random, made.scene);
+  }
+  return made;
+}
+
+Vec solid_direction(Random& random, const Lattice& lattice, const IntVec& g1, const IntVec& g2,
+                    const IntVec& next, std::vector<std::string>& tags) {
+  if (random.one_in(2)) {
+    tags.push_back("ulps-off-rational");
+    IntVec g{};
+    const std::int64_t a = random.integer(-9, 9), b = random.integer(1, 9);
+    for (int i = 0; i < 3; ++i) g[i] = a * g1[i] + b * g2[i];
+    Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
+    jitter(random, v, 3, 3);
+    return v;
+  }
+  tags.push_back("near-plane");
+  const Vec in_plane = sum(scaled(cartesian(lattice, g1), random.between(-1, 1)),
+                           scaled(cartesian(lattice, g2), random.between(0.1, 1)));
+  return sum(in_plane, scaled(cartesian(lattice, next), random.octave(-52, -8) * random.sign()));
+}
+
+// Planes with the indices n: g_1, g_2 span a sublattice of them, and next . n = 1.
+Case make_solid(Source& source) {
+  Case made;
+  made.scene = source.scene.one_in(2) ? unit_scene(3, 1) : drawn_crystal(source.scene, 3).scene;
+  const Lattice& lattice = made.scene.lattices[0];
+  const IntVec n = drawn_primitive(source.scene, 3, source.scene.one_in(4) ? 12 : 2), next = bezout(n);
+  const auto [g1, g2] = across_of(n);
+  set_radius(made.scene, drawn_radius(source.scene, half_width(lattice, 3, n), made.tags));
+  Random& random = source.random;
+  made.query.v = solid_direction(random, lattice, g1, g2, next, made.tags);
+  if (random.one_in(2)) {  // in the middle of a channel
+    const double off = random.one_in(2) ? 0 : random.octave(-50, -10) * random.sign();
+    made.query.x = sum(sum(scaled(cartesian(lattice, g1), random.uniform()),
+                           scaled(cartesian(lattice, g2), random.uniform())),
+                       scaled(cartesian(lattice, next), 0.5 + off));
+  } else {
+    made.query.x = free_point(random, made.scene);
+  }
+  return made;
+}
+
+}  // namespace
+
+Family near_rational() {
+  return {"near-rational",
+          "Directions ulps from lattice vectors, or with huge partial quotients.",
+          {{"ulps-off-rational", "an ulp decides whether the flight ends here or in 10^15 cells"},
+           {"neighbours",
+            "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
+            "obstacles, and 2^44 fold steps for who walks them"},
+           {"huge-quotient", "a small slope against a lattice vector: one partial quotient of up to 2^52"},
+           {"golden", "all partial quotients 1: the longest continued fraction"},
+           {"near-plane", "a small slope against a lattice plane: thousands of rows in one plane"},
+           {"corridor-open", "the corridors along the lattice vector are open"},
+           {"just-open", "they are open by a relative 2^-10 to 2^-51"},
+           {"just-closed", "they are closed by as little"},
+           {"small-radius", "obstacles small against the corridors"}},
+          [](Source& source) { return source.scene.one_in(3) ? make_solid(source) : make_flat(source); }};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,65 @@
+// nearly-parallel: velocities that are parallel to a lattice vector w but for less than double-double can
+// tell.
+//
+// Two vectors of the lattice are full binary64, and in their sum w = (w_0, w_1) their second components
+// cancel down to 2^-23. In units w = (W_0, W_1) with some 53 and 30 bits, v = (V_0, V_1) likewise, and
+// Bezout's identity gives for any small j a v with v x w = V_0 W_1 - V_1 W_0 = j: that is j 2^-127, while the
+// heights v x b of the two vectors are about 1 and keep 2^-107 in double-double. Whoever adds these finds
+// zero, and a period where there is none: the flight in the corridor along w ends, after some 2^100 cells,
+// and `never` is wrong.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+__extension__ typedef __int128 Wide;
+
+// v with V_0 W_1 2^22 - V_1 W_0 = j times their common divisor.
+Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j) {
+  const std::int64_t K = W1 << 22;
+  const IntVec u = bezout({K, W0, 0});
+  Wide V0 = static_cast<Wide>(j) * u[0] % W0;
+  if (V0 <= 0) V0 += W0;
+  const Wide V1 = (V0 * K - static_cast<Wide>(j) * content_of({K, W0, 0})) / W0;
+  return {std::ldexp(static_cast<double>(V0), -52), std::ldexp(static_cast<double>(V1), -76), 0};
+}
+
+Case make_nearly_parallel(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  constexpr std::int64_t kUnit = std::int64_t{1} << 51;
+  const std::int64_t X0 = kUnit + drawn.integer(0, kUnit / 8), X1 = (kUnit + drawn.integer(0, kUnit / 8)) | 1;
+  const std::int64_t W0 = X0 + X1 + (X0 % 2 == 0 ? 0 : 1), W1 = drawn.integer(1 << 29, (1 << 30) - 1) | 1;
+  const std::int64_t Y = drawn.integer(3 * kUnit, 4 * kUnit - 1);
+  const Vec b0{std::ldexp(static_cast<double>(W0 - X1), -51), std::ldexp(static_cast<double>(Y), -53), 0},
+      b1{std::ldexp(static_cast<double>(X1), -51), std::ldexp(static_cast<double>(W1 - Y), -53), 0};
+  const int dimension = drawn.one_in(3) ? 3 : 2;
+  const Symmetry symmetry(drawn, dimension);
+  const Vec b2 = dimension == 3 ? Vec{0, 0, drawn.between(1, 2)} : Vec{};
+  const double r = drawn.octave(-8, -2);
+  made.scene = lattice_scene(dimension, {symmetry(b0), symmetry(b1), symmetry(b2)}, r);
+  const bool exactly = random.one_in(8);
+  made.tags.push_back(exactly ? "parallel" : "nearly");
+  const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, 21));
+  const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j);
+  // The corridor is in the middle between two rows along w; in space near their plane, or no plane is met.
+  const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
+  made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}));
+  made.query.v = symmetry(v);
+  return made;
+}
+
+}  // namespace
+
+Family nearly_parallel() {
+  return {"nearly-parallel",
+          "Parallel to a lattice vector but for less than double-double can tell, in a corridor.",
+          {{"nearly", "v x w is 2^-127 to 2^-106: the flight ends, some 2^100 cells on"},
+           {"parallel", "v is w: the flight never ends"}},
+          make_nearly_parallel};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,149 @@
+// published-faults: where the efficient algorithm of Kraemer, Kryukov and Sanders (2016), as published, goes
+// wrong (docs/published.md). The examples given there come first, then constructions of each kind.
+//
+// Skipped disc: a flight leaves the disc (0, 0), and passes the column of its own centre at the height b, r <
+// b < eps = r sqrt(1 + m^2), m the slope. The first step's tolerance is 2b instead of eps + b: a disc at the
+// convergent (q, p) with 2b < p - q m < eps + b is met and passed over. So m = (p - t) / q for a drawn t
+// between the two.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+struct Example {
+  int dimension;
+  double radius;
+  Vec x, v;
+  bool leaving;
+  const char* tag;
+};
+
+const Example kExamples[] = {
+    {2, 0.2, {-9.0 / 205, 8.0 / 41}, {9, 5}, true, "skipped-disc"},
+    {2, 0.05, {-7.0 / 500, 6.0 / 125}, {8, 7}, true, "skipped-disc"},
+    {2, 0.2, {moved(-9.0 / 205, -1), moved(8.0 / 41, 1)}, {9, 5}, false, "skipped-disc"},
+    {2, 0.05, {moved(-7.0 / 500, -1), moved(6.0 / 125, 1)}, {8, 7}, false, "skipped-disc"},
+    {2, 1.0 / 81, {0, 0.878597}, {2, 1}, false, "endless-channel"},
+    {2, 1.0 / 81, {0, 0.378597}, {2, 1}, false, "endless-channel"},
+    {2, 1e-3, {0, 0.3}, {1, 2.5 * 1e-3}, false, "slow-drift"},
+    {2, 1e-7, {0, 0.3}, {1, 2.5 * 1e-7}, false, "slow-drift"},
+    {3, 0.2, {0.8, 0.2, 0.5}, {-25, 2, -1}, false, "late-sphere"},
+    {2, 0.1, {0.5, 0.3}, {1, 0}, false, "along-axis"},
+    {3, 0.1, {0.5, 0.3, 0.2}, {1, 0.5, 0}, false, "along-axis"},
+};
+constexpr std::uint64_t kExampleCount = sizeof kExamples / sizeof kExamples[0];
+
+Case example(std::uint64_t index) {
+  const Example& one = kExamples[index];
+  Case made{unit_scene(one.dimension, one.radius), {one.x, one.v, {}}, {"example", one.tag}};
+  if (one.leaving) made.query.from = ObstacleId{};
+  return made;
+}
+
+Query skipped_disc(Random& random, double r, std::vector<std::string>& tags) {
+  const auto q = static_cast<double>(random.integer(1, 4)),
+             p = static_cast<double>(random.integer(1, static_cast<std::int64_t>(q)));
+  double slope = p / q, b = 0;
+  for (int step = 0; step < 3; ++step) {  // eps depends on the slope, weakly
+    const double eps = r * std::sqrt(1 + slope * slope);
+    b = r + (eps - r) * random.between(0.05, 0.95);
+    slope = (p - random.between(2 * b, eps + b)) / q;
+  }
+  // Where y = b + m x leaves the disc.
+  const double m2 = 1 + slope * slope;
+  const double x = (-b * slope + std::sqrt(std::max(0.0, r * r * m2 - b * b))) / m2;
+  Query query{{x, b + slope * x}, {1, slope}, {}};
+  const bool leaving = random.one_in(2);
+  tags.push_back("skipped-disc");
+  if (leaving)
+    query.from = ObstacleId{};
+  else
+    query.x = {moved(query.x[0], -2), moved(query.x[1], 2)};  // x_1 < 0 < x_2: outwards
+  query.v = scaled(query.v, random.octave(-3, 3));
+  return query;
+}
+
+// A flight along a small integer vector, in an open corridor.
+Query endless_channel(Random& random, double r, std::vector<std::string>& tags) {
+  tags.push_back("endless-channel");
+  IntVec g;
+  do g = {random.integer(1, 7), random.integer(1, 7), 0};
+  while (content_of(g) != 1 || r * std::sqrt(static_cast<double>(dot(g, g))) > 0.49);
+  const double edge = r * std::sqrt(static_cast<double>(dot(g, g)));  // rows at whole numbers, in g x .
+  const double height = edge + (1 - 2 * edge) * random.uniform();
+  const double x0 = random.one_in(2) ? 0.0 : random.uniform();
+  return {{x0, (height + static_cast<double>(g[1]) * x0) / static_cast<double>(g[0])}, to_vec(g), {}};
+}
+
+Query slow_drift(Random& random, double r, std::vector<std::string>& tags) {
+  tags.push_back("slow-drift");
+  return {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
+}
+
+Query late_sphere(Random& random, const Scene& scene, std::vector<std::string>& tags) {
+  tags.push_back("late-sphere");
+  Query query{free_point(random, scene), random.direction(3), {}};
+  if (random.one_in(2)) {  // nearly along an axis, past many spheres
+    query.v = {static_cast<double>(random.integer(5, 40)), random.between(-3, 3), random.between(-3, 3)};
+  }
+  return query;
+}
+
+Query along_axis(Random& random, const Scene& scene, std::vector<std::string>& tags) {
+  tags.push_back("along-axis");
+  Query query{free_point(random, scene), random.direction(scene.dimension), {}};
+  query.v[random.below(static_cast<std::uint64_t>(scene.dimension))] = 0;
+  return query;
+}
+
+Case make_published(Source& source) {
+  if (source.index < kExampleCount) return example(source.index);
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const std::uint64_t kind = drawn.below(6);
+  const double r = kind == 2   ? drawn.octave(-6, -4)
+                   : kind == 3 ? drawn.octave(-24, -6)
+                               : drawn.between(0.05, kind == 4 ? 0.3 : 0.2);
+  made.scene = unit_scene(kind == 4 || (kind == 5 && drawn.one_in(2)) ? 3 : 2, r);
+  switch (kind) {
+    case 0:
+    case 1:
+      made.query = skipped_disc(random, r, made.tags);
+      break;
+    case 2:
+      made.query = endless_channel(random, r, made.tags);
+      break;
+    case 3:
+      made.query = slow_drift(random, r, made.tags);
+      break;
+    case 4:
+      made.query = late_sphere(random, made.scene, made.tags);
+      break;
+    default:
+      made.query = along_axis(random, made.scene, made.tags);
+  }
+  const Symmetry symmetry(random, made.scene.dimension);
+  made.query.x = symmetry(made.query.x);
+  made.query.v = symmetry(made.query.v);
+  return made;
+}
+
+}  // namespace
+
+Family published_faults() {
+  return {
+      "published-faults",
+      "Known faults of the published efficient algorithm: the examples, and constructions like them.",
+      {{"example", "one of the smallest examples known"},
+       {"skipped-disc", "leaves a disc so that the first step's tolerance, too small, passes over the next"},
+       {"endless-channel", "a channel in which the map does not come back to its start"},
+       {"slow-drift", "a slope of about 2.5 r: 0.28 / r passes, no bound of r^(-1/2)"},
+       {"late-sphere", "a step of 1 - 2r past a missed sphere lands inside the next"},
+       {"along-axis", "a zero component, for which there is no octant"}},
+      make_published};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,118 @@
+// large-radius: from touching obstacles to those that leave nearly nothing. Above half the shortest vector
+// obstacles overlap their neighbours: who is entered first is no longer who is nearest along the line,
+// several contain x, and the free part is cut into pockets, until at the covering radius none is left. In
+// elongated cells a radius of 50 shortest vectors is sparse in one direction all the same: rows merge into
+// walls with corridors between them. Radii come within ulps of touching, and within 2^-40 of covering.
+//
+// tiny-radius: flights of 1 / 2r cells (2D) or 1 / (pi r^2) (3D) among obstacles of the size of the
+// coordinates' last bits.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// A start about the hole between obstacles, `room` away from it at most, or anywhere in the cell.
+Vec drawn_start(Random& random, const Scene& scene, const Vec& hole, double room) {
+  if (random.one_in(8)) return point_in_cell(random, scene);
+  Vec x = sum(hole, scaled(random.direction(scene.dimension), room * random.uniform()));
+  for (int i = 0; i < scene.dimension; ++i)
+    x = sum(x, scaled(scene.lattices[0].vectors[i], static_cast<double>(random.integer(-2, 2))));
+  return x;
+}
+
+Case make_large(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  const double covering = std::sqrt(dimension) / 2;
+  const Vec hole = dimension == 2 ? Vec{0.5, 0.5} : Vec{0.5, 0.5, 0.5};
+  double r = 0.5;
+  switch (drawn.below(5)) {
+    case 0:
+      made.tags.push_back("touching");
+      r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3))
+                          : 0.5 * (1 + drawn.octave(-40, -4) * drawn.sign());
+      break;
+    case 1:
+      made.tags.push_back("overlapping");
+      r = drawn.between(0.5, dimension == 2 ? 0.6 : std::sqrt(0.5));
+      break;
+    case 2:
+      made.tags.push_back("pocket");
+      r = covering * (1 - drawn.octave(-20, -3));
+      break;
+    case 3:
+      made.tags.push_back("covering");
+      r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4)) : covering * (1 - drawn.octave(-41, -30));
+      break;
+    default: {
+      made.tags.push_back("elongated");
+      r = dimension == 2 ? drawn.octave(1, 5) * 1.5 : drawn.octave(0, 2);
+      const double far = 2 * r * (1 + drawn.octave(-12, 0)), room = (far - 2 * r) / 2;
+      made.scene = unit_scene(dimension, r);
+      made.scene.lattices[0].vectors[1][1] = far;
+      made.query.x = drawn_start(random, made.scene, {0.5, far / 2, dimension == 2 ? 0 : 0.5}, room);
+      made.query.v =
+          random.one_in(2) ? random.direction(dimension) : near_integer_direction(random, dimension);
+      return made;
+    }
+  }
+  made.scene = unit_scene(dimension, r);
+  made.query.x = drawn_start(random, made.scene, hole, std::max(covering - r, 0x1p-50));
+  made.query.v = random.one_in(2) ? random.direction(dimension) : near_integer_direction(random, dimension);
+  return made;
+}
+
+Case make_tiny(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  made.tags.push_back(dimension == 2 ? "tiny-2d" : "tiny-3d");
+  double r = dimension == 2 ? drawn.octave(-39, -20) : drawn.octave(-23, -10);
+  made.scene = unit_scene(dimension, r);
+  if (drawn.one_in(2)) {
+    made.tags.push_back("scaled-cell");
+    auto& vectors = made.scene.lattices[0].vectors;
+    const double size = drawn.octave(-30, 30);
+    for (int i = 0; i < dimension; ++i)
+      for (int k = 0; k < dimension; ++k)
+        vectors[i][k] = size * ((i == k) + (k < i ? drawn.between(-0.5, 0.5) : 0));
+    set_radius(made.scene, r * size);
+  }
+  made.query.x = point_in_cell(random, made.scene);
+  made.query.v = random.direction(dimension);
+  if (random.one_in(4)) {
+    made.tags.push_back("slow");
+    made.query.v = near_integer_direction(random, dimension);
+  }
+  return made;
+}
+
+}  // namespace
+
+Family large_radius() {
+  return {
+      "large-radius",
+      "Obstacles that touch, overlap, enclose pockets or leave nearly nothing free.",
+      {{"touching", "radius within ulps of half the lattice constant: gaps of an ulp, or none"},
+       {"overlapping", "neighbours overlap: the nearest centre is not the first entry"},
+       {"pocket", "free pockets closed on all sides: no flight leaves its cell"},
+       {"covering", "radius within 2^-30 of the covering radius: pockets of 10^-9, or none"},
+       {"elongated", "radius of up to 50 shortest vectors: rows merge into walls, dozens contain a point"}},
+      make_large};
+}
+
+Family tiny_radius() {
+  return {"tiny-radius",
+          "Radii down to 1e-12 of the lattice constant in the plane, 1e-7 in space.",
+          {{"tiny-2d", "flights of 10^6 to 10^12 cells in the plane"},
+           {"tiny-3d", "flights of 10^6 to 10^13 cells in space"},
+           {"scaled-cell", "cells of 10^-9 to 10^9, skewed: absolute tolerances show"},
+           {"slow", "directions ulps from small integers: flights of 10^15 and more, or none"}},
+          make_tiny};
+}
+
+}  // namespace lorentz::fuzz

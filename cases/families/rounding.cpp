@@ -1,0 +1,54 @@
+// rounding: times that lie midway between two binary64, exactly or nearly.
+//
+// Along an axis through the centre of a ball the time is rational, (u - r) / v with u the distance of the
+// start. With r an odd multiple of 2^-55 q in [1/8, 1/4) q, u a multiple of 2^-54 q and u - r in [1/4, 1/2)
+// q, whose last place is 2^-54 q, a time with v a power of two is exactly midway, and ties go to even. Beside
+// the axis by y it is later by y^2 / 2r, which decides the rounding however small it is. At v near 2^1023 the
+// time is subnormal, and has fewer places.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// On a grid of 2^-55, as whole numbers.
+constexpr int kGrid = 55;
+constexpr std::int64_t kEighth = std::int64_t{1} << (kGrid - 3);
+
+Case make_rounding(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(3) ? 3 : 2, smaller = static_cast<int>(drawn.integer(0, 12));
+  const std::int64_t r = drawn.integer(kEighth, 2 * kEighth - 9) | 1;
+  made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(r), -kGrid - smaller));
+  const std::int64_t u = 2 * random.integer((r + 2 * kEighth + 1) / 2, 2 * kEighth - 1);
+  const Symmetry symmetry(random, dimension);
+  Vec x{std::ldexp(static_cast<double>(-u), -kGrid - smaller), 0, 0};
+  if (random.one_in(3)) {
+    made.tags.push_back("beside");
+    x[1] = random.octave(-200, -24) * random.sign();
+  } else {
+    made.tags.push_back("midway");
+  }
+  const bool subnormal = random.one_in(8);
+  if (subnormal) made.tags.push_back("subnormal");
+  const auto exponent = static_cast<int>(subnormal ? random.integer(1021, 1023) : random.integer(-60, 60));
+  made.query.x = symmetry(x);
+  made.query.v = symmetry(Vec{std::ldexp(1, exponent), 0, 0});
+  return made;
+}
+
+}  // namespace
+
+Family rounding() {
+  return {"rounding",
+          "Times midway between two binary64, exactly or nearly.",
+          {{"midway", "exactly: the last bit of the time is a tie"},
+           {"beside", "later than that by a relative 2^-400 to 2^-48"},
+           {"subnormal", "at speeds near 2^1023: the time is subnormal"}},
+          make_rounding};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,112 @@
+// scale: ordinary flights in extraordinary units. The answer does not depend on the unit of length, nor on
+// that of time; an absolute tolerance, a square that overflows or vanishes, a cell number that no longer fits
+// a type does. So: the whole scene times 2^k, k up to 300 either way; velocities from the smallest subnormal
+// to the largest binary64; radii at the limits that engines state (1e-12 and 1e-7 of the cell, 1/2 of it);
+// starts up to 2^52 cells away, where the last bits are the place in the cell.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
+
+// Every length times a power of two, which is exact.
+void scale_scene(Scene& scene, double factor) {
+  for (Lattice& lattice : scene.lattices) {
+    for (Vec& u : lattice.vectors) u = scaled(u, factor);
+    for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, factor);
+  }
+  scale_obstacles(scene, factor);
+}
+
+void set_limit_radius(Random& drawn, Case& made) {
+  const double tiny = made.scene.dimension == 2 ? kTinyFlat : kTinySolid;
+  switch (drawn.below(3)) {
+    case 0:
+      made.tags.push_back("tiny-radius");
+      return set_radius(made.scene,
+                        moved(tiny, drawn.integer(-2, 2)) * (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
+    case 1:
+      made.tags.push_back("half-radius");
+      return set_radius(made.scene, moved(0.5, drawn.integer(-2, 2)));
+    default:
+      made.tags.push_back("ordinary-radius");
+      return set_radius(made.scene, drawn.octave(-10, -1));
+  }
+}
+
+void set_velocity(Random& random, int dimension, Case& made) {
+  made.query.v = random.direction(dimension);
+  switch (random.below(4)) {
+    case 0:
+      made.tags.push_back("subnormal-velocity");
+      for (double& component : made.query.v)
+        component = std::ldexp(std::round(std::ldexp(component, 30)), -1074);
+      break;
+    case 1:
+      made.tags.push_back("huge-velocity");
+      made.query.v = scaled(made.query.v, random.octave(1000, 1023));
+      break;
+    case 2: {
+      made.tags.push_back("uneven-velocity");
+      const std::uint64_t which = random.below(static_cast<std::uint64_t>(dimension));
+      made.query.v[which] = std::ldexp(made.query.v[which], -static_cast<int>(random.integer(1, 1060)));
+      break;
+    }
+    default:
+      made.tags.push_back("unit-velocity");
+  }
+  if (made.query.v == Vec{}) made.query.v[0] = 0x1p-1074;
+}
+
+void set_far_start(Random& random, int dimension, Case& made) {
+  made.query.x = point_in_cell(random, made.scene);
+  if (!random.one_in(2)) return;
+  made.tags.push_back("far-start");
+  const int exponent = static_cast<int>(random.integer(10, 52));
+  IntVec cell{};
+  for (int i = 0; i < dimension; ++i)
+    cell[i] = random.integer(-(std::int64_t{1} << exponent), std::int64_t{1} << exponent);
+  made.query.x = sum(made.query.x, cartesian(made.scene.lattices[0], cell));
+}
+
+Case make_scale(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(3) ? 3 : 2;
+  const bool unit = drawn.one_in(2);
+  made.scene = unit ? unit_scene(dimension, 0.25) : drawn_crystal(drawn, dimension).scene;
+  if (unit) set_limit_radius(drawn, made);
+  set_far_start(random, dimension, made);
+  set_velocity(random, dimension, made);
+  if (drawn.one_in(2)) {
+    made.tags.push_back("scaled-scene");
+    const double factor = std::ldexp(1, static_cast<int>(drawn.integer(-300, 300)));
+    scale_scene(made.scene, factor);
+    made.query.x = scaled(made.query.x, factor);
+  }
+  return made;
+}
+
+}  // namespace
+
+Family scale() {
+  return {"scale",
+          "Ordinary flights in extraordinary units: sizes, speeds and distances at the ends of the range.",
+          {{"tiny-radius", "at the smallest radius that engines do"},
+           {"half-radius", "within ulps of half the cell: obstacles touch, or nearly"},
+           {"ordinary-radius", "2^-10 to 1/2"},
+           {"subnormal-velocity", "every component is subnormal"},
+           {"huge-velocity", "components beyond 2^1000, whose squares overflow"},
+           {"uneven-velocity", "one component 2^-1 to 2^-1060 of the other"},
+           {"unit-velocity", "of length 1"},
+           {"far-start", "2^10 to 2^52 cells away: the place in the cell has few bits left"},
+           {"scaled-scene", "every length times 2^-300 to 2^300"}},
+          make_scale};
+}
+
+}  // namespace lorentz::fuzz

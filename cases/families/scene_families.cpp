@@ -1,0 +1,211 @@
+// crystals, superpositions, ellipsoids: scenes beyond one ball a cell, each with drawn, near-rational and
+// grazing flights.
+//
+// Several obstacles a cell are several questions, and the first answer counts; their order is decided by
+// times from different offsets. Lattices turned by pi/5 or pi/7, whose cosines are irrational, have no common
+// period, in binary64 one of 10^30 cells: obstacles of the two come as near to each other as one likes. An
+// ellipsoid is a ball in another metric: the slender ones stretch the cell by as much, and a poorly reduced
+// cell then loses digits. Grazing flights are drawn ones, moved across until the first obstacle is passed or
+// met within 2^-10 to 2^-50 of its size of its edge.
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// Drawn, near-rational in coordinates of the first lattice, or grazing.
+void set_query(Random& random, Case& made) {
+  const int dimension = made.scene.dimension;
+  Query& query = made.query;
+  query.x = free_point(random, made.scene);
+  query.v = random.direction(dimension);
+  switch (random.below(3)) {
+    case 0:
+      made.tags.push_back("drawn");
+      return;
+    case 1: {
+      made.tags.push_back("near-rational");
+      query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())],
+                          drawn_primitive(random, dimension, 4));
+      query.v = scaled(query.v, random.octave(-1, 1));
+      jitter(random, query.v, dimension, 3);
+      return;
+    }
+    default:
+      for (int tries = 0; tries < 4; ++tries) {
+        Query moved = query;
+        if (!move_to_edge(random, made.scene, oracle_of(made.scene), moved)) {
+          query.v = random.direction(dimension);
+          continue;
+        }
+        query = moved;
+        made.tags.push_back("grazing");
+        return;
+      }
+      made.tags.push_back("drawn");
+  }
+}
+
+std::vector<Tag> with_kinds(std::vector<Tag> tags) {
+  tags.push_back({"drawn", "uniform free start, isotropic direction"});
+  tags.push_back({"near-rational", "a lattice vector, to a few ulps"});
+  tags.push_back({"grazing", "the first obstacle is passed or met within 2^-10 to 2^-50 of its edge"});
+  return tags;
+}
+
+Case make_crystal(Source& source) {
+  Case made;
+  // Each in its turn, and in every third of its turns at its own size.
+  const std::uint64_t turn = source.index / kCasesPerScene, which = turn % crystals().size();
+  const Crystal& crystal = crystals()[which];
+  made.scene = crystal.scene;
+  made.tags = {std::string(crystal.name)};
+  switch ((turn / crystals().size() + which) % 3) {
+    case 0:
+      break;
+    case 1:
+      scale_obstacles(made.scene, source.scene.between(0.1, 1.1));
+      break;
+    default:
+      scale_obstacles(made.scene, source.scene.octave(-13, -3));
+  }
+  set_query(source.random, made);
+  return made;
+}
+
+// The unit lattice turned by pi / 5 or pi / 7 (in space about an axis), as rounded in the catalogue.
+Lattice turned(int dimension, bool fifth, int axis, double radius) {
+  const double c = fifth ? 0.8090169943749475 : 0.9009688679024191,
+               s = fifth ? 0.5877852522924731 : 0.4338837391175581;
+  Lattice lattice = unit_scene(dimension, radius).lattices[0];
+  const int a = dimension == 2 ? 0 : (axis + 1) % 3, b = dimension == 2 ? 1 : (axis + 2) % 3;
+  lattice.vectors[a][a] = c, lattice.vectors[a][b] = s;
+  lattice.vectors[b][a] = -s, lattice.vectors[b][b] = c;
+  return lattice;
+}
+
+Case make_superposition(Source& source) {
+  Case made;
+  Random& drawn = source.scene;
+  const int dimension = drawn.one_in(3) ? 3 : 2;
+  const double r = drawn.octave(-13, -3);
+  made.scene = unit_scene(dimension, r);
+  auto& lattices = made.scene.lattices;
+  switch (drawn.below(4)) {
+    case 0:
+      made.tags.push_back("turned");
+      lattices.push_back(turned(dimension, drawn.one_in(2), static_cast<int>(drawn.below(3)), r));
+      break;
+    case 1:
+      made.tags.push_back("three-lattices");
+      lattices.push_back(turned(dimension, true, 0, r));
+      lattices.push_back(turned(dimension, false, 1, r));
+      break;
+    case 2: {
+      made.tags.push_back("incommensurate");
+      Lattice other = lattices[0];
+      const double spacing = drawn.between(0.6, 1.7);
+      for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
+      other.atoms[0].radius = r * drawn.between(0.3, 3);
+      lattices.push_back(other);
+      break;
+    }
+    default: {
+      made.tags.push_back("shifted");
+      Lattice other = lattices[0];
+      for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
+      if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
+      lattices.push_back(other);
+    }
+  }
+  if (dimension == 3) made.tags.push_back("space");
+  Random& random = source.random;
+  set_query(random, made);
+  if (made.tags.back() == "drawn")  // far from the point that turned lattices share
+    for (int i = 0; i < dimension; ++i) made.query.x[i] += static_cast<double>(random.integer(-20, 20));
+  return made;
+}
+
+// An ellipsoid with semiaxes along a drawn frame, `slender` times as long as wide.
+Atom ellipsoid(Random& random, int dimension, double size, double slender) {
+  Atom atom;
+  Vec a = random.direction(dimension), b{-a[1], a[0], 0};
+  atom.semiaxes = {scaled(a, size), scaled(b, size / slender)};
+  if (dimension == 3) {
+    const Vec other = random.direction(3);
+    b = {a[1] * other[2] - a[2] * other[1], a[2] * other[0] - a[0] * other[2],
+         a[0] * other[1] - a[1] * other[0]};
+    b = scaled(b, 1 / length(b));
+    const Vec c{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double third = random.one_in(2) ? size : size / slender;
+    atom.semiaxes = {scaled(a, size), scaled(b, size / slender), scaled(c, third)};
+  }
+  return atom;
+}
+
+Case make_ellipsoid(Source& source) {
+  Case made;
+  Random& drawn = source.scene;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  made.scene = drawn.one_in(2) ? unit_scene(dimension, 0.1) : drawn_crystal(drawn, dimension).scene;
+  const bool slender = drawn.one_in(2);
+  made.tags.push_back(dimension == 2 ? "ellipse" : "ellipsoid");
+  if (slender) made.tags.push_back("slender");
+  const double stretch = slender ? drawn.between(8, 100) : drawn.between(1.2, 4);
+  const double size = drawn.one_in(3) ? drawn.octave(-12, -3) : drawn.between(0.1, 0.4);
+  auto& atoms = made.scene.lattices[0].atoms;
+  atoms[0] = {atoms[0].position, 0, ellipsoid(drawn, dimension, size, stretch).semiaxes};
+  if (drawn.one_in(3)) {
+    made.tags.push_back("sheared-axes");  // semiaxes not at right angles span an ellipsoid, too
+    atoms[0].semiaxes[0] = sum(atoms[0].semiaxes[0], scaled(atoms[0].semiaxes[1], drawn.between(-2, 2)));
+  }
+  if (drawn.one_in(2)) {
+    made.tags.push_back("mixed");
+    const Vec middle = dimension == 2 ? Vec{0.5, 0.5} : Vec{0.5, 0.5, 0.5};
+    Atom other = ellipsoid(drawn, dimension, size * 0.7, drawn.between(1, 5));
+    other.position = middle;
+    atoms.push_back(other);
+    atoms.push_back({Vec{0.5, 0, 0}, size * 0.3, {}});
+  }
+  set_query(source.random, made);
+  return made;
+}
+
+}  // namespace
+
+Family crystal_lattices() {
+  std::vector<Tag> tags;
+  for (const Crystal& crystal : crystals())
+    tags.push_back({crystal.name, crystal.scene.lattices[0].atoms.size() == 1
+                                      ? "one obstacle a cell of this lattice"
+                                      : "several obstacles a cell: which of them is first"});
+  return {"crystals", "Crystal lattices and motifs, at their own radii and smaller ones.",
+          with_kinds(std::move(tags)), make_crystal};
+}
+
+Family superpositions() {
+  return {"superpositions", "Two or three lattices at once: turned, of other spacing, or shifted.",
+          with_kinds({{"turned", "turned by pi/5 or pi/7: no common period that matters"},
+                      {"three-lattices", "turned by both: three searches, one first hit"},
+                      {"incommensurate", "another spacing: obstacles overlap somewhere"},
+                      {"shifted", "a common period, small or long"},
+                      {"space", "in space, turned about an axis"}}),
+          make_superposition};
+}
+
+Family ellipsoids() {
+  return {"ellipsoids",
+          "Ellipses and ellipsoids, tilted, up to 100 times as long as wide, alone or among others.",
+          with_kinds(
+              {{"ellipse", "in the plane: the nearest centre is not the nearest obstacle"},
+               {"ellipsoid", "in space, long or flat"},
+               {"slender", "8 to 100 times as long as wide: the metric's condition costs digits"},
+               {"sheared-axes", "semiaxes given not at right angles"},
+               {"mixed", "different shapes in one cell, a ball among them: times from different metrics"}}),
+          make_ellipsoid};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,93 @@
+// slender: ellipses and ellipsoids up to 2^12 times as long as wide, tilted in the unit cell, and flown along
+// their long axis. In their own metric such a flight is the slow one: v^2, heights and the width of the strip
+// are differences of terms 2^24 times as large, and a bound that is right for discs is too small by the
+// condition. The line passes the obstacle's end, or its flank from which it leans away by 2^-40 to 2^-4.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// A frame at random angles; or with a long axis of small integers.
+std::array<Vec, 3> drawn_frame(Random& drawn, int dimension) {
+  Vec a = drawn.direction(dimension);
+  if (drawn.one_in(3)) {
+    a = to_vec(drawn_primitive(drawn, dimension, 4));
+    a = scaled(a, 1 / length(a));
+  }
+  if (dimension == 2) return {a, Vec{-a[1], a[0], 0}, Vec{0, 0, 1}};
+  Vec b = cross(a, drawn.direction(3));
+  b = scaled(b, 1 / length(b));
+  return {a, b, cross(a, b)};
+}
+
+// Needles, and in space blades, too.
+Atom drawn_needle(Random& drawn, int dimension, Case& made) {
+  const std::array<Vec, 3> frame = drawn_frame(drawn, dimension);
+  const bool cell = drawn.one_in(2);
+  const double size = cell ? drawn.between(0.2, 0.49) : drawn.octave(-1, 2),
+               thin = size * drawn.octave(-12, -2);
+  made.tags.push_back(cell ? "in-its-cell" : "through-cells");
+  const bool blade = dimension == 3 && drawn.one_in(2);
+  made.tags.push_back(blade ? "blade" : "needle");
+  Atom atom;
+  atom.semiaxes = {scaled(frame[0], size), scaled(frame[1], thin)};
+  if (dimension == 3) atom.semiaxes.push_back(scaled(frame[2], blade ? size * drawn.between(0.5, 1) : thin));
+  return atom;
+}
+
+// The obstacle's centre, up to some cells before it, and beside it by about its width: at its edge to within
+// 2^-50 to 1.
+Vec beside(Random& random, const Atom& atom) {
+  const Vec &along = atom.semiaxes[0], &across = atom.semiaxes[1 + random.below(atom.semiaxes.size() - 1)];
+  const double edge = random.one_in(3) ? random.between(-1.5, 1.5)
+                                       : random.sign() * (1 + random.octave(-50, -1) * random.sign());
+  return sum(atom.position,
+             sum(scaled(along, -random.between(0.5, random.one_in(2) ? 2 : 40)), scaled(across, edge)));
+}
+
+Case make_slender(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  made.scene = unit_scene(dimension, 0.25);
+  made.scene.lattices[0].atoms[0] = drawn_needle(drawn, dimension, made);
+  const Atom& atom = made.scene.lattices[0].atoms[0];
+  const Vec& along = atom.semiaxes[0];
+  made.query.v = random.one_in(2) ? along : scaled(along, random.between(0.5, 2) / length(along));
+  if (random.one_in(2)) {
+    made.tags.push_back("leaning");
+    made.query.v =
+        sum(made.query.v, scaled(random.direction(dimension), length(made.query.v) * random.octave(-40, -4)));
+  } else {
+    made.tags.push_back("lengthwise");
+  }
+  if (random.one_in(3)) {
+    made.tags.push_back("anywhere");
+    made.query.x = free_point(random, made.scene);
+  } else {
+    made.tags.push_back("at-its-edge");
+    made.query.x = beside(random, atom);
+  }
+  return made;
+}
+
+}  // namespace
+
+Family slender() {
+  return {"slender",
+          "Slender tilted ellipses and ellipsoids in unit cells, flown along their long axis.",
+          {{"needle", "2^1 to 2^12 times as long as wide"},
+           {"blade", "two long semiaxes and a short one"},
+           {"in-its-cell", "shorter than the cell"},
+           {"through-cells", "up to eight cells long, between its translates or through them"},
+           {"lengthwise", "along the long axis but for rounding"},
+           {"leaning", "2^-40 to 2^-4 off it"},
+           {"anywhere", "from anywhere in the cell"},
+           {"at-its-edge", "towards an obstacle whose edge the line passes within 2^-50 to 1 of its width"}},
+          make_slender};
+}
+
+}  // namespace lorentz::fuzz

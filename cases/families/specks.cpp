@@ -1,0 +1,86 @@
+// specks: cells, starts and velocities with components that are next to nothing, and not nothing.
+//
+// A component of 2^-1074 beside one of 2 vanishes when the larger is scaled to 1, and a product with it
+// underflows; what is then computed is exact for another lattice. Along a row that a speck tilts the flight
+// meets an obstacle after 10^300 cells, and without it never; across it the speck decides nothing, but its
+// reciprocal overflows. So: square, cubic and skewed cells from 2^-400 to 2^1000 with specks in place of
+// zeros, flights along rows and across.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr int kLeast = -1074;
+
+// The smallest numbers, or any below 2^-400 of the size; at times with all digits.
+double speck(Random& random, int exponent_of_size) {
+  const int most = std::max(kLeast, std::min(exponent_of_size - 400, -400));
+  const auto exponent = static_cast<int>(random.one_in(2) ? kLeast + static_cast<int>(random.below(60))
+                                                          : random.integer(kLeast, most));
+  return std::ldexp(random.one_in(2) ? 1 : 1 + random.uniform(), std::min(exponent, most)) * random.sign();
+}
+
+// A speck in place of some of the zeros.
+void add_specks(Random& random, Vec& a, int dimension, int exponent_of_size) {
+  for (int i = 0; i < dimension; ++i)
+    if (a[i] == 0 && random.one_in(2)) a[i] = speck(random, exponent_of_size);
+}
+
+int drawn_exponent(Random& drawn) {
+  switch (drawn.below(3)) {
+    case 0:
+      return static_cast<int>(drawn.integer(-2, 2));
+    case 1:
+      return static_cast<int>(drawn.integer(-400, 400));
+    default:
+      return static_cast<int>(drawn.integer(400, 1000));
+  }
+}
+
+Case make_specks(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(3) ? 3 : 2, exponent = drawn_exponent(drawn);
+  const double size = std::ldexp(1, exponent);
+  std::array<Vec, 3> vectors{};
+  const bool skewed = drawn.one_in(4);
+  for (int i = 0; i < dimension; ++i) {
+    vectors[i][i] = size;
+    if (skewed && i > 0) vectors[i][0] = size * static_cast<double>(drawn.integer(-2, 2)) / 4;
+    add_specks(drawn, vectors[i], dimension, exponent);
+  }
+  made.scene = lattice_scene(dimension, vectors, size * (drawn.one_in(2) ? 0.25 : drawn.between(0.02, 0.5)));
+  if (drawn.one_in(4)) add_specks(drawn, made.scene.lattices[0].atoms[0].position, dimension, exponent);
+  const bool row = random.one_in(2);
+  made.tags.push_back(row ? "row" : "across");
+  Vec x{}, v = random.direction(dimension);
+  for (int i = 0; i < dimension; ++i) x[i] = static_cast<double>(random.integer(-4, 4)) / 4;
+  if (row) v = to_vec(drawn_primitive(random, dimension, random.one_in(2) ? 1 : 3));
+  made.query.x = scaled(x, size);
+  made.query.v = scaled(v, std::ldexp(1, random.one_in(2) ? 0 : static_cast<int>(random.integer(-300, 300))));
+  const bool more = random.one_in(3);
+  made.tags.push_back(more ? "specks-in-the-flight" : "specks-in-the-cell");
+  if (more) {
+    add_specks(random, made.query.x, dimension, exponent);
+    add_specks(random, made.query.v, dimension, std::ilogb(length(made.query.v)));
+  }
+  return made;
+}
+
+}  // namespace
+
+Family specks() {
+  return {"specks",
+          "Components down to 2^-1074 where others are large: they vanish when units change.",
+          {{"row", "along a lattice row, which a speck tilts"},
+           {"across", "in a drawn direction"},
+           {"specks-in-the-cell", "in the lattice vectors, or the atom's position"},
+           {"specks-in-the-flight", "in start and velocity, too"}},
+          make_specks};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,31 @@
+// What a campaign aims at: each target is a family of cases, or two in turn. A case follows from (seed,
+// target, index) and nothing else.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cases/families/family.hpp"
+
+namespace lorentz::fuzz {
+
+class Target {
+ public:
+  /// Of one family, or of two that take turns, kCasesPerScene cases each.
+  Target(std::string_view name, std::vector<Family> families) : name_(name), families_(std::move(families)) {}
+
+  std::string_view name() const { return name_; }
+  std::string_view description() const { return families_.front().description(); }
+  Case make(std::uint64_t seed, std::uint64_t index) const;
+
+ private:
+  std::string_view name_;
+  std::vector<Family> families_;
+};
+
+const std::vector<Target>& targets();
+
+/// One of targets(), or generic-2d or generic-3d alone. Null if there is none of that name.
+const Target* target_named(std::string_view name);
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,168 @@
+// ties: two obstacles entered at the same time, exactly or within ulps; the answer is then the smallest
+// (lattice, atom, cell), or hangs on the last bit of the difference of two square roots.
+//
+// Exact ties: obstacles that are mirror images in the line of flight (or, in space, in a plane that holds it,
+// or turned into each other about the diagonal); two balls with a common surface point that the line goes
+// through, made of Pythagorean triples; the same obstacle written twice, as two atoms or in two lattices,
+// also in another basis, so that its cells have other numbers. Then the start or the velocity is moved by a
+// few ulps.
+#include <cmath>
+
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+Atom ball(const Vec& position, double radius) {
+  return {position, radius, {}};
+}
+
+double dyadic(Random& random, int low, int high) {  // eighths of a power of two: few bits
+  return std::ldexp(static_cast<double>(random.integer(8, 15)),
+                    static_cast<int>(random.integer(low, high)) - 3);
+}
+
+// A start at whole 2^-40 along the line behind the origin, so that it is exact.
+double behind(Random& random) {
+  return std::ldexp(static_cast<double>(random.integer(1l << 38, 1l << 39)), -40);
+}
+
+// Atoms mirrored at the line of flight, which runs along the first axis or the diagonal.
+Case make_mirrored(Source& source, int dimension) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  made.tags.push_back("mirrored");
+  const double r = dyadic(drawn, -4, -3), off = r * dyadic(drawn, -3, -2) * 1.5,
+               ahead = drawn.one_in(2) ? 0.25 : 0.0;
+  const bool diagonal = drawn.one_in(2);
+  const double s = behind(random);
+  made.scene = unit_scene(dimension, r);
+  auto& atoms = made.scene.lattices[0].atoms;
+  if (diagonal && dimension == 3) {
+    atoms = {ball({off, ahead, 0}, r), ball({0, off, ahead}, r), ball({ahead, 0, off}, r)};
+    made.query = {{-s, -s, -s}, {1, 1, 1}, {}};
+  } else if (diagonal) {
+    atoms = {ball({ahead + off, ahead}, r), ball({ahead, ahead + off}, r)};
+    made.query = {{-s, -s}, {1, 1}, {}};
+  } else {
+    atoms = {ball({ahead, off}, r), ball({ahead, -off}, r)};
+    if (dimension == 3 && drawn.one_in(2))
+      atoms.insert(atoms.end(), {ball({ahead, 0, off}, r), ball({ahead, 0, -off}, r)});
+    made.query = {{-s, 0}, {1, 0}, {}};
+  }
+  return made;
+}
+
+// Two balls through the origin, with centres at triples; any line into both through it enters both there.
+Case make_shared_point(Source& source, int dimension) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  made.tags.push_back("shared-point");
+  made.scene = unit_scene(dimension, 1);
+  auto& atoms = made.scene.lattices[0].atoms;
+  atoms.clear();
+  IntVec first{};
+  for (int i = 0; i < 2; ++i) {
+    Squared one = dimension == 2 ? drawn_triple(drawn, 9) : drawn_quadruple(drawn, 3);
+    if (i == 0) first = one.v;
+    if (dot(one.v, first) < 0)  // both on one side
+      for (std::int64_t& component : one.v) component = -component;
+    const int exponent = -std::ilogb(static_cast<double>(one.length)) - static_cast<int>(drawn.integer(3, 5));
+    atoms.push_back(ball(scaled(to_vec(one.v), std::ldexp(1, exponent)),
+                         std::ldexp(static_cast<double>(one.length), exponent)));
+  }
+  const Vec middle = sum(atoms[0].position, atoms[1].position);
+  for (int i = 0; i < dimension; ++i)
+    made.query.v[i] = std::round(std::ldexp(middle[i] * random.between(0.5, 1.5), 20));
+  const double far = std::ldexp(static_cast<double>(random.integer(1, 1 << 16)), -37);
+  for (int i = 0; i < dimension; ++i) made.query.x[i] = made.query.v[i] == 0 ? 0.0 : -far * made.query.v[i];
+  return made;
+}
+
+// The same obstacles twice: as two atoms, in two lattices, or in two lattices with different bases.
+Case make_twice(Source& source, int dimension) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  made.scene = unit_scene(dimension, drawn.one_in(2) ? dyadic(drawn, -8, -3) : drawn.octave(-12, -2));
+  Lattice& lattice = made.scene.lattices[0];
+  const std::uint64_t how = drawn.below(3);
+  made.tags.push_back(how == 0 ? "identical-atoms" : "superposed");
+  if (how == 0) {
+    lattice.atoms.push_back(lattice.atoms[0]);
+  } else {
+    Lattice other = lattice;
+    if (how == 2) {
+      other.vectors[0] = sum(other.vectors[0], other.vectors[1]);
+      std::swap(other.vectors[0], other.vectors[1]);
+      other.atoms[0].position[0] = static_cast<double>(drawn.integer(-2, 2));
+    }
+    made.scene.lattices.push_back(other);
+  }
+  made.query.x = free_point(random, made.scene);
+  made.query.v = random.direction(dimension);
+  return made;
+}
+
+// Neighbours that overlap, entered where they meet: along the middle line between two rows.
+Case make_neighbours(Source& source, int dimension) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  made.tags.push_back("overlapping-neighbours");
+  made.scene = unit_scene(dimension, drawn.between(0.5, 0.55));
+  made.query.x = {-0.5 + std::ldexp(static_cast<double>(random.integer(-1000, 1000)), -17), 0.5, 0};
+  if (dimension == 3)
+    made.query.x[2] =
+        random.one_in(2) ? 0.0 : std::ldexp(static_cast<double>(random.integer(-1000, 1000)), -14);
+  made.query.v = {1, 0, 0};
+  const Symmetry symmetry(random, dimension);
+  made.query.x = symmetry(made.query.x);
+  made.query.v = symmetry(made.query.v);
+  return made;
+}
+
+Case make_tie(Source& source) {
+  const int dimension = source.scene.one_in(3) ? 3 : 2;
+  Case made;
+  switch (source.scene.below(4)) {
+    case 0:
+      made = make_mirrored(source, dimension);
+      break;
+    case 1:
+      made = make_shared_point(source, dimension);
+      break;
+    case 2:
+      made = make_twice(source, dimension);
+      break;
+    default:
+      made = make_neighbours(source, dimension);
+  }
+  Random& random = source.random;
+  // By few bits, so that an exact tie stays one.
+  made.query.v = scaled(made.query.v, std::ldexp(static_cast<double>(random.integer(1, 4095)), -12));
+  if (random.one_in(3)) {
+    made.tags.push_back("within-ulps");
+    Vec& moved_one = random.one_in(2) ? made.query.x : made.query.v;
+    for (int i = 0; i < dimension; ++i)
+      moved_one[i] = moved_one[i] == 0 ? std::ldexp(static_cast<double>(random.integer(-4, 4)), -54)
+                                       : moved(moved_one[i], random.integer(-4, 4));
+  }
+  return made;
+}
+
+}  // namespace
+
+Family ties() {
+  return {
+      "ties",
+      "Two obstacles or more entered at the same time, exactly or within ulps.",
+      {{"mirrored", "obstacles symmetric about the line of flight"},
+       {"shared-point", "two spheres of different size through one point, entered there"},
+       {"identical-atoms", "one obstacle written twice in the motif: the first of them is the answer"},
+       {"superposed", "one lattice written twice, also in another basis and cell: the first is the answer"},
+       {"overlapping-neighbours", "obstacles of two neighbouring cells, entered where they meet"},
+       {"within-ulps", "x or v a few ulps off: the tie broken by some 2^-54"}},
+      make_tie};
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,40 @@
+#include "cases/hard_moves.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <lorentz/geometry.hpp>
+
+namespace lorentz::fuzz {
+
+Vec near_integer_direction(Random& random, int dimension) {
+  Vec v{};
+  while (v == Vec{})
+    for (int i = 0; i < dimension; ++i) v[i] = std::floor(9 * random.uniform()) - 4;
+  for (int i = 0; i < dimension; ++i)
+    for (auto ulps = random.bits() % 4; v[i] != 0 && ulps > 0; --ulps)
+      v[i] = std::nextafter(v[i], std::numeric_limits<double>::infinity());
+  return v;
+}
+
+// In coordinates y in which the obstacle is the unit ball: the normal n of the collision stands at y ~ A^T n,
+// the line passes the centre at the part of y across it, and is moved along that.
+bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
+  oracle::Request request;
+  request.detail = true;
+  const Answer answer = oracle.first_hit(query, request);
+  if (answer.outcome != Outcome::hit || !answer.detail) return false;
+  const auto axes =
+      semiaxes_of(scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom], scene.dimension);
+  Vec y = coordinates(axes, answer.detail->normal), w = coordinates(dual_of(axes, scene.dimension), query.v);
+  if (scene.dimension == 2) y[2] = w[2] = 0;
+  const double length = std::sqrt(dot(y, y)), along = dot(y, w) / length / dot(w, w);
+  for (int i = 0; i < 3; ++i) y[i] = y[i] / length - along * w[i];
+  const double distance = std::sqrt(dot(y, y));
+  const double off_edge = std::exp2(-10 - 40 * random.uniform()) * (random.bits() & 1 ? 1 : -1);
+  for (int i = 0; i < scene.dimension; ++i)
+    for (int k = 0; k < 3; ++k) query.x[k] += axes[i][k] * y[i] / distance * (1 + off_edge - distance);
+  return std::isfinite(query.x[0] + query.x[1] + query.x[2]) && oracle.is_free(query.x);
+}
+
+}  // namespace lorentz::fuzz

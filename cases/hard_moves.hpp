@@ -1,0 +1,19 @@
+// How a drawn query becomes a hard one, in any scene.
+//
+// move_to_edge draws with std::exp2, which libraries round differently: its bits, and those of the families'
+// grazing flights in crystals, superpositions and ellipsoids, are the same only where that is.
+#pragma once
+
+#include <lorentz/oracle.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::fuzz {
+
+/// A direction of integers from -4 to 4, each nonzero component moved by up to 3 ulps.
+Vec near_integer_direction(Random& random, int dimension);
+
+/// Moves the start across the line, so that the obstacle that is hit first is passed or met within 2^-10 to
+/// 2^-50 of its size of its edge. False: the start is then in an obstacle, or nothing was hit.
+bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query);
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,78 @@
+// Small integer vectors, and what exact constructions are made of: Bezout's identity, squares, Pell's
+// equation. A 2D vector has a third component 0. Private to fuzz/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cases/random.hpp"
+
+namespace lorentz::fuzz {
+
+using IntVec = std::array<std::int64_t, 3>;
+
+inline std::int64_t dot(const IntVec& a, const IntVec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline IntVec cross(const IntVec& a, const IntVec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The greatest common divisor of the components; 0 for the zero vector.
+std::int64_t content_of(const IntVec& a);
+
+/// u with u.a = content_of(a); in 2D, u is 2D.
+IntVec bezout(const IntVec& a);
+
+/// a divided by its content, which must not be 0.
+IntVec primitive(IntVec a);
+
+/// Primitive, components from -range to range.
+IntVec drawn_primitive(Random& random, int dimension, std::int64_t range);
+
+/// Two independent primitive vectors at right angles to n.
+std::array<IntVec, 2> across_of(const IntVec& n);
+
+/// a_1 u_1 + a_2 u_2 (+ a_3 u_3), in binary64.
+Vec cartesian(const Lattice& lattice, const IntVec& a);
+Vec to_vec(const IntVec& a);
+
+/// An integer vector v of integer length w, and `across`, one of the same length at a right angle to it (2D:
+/// across = (0, 0, w) stands for the side on which the line passes).
+struct Squared {
+  IntVec v, across;
+  std::int64_t length;
+};
+
+/// From a Pythagorean triple (a^2 - b^2, 2ab, a^2 + b^2), a up to `range`; primitive.
+Squared drawn_triple(Random& random, std::int64_t range);
+
+/// From a quaternion with components up to `range`: its rotation matrix times its norm has orthogonal integer
+/// rows of that length. v is primitive.
+Squared drawn_quadruple(Random& random, std::int64_t range);
+
+/// Primitive v in the plane with |v|^2 = w^2 + 1 or w^2 - 1.
+struct NearSquare {
+  IntVec v;
+  std::int64_t w;
+};
+NearSquare drawn_near_square(Random& random);
+
+/// Convergents k / r of sqrt(n / h), r up to 2^50: n r^2 - h k^2 is as small as it gets, so that r, k solve
+/// Pell's equation or nearly. Ends early if the root is rational.
+struct Fraction {
+  std::int64_t k, r;
+};
+std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h);
+
+/// The start x from which the flight along the primitive v passes the origin at the closest point after
+/// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`
+/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no binary64 vector near there does
+/// that.
+std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
+                                double along);
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,73 @@
+#include "cases/random.hpp"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr std::size_t kBlock = 2;  // the word of the counter that counts blocks
+
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+}  // namespace
+
+Random::Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use)
+    : key_{seed, fnv1a(name)}, counter_{index, static_cast<std::uint64_t>(use), 0, 0} {}
+
+void Random::next_block() {
+  const philox4x64_key_t key{{key_[0], key_[1]}};
+  const philox4x64_ctr_t counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+  const philox4x64_ctr_t block = philox4x64(counter, key);
+  for (std::size_t i = 0; i < block_.size(); ++i) block_[i] = block.v[i];
+  ++counter_[kBlock];
+  taken_ = 0;
+}
+
+std::uint64_t Random::bits() {
+  if (taken_ == block_.size()) next_block();
+  return block_[taken_++];
+}
+
+double Random::uniform() {
+  return static_cast<double>(bits() >> 11) * 0x1p-53;
+}
+
+Vec Random::direction(int dimension) {
+  for (;;) {
+    Vec v{};
+    double length2 = 0;
+    for (int i = 0; i < dimension; ++i) {
+      v[i] = 2 * uniform() - 1;
+      length2 += v[i] * v[i];
+    }
+    if (length2 > 1 || length2 < 0.01) continue;
+    const double length = std::sqrt(length2);
+    for (double& component : v) component /= length;
+    return v;
+  }
+}
+
+std::int64_t Random::integer(std::int64_t low, std::int64_t high) {
+  return low + static_cast<std::int64_t>(below(static_cast<std::uint64_t>(high - low) + 1));
+}
+
+double Random::between(double low, double high) {
+  return low + (high - low) * uniform();
+}
+
+double Random::sign() {
+  return bits() & 1 ? 1 : -1;
+}
+
+double Random::octave(int low, int high) {
+  const int exponent = static_cast<int>(integer(low, high - 1));
+  return std::ldexp(1 + uniform(), exponent);
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,42 @@
+// Random numbers that are the same whoever draws them, and on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::fuzz {
+
+/// What numbers are drawn for: each has its own, whatever the others take.
+enum class Use : std::uint64_t { cases, scenes, mutants, rewordings, reworded_scenes };
+
+/// Random numbers by Philox4x64-10, a bijection of 256-bit counters under a 128-bit key (Salmon, Moraes,
+/// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is (seed,
+/// FNV-1a of the name), the counter (index, use, block, 0): the numbers depend on these only, so that a query
+/// is the same whoever draws it, in whatever order, on whatever thread or machine. Each block is four words.
+/// Nothing but integer arithmetic, exact conversions, single roundings and square roots is used.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use = Use::cases);
+  std::uint64_t bits();
+  double uniform();              ///< [0, 1), a multiple of 2^-53
+  Vec direction(int dimension);  ///< isotropic, of unit length up to rounding
+
+  std::uint64_t below(std::uint64_t n) { return bits() % n; }
+  bool one_in(std::uint64_t n) { return below(n) == 0; }
+  std::int64_t integer(std::int64_t low, std::int64_t high);  ///< low to high, both included
+  double between(double low, double high);
+  double sign();                     ///< +1 or -1
+  double octave(int low, int high);  ///< 2^k (1 + u), k from low to high - 1: about log-uniform, above 0
+
+ private:
+  void next_block();
+
+  std::array<std::uint64_t, 2> key_;
+  std::array<std::uint64_t, 4> counter_, block_{};
+  std::size_t taken_ = 4;  ///< of the block
+};
+
+}  // namespace lorentz::fuzz

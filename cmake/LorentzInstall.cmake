@@ -1,0 +1,68 @@
+# Installing: `cmake --install build --prefix P`, then in another project
+#   find_package(lorentz REQUIRED COMPONENTS engine oracle exchange)
+#   target_link_libraries(.. lorentz::engine lorentz::oracle lorentz::certified lorentz::walk lorentz::exchange)
+# One export set a component, because they differ in what they need: `engine` the standard library, `oracle` GMP (linked;
+# Boost's and CGAL's headers only to build it), `exchange` simdjson and toml++.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
+
+set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
+  lorentz_engine)
+set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction)
+set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)
+set(LORENTZ_EXCHANGE_HEADERS exchange line_reader)
+set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lorentz_contacts lorentz_horizon
+  lorentz_margin lorentz_certificate_check lorentz_certificate lorentz_oracle lorentz_walk lorentz_certified)
+set(LORENTZ_ORACLE_HEADERS oracle walk certified verdict margin horizon scene_check continued_fraction certificate
+  certificate_check prover)
+
+set_target_properties(lorentz_integers PROPERTIES EXPORT_NAME integers)
+
+function(lorentz_install_component component)
+  string(TOUPPER ${component} upper)
+  install(TARGETS ${LORENTZ_${upper}_TARGETS} EXPORT lorentz-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT lorentz-${component} NAMESPACE lorentz:: DESTINATION ${LORENTZ_CMAKE_DIR})
+  list(TRANSFORM LORENTZ_${upper}_HEADERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/include/lorentz/\\1.hpp")
+  install(FILES ${LORENTZ_${upper}_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz)
+endfunction()
+
+# lorentz-COMPONENT.pc, for who does not use CMake. Archives in the order in which a linker wants them.
+function(lorentz_install_pkg_config component requires)
+  string(TOUPPER ${component} upper)
+  set(libs "")
+  set(targets ${LORENTZ_${upper}_TARGETS})
+  list(REMOVE_ITEM targets lorentz_integers)  # headers
+  list(REVERSE targets)
+  foreach(target ${targets})
+    string(APPEND libs " -l${target}")
+  endforeach()
+  set(LORENTZ_PC_NAME lorentz-${component})
+  set(LORENTZ_PC_LIBS "${libs}")
+  set(LORENTZ_PC_REQUIRES "${requires}")
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/lorentz.pc.in ${PROJECT_BINARY_DIR}/lorentz-${component}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/lorentz-${component}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+lorentz_install_component(engine)
+lorentz_install_pkg_config(engine "")
+if(TARGET lorentz_exchange)
+  lorentz_install_component(exchange)
+  lorentz_install_pkg_config(exchange "lorentz-engine simdjson")
+endif()
+if(TARGET lorentz_oracle)
+  lorentz_install_component(oracle)
+  lorentz_install_pkg_config(oracle "lorentz-engine gmpxx gmp")
+endif()
+if(TARGET lorentz)
+  install(TARGETS lorentz RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/golden
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/lorentz)
+endif()
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lorentz-config.cmake.in lorentz-config.cmake
+  INSTALL_DESTINATION ${LORENTZ_CMAKE_DIR})
+# Before 1.0 each minor version may change the interface.
+write_basic_package_version_file(lorentz-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lorentz-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/lorentz-config-version.cmake
+  DESTINATION ${LORENTZ_CMAKE_DIR})

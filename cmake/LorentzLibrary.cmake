@@ -1,0 +1,29 @@
+# How every target here is compiled, and the form of a library: one folder, one target, one prefix of includes.
+
+# Floating point, pinned. The binary64 engines are specified operation by operation: if the compiler fuses a*b + c on its
+# own, or reorders sums, the same source gives other bits on another machine, and an error bound derived for two
+# roundings no longer describes the program. So: no contraction (an fma is written where one is meant), no fast-math,
+# SSE arithmetic on x86 (the default there), and no -march=native.
+function(lorentz_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math -Wall -Wextra -Wpedantic
+    # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  # Headers are named by their path from the root: "oracle/exact/quadratic.hpp"; public ones <lorentz/oracle.hpp>.
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+endfunction()
+
+# lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries])
+function(lorentz_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 its "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")
+  add_library(${name} STATIC ${its_SOURCES})
+  lorentz_settings(${name})
+  target_include_directories(${name}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_include_directories(${name} SYSTEM PRIVATE ${its_SYSTEM})
+  target_link_libraries(${name} PUBLIC ${its_PUBLIC} PRIVATE ${its_PRIVATE})
+  string(REPLACE "lorentz_" "" short ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
+  add_library(lorentz::${short} ALIAS ${name})
+endfunction()

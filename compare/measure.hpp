@@ -1,0 +1,69 @@
+// Several answerers over the same queries: what they got wrong, how exact their times are, how long they
+// took.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/verdict.hpp>
+#include "compare/registry.hpp"
+
+namespace lorentz::cli {
+
+struct Case {
+  Id id = "null";
+  std::size_t scene = 0;  ///< index into CaseSet::scenes
+  Query query;
+};
+
+struct CaseSet {
+  std::vector<Scene> scenes;
+  std::vector<Case> cases;
+};
+
+/// One answerer's account over a set of cases.
+struct Tally {
+  std::string name;
+  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
+              missing = 0;
+  std::size_t wrong_time = 0;  ///< of the wrong: those whose obstacle is right
+  bool failed = false;         ///< another program that broke on the way
+  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
+  double max_ulp = 0, sum_ulp = 0;
+  double ns_per_query = 0;  ///< mean over the queries, in the median round; 0: not timed
+  double ns_median = 0;     ///< median over blocks of 16 queries of a block's mean; of another program,
+                            ///< whose answers come when they come, the mean
+  double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
+  std::vector<double> ulps;        ///< errors of these times
+
+  void count(const oracle::Judgement& judgement);
+  double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
+  double mean_ulp() const { return timed_hits ? sum_ulp / static_cast<double>(timed_hits) : 0; }
+};
+
+/// Called for each answer that is wrong or ill-posed: the case, the exact answer, who gave which, the
+/// judgement.
+using OnWrong = std::function<void(const Case&, const Answer& exact, const std::string& name,
+                                   const Answer& given, const oracle::Judgement&)>;
+
+struct MeasureOptions {
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance of the verdicts
+  int rounds = 5;
+  double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
+  Listener listener = {};
+};
+
+/// The exact answers to all cases.
+std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener = {});
+
+/// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
+/// is empty (nothing is judged) or as many answers as there are cases. Another program is timed by the wall,
+/// pipes and all, from the first query to the last answer; where it broke it is not run again.
+std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
+                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           const MeasureOptions& options = {});
+
+}  // namespace lorentz::cli

@@ -1,0 +1,136 @@
+#include "compare/registry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include <lorentz/certified.hpp>
+#include <lorentz/collision.hpp>
+#include <lorentz/engine.hpp>
+#include <lorentz/exchange.hpp>
+#include <lorentz/walk.hpp>
+#include "compare/command_engine.hpp"
+
+namespace lorentz::cli {
+
+void add_detail(const Query& query, const Scene& scene, Answer& answer) {
+  if (answer.outcome != Outcome::hit || !answer.time) return;
+  const Detail detail = collision_detail(scene, query, answer);
+  // Beyond the range of binary64 there is none; the oracle has it.
+  if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
+    answer.detail = detail;
+}
+
+namespace {
+
+constexpr std::string_view kCommand = "cmd:";
+
+double limit_of(const oracle::Request& request) {
+  return request.max_time.value_or(std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+std::vector<std::string> answerer_names() {
+  std::vector<std::string> names = engine_names();
+  names.push_back("certified");
+  names.push_back("oracle");
+  names.push_back("walk");
+  return names;
+}
+
+std::string names_for_help() {
+  return fmt::format("{}, cmd:COMMAND (another program, docs/exchange.md)",
+                     fmt::join(answerer_names(), ", "));
+}
+
+bool is_command(const std::string& name) {
+  return name.starts_with(kCommand);
+}
+
+void check_name(const std::string& name) {
+  if (is_command(name)) {
+    if (name.find_first_not_of(" \t\n", kCommand.size()) == std::string::npos)
+      throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
+    return;
+  }
+  const auto names = answerer_names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError(fmt::format("no engine is called {}; there are {}, and cmd:COMMAND for another program",
+                                 json_quoted(name), fmt::join(names, ", ")));
+}
+
+std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
+  std::vector<std::string> names;
+  for (const std::string& argument : arguments)
+    for (std::size_t begin = 0; begin <= argument.size();) {
+      const bool whole = argument.compare(begin, kCommand.size(), kCommand) == 0;
+      const std::size_t end = whole ? argument.size() : std::min(argument.find(',', begin), argument.size());
+      names.push_back(argument.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  return names;
+}
+
+FirstHit make_first_hit(const std::string& name, const Scene& scene) {
+  check_name(name);
+  if (is_command(name)) throw std::logic_error(name + ": answers in bulk only");
+  if (name == "oracle") {
+    auto truth = std::make_shared<oracle::Oracle>(scene);
+    return [truth](const Query& query, const oracle::Request& request, Answer& answer) {
+      answer = truth->first_hit(query, request);
+    };
+  }
+  if (name == "certified") {
+    auto certified = std::make_shared<oracle::Certified>(scene);
+    return [certified](const Query& query, const oracle::Request& request, Answer& answer) {
+      certified->first_hit(query, request, answer);
+    };
+  }
+  if (name == "walk") {
+    auto walk = std::make_shared<oracle::Walk>(scene);
+    return [walk, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+      answer = walk->first_hit(query, limit_of(request));
+      if (request.detail) add_detail(query, scene, answer);
+    };
+  }
+  std::shared_ptr<Engine> engine = make_engine(name, scene);
+  return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+    engine->first_hit(query, limit_of(request), answer);
+    if (request.detail) add_detail(query, scene, answer);
+  };
+}
+
+namespace {
+
+// An engine of this program.
+class EngineAnswerer final : public Answerer {
+ public:
+  EngineAnswerer(std::string name, const oracle::Request& request)
+      : name_(std::move(name)), request_(request) {}
+  void set_scene(const Scene& scene) override { first_hit_ = make_first_hit(name_, scene); }
+  void ask(const Id&, const Query& query) override {
+    first_hit_(query, request_, answer_);
+    deliver(answer_);
+  }
+
+ private:
+  std::string name_;
+  oracle::Request request_;
+  FirstHit first_hit_;
+  Answer answer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererOptions& options) {
+  check_name(name);
+  if (is_command(name)) return std::make_unique<CommandEngine>(name.substr(kCommand.size()), options);
+  return std::make_unique<EngineAnswerer>(name, options.request);
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,44 @@
+// Everything that answers queries, by name: the binary64 engines, the oracle, walk, and other programs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lorentz/oracle.hpp>
+#include <lorentz/problem.hpp>
+#include "compare/answerer.hpp"
+
+namespace lorentz::cli {
+
+/// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a
+/// detail that binary64 cannot compute is left out.
+using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
+
+/// The names of all that this program answers with itself.
+std::vector<std::string> answerer_names();
+
+/// All names and `cmd:COMMAND`, for help texts.
+std::string names_for_help();
+
+/// True for `cmd:COMMAND`: another program, which reads a query stream and writes an answer stream.
+bool is_command(const std::string& name);
+
+/// Throws InputError for an unknown name, or a command that is empty.
+void check_name(const std::string& name);
+
+/// The names in arguments like `reduction,published`. A command may contain commas: from `cmd:` on an
+/// argument is taken whole.
+std::vector<std::string> names_in(const std::vector<std::string>& arguments);
+
+/// One at a time, for a scene without flaws. Not for commands, which would be slow that way.
+FirstHit make_first_hit(const std::string& name, const Scene& scene);
+
+/// Many at a time, whoever it is.
+std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererOptions& options);
+
+/// Adds the detail to a hit with a time, where binary64 can compute it.
+void add_detail(const Query& query, const Scene& scene, Answer& answer);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,75 @@
+// The library in use: a scene, the fast engine, `certified`, the oracle, a verdict, and one direction for
+// many starts. Built and run by the tests, in this tree and against an installed one.
+#include <cstdio>
+#include <lorentz/certified.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/reduction.hpp>
+#include <lorentz/scene_check.hpp>
+#include <lorentz/verdict.hpp>
+
+using namespace lorentz;
+
+namespace {
+
+// Discs of radius 1/4 on the triangular lattice, one of its vectors rounded to binary64: that is the lattice
+// meant.
+Scene triangular() {
+  Scene scene;
+  scene.dimension = 2;
+  scene.lattices.push_back({{{{1, 0, 0}, {0.5, 0.8660254037844386, 0}}}, {Atom{{}, 0.25, {}}}});
+  return scene;
+}
+
+void print(const char* who, const Answer& answer) {
+  if (answer.outcome == Outcome::hit)
+    std::printf("%-13s hits the disc of cell (%s, %s) at %.17g\n", who,
+                answer.obstacle.cell[0].decimal().c_str(), answer.obstacle.cell[1].decimal().c_str(),
+                *answer.time);
+  else
+    std::printf("%-13s %s\n", who, answer.outcome == Outcome::undecided ? "does not know" : "hits nothing");
+}
+
+}  // namespace
+
+int main() {
+  // Scenes and queries from elsewhere are checked first. The engines require it.
+  const Scene scene = triangular();
+  if (const auto flaw = flaw_of(scene)) return std::fprintf(stderr, "%s\n", flaw->c_str()), 1;
+  if (const auto flaw = oracle::dependence_in(scene)) return std::fprintf(stderr, "%s\n", flaw->c_str()), 1;
+
+  // A flight that grazes the discs of a row, or passes them: it comes nearer by 1e-17 a cell.
+  Query query;
+  query.x = {-3.5, 0.25, 0};
+  query.v = {1, -1e-17, 0};
+
+  // Binary64 says so when it does not know.
+  const Reduction fast(scene);
+  const Answer quick = answer_of(fast.fly(query));
+  print("reduction", quick);
+
+  // `certified` asks the oracle then. Always exact, the time correctly rounded.
+  const oracle::Certified certified(scene);
+  const Answer answer = certified.first_hit(query);
+  print("certified", answer);
+
+  // The oracle, with the time to 30 digits.
+  const oracle::Oracle oracle(scene);
+  oracle::Request request;
+  request.digits = 30;
+  const Answer exact = oracle.first_hit(query, request);
+  std::printf("%-13s at %s\n", "oracle", exact.time_decimal.c_str());
+
+  // Is somebody else's answer right, wrong, or one that no program in binary64 could know?
+  const oracle::Judge judge(scene);
+  Answer other = answer;
+  other.obstacle.cell[1] = 1;
+  const oracle::Judgement judgement = judge.judge(query, exact, other);
+  std::printf("%-13s %s, by %.3g ulps of the inputs\n", "the row above",
+              judgement.verdict == oracle::Verdict::wrong ? "is wrong" : "is ill-posed", judgement.departs);
+
+  // Many particles that share a velocity: the lattice is reduced along it once.
+  const Reduction::Direction direction = fast.direction({1, 0.3, 0});
+  int hits = 0;
+  for (int i = 0; i < 1000; ++i) hits += fast.fly(direction, {0.001 * i, 0.4, 0}).outcome == Outcome::hit;
+  std::printf("%d of 1000 starts hit something\n", hits);
+}

@@ -1,0 +1,308 @@
+#include "fuzz/campaign/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <set>
+#include <tuple>
+
+#include <lorentz/margin.hpp>
+#include "cases/parts.hpp"
+#include "fuzz/examine/shrink.hpp"
+#include "fuzz/examine/variants.hpp"
+#include "fuzz/rewording/notation.hpp"
+#include "fuzz/rewording/rewording.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// Work (in the subject's own count) that shrinking one case may cost: some seconds of `published`.
+constexpr double kShrinkWork = 1.5e7;
+
+// In so many other words each scene is asked about, and one in so many questions is asked with a time limit,
+// or in other digits instead.
+constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
+
+// An oracle asked which of a million obstacles contain x takes its time; shrinking does not go there.
+constexpr double kLargestRadius = 100;
+
+bool is_sane(const Scene& scene) {
+  for (const Lattice& lattice : scene.lattices) {
+    double shortest = length(lattice.vectors[0]), largest = 0;
+    for (int i = 1; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+    for (const Atom& atom : lattice.atoms) {
+      largest = std::max(largest, atom.radius);
+      for (const Vec& axis : atom.semiaxes) largest = std::max(largest, length(axis));
+    }
+    if (!(largest <= kLargestRadius * shortest)) return false;
+  }
+  return true;
+}
+
+// Does a case fail as another one did: in kind, and in both outcomes?
+class SameFailure {
+ public:
+  SameFailure(Subject& subject, const Plan& plan, const std::atomic<bool>& stop, const Examined& like,
+              LimitAt limit)
+      : subject_(subject), plan_(plan), stop_(stop), like_(like), limit_(limit) {}
+
+  bool operator()(const Scene& scene, const Query& query) {
+    if (stop_ || work_ > kShrinkWork || subject_.failed()) return false;
+    if (!examiner_ || !same(examiner_->scene(), scene)) {
+      if (!is_sound(scene) || !is_sane(scene)) return false;
+      examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
+    }
+    if (flaw_of(query, scene)) return false;
+    last_ = examiner_->examine(query, limit_);
+    work_ += last_.work.value_or(0);
+    speed_ = length(query.v);
+    return last_.kind == like_.kind && last_.given.outcome == like_.given.outcome &&
+           last_.exact.outcome == like_.exact.outcome;
+  }
+
+  double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
+
+  // Whatever is left to spend.
+  Examined examine(const Scene& scene, const Query& query) {
+    return Examiner(subject_, scene, plan_.counts.ulps, plan_.truth).examine(query, limit_);
+  }
+
+ private:
+  Subject& subject_;
+  const Plan& plan_;
+  const std::atomic<bool>& stop_;
+  const Examined& like_;
+  const LimitAt limit_;
+  std::optional<Examiner> examiner_;
+  Examined last_;
+  double work_ = 0, speed_ = 0;
+};
+
+}  // namespace
+
+// A case or a mutant that was asked about, as it was made or in other words.
+struct StintWorker::Case {
+  const Target* target;
+  std::uint64_t index;
+  int step;
+  Question question;
+  Room* room;
+  std::string words = {};                // if in other words: which
+  std::optional<Examined> misread = {};  // nobody needs to be asked
+};
+
+// A scene.
+struct StintWorker::Room {
+  Room(Subject& subject, const Scene& scene, const Plan& plan, std::size_t number)
+      : number(number), examiner(subject, scene, plan.counts.ulps, plan.truth) {}
+  const oracle::Scrutiny& scrutiny() {
+    if (!scrutiny_) scrutiny_.emplace(examiner.scene());
+    return *scrutiny_;
+  }
+  const std::size_t number;  // in the order in which they were needed
+  Examiner examiner;
+
+  // The scene in other words, and the room for these.
+  struct Elsewhere {
+    Rewording rewording;
+    Room* room;
+  };
+  std::map<std::uint64_t, Elsewhere> elsewhere;
+
+ private:
+  std::optional<oracle::Scrutiny> scrutiny_;
+};
+
+// All that is asked about in one stint, and the margins met in its climbs.
+struct StintWorker::Desk {
+  std::deque<Room> rooms;
+  std::vector<Case> cases;
+  std::vector<std::size_t> asked;  // of the cases, in the order in which they were asked
+  Account met;
+  Room* here = nullptr;  // of the scene as it is made
+
+  Room& add_room(Subject& subject, const Scene& scene, const Plan& plan) {
+    return rooms.emplace_back(subject, scene, plan, rooms.size());
+  }
+
+  // The case's scene in the words of this number. They follow from the scene and where it is, so that they
+  // are the same in whichever stint.
+  Room::Elsewhere& elsewhere(const Plan& plan, Subject& subject, const Case& one, std::uint64_t number) {
+    auto& known = one.room->elsewhere;
+    if (const auto found = known.find(number); found != known.end()) return found->second;
+    Random random(plan.seed, one.target->name(), one.index / kCasesPerScene * kWordings + number,
+                  Use::reworded_scenes);
+    Rewording rewording(random, one.room->examiner.scene());
+    Room& room = add_room(subject, rewording.scene(), plan);
+    return known.emplace(number, Room::Elsewhere{std::move(rewording), &room}).first->second;
+  }
+};
+
+StintWorker::StintWorker(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop)
+    : plan_(plan), make_subject_(make_subject), stop_(stop), subject_(make_subject()) {}
+StintWorker::~StintWorker() = default;
+
+std::optional<StintResult> StintWorker::work(const Stint& stint,
+                                             const std::map<std::string, std::uint64_t>& known) {
+  Desk desk;
+  pose(stint, desk);
+  if (stop_) return std::nullopt;
+  StintResult result;
+  result.met = desk.met;
+  take(desk, known, result);
+  if (subject_->failed()) {
+    subject_failed_ = true;
+    subject_ = make_subject_();
+  }
+  if (stop_) return std::nullopt;
+  return result;
+}
+
+// Makes the cases and mutants, with their exact answers, and asks the subject.
+void StintWorker::pose(const Stint& stint, Desk& desk) {
+  const Target& target = *plan_.targets[stint.target];
+  for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
+    if (index % plan_.shards != plan_.shard) continue;
+    const fuzz::Case base = target.make(plan_.seed, index);
+    if (!desk.here || !same(desk.here->examiner.scene(), base.scene))
+      desk.here = &desk.add_room(*subject_, base.scene, plan_);
+    Room& room = *desk.here;
+    const std::size_t first = desk.cases.size();
+    desk.cases.push_back({&target, index, 0, {base.query, room.examiner.exact(base.query)}, &room});
+    ++desk.met.cases;
+    if (Random random(plan_.seed, target.name(), index, Use::mutants);
+        plan_.mutate > 0 && random.one_in(plan_.mutate)) {
+      int step = 0;
+      for (Mutant& mutant : climb(random, base, room.examiner, room.scrutiny())) {
+        if (mutant.margin() > 0 && mutant.margin() < desk.met.margin)
+          desk.met.margin = mutant.margin(), desk.met.margin_index = index;
+        desk.cases.push_back({&target, index, ++step, std::move(mutant.question), &room});
+      }
+      desk.met.mutants += static_cast<std::uint64_t>(step);
+    }
+    if (Random random(plan_.seed, target.name(), index, Use::rewordings);
+        plan_.reword > 0 && random.one_in(plan_.reword))
+      pose_in_other_words(random, desk, first);
+  }
+  ask(desk);
+}
+
+// The cases from `first` on, each in other words: one of a few for the scene, in turn, and its own. The
+// answer comes with it, where it can.
+void StintWorker::pose_in_other_words(Random& random, Desk& desk, std::size_t first) {
+  for (std::size_t i = first, last = desk.cases.size(); i < last && !stop_; ++i) {
+    const Case& one = desk.cases[i];
+    if (random.one_in(kCasesPerNotation)) {
+      if (auto other = in_other_digits(random, one)) desk.cases.push_back(std::move(*other));
+      continue;
+    }
+    const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
+    auto& [rewording, room] = desk.elsewhere(plan_, *subject_, one, number);
+    auto reworded = rewording.reword(random, one.question.query);
+    if (!reworded) continue;
+    auto carried = rewording.carried(one.question.exact, *reworded);
+    Question question{std::move(reworded->query), {}, carried.has_value()};
+    question.exact = carried ? std::move(*carried) : room->examiner.exact(question.query);
+    std::string words = rewording.words(*reworded);
+    if (random.one_in(kCasesPerLimit)) {
+      question.limit = drawn_limit(random, subject_->limits(), question.exact);
+      if (question.limit != LimitAt::none)
+        words += (words.empty() ? "" : ", ") + std::string(words_of(question.limit));
+    }
+    if (words.empty()) continue;
+    desk.cases.push_back({one.target, one.index, one.step, std::move(question), room, std::move(words)});
+  }
+}
+
+// The same words in other digits, if they are read otherwise; by the subject they are not seen.
+std::optional<StintWorker::Case> StintWorker::in_other_digits(Random& random, const Case& one) {
+  auto misread = misreading(random, one.room->examiner.scene(), one.question.query);
+  if (!misread) return std::nullopt;
+  Examined examined;
+  examined.kind = Kind::error;
+  examined.given = Answer::error("read back otherwise: " + misread->line);
+  examined.exact = one.question.exact;
+  return Case{one.target, one.index, one.step, one.question, one.room, misread->notation, examined};
+}
+
+// Room by room, so that a subject is prepared once for each scene.
+void StintWorker::ask(Desk& desk) {
+  for (std::size_t i = 0; i < desk.cases.size(); ++i)
+    if (!desk.cases[i].misread) desk.asked.push_back(i);
+  const auto place = [&](std::size_t i) { return desk.cases[i].room->number; };
+  std::stable_sort(desk.asked.begin(), desk.asked.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  for (const std::size_t i : desk.asked) {
+    if (stop_) break;
+    desk.cases[i].room->examiner.ask(desk.cases[i].question);
+  }
+}
+
+// Judges the replies. Of a case and its mutants one finding of a sort is enough.
+void StintWorker::take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result) {
+  std::vector<Reply> replies = subject_->replies();
+  std::vector<Reply*> reply_to(desk.cases.size(), nullptr);
+  for (std::size_t i = 0; i < replies.size(); ++i) reply_to[desk.asked[i]] = &replies[i];
+  std::set<std::tuple<std::uint64_t, std::string>> kept;
+  for (std::size_t i = 0; i < desk.cases.size() && !stop_; ++i) {
+    const Case& one = desk.cases[i];
+    if (!one.misread && !reply_to[i]) continue;
+    const Examined examined =
+        one.misread ? *one.misread : one.room->examiner.judge(one.question, *reply_to[i]);
+    const bool in_other_words = !one.words.empty();
+    // What it does not do in other words says nothing.
+    if (in_other_words && examined.kind == Kind::unsupported) continue;
+    result.met.reworded += in_other_words;
+    ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
+    if (examined.stage) ++result.met.stages[static_cast<std::size_t>(*examined.stage)];
+    if (!plan_.counts.is_finding(examined.kind)) continue;
+    const std::string sort = sort_of(one.room->examiner.scene(), one.question.query, examined) +
+                             (in_other_words ? ", in other words" : "");
+    std::uint64_t& number = result.met.sorts[sort];
+    if (!kept.emplace(one.index, sort).second) continue;
+    ++number;
+    const auto before = known.find(sort);
+    if (number + (before == known.end() ? 0 : before->second) > plan_.keep) continue;
+    result.kept.push_back({finding_of(one, sort, examined), number});
+  }
+}
+
+Finding StintWorker::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
+  const Scene& scene = one.room->examiner.scene();
+  Finding finding;
+  finding.target = one.target->name();
+  finding.index = one.index;
+  finding.step = one.step;
+  finding.words = one.words;
+  finding.kind = name_of(examined.kind);
+  finding.sort = sort;
+  finding.text = text_of(label_of(finding), scene, one.question.query, examined);
+  finding.departs = examined.departs;
+  if (const auto decision = one.room->scrutiny().hardest_decision(one.question.query, examined.exact))
+    finding.margin = decision->margin;
+  shrink_into(finding, one, examined);
+  return finding;
+}
+
+void StintWorker::shrink_into(Finding& finding, const Case& one, const Examined& examined) {
+  Shrunk shrunk{one.room->examiner.scene(), one.question.query};
+  Examined after = examined;
+  if (!subject_->failed() && !one.misread) {
+    SameFailure fails(*subject_, plan_, stop_, examined, one.question.limit);
+    shrunk = shrink(shrunk.scene, shrunk.query, std::ref(fails), [&] { return fails.flight(); });
+    if (!stop_ && !subject_->failed()) after = fails.examine(shrunk.scene, shrunk.query);
+  }
+  finding.shrunk = text_of(label_of(finding), shrunk.scene, shrunk.query, after);
+  finding.cause = cause_of(shrunk.scene, shrunk.query, after);
+  finding.bits = most_bits(shrunk.scene, shrunk.query);
+  finding.complexity = complexity(shrunk.scene, shrunk.query);
+  finding.tries = shrunk.tries;
+}
+
+std::string label_of(const Finding& finding) {
+  std::string label = finding.target + '/' + std::to_string(finding.index);
+  if (finding.step > 0) label += '.' + std::to_string(finding.step);
+  return finding.words.empty() ? label : label + 'r';
+}
+
+}  // namespace lorentz::fuzz

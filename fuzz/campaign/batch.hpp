@@ -1,0 +1,67 @@
+// A stretch of a target's cases, worked through by one thread. Private to fuzz/.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz/campaign/campaign.hpp"
+
+namespace lorentz::fuzz {
+
+struct Stint {
+  std::size_t target;        ///< of the plan's
+  std::uint64_t begin, end;  ///< indices
+};
+
+struct StintResult {
+  Account met;  ///< of this stretch alone
+  struct Kept {
+    Finding finding;
+    std::uint64_t ordinal;  ///< among the stretch's findings of its sort, from 1
+  };
+  std::vector<Kept> kept;
+};
+
+class StintWorker {
+ public:
+  StintWorker(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop);
+  ~StintWorker();
+
+  /// Nothing if it was stopped. `known` is how many findings of each sort the target has for certain from
+  /// earlier indices: those beyond the plan's `keep` are counted only.
+  std::optional<StintResult> work(const Stint& stint, const std::map<std::string, std::uint64_t>& known);
+
+  /// The subject broke at least once. (It was made anew.)
+  bool subject_failed() const { return subject_failed_; }
+
+  /// How many cases a stint should have.
+  std::uint64_t batch() const { return subject_->batch(); }
+
+ private:
+  struct Case;
+  struct Room;
+  struct Desk;
+  void pose(const Stint& stint, Desk& desk);
+  void pose_in_other_words(Random& random, Desk& desk, std::size_t first);
+  static std::optional<Case> in_other_digits(Random& random, const Case& one);
+  void ask(Desk& desk);
+  void take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result);
+  Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
+  void shrink_into(Finding& finding, const Case& one, const Examined& examined);
+
+  const Plan& plan_;
+  const MakeSubject& make_subject_;
+  const std::atomic<bool>& stop_;
+  std::unique_ptr<Subject> subject_;
+  bool subject_failed_ = false;
+};
+
+/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a mutant; with an `r` behind
+/// it if it was found in other words.
+std::string label_of(const Finding& finding);
+
+}  // namespace lorentz::fuzz

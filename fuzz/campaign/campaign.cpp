@@ -1,0 +1,63 @@
+#include "fuzz/campaign/campaign.hpp"
+
+#include <chrono>
+#include <thread>
+#include <tuple>
+
+#include "fuzz/campaign/ledger.hpp"
+#include "fuzz/campaign/ranks.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenRecords{5};
+
+// Records and serves until all is done, the time is up, or somebody says stop.
+void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) {
+  const auto start = Clock::now();
+  for (bool more = true; more;) {
+    if (!ledger.stop()) std::this_thread::sleep_for(kBetweenRecords);
+    more = ledger.record();
+    journal.tick();
+    if (ranks) ranks->serve(ledger);
+    const std::chrono::duration<double> passed = Clock::now() - start;
+    if (passed.count() >= bounds.seconds || (bounds.stop && *bounds.stop)) ledger.stop_all();
+  }
+}
+
+}  // namespace
+
+void Account::add(const Account& other) {
+  cases += other.cases;
+  mutants += other.mutants;
+  reworded += other.reworded;
+  for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] += other.kinds[k];
+  for (std::size_t s = 0; s < stages.size(); ++s) stages[s] += other.stages[s];
+  for (const auto& [sort, number] : other.sorts) sorts[sort] += number;
+  if (std::tie(other.margin, other.margin_index) < std::tie(margin, margin_index))
+    margin = other.margin, margin_index = other.margin_index;
+}
+
+bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
+         std::vector<Account>& accounts, Journal& journal, Ranks* ranks) {
+  const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
+  Ledger ledger(plan, bounds, processes * bounds.jobs, accounts, journal);
+  Workers workers(plan, make_subject, ledger, bounds.jobs);
+  try {
+    keep(ledger, bounds, journal, ranks);
+  } catch (...) {
+    ledger.stop_all();
+    workers.join();
+    throw;
+  }
+  ledger.stop_all();
+  workers.join();
+  if (ranks) ranks->dismiss(ledger);
+  ledger.record();  // what came in while all were told to stop
+  journal.tick();
+  return ledger.had_failing_subject();
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,79 @@
+// A campaign: cases of several targets and mutants of some of them, asked of a subject, judged by the oracle,
+// what goes wrong shrunk. What is found depends on the plan and on how far each target went; not on the
+// number of threads, nor on how often it was stopped and gone on with.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/families/target.hpp"
+#include "fuzz/campaign/finding.hpp"
+#include "fuzz/examine/subject.hpp"
+
+namespace lorentz::fuzz {
+
+/// All that findings depend on, but for the subject.
+struct Plan {
+  std::vector<const Target*> targets;
+  std::uint64_t seed = 0;
+  std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
+  Counts counts;
+  std::uint64_t keep = 3;     ///< findings kept and shrunk of each sort, of each target; all are counted
+  std::uint64_t mutate = 32;  ///< one in so many cases is climbed from; 0: none
+  std::uint64_t reword =
+      1;  ///< one in so many cases, with its mutants, is asked in other words, too; 0: none
+  Truth truth = Truth::oracle;
+};
+
+/// How far a target is, and what was met on the way.
+struct Account {
+  std::uint64_t next = 0;  ///< the first index that is not done
+  std::uint64_t cases = 0, mutants = 0;
+  std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
+  std::array<std::uint64_t, kKinds> kinds{};                ///< of all of these, by Kind
+  std::array<std::uint64_t, 3> stages{};                    ///< of the same, by Stage, where it is told
+  std::map<std::string, std::uint64_t> sorts;               ///< findings met, by sort, kept or not
+  double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,
+  std::uint64_t margin_index = 0;                           ///< from this case
+
+  /// Adds what another stretch of indices met. `next` is the caller's to set.
+  void add(const Account& other);
+};
+
+/// Where a campaign's work goes. Called by one thread.
+class Journal {
+ public:
+  virtual ~Journal() = default;
+
+  /// The account of a target after some more of its work, and the findings kept of this.
+  virtual void record(const Target& target, const Account& account, const std::vector<Finding>& kept) = 0;
+
+  /// Called several times a second, also when nothing was done.
+  virtual void tick() = 0;
+};
+
+/// When to stop: each target at so many cases, or all after so many seconds, or both; or at a finding.
+struct Bounds {
+  std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< indices, of all shards together
+  double seconds = std::numeric_limits<double>::infinity();
+  unsigned jobs = 1;
+  bool first = false;                       ///< also as soon as a finding is recorded
+  const std::atomic<bool>* stop = nullptr;  ///< set by somebody else, to stop early
+};
+
+class Ranks;
+
+/// Goes on from the accounts (one for each target of the plan), which it brings up to date. Threads get equal
+/// times for each target. Work that is unfinished when the time is up is dropped: at most the few cases that
+/// each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other processes help.
+bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
+         std::vector<Account>& accounts, Journal& journal, Ranks* ranks = nullptr);
+
+}  // namespace lorentz::fuzz

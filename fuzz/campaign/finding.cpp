@@ -1,0 +1,115 @@
+#include "fuzz/campaign/finding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr double kFar = 1e6, kExtreme = 1e100;
+
+std::string_view name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::hit:
+      return "hit";
+    case Outcome::never:
+      return "never";
+    case Outcome::inside:
+      return "inside";
+    case Outcome::later:
+      return "later";
+    case Outcome::undecided:
+      return "undecided";
+    case Outcome::error:
+      break;
+  }
+  return "error";
+}
+
+std::string outcomes_of(const Examined& examined) {
+  return std::string(name_of(examined.given.outcome)) + " for " +
+         std::string(name_of(examined.exact.outcome));
+}
+
+std::string dimension_of(const Scene& scene) {
+  return scene.dimension == 2 ? ", 2D" : ", 3D";
+}
+
+std::string model_of(const Scene& scene) {
+  bool ellipsoids = false;
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms) ellipsoids |= !atom.is_ball();
+  std::string model = scene.lattices.size() > 1            ? ", several lattices"
+                      : scene.lattices[0].atoms.size() > 1 ? ", several atoms"
+                      : is_unit_scene(scene)               ? ", unit lattice"
+                                                           : ", lattice";
+  return model + (ellipsoids ? " of ellipsoids" : "");
+}
+
+bool is_extreme(double x) {
+  return x != 0 && (std::fabs(x) > kExtreme || std::fabs(x) < 1 / kExtreme);
+}
+
+std::string features_of(const Scene& scene, const Query& query) {
+  int zeros = 0;
+  bool extreme = false, far = false;
+  for (int i = 0; i < scene.dimension; ++i) {
+    zeros += query.v[i] == 0;
+    extreme |=
+        is_extreme(query.v[i]) || is_extreme(query.x[i]) || is_extreme(scene.lattices[0].vectors[i][i]);
+    const Vec& u = scene.lattices[0].vectors[0];
+    far |= std::fabs(query.x[i]) > kFar * std::hypot(u[0], u[1], u[2]);
+  }
+  std::string text;
+  if (query.from) text += ", leaving";
+  if (zeros == scene.dimension - 1)
+    text += ", along an axis";
+  else if (zeros > 0)
+    text += ", in a plane of axes";
+  if (far) text += ", far start";
+  if (extreme) text += ", extreme numbers";
+  return text;
+}
+
+std::string_view without_line_end(const std::string& line) {
+  return std::string_view(line).substr(0, line.size() - 1);
+}
+
+std::string answer_text(const std::string& id, const Answer& answer, int dimension) {
+  std::string line;
+  append_answer_line(line, id, answer, dimension);
+  return std::string(without_line_end(line));
+}
+
+}  // namespace
+
+CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined) {
+  const std::string quoted = json_quoted(id);
+  std::string scene_line, query_line;
+  append_scene_line(scene_line, scene);
+  append_query_line(query_line, quoted, query, scene.dimension);
+  return {std::string(without_line_end(scene_line)), std::string(without_line_end(query_line)),
+          answer_text(quoted, examined.given, scene.dimension),
+          answer_text(quoted, examined.exact, scene.dimension)};
+}
+
+std::string sort_of(const Scene& scene, const Query& query, const Examined& examined) {
+  return std::string(name_of(examined.kind)) + dimension_of(scene) + ", " + outcomes_of(examined) +
+         (query.from ? ", leaving" : "");
+}
+
+std::string cause_of(const Scene& scene, const Query& query, const Examined& examined) {
+  std::string text(name_of(examined.kind));
+  const Answer &given = examined.given, &exact = examined.exact;
+  if (examined.kind == Kind::wrong && given.outcome == Outcome::hit && exact.outcome == Outcome::hit)
+    text += !given.time                 ? ", another obstacle"
+            : *given.time < *exact.time ? ", an obstacle that is missed"
+                                        : ", an obstacle passed over";
+  else if (examined.kind == Kind::wrong || examined.kind == Kind::undecided)
+    text += ", " + outcomes_of(examined);
+  return text + dimension_of(scene) + model_of(scene) + features_of(scene, query);
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,50 @@
+// What a campaign keeps of a case that went wrong, in the words of the exchange formats.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <lorentz/problem.hpp>
+#include "fuzz/examine/examiner.hpp"
+
+namespace lorentz::fuzz {
+
+/// A case in words: one line each, without the line end. The answers are as in answer streams.
+struct CaseText {
+  std::string scene, query, given, exact;
+};
+
+struct Finding {
+  std::string target;
+  std::uint64_t index = 0;
+  int step = 0;       ///< 0: the case itself; else its mutant of this number
+  std::string words;  ///< of a case asked in other words, and found there: which; else empty
+  std::string kind;   ///< name_of(Kind)
+  std::string sort;   ///< what of each target only the first few are kept of (sort_of)
+  std::string cause;  ///< of the shrunk case (cause_of)
+  CaseText text, shrunk;
+  double departs = 0;
+  std::optional<double> margin;  ///< of the exact answer, before shrinking
+  int bits = 0;                  ///< the most that a number of the shrunk case has
+  long complexity = 0;           ///< of the shrunk case
+  int tries = 0;                 ///< that shrinking took
+};
+
+CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined);
+
+/// What is plain from a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit for hit,
+/// leaving".
+std::string sort_of(const Scene& scene, const Query& query, const Examined& examined);
+
+/// What a shrunk case says about the fault behind it. Findings of one cause are taken for duplicates. It is
+/// made of
+/// - the kind; of wrong hits: whether the obstacle named comes before the true one (then the line does not
+///   even meet it) or after it (then the true one was passed over); of others: both outcomes;
+/// - the dimension, and the scene: unit lattice, lattice, several atoms, several lattices, with ellipsoids;
+/// - of the query: leaving (`from` matters), along an axis, in a plane of axes (3D), a far start, numbers
+/// near
+///   the ends of the range.
+std::string cause_of(const Scene& scene, const Query& query, const Examined& examined);
+
+}  // namespace lorentz::fuzz

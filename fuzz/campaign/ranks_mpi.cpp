@@ -1,0 +1,253 @@
+// Ranks by MPI. Messages are a report from a rank and orders in return, and nothing else; both sides look for
+// them now and then and sleep in between, because a wait inside MPI keeps a processor busy.
+#include <mpi.h>
+
+#include <boost/mpi.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <stdexcept>
+
+#include "fuzz/campaign/ledger.hpp"
+#include "fuzz/campaign/ranks.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+namespace mpi = boost::mpi;
+using Clock = std::chrono::steady_clock;
+
+enum Message { kReport = 1, kOrders };
+
+constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
+
+// A rank's threads always have a few stints before them.
+constexpr std::size_t kStintsAhead = 4;
+
+}  // namespace
+
+// ---- what is sent, for Boost.Serialization
+
+template <class Archive, class T>
+void transfer(Archive& archive, std::optional<T>& value) {
+  bool is_there = value.has_value();
+  archive& is_there;
+  if (!is_there) return value.reset();
+  if (!value) value.emplace();
+  archive&* value;
+}
+
+template <class Archive>
+void serialize(Archive& archive, Stint& s, unsigned) {
+  archive& s.target& s.begin& s.end;
+}
+template <class Archive>
+void serialize(Archive& archive, Account& a, unsigned) {
+  archive& a.next& a.cases& a.mutants& a.reworded& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
+}
+template <class Archive>
+void serialize(Archive& archive, CaseText& t, unsigned) {
+  archive& t.scene& t.query& t.given& t.exact;
+}
+template <class Archive>
+void serialize(Archive& archive, Finding& f, unsigned) {
+  archive& f.target& f.index& f.step& f.words& f.kind& f.sort& f.cause& f.text& f.shrunk& f.departs;
+  transfer(archive, f.margin);
+  archive& f.bits& f.complexity& f.tries;
+}
+template <class Archive>
+void serialize(Archive& archive, StintResult::Kept& k, unsigned) {
+  archive& k.finding& k.ordinal;
+}
+template <class Archive>
+void serialize(Archive& archive, StintResult& r, unsigned) {
+  archive& r.met& r.kept;
+}
+template <class Archive>
+void serialize(Archive& archive, Done& d, unsigned) {
+  archive& d.stint& d.seconds;
+  transfer(archive, d.result);
+}
+template <class Archive>
+void serialize(Archive& archive, Assignment& a, unsigned) {
+  archive& a.stint& a.known;
+}
+namespace {
+
+struct Report {
+  std::vector<Done> done;
+  std::uint64_t wants = 0, batch = 1;
+  bool subject_failed = false, last = false;
+  std::string failure;
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned) {
+    archive& done& wants& batch& subject_failed& last& failure;
+  }
+};
+
+struct Orders {
+  std::vector<Assignment> assignments;
+  bool stop = false;
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned) {
+    archive& assignments& stop;
+  }
+};
+
+// ---- another rank's threads take from here
+
+class Outpost final : public WorkSource {
+ public:
+  explicit Outpost(unsigned jobs) : jobs_(jobs) {}
+
+  std::optional<Assignment> take(std::uint64_t batch) override {
+    std::unique_lock lock(mutex_);
+    report_.batch = batch;
+    changed_.wait(lock, [&] { return stop_ || !waiting_.empty(); });
+    if (stop_) return std::nullopt;
+    Assignment next = std::move(waiting_.front());
+    waiting_.pop_front();
+    return next;
+  }
+  void hand_in(Done done) override {
+    const std::lock_guard lock(mutex_);
+    report_.done.push_back(std::move(done));
+  }
+  void subject_failed() override {
+    const std::lock_guard lock(mutex_);
+    report_.subject_failed = true;
+  }
+  void fail(std::exception_ptr failure) override {
+    const std::lock_guard lock(mutex_);
+    try {
+      std::rethrow_exception(failure);
+    } catch (const std::exception& error) {
+      report_.failure = error.what();
+    }
+  }
+  const std::atomic<bool>& stop() const override { return stop_; }
+
+  bool has_news() {
+    const std::lock_guard lock(mutex_);
+    return !report_.done.empty() || !report_.failure.empty() || waiting_.size() < jobs_;
+  }
+  Report report() {
+    const std::lock_guard lock(mutex_);
+    const std::size_t most = kStintsAhead * jobs_;
+    report_.wants = most - std::min(most, waiting_.size());
+    Report report = std::exchange(report_, {});
+    report_.batch = report.batch;
+    return report;
+  }
+  void obey(Orders orders) {
+    const std::lock_guard lock(mutex_);
+    for (Assignment& one : orders.assignments) waiting_.push_back(std::move(one));
+    if (orders.stop) stop_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  const unsigned jobs_;
+  std::deque<Assignment> waiting_;
+  Report report_;
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+}  // namespace
+
+struct Ranks::Impl {
+  mpi::environment environment{mpi::threading::funneled, false};
+  mpi::communicator world;
+  int at_work = world.size() - 1;
+
+  Report receive(int source) {
+    Report report;
+    world.recv(source, kReport, report);
+    return report;
+  }
+
+  void take_in(Ledger& ledger, Report& report) {
+    for (Done& done : report.done) ledger.hand_in(std::move(done));
+    if (report.subject_failed) ledger.subject_failed();
+    if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
+    at_work -= report.last;
+  }
+};
+
+std::unique_ptr<Ranks> Ranks::join() {
+  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (!size) size = std::getenv("PMI_SIZE");
+  if (!size || std::atoi(size) < 2) return nullptr;
+  return std::unique_ptr<Ranks>(new Ranks(std::make_unique<Impl>()));
+}
+
+Ranks::Ranks(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Ranks::~Ranks() = default;
+
+int Ranks::rank() const {
+  return impl_->world.rank();
+}
+int Ranks::size() const {
+  return impl_->world.size();
+}
+
+void Ranks::serve(Ledger& ledger) {
+  while (const auto status = impl_->world.iprobe(mpi::any_source, kReport)) {
+    Report report = impl_->receive(status->source());
+    impl_->take_in(ledger, report);
+    if (report.last) continue;
+    Orders orders{ledger.take_some(report.wants, report.batch), ledger.stop()};
+    impl_->world.send(status->source(), kOrders, orders);
+  }
+}
+
+void Ranks::dismiss(Ledger& ledger) {
+  while (impl_->at_work > 0) {
+    serve(ledger);
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subject) {
+  Outpost outpost(jobs);
+  Workers workers(plan, make_subject, outpost, jobs);
+  auto last_sent = Clock::now() - kLongestSilence;
+  while (!outpost.stop()) {
+    std::this_thread::sleep_for(kLook);
+    if (!outpost.has_news() && Clock::now() - last_sent < kLongestSilence) continue;
+    last_sent = Clock::now();
+    impl_->world.send(0, kReport, outpost.report());
+    while (!impl_->world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
+    Orders orders;
+    impl_->world.recv(0, kOrders, orders);
+    outpost.obey(std::move(orders));
+  }
+  workers.join();
+  Report report = outpost.report();
+  report.last = true;
+  impl_->world.send(0, kReport, report);
+}
+
+void Ranks::abort(int status) {
+  impl_->world.abort(status);
+  std::abort();
+}
+
+std::string mpi_library() {
+  int major = 0, minor = 0;
+  MPI_Get_version(&major, &minor);
+  return "MPI " + std::to_string(major) + '.' + std::to_string(minor);
+}
+
+}  // namespace lorentz::fuzz

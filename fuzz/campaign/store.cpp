@@ -1,0 +1,317 @@
+#include "fuzz/campaign/store.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "fuzz/campaign/batch.hpp"
+#include "fuzz/campaign/sqlite.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
+constexpr int kFormat = 2;                // 1 had no questions in other words
+constexpr const char* kMemory = ":memory:";
+
+constexpr const char* kSchema = R"sql(
+  CREATE TABLE campaign (
+    id INTEGER PRIMARY KEY, version TEXT NOT NULL, engine TEXT NOT NULL, targets TEXT NOT NULL,
+    seed TEXT NOT NULL, options TEXT NOT NULL, keep INTEGER NOT NULL, shard TEXT NOT NULL,
+    UNIQUE (version, engine, targets, seed, options, keep, shard));
+  CREATE TABLE account (
+    campaign INTEGER NOT NULL, target TEXT NOT NULL, next INTEGER NOT NULL, cases INTEGER NOT NULL,
+    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, fine INTEGER NOT NULL,
+    unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL, wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
+    binary64 INTEGER NOT NULL, double_double INTEGER NOT NULL, exact INTEGER NOT NULL,
+    margin REAL, margin_index INTEGER NOT NULL,
+    PRIMARY KEY (campaign, target)) WITHOUT ROWID;
+  CREATE TABLE sort (
+    campaign INTEGER NOT NULL, target TEXT NOT NULL, sort TEXT NOT NULL, number INTEGER NOT NULL,
+    PRIMARY KEY (campaign, target, sort)) WITHOUT ROWID;
+  CREATE TABLE finding (
+    campaign INTEGER NOT NULL, target TEXT NOT NULL, place INTEGER NOT NULL, step INTEGER NOT NULL,
+    words TEXT NOT NULL, kind TEXT NOT NULL, sort TEXT NOT NULL, cause TEXT NOT NULL,
+    scene TEXT NOT NULL, query TEXT NOT NULL, given TEXT NOT NULL, exact TEXT NOT NULL,
+    shrunk_scene TEXT NOT NULL, shrunk_query TEXT NOT NULL, shrunk_given TEXT NOT NULL,
+    shrunk_exact TEXT NOT NULL, departs REAL NOT NULL, margin REAL, bits INTEGER NOT NULL,
+    complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
+    PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
+)sql";
+
+constexpr const char* kFindingColumns =
+    "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
+    "shrunk_query, shrunk_given, shrunk_exact, departs, margin, bits, complexity, tries";
+
+// Held by whoever writes, beside the store; the system lets go of it however the process ends. (A lock on the
+// store itself would get in the way of SQLite's own.)
+class LockFile {
+ public:
+  explicit LockFile(const std::string& store) {
+    const std::string path = store + ".lock";
+    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0) throw FileError(path + ": " + std::strerror(errno));
+    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    ::close(file_);
+    throw FileError(store +
+                    ": another process is running a campaign on this store; wait for it, stop it, or "
+                    "use another store (shards have one each, `lorentz fuzz merge` joins them)");
+  }
+  ~LockFile() { ::close(file_); }
+  LockFile(const LockFile&) = delete;
+  LockFile& operator=(const LockFile&) = delete;
+
+ private:
+  int file_;
+};
+
+int flags_of(Store::Access access) {
+  return SQLITE_OPEN_READWRITE | (access == Store::Access::write ? SQLITE_OPEN_CREATE : 0);
+}
+
+std::string existing(const std::string& path, Store::Access access) {
+  struct stat status {};
+  if (access != Store::Access::write && ::stat(path.c_str(), &status) != 0)
+    throw FileError(path + ": " + std::strerror(errno));
+  return path;
+}
+
+}  // namespace
+
+std::string Stored::label() const {
+  return std::to_string(campaign) + '/' + label_of(finding);
+}
+
+struct Store::Impl {
+  Impl(const std::string& path, Access access)
+      : lock(path == kMemory || access == Access::read ? nullptr
+                                                       : std::make_unique<LockFile>(existing(path, access))),
+        connection(existing(path == kMemory ? kMemory : path, path == kMemory ? Access::write : access),
+                   flags_of(access)) {
+    set_up(access);
+  }
+
+  void set_up(Access access) {
+    const auto pragma = [&](const char* sql) {
+      Statement statement(connection, sql);
+      return statement.step() ? statement.integer() : 0;
+    };
+    const bool is_empty = pragma("SELECT count(*) FROM sqlite_master") == 0;
+    if (!is_empty || access != Access::write) check(pragma);
+    connection.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
+    if (is_empty && access == Access::write) {
+      const std::string mark = "BEGIN; PRAGMA application_id = " + std::to_string(kApplication) +
+                               "; PRAGMA user_version = " + std::to_string(kFormat) + ';';
+      connection.run((mark + kSchema + "COMMIT;").c_str());
+    }
+  }
+
+  // Before anything is changed.
+  template <class Pragma>
+  void check(const Pragma& pragma) const {
+    if (pragma("PRAGMA application_id") != kApplication)
+      throw FileError(connection.path() + ": is a database, but no store of lorentz fuzz");
+    if (pragma("PRAGMA user_version") != kFormat)
+      throw FileError(connection.path() + ": is a store of another format (" +
+                      std::to_string(pragma("PRAGMA user_version")) + "); this program has format " +
+                      std::to_string(kFormat) + ", and another version made it");
+  }
+
+  void begin() {
+    if (!in_transaction) connection.run("BEGIN IMMEDIATE");
+    in_transaction = true;
+  }
+
+  std::unique_ptr<LockFile> lock;
+  Connection connection;
+  bool in_transaction = false;
+};
+
+Store::Store(const std::string& path, Access access) : impl_(std::make_unique<Impl>(path, access)) {}
+Store::~Store() = default;
+
+const std::string& Store::path() const {
+  return impl_->connection.path();
+}
+
+std::vector<Campaign> Store::campaigns() const {
+  Statement all(impl_->connection,
+                "SELECT id, version, engine, targets, seed, options, keep, shard FROM campaign ORDER BY id");
+  std::vector<Campaign> campaigns;
+  while (all.step()) {
+    Campaign one;
+    one.id = all.integer();
+    one.manifest.version = all.text();
+    one.manifest.engine = all.text();
+    one.manifest.targets = all.text();
+    one.manifest.seed = std::stoull(all.text());
+    one.manifest.options = all.text();
+    one.manifest.keep = all.count();
+    one.manifest.shard = all.text();
+    campaigns.push_back(std::move(one));
+  }
+  return campaigns;
+}
+
+std::int64_t Store::open_campaign(const Manifest& manifest) {
+  for (const Campaign& campaign : campaigns())
+    if (campaign.manifest == manifest) return campaign.id;
+  impl_->begin();
+  Statement(impl_->connection,
+            "INSERT INTO campaign (version, engine, targets, seed, options, keep, shard) VALUES (?, ?, ?, ?, "
+            "?, ?, ?)")
+      .bind(manifest.version)
+      .bind(manifest.engine)
+      .bind(manifest.targets)
+      .bind(std::to_string(manifest.seed))
+      .bind(manifest.options)
+      .bind(manifest.keep)
+      .bind(manifest.shard)
+      .done();
+  const std::int64_t id = sqlite3_last_insert_rowid(impl_->connection.handle());
+  commit();
+  return id;
+}
+
+Account Store::account(std::int64_t campaign, std::string_view target) const {
+  Account account;
+  Statement row(
+      impl_->connection,
+      "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
+      "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
+  row.bind(campaign).bind(target);
+  if (!row.step()) return account;
+  account.next = row.count();
+  account.cases = row.count();
+  account.mutants = row.count();
+  account.reworded = row.count();
+  for (std::uint64_t& number : account.kinds) number = row.count();
+  for (std::uint64_t& number : account.stages) number = row.count();
+  account.margin = row.real_or_null().value_or(account.margin);
+  account.margin_index = row.count();
+  Statement sorts(impl_->connection, "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
+  sorts.bind(campaign).bind(target);
+  while (sorts.step()) {
+    std::string sort = sorts.text();
+    account.sorts.emplace(std::move(sort), sorts.count());
+  }
+  return account;
+}
+
+std::vector<Stored> Store::findings() const {
+  Statement row(impl_->connection, std::string("SELECT ") + kFindingColumns +
+                                       " FROM finding ORDER BY campaign, target, place, step, words");
+  std::vector<Stored> all;
+  while (row.step()) {
+    Stored one{row.integer(), {}};
+    Finding& f = one.finding;
+    f.target = row.text();
+    f.index = row.count();
+    f.step = static_cast<int>(row.integer());
+    for (std::string* text :
+         {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
+          &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
+      *text = row.text();
+    f.departs = row.real();
+    f.margin = row.real_or_null();
+    f.bits = static_cast<int>(row.integer());
+    f.complexity = static_cast<long>(row.integer());
+    f.tries = static_cast<int>(row.integer());
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+void Store::put(std::int64_t campaign, std::string_view target, const Account& account) {
+  impl_->begin();
+  Statement row(
+      impl_->connection,
+      "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  row.bind(campaign)
+      .bind(target)
+      .bind(account.next)
+      .bind(account.cases)
+      .bind(account.mutants)
+      .bind(account.reworded);
+  for (const std::uint64_t number : account.kinds) row.bind(number);
+  for (const std::uint64_t number : account.stages) row.bind(number);
+  row.bind(std::isfinite(account.margin) ? std::optional(account.margin) : std::nullopt)
+      .bind(account.margin_index)
+      .done();
+  Statement sort(impl_->connection, "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
+  for (const auto& [name, number] : account.sorts)
+    sort.bind(campaign).bind(target).bind(name).bind(number).done();
+}
+
+void Store::put(std::int64_t campaign, const Finding& f) {
+  impl_->begin();
+  Statement row(impl_->connection,
+                std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
+                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
+  for (const std::string* text :
+       {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
+        &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
+    row.bind(*text);
+  row.bind(f.departs)
+      .bind(f.margin)
+      .bind(f.bits)
+      .bind(static_cast<std::int64_t>(f.complexity))
+      .bind(f.tries)
+      .done();
+}
+
+void Store::commit() {
+  if (!impl_->in_transaction) return;
+  impl_->connection.run("COMMIT");
+  impl_->in_transaction = false;
+}
+
+// ---- a campaign's journal
+
+struct StoreJournal::Impl {
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kBetweenCommits{500};
+
+  Store& store;
+  std::int64_t campaign;
+  std::map<std::string_view, Account> unwritten;  // rows are written once a commit, however often they change
+  std::vector<Finding> findings;
+  Clock::time_point last_commit = Clock::now();
+
+  void write() {
+    for (const auto& [target, account] : unwritten) store.put(campaign, target, account);
+    for (const Finding& finding : findings) store.put(campaign, finding);
+    unwritten.clear();
+    findings.clear();
+    store.commit();
+    last_commit = Clock::now();
+  }
+};
+
+StoreJournal::StoreJournal(Store& store, std::int64_t campaign)
+    : impl_(std::make_unique<Impl>(Impl{store, campaign, {}, {}})) {}
+
+StoreJournal::~StoreJournal() {
+  try {
+    impl_->write();
+  } catch (const FileError&) {  // it goes down for another error already, or the last half second is lost
+  }
+}
+
+void StoreJournal::record(const Target& target, const Account& account, const std::vector<Finding>& kept) {
+  impl_->unwritten[target.name()] = account;
+  impl_->findings.insert(impl_->findings.end(), kept.begin(), kept.end());
+}
+
+void StoreJournal::tick() {
+  if (Impl::Clock::now() - impl_->last_commit >= Impl::kBetweenCommits) impl_->write();
+}
+
+}  // namespace lorentz::fuzz

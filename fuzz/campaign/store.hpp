@@ -1,0 +1,93 @@
+// Where campaigns are kept: one SQLite file, written ahead, so that whoever is killed loses at most what was
+// not yet committed, and never the file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fuzz/campaign/campaign.hpp"
+
+namespace lorentz::fuzz {
+
+/// All that the findings of a campaign depend on, in words. Two campaigns with the same manifest are one.
+struct Manifest {
+  static constexpr const char* kMerged = "merged";
+
+  std::string version, engine;
+  std::string targets;  ///< names, with commas between them
+  std::uint64_t seed = 0;
+  std::string options;        ///< what else was chosen
+  std::uint64_t keep = 3;     ///< as in Plan
+  std::string shard = "0/1";  ///< i/N; kMerged for shards that did not all come equally far
+
+  friend bool operator==(const Manifest&, const Manifest&) = default;
+};
+
+struct Campaign {
+  std::int64_t id = 0;
+  Manifest manifest;
+};
+
+/// A finding, and its campaign's id.
+struct Stored {
+  std::int64_t campaign;
+  Finding finding;
+  std::string label() const;  ///< CAMPAIGN/TARGET/INDEX[.STEP]
+};
+
+/// Used by one thread. Every function throws FileError if the file does not do what it should.
+class Store {
+ public:
+  enum class Access {
+    write,    ///< makes the file if there is none; nobody else may write
+    read,     ///< while another process may write
+    settled,  ///< to read what nobody else may be writing
+  };
+
+  /// The path ":memory:" is a store that goes with this object.
+  Store(const std::string& path, Access access);
+  ~Store();
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
+
+  const std::string& path() const;
+  std::vector<Campaign> campaigns() const;
+
+  /// The id of the campaign with this manifest, which is added if there is none.
+  std::int64_t open_campaign(const Manifest& manifest);
+
+  /// An account that was never put is empty.
+  Account account(std::int64_t campaign, std::string_view target) const;
+  std::vector<Stored> findings() const;
+
+  /// Writes become durable together, by commit().
+  void put(std::int64_t campaign, std::string_view target, const Account& account);
+  void put(std::int64_t campaign, const Finding& finding);
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A campaign's journal in a store. Commits every half second.
+class StoreJournal final : public Journal {
+ public:
+  StoreJournal(Store& store, std::int64_t campaign);
+  ~StoreJournal() override;
+  void record(const Target& target, const Account& account, const std::vector<Finding>& kept) override;
+  void tick() override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Puts the campaigns of some shards together in an empty store. If the shards are all there and equally far,
+/// the result is what one run would have stored, and can be gone on with. Throws InputError, naming the
+/// stores, if they are not shards of the same campaigns.
+void merge(const std::vector<std::string>& paths, Store& into);
+
+}  // namespace lorentz::fuzz

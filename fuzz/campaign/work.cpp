@@ -1,0 +1,33 @@
+#include "fuzz/campaign/work.hpp"
+
+#include <chrono>
+
+namespace lorentz::fuzz {
+
+Workers::Workers(const Plan& plan, const MakeSubject& make_subject, WorkSource& source, unsigned jobs)
+    : plan_(plan), make_subject_(make_subject), source_(source) {
+  for (unsigned i = 0; i < jobs; ++i) threads_.emplace_back([this] { work(); });
+}
+
+void Workers::join() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void Workers::work() {
+  using Clock = std::chrono::steady_clock;
+  try {
+    StintWorker worker(plan_, make_subject_, source_.stop());
+    while (const auto assignment = source_.take(worker.batch())) {
+      const auto start = Clock::now();
+      Done done{assignment->stint, worker.work(assignment->stint, assignment->known), 0};
+      done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      source_.hand_in(std::move(done));
+    }
+    if (worker.subject_failed()) source_.subject_failed();
+  } catch (...) {
+    source_.fail(std::current_exception());
+  }
+}
+
+}  // namespace lorentz::fuzz

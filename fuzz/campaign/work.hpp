@@ -1,0 +1,64 @@
+// What the threads of a campaign take and give back, wherever the campaign's ledger is kept. Private to
+// fuzz/.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fuzz/campaign/batch.hpp"
+
+namespace lorentz::fuzz {
+
+/// A stint for somebody, and how many findings of each sort its target has for certain from earlier indices.
+struct Assignment {
+  Stint stint;
+  std::map<std::string, std::uint64_t> known;
+};
+
+/// A stint that was done; without a result if it was stopped in between.
+struct Done {
+  Stint stint;
+  std::optional<StintResult> result;
+  double seconds = 0;
+};
+
+/// Called by any thread.
+class WorkSource {
+ public:
+  virtual ~WorkSource() = default;
+
+  /// The next stint for somebody who likes to be asked at least `batch` cases at once; waits for one if there
+  /// may be some later. Nothing: there is no more.
+  virtual std::optional<Assignment> take(std::uint64_t batch) = 0;
+  virtual void hand_in(Done done) = 0;
+
+  /// A subject broke, and was made anew.
+  virtual void subject_failed() = 0;
+  virtual void fail(std::exception_ptr failure) = 0;
+
+  /// True from when all that is under way may be dropped.
+  virtual const std::atomic<bool>& stop() const = 0;
+};
+
+/// Works with so many threads, which end when there is no more work.
+class Workers {
+ public:
+  Workers(const Plan& plan, const MakeSubject& make_subject, WorkSource& source, unsigned jobs);
+  ~Workers() { join(); }
+  void join();
+
+ private:
+  void work();
+
+  const Plan& plan_;
+  const MakeSubject& make_subject_;
+  WorkSource& source_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,173 @@
+// Engines as the subjects of campaigns.
+#include <cmath>
+#include <limits>
+
+#include <lorentz/certified.hpp>
+#include <lorentz/engine.hpp>
+#include <lorentz/reduction.hpp>
+#include <lorentz/walk.hpp>
+#include "compare/answerer.hpp"
+#include "compare/registry.hpp"
+#include "fuzz/examine/engine_subject.hpp"
+#include "src/engines/published/published.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fuzz::Reply;
+
+// Whoever answers. Another program gets many queries before its answers are waited for.
+class AnswererSubject final : public fuzz::Subject {
+ public:
+  AnswererSubject(const std::string& engine, const AnswererOptions& options)
+      : answerer_(make_answerer(engine, options)), is_command_(is_command(engine)) {
+    answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer}); });
+  }
+
+  void ask(const Query& query) override { answerer_->ask("null", query); }
+  std::vector<Reply> replies() override {
+    answerer_->drain();
+    return std::exchange(replies_, {});
+  }
+  std::uint64_t batch() const override { return is_command_ ? 256 : Subject::batch(); }
+  bool failed() const override { return answerer_->failed(); }
+
+ private:
+  void change_scene(const Scene& scene) override { answerer_->set_scene(scene); }
+
+  std::unique_ptr<Answerer> answerer_;
+  bool is_command_;
+  std::vector<Reply> replies_;
+};
+
+// The second oracle, cell by cell. What takes it more cells than this it leaves undecided: a flight of its
+// usual 10^5 takes seconds, in which it could answer thousands of others.
+class WalkSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
+  Limits limits() const override { return Limits::exact; }
+  void ask_until(const Query& query, double max_time) override {
+    replies_.push_back({walk_->first_hit(query, max_time), {}});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr std::int64_t kCells = 200;
+  void change_scene(const Scene& scene) override { walk_.emplace(scene, kCells); }
+
+  std::optional<oracle::Walk> walk_;
+  std::vector<Reply> replies_;
+};
+
+// Cell to cell, too: up to a time in which the flight passes about this many cells, for the same reason.
+class ClassicalSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    const Vec &u = scene_->lattices[0].vectors[0], &v = query.v;
+    const double cells = std::hypot(u[0], u[1], u[2]) / std::hypot(v[0], v[1], v[2]);
+    replies_.push_back({engine_->first_hit(query, kCells * cells), {}});
+  }
+  std::vector<Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  static constexpr double kCells = 10'000;
+  void change_scene(const Scene& scene) override {
+    scene_ = scene;
+    engine_ = make_engine("classical", scene);
+  }
+
+  std::optional<Scene> scene_;
+  std::unique_ptr<Engine> engine_;
+  std::vector<Reply> replies_;
+};
+
+// An engine that says more about an answer than the answer. Engines of this kind are made from a scene, and
+// know why a scene is beyond them.
+template <class E>
+class TellingSubject : public fuzz::Subject {
+ public:
+  void ask(const Query& query) final { ask_until(query, std::numeric_limits<double>::infinity()); }
+  void ask_until(const Query& query, double max_time) final {
+    replies_.push_back(why_not_ ? Reply{Answer::unsupported_because(*why_not_)} : reply_to(query, max_time));
+  }
+  std::vector<Reply> replies() final { return std::exchange(replies_, {}); }
+
+ protected:
+  const E& engine() const { return *engine_; }
+
+ private:
+  virtual Reply reply_to(const Query& query, double max_time) const = 0;
+
+  void change_scene(const Scene& scene) final {
+    if constexpr (requires { E::beyond(scene); }) why_not_ = E::beyond(scene);
+    if (!why_not_) engine_.emplace(scene);
+  }
+
+  std::optional<E> engine_;
+  std::optional<std::string> why_not_;
+  std::vector<Reply> replies_;
+};
+
+// Counts its passes: how much work an answer was.
+class PublishedSubject final : public TellingSubject<Published> {
+  Reply reply_to(const Query& query, double max_time) const override {
+    Proposals proposals;
+    Answer answer = engine().first_hit_counted(query, max_time, proposals);
+    return {std::move(answer), static_cast<double>(proposals.passes)};
+  }
+};
+
+// Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
+class ReductionSubject final : public TellingSubject<Reduction> {
+ public:
+  Limits limits() const override { return Limits::rough; }
+
+ private:
+  Reply reply_to(const Query& query, double max_time) const override {
+    const Flight flight = engine().fly(query, max_time);
+    const Answer answer = limited(answer_of(flight), max_time);
+    const ObstacleId* from = query.from ? &*query.from : nullptr;
+    const Answer prepared =
+        limited(answer_of(engine().fly(engine().direction(query.v), query.x, from, max_time)), max_time);
+    if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
+        prepared.time != answer.time)
+      return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
+    return {answer, {}, flight.stage};
+  }
+};
+
+class CertifiedSubject final : public TellingSubject<oracle::Certified> {
+ public:
+  Limits limits() const override { return Limits::exact; }
+
+ private:
+  Reply reply_to(const Query& query, double max_time) const override {
+    StageTally tally;
+    oracle::Request request;
+    if (std::isfinite(max_time)) request.max_time = max_time;
+    Answer answer = engine().first_hit(query, request, &tally);
+    const Stage stage = tally.binary64        ? Stage::binary64
+                        : tally.double_double ? Stage::double_double
+                                              : Stage::undecided;
+    return {std::move(answer), {}, stage};
+  }
+};
+
+template <class S>
+fuzz::MakeSubject maker_of() {
+  return [] { return std::make_unique<S>(); };
+}
+
+}  // namespace
+
+fuzz::MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
+  check_name(engine);
+  if (engine == "published") return maker_of<PublishedSubject>();
+  if (engine == "reduction") return maker_of<ReductionSubject>();
+  if (engine == "classical") return maker_of<ClassicalSubject>();
+  if (engine == "walk") return maker_of<WalkSubject>();
+  if (engine == "certified") return maker_of<CertifiedSubject>();
+  return [engine, options] { return std::make_unique<AnswererSubject>(engine, options); };
+}
+
+}  // namespace lorentz::cli

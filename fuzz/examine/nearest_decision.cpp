@@ -1,0 +1,217 @@
+// How it aims. A decision hangs on the sign of a number f(x): of the distance of the line, or of x, from the
+// centre, less the radius; or of the difference of two times of entry. Newton's steps along one component of
+// x lead to a zero of f, up to the last bit of that component. If another component is set to zero before, it
+// then takes up what is left: near zero binary64 is as fine as one likes, and so f comes to about 2^-100, the
+// precision (double-double) that all this is computed in. From there the exact answers themselves lead on, by
+// bisection, to two neighbouring binary64 values between which the answer changes.
+//
+// Ellipsoids { A y : |y| < 1 } become balls of the radius |det A| by adj(A).
+#include "fuzz/examine/nearest_decision.hpp"
+
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "cases/parts.hpp"
+#include "src/engines/base/double_double.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+using oracle::DecisionKind;
+using Wide3 = std::array<Wide, 3>;
+
+Wide inner(const Wide3& a, const Wide3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Wide3 outer(const Wide3& a, const Wide3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Wide3 wide(const Vec& a) {
+  return {Wide(a[0]), Wide(a[1]), Wide(a[2])};
+}
+
+// a + factor b
+Wide3 sum_of(const Wide3& a, Wide factor, const Wide3& b) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+// f at a place, and how it changes with each component of x.
+struct Slope {
+  Wide value = 0.0;
+  Vec along{};
+};
+
+// One obstacle and the line, in coordinates in which the obstacle is a ball.
+class Target {
+ public:
+  Target(const Scene& scene, const ObstacleId& id, const Vec& v) {
+    const Lattice& lattice = scene.lattices[id.lattice];
+    const Atom& atom = lattice.atoms[id.atom];
+    centre_ = wide(atom.position);
+    for (int i = 0; i < scene.dimension; ++i)
+      centre_ = sum_of(centre_, Wide(static_cast<double>(id.cell[i].int64())), wide(lattice.vectors[i]));
+    set_map(atom, scene.dimension);
+    v_ = mapped(wide(v));
+    v2_ = inner(v_, v_);
+  }
+
+  // |x - c| - r
+  Slope containing(const Vec& x) const {
+    const Wide3 arm = arm_of(x);
+    return size_less_radius(arm, [&](const Wide3& step) { return inner(arm, step); });
+  }
+
+  // The distance of the line from c, less r.
+  Slope meeting(const Vec& x) const {
+    const Wide3 arm = arm_of(x), nearest = sum_of(arm, -inner(arm, v_) / v2_, v_);
+    return size_less_radius(nearest, [&](const Wide3& step) { return inner(nearest, step); });
+  }
+
+  // The time of entry: where it is not entered, of the nearest approach.
+  Slope entry(const Vec& x) const {
+    const Wide3 arm = arm_of(x);
+    const Wide s = -inner(arm, v_), room = s * s - v2_ * (inner(arm, arm) - radius_ * radius_);
+    const Wide root = room.hi > 0 ? sqrt(room) : Wide(0.0);
+    Slope slope{(s - root) / v2_, {}};
+    // The normal n at the point of entry: n . (dx + v dt) = 0.
+    const Wide3 normal = sum_of(arm, slope.value, v_);
+    const Wide across = inner(normal, v_);
+    for (int k = 0; k < 3; ++k) slope.along[k] = -(inner(normal, column_[k]) / across).hi;
+    return slope;
+  }
+
+ private:
+  void set_map(const Atom& atom, int dimension) {
+    std::array<Vec, 3> axes = semiaxes_of(atom, dimension);
+    if (dimension == 2) axes[2] = {0, 0, 1};
+    if (atom.is_ball()) axes = {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+    const Wide3 a = wide(axes[0]), b = wide(axes[1]), c = wide(axes[2]);
+    const Wide3 rows[] = {outer(b, c), outer(c, a), outer(a, b)};
+    const Wide det = inner(rows[0], a);
+    radius_ = atom.is_ball() ? Wide(atom.radius) : det.hi < 0 ? -det : det;
+    for (int k = 0; k < 3; ++k) column_[k] = {rows[0][k], rows[1][k], rows[2][k]};
+  }
+
+  Wide3 mapped(const Wide3& a) const {
+    Wide3 image{Wide(0.0), Wide(0.0), Wide(0.0)};
+    for (int k = 0; k < 3; ++k) image = sum_of(image, a[k], column_[k]);
+    return image;
+  }
+
+  Wide3 arm_of(const Vec& x) const { return mapped(sum_of(wide(x), Wide(-1.0), centre_)); }
+
+  template <class Product>
+  Slope size_less_radius(const Wide3& a, const Product& product) const {
+    const Wide size = sqrt(inner(a, a));
+    Slope slope{size - radius_, {}};
+    for (int k = 0; k < 3; ++k) slope.along[k] = (product(column_[k]) / size).hi;
+    return slope;
+  }
+
+  std::array<Wide3, 3> column_;  // of the map: what a step along each axis becomes
+  Wide3 centre_, v_;
+  Wide radius_, v2_;
+};
+
+// Newton's steps along component k; false where they lead nowhere.
+template <class F>
+bool approach(const F& f, Vec& x, int k) {
+  constexpr int kSteps = 6;
+  for (int step = 0; step < kSteps; ++step) {
+    const Slope slope = f(x);
+    if (slope.value.hi == 0) return true;
+    x[k] -= slope.value.value() / slope.along[k];
+    if (!std::isfinite(x[k])) return false;
+  }
+  return true;
+}
+
+// To a zero of f: along the component that f changes most with, or finely, to the end by another one. The
+// last component that was moved; nothing where there is no way.
+template <class F>
+std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
+  const bool finely = random.one_in(2);
+  const auto last = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+  if (finely) x[last] = 0;
+  const Slope slope = f(x);
+  int first = finely ? (last + 1) % dimension : last;
+  for (int k = 0; k < dimension; ++k)
+    if (!(finely && k == last) && std::fabs(slope.along[k]) > std::fabs(slope.along[first])) first = k;
+  if (!approach(f, x, first)) return std::nullopt;
+  if (!finely) return first;
+  return approach(f, x, last) ? std::optional(last) : std::nullopt;
+}
+
+// Where the exact answer changes, between neighbouring binary64 values of component k: by bisection, if an
+// answer is another one near there.
+void bisect(const Examiner& examiner, const Scene& scene, Query& query, int k) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
+  const auto answer_at = [&](double place) {
+    Query there = query;
+    there.x[k] = place;
+    Answer answer = flaw_of(there, scene) ? Answer::undecided() : examiner.exact(there);
+    return std::pair(answer.outcome, std::move(answer.obstacle));
+  };
+  double here = query.x[k], there = here;
+  const auto answer = answer_at(here);
+  for (std::int64_t ulps = 1; there == here && ulps <= kFarthest; ulps *= -32)
+    if (const double place = moved(here, ulps); answer_at(place) != answer) there = place;
+  if (there == here) return;
+  for (double place = middle(here, there); place != here && place != there; place = middle(here, there))
+    (answer_at(place) == answer ? here : there) = place;
+  query.x[k] = here;
+}
+
+bool has_small_cell(const ObstacleId& id) {
+  constexpr std::int64_t kLargest = std::int64_t{1} << 53;
+  for (const Integer& n : id.cell)
+    if (!n.fits_int64() || n.int64() > kLargest || n.int64() < -kLargest) return false;
+  return true;
+}
+
+// What is decided about which obstacle, or about this one and the one that is hit.
+struct Aim {
+  DecisionKind kind;
+  ObstacleId obstacle;
+};
+
+// The hardest decision, or one about the obstacle that is hit: for a tie with the one that would be hit next.
+Aim drawn_aim(Random& random, const Query& query, const Answer& exact,
+              const std::optional<oracle::Decision>& hardest, const Examiner& examiner) {
+  const std::uint64_t kind = random.below(8);
+  if (kind < 4 && hardest && hardest->margin < oracle::kLargestMargin)
+    return {hardest->kind, hardest->obstacle};
+  if (kind == 7) {
+    const Answer next = examiner.exact({query.x, query.v, exact.obstacle});
+    if (next.outcome == Outcome::hit) return {DecisionKind::order, next.obstacle};
+  }
+  return {kind == 6 ? DecisionKind::containing : DecisionKind::meeting, exact.obstacle};
+}
+
+}  // namespace
+
+std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query& query, const Answer& exact,
+                                 const std::optional<oracle::Decision>& hardest, const Examiner& examiner) {
+  if (exact.outcome != Outcome::hit) return std::nullopt;
+  const Aim aim = drawn_aim(random, query, exact, hardest, examiner);
+  if (!has_small_cell(aim.obstacle) || !has_small_cell(exact.obstacle)) return std::nullopt;
+  const Target target(scene, aim.obstacle, query.v), hit(scene, exact.obstacle, query.v);
+  const auto off = [&](const Vec& x) {
+    if (aim.kind == DecisionKind::containing) return target.containing(x);
+    if (aim.kind == DecisionKind::meeting) return target.meeting(x);
+    Slope difference = target.entry(x);
+    const Slope other = hit.entry(x);
+    difference.value = difference.value - other.value;
+    for (int k = 0; k < 3; ++k) difference.along[k] -= other.along[k];
+    return difference;
+  };
+  Query aimed = query;
+  const auto last = approach(random, scene.dimension, off, aimed.x);
+  if (!last || flaw_of(aimed, scene)) return std::nullopt;
+  if (random.one_in(4)) bisect(examiner, scene, aimed, *last);
+  return aimed;
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,406 @@
+// Coarse steps come first, because each may save hundreds of fine ones: all numbers rounded at once, the unit
+// lattice in place of the scene, the velocity as small integers. A step that fails costs one try; what was
+// tried once is not tried again.
+#include "fuzz/examine/shrink.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <unordered_set>
+#include <vector>
+
+#include <lorentz/geometry.hpp>
+#include "cases/parts.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+// ---- numbers
+
+/// Calls f for each number of the case that means something.
+template <class TheScene, class TheQuery, class F>
+void for_each_number(TheScene& scene, TheQuery& query, const F& f) {
+  const int dimension = scene.dimension;
+  const auto each = [&](auto& a) {
+    for (int i = 0; i < dimension; ++i) f(a[i]);
+  };
+  each(query.v);
+  each(query.x);
+  for (auto& lattice : scene.lattices) {
+    for (auto& atom : lattice.atoms) {
+      if (atom.is_ball()) f(atom.radius);
+      each(atom.position);
+      for (auto& axis : atom.semiaxes) each(axis);
+    }
+    for (int i = 0; i < dimension; ++i) each(lattice.vectors[i]);
+  }
+}
+
+int exponent_of_lowest_bit(double x) {
+  int exponent = 0;
+  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::fabs(std::frexp(x, &exponent)), 53));
+  return exponent - 53 + std::countr_zero(mantissa);
+}
+
+enum class Way { nearest, down, up };
+
+/// x to so many significant bits.
+double rounded_to(double x, int bits, Way way) {
+  if (x == 0 || !std::isfinite(x)) return x;
+  const int lowest = std::ilogb(x) - bits + 1;
+  const double scaled = std::ldexp(x, -lowest);
+  const double whole = way == Way::nearest ? std::nearbyint(scaled)
+                       : way == Way::down  ? std::floor(scaled)
+                                           : std::ceil(scaled);
+  const double result = std::ldexp(whole, lowest);
+  return std::isfinite(result) ? result : x;
+}
+
+/// x to a multiple of 2^-places.
+double on_grid(double x, int places) {
+  return std::fabs(x) < 0x1p40 ? std::ldexp(std::nearbyint(std::ldexp(x, places)), -places) : x;
+}
+
+long complexity_of(double x) {
+  if (x == 0) return 0;
+  const long exponent = std::ilogb(x);
+  return 10L * bits_of(x) + 2 * std::labs(exponent) + (x < 0 ? 1 : 0);
+}
+
+// ---- the search
+
+struct Candidate {
+  Scene scene;
+  Query query;
+};
+
+class Shrinker {
+ public:
+  Shrinker(Candidate start, const StillFails& still_fails, const FlightLength& length, int tries)
+      : best_(std::move(start)),
+        still_fails_(still_fails),
+        length_(length),
+        tries_left_(tries),
+        tries_(tries) {
+    score_ = complexity(best_.scene, best_.query);
+    seen_.insert(hash_of(best_));
+  }
+
+  Shrunk run() {
+    for (long before = -1; before != score_ && tries_left_ > 0;) {
+      before = score_;
+      round_everything();
+      simplify_scene();
+      simplify_query();
+      simplify_velocity();
+      simplify_numbers();
+      if (before == score_) shorten();
+    }
+    return {best_.scene, best_.query, tries_ - tries_left_};
+  }
+
+ private:
+  // ---- steps on the whole
+
+  void round_everything() {
+    for (const int bits : {2, 3, 4, 6, 8, 10, 12, 16, 24, 32}) {
+      for (const bool scene_too : {true, false}) {
+        const bool done = offer([&](Candidate& one) {
+          Query& q = one.query;
+          if (scene_too) {
+            for_each_number(one.scene, q, [&](double& x) { x = rounded_to(x, bits, Way::nearest); });
+          } else {
+            for (double& x : q.x) x = rounded_to(x, bits, Way::nearest);
+            for (double& x : q.v) x = rounded_to(x, bits, Way::nearest);
+          }
+        });
+        if (done) return;
+      }
+      if (offer([&](Candidate& one) {
+            for (double& x : one.query.x) x = on_grid(x, bits);
+            for (double& x : one.query.v) x = rounded_to(x, bits, Way::nearest);
+          }))
+        return;
+    }
+  }
+
+  void simplify_scene() {
+    to_unit_lattice();
+    for (std::size_t l = best_.scene.lattices.size(); l-- > 0;) drop_lattice(l);
+    for (std::size_t l = 0; l < best_.scene.lattices.size(); ++l) {
+      for (std::size_t a = best_.scene.lattices[l].atoms.size(); a-- > 0;) drop_atom(l, a);
+      offer([&](Candidate& one) {
+        one.scene.lattices[l].vectors = unit_scene(one.scene.dimension, 1).lattices[0].vectors;
+      });
+      for (std::size_t a = 0; a < best_.scene.lattices[l].atoms.size(); ++a) {
+        to_ball(l, a);
+        offer([&](Candidate& one) { one.scene.lattices[l].atoms[a].position = {}; });
+      }
+    }
+  }
+
+  // The unit lattice and one ball, the query as it is, or in the coordinates of the cell.
+  void to_unit_lattice() {
+    if (is_unit_scene(best_.scene)) return;
+    const int dimension = best_.scene.dimension;
+    for (std::size_t l = 0; l < best_.scene.lattices.size(); ++l) {
+      const Lattice lattice = best_.scene.lattices[l];
+      const double size = length(lattice.vectors[0]);
+      for (const Atom& atom : lattice.atoms) {
+        const double radius = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
+        const auto keep_from = [](Query& query) {
+          if (query.from) query.from.emplace(ObstacleId{0, 0, query.from->cell});
+        };
+        offer([&](Candidate& one) {
+          one.scene = unit_scene(dimension, radius);
+          keep_from(one.query);
+        });
+        offer([&](Candidate& one) {
+          const auto dual = dual_of(lattice.vectors, dimension);
+          one.scene = unit_scene(dimension, radius / size);
+          Vec x = one.query.x;
+          for (int i = 0; i < 3; ++i) x[i] -= atom.position[i];
+          one.query.x = coordinates(dual, x);
+          one.query.v = coordinates(dual, one.query.v);
+          if (dimension == 2) one.query.x[2] = one.query.v[2] = 0;
+          keep_from(one.query);
+        });
+      }
+    }
+  }
+
+  void drop_lattice(std::size_t l) {
+    if (best_.scene.lattices.size() < 2 || l >= best_.scene.lattices.size()) return;
+    offer([&](Candidate& one) {
+      one.scene.lattices.erase(one.scene.lattices.begin() + static_cast<std::ptrdiff_t>(l));
+      auto& from = one.query.from;
+      if (!from) return;
+      if (from->lattice == static_cast<int>(l))
+        from.reset();
+      else if (from->lattice > static_cast<int>(l))
+        --from->lattice;
+    });
+  }
+
+  void drop_atom(std::size_t l, std::size_t a) {
+    const auto& atoms = best_.scene.lattices[l].atoms;
+    if (atoms.size() < 2 || a >= atoms.size()) return;
+    offer([&](Candidate& one) {
+      auto& kept = one.scene.lattices[l].atoms;
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(a));
+      auto& from = one.query.from;
+      if (!from || from->lattice != static_cast<int>(l)) return;
+      if (from->atom == static_cast<int>(a))
+        from.reset();
+      else if (from->atom > static_cast<int>(a))
+        --from->atom;
+    });
+  }
+
+  void to_ball(std::size_t l, std::size_t a) {
+    const auto axes = best_.scene.lattices[l].atoms[a].semiaxes;
+    for (const Vec& axis : axes)
+      if (offer([&](Candidate& one) {
+            Atom& atom = one.scene.lattices[l].atoms[a];
+            atom.semiaxes.clear();
+            atom.radius = length(axis);
+          }))
+        return;
+  }
+
+  // ---- the query
+
+  void simplify_query() {
+    if (best_.query.from) {
+      offer([](Candidate& one) { one.query.from.reset(); });
+    }
+    go_home();
+    for (int i = 0; i < best_.scene.dimension; ++i)  // a reflection, which the unit lattices do not mind
+      if (best_.query.v[i] < 0 || (best_.query.v[i] == 0 && best_.query.x[i] < 0)) reflect(i);
+  }
+
+  void reflect(int i) {
+    offer([&](Candidate& one) {
+      one.query.x[i] = 0 - one.query.x[i];
+      one.query.v[i] = 0 - one.query.v[i];
+      if (one.query.from && one.query.from->cell[i].fits_int64())
+        one.query.from->cell[i] = 0 - one.query.from->cell[i].int64();
+    });
+  }
+
+  // To a cell near the origin, `from` with it. (For several lattices the first counts, and the failure may
+  // not be kept.)
+  void go_home() {
+    const Scene& scene = best_.scene;
+    const auto& vectors = scene.lattices[0].vectors;
+    const Vec place = coordinates(dual_of(vectors, scene.dimension), best_.query.x);
+    const auto& from = best_.query.from;
+    for (const bool by_from : {true, false}) {
+      if (by_from && !from) continue;
+      std::array<std::int64_t, 3> n{};
+      bool possible = true;
+      for (int i = 0; i < scene.dimension; ++i) {
+        possible &= std::fabs(place[i]) < 0x1p50 && (!from || from->cell[i].fits_int64());
+        if (possible)
+          n[i] = by_from ? from->cell[i].int64() : static_cast<std::int64_t>(std::floor(place[i]));
+      }
+      if (possible) offer([&](Candidate& one) { go_back_by(n, one); });
+    }
+  }
+
+  static void go_back_by(const std::array<std::int64_t, 3>& n, Candidate& one) {
+    const auto& vectors = one.scene.lattices[0].vectors;
+    for (int i = 0; i < one.scene.dimension; ++i) {
+      one.query.x = sum(one.query.x, scaled(vectors[i], -static_cast<double>(n[i])));
+      if (one.query.from) one.query.from->cell[i] = one.query.from->cell[i].int64() - n[i];
+    }
+  }
+
+  // As a multiple of small integers, the smallest first; or at least of a length of about 1.
+  void simplify_velocity() {
+    const Vec& v = best_.query.v;
+    const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+    const Vec unit = scaled(scaled(v, std::ldexp(1, -std::ilogb(largest) / 2)),
+                            std::ldexp(1, -std::ilogb(largest) + std::ilogb(largest) / 2));
+    const double top = std::max({std::fabs(unit[0]), std::fabs(unit[1]), std::fabs(unit[2])});
+    for (int size = 1; size <= 64; ++size) {
+      if (offer([&](Candidate& one) {
+            for (int i = 0; i < 3; ++i) one.query.v[i] = 0 + std::nearbyint(unit[i] / top * size);
+          }))
+        return;
+    }
+    offer([&](Candidate& one) { one.query.v = unit; });
+  }
+
+  // ---- one number at a time
+
+  void simplify_numbers() {
+    std::size_t count = 0;
+    for_each_number(best_.scene, best_.query, [&](double&) { ++count; });
+    for (std::size_t index = 0; index < count; ++index) simplify_number(index);
+  }
+
+  void simplify_number(std::size_t index) {
+    const double x = number_at(best_, index);
+    if (x == 0) return;
+    const auto set = [&](double y) {
+      return y != x && offer([&](Candidate& one) { number_at(one, index) = y; });
+    };
+    if (set(0) || set(x < 0 ? -1 : 1) || set(std::fabs(x))) return;
+    for (int bits = 1; bits < bits_of(x); bits += bits < 12 ? 1 : 6)
+      for (const Way way : {Way::nearest, Way::down, Way::up})
+        if (set(rounded_to(x, bits, way))) return;
+    if (std::fabs(x) > 1 && set(x / 2)) return;
+    if (std::fabs(x) < 0.5) set(2 * x);
+  }
+
+  static double& number_at(Candidate& one, std::size_t index) {
+    double* found = nullptr;
+    std::size_t count = 0;
+    for_each_number(one.scene, one.query, [&](double& x) {
+      if (count++ == index) found = &x;
+    });
+    static double none = 0;
+    return found ? *found : none;
+  }
+
+  // ---- the flight
+
+  // Starts later on the flight, a quarter of it at least, on a grid that keeps the start simple.
+  void shorten() {
+    if (!length_ || flight_ < 0) return;
+    const Query query = best_.query;
+    const double speed = fuzz::length(query.v);
+    for (const double share : {0.875, 0.75, 0.5, 0.25})
+      for (const int places : {1, 2, 4, 8}) {
+        const double time = share * flight_ / speed;
+        const bool done = offer(
+            [&](Candidate& one) {
+              one.query.from.reset();
+              for (int i = 0; i < 3; ++i) one.query.x[i] = on_grid(query.x[i] + time * query.v[i], places);
+            },
+            0.75 * flight_);
+        if (done) return;
+      }
+  }
+
+  // ---- trying
+
+  /// Keeps what `change` makes of the best case if that is simpler, and still fails. With a limit to the
+  /// flight no simpler is needed, but a shorter flight.
+  template <class Change>
+  bool offer(const Change& change, double shorter_than = -1) {
+    if (tries_left_ <= 0) return false;
+    Candidate one = best_;
+    change(one);
+    for_each_number(one.scene, one.query, [](double& x) { x = x + 0.0; });  // no -0
+    const long score = complexity(one.scene, one.query);
+    if (shorter_than >= 0 ? score > score_ : score >= score_) return false;
+    if (!seen_.insert(hash_of(one)).second) return false;
+    --tries_left_;
+    if (!still_fails_(one.scene, one.query)) return false;
+    const double flight = length_ ? length_() : -1;
+    if (shorter_than >= 0 && !(flight < shorter_than)) return false;
+    best_ = std::move(one);
+    score_ = score;
+    flight_ = flight;
+    return true;
+  }
+
+  static std::uint64_t hash_of(Candidate& one) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 0x100000001b3, hash ^= hash >> 29; };
+    for_each_number(one.scene, one.query, [&](double& x) { add(std::bit_cast<std::uint64_t>(x)); });
+    for (const Lattice& lattice : one.scene.lattices) {
+      add(0x1a77 + lattice.atoms.size());
+      for (const Atom& atom : lattice.atoms) add(atom.semiaxes.size());
+    }
+    if (const auto& from = one.query.from) {
+      add(static_cast<std::uint64_t>(64 * from->lattice + from->atom + 1));
+      for (const Integer& n : from->cell) add(static_cast<std::uint64_t>(n.int64()));
+    }
+    return hash;
+  }
+
+  Candidate best_;
+  const StillFails& still_fails_;
+  const FlightLength& length_;
+  int tries_left_, tries_;
+  long score_ = 0;
+  double flight_ = -1;  // of the best case; not known of the one given
+  std::unordered_set<std::uint64_t> seen_;
+};
+
+}  // namespace
+
+int bits_of(double x) {
+  if (x == 0 || !std::isfinite(x)) return 0;
+  return std::ilogb(x) - exponent_of_lowest_bit(x) + 1;
+}
+
+int most_bits(const Scene& scene, const Query& query) {
+  int most = 0;
+  for_each_number(scene, query, [&](const double& x) { most = std::max(most, bits_of(x)); });
+  return most;
+}
+
+long complexity(const Scene& scene, const Query& query) {
+  long sum = query.from ? 60 : 0;
+  for (const Lattice& lattice : scene.lattices) {
+    sum += 2000;
+    for (const Atom& atom : lattice.atoms) sum += atom.is_ball() ? 1000 : 1500;
+  }
+  if (query.from)
+    for (const Integer& n : query.from->cell)
+      sum += n.fits_int64() ? complexity_of(static_cast<double>(n.int64())) : 1000;
+  for_each_number(scene, query, [&](const double& x) { sum += complexity_of(x); });
+  return sum;
+}
+
+Shrunk shrink(const Scene& scene, const Query& query, const StillFails& still_fails,
+              const FlightLength& length, int tries) {
+  return Shrinker({scene, query}, still_fails, length, tries).run();
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,23 @@
+// Time limits at and beside the time of a hit.
+#pragma once
+
+#include <string_view>
+
+#include <lorentz/problem.hpp>
+#include "cases/random.hpp"
+#include "fuzz/examine/subject.hpp"
+
+namespace lorentz::fuzz {
+
+enum class LimitAt { none, time, below, above, half, twice };
+
+/// Like "limit at the time"; empty for none.
+std::string_view words_of(LimitAt limit);
+
+/// One that the subject can be asked with at this exact answer; where its time is not finite, none.
+LimitAt drawn_limit(Random& random, Subject::Limits limits, const Answer& exact);
+
+/// The limit of a question with this exact answer. `never` and `inside` have no time: any limit will do.
+double limit_of(LimitAt limit, const Answer& exact);
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,125 @@
+#include "fuzz/examine/variants.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "cases/parts.hpp"
+#include "fuzz/examine/nearest_decision.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double with_bit_flipped(Random& random, double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
+}
+
+// One move; the result may be no query.
+Query one_move(Random& random, const Scene& scene, Query query) {
+  const auto dimension = static_cast<std::uint64_t>(scene.dimension);
+  Vec& a = random.one_in(2) ? query.x : query.v;
+  const std::uint64_t i = random.below(dimension), k = random.below(dimension);
+  switch (random.below(12)) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+      a[i] = moved(a[i], drawn_ulps(random));
+      break;
+    case 4:
+    case 5:
+    case 6:
+      a[i] = with_bit_flipped(random, a[i]);
+      break;
+    case 7:
+      std::swap(a[i], a[k]);
+      break;
+    case 8:
+      a[i] = random.one_in(2) ? a[k] : random.one_in(2) ? -a[i] : 0.0;
+      break;
+    case 9:
+      query.v = scaled(query.v, random.one_in(2) ? random.octave(-3, 3)
+                                                 : std::ldexp(1, static_cast<int>(random.integer(-8, 8))));
+      break;
+    case 10:
+      query.x = sum(query.x, scaled(scene.lattices[0].vectors[i], random.sign()));
+      break;
+    default:
+      query.x = sum(query.x, scaled(query.v, std::ldexp(1, -static_cast<int>(random.integer(0, 40)))));
+  }
+  return query;
+}
+
+}  // namespace
+
+Query moved_query(Random& random, const Scene& scene, const Query& query) {
+  constexpr int kTries = 8;
+  for (int tries = 0; tries < kTries; ++tries) {
+    Query candidate = one_move(random, scene, query);
+    if (!flaw_of(candidate, scene)) return candidate;
+  }
+  return query;
+}
+
+double Mutant::margin() const {
+  return hardest ? hardest->margin : kInfinity;
+}
+
+std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Mutant& here) {
+  const Answer& exact = here.question.exact;
+  if (exact.outcome != Outcome::hit) return std::nullopt;
+  const Lattice& lattice = scene.lattices[exact.obstacle.lattice];
+  const Atom& atom = lattice.atoms[exact.obstacle.atom];
+  const std::vector<Vec>& axes = atom.semiaxes;
+  if (axes.empty() || random.one_in(2)) return std::nullopt;
+  const Vec &axis = axes[random.below(axes.size())], &other = axes[random.below(axes.size())];
+  Query query = here.question.query;
+  query.v = sum(axis, scaled(other, random.octave(-6, 3) * random.sign()));
+  if (random.one_in(2)) {  // towards the atom of the cell 0, from nearby
+    query.x = sum(atom.position, scaled(axis, -random.between(1.1, 3)));
+    query.from.reset();
+  }
+  if (flaw_of(query, scene)) return std::nullopt;
+  return query;
+}
+
+Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move) {
+  if (move == 0)
+    if (auto aimed =
+            aimed_query(random, scene, here.question.query, here.question.exact, here.hardest, examiner))
+      return *aimed;
+  Query query = here.question.query;
+  const Answer& exact = here.question.exact;
+  if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
+    query.from = exact.obstacle;  // what comes next?
+    return query;
+  }
+  return moved_query(random, scene, query);
+}
+
+Mutant seen(const Examiner& examiner, const oracle::Scrutiny& scrutiny, const Query& query) {
+  Mutant mutant{{query, examiner.exact(query)}, {}};
+  mutant.hardest = scrutiny.hardest_decision(query, mutant.question.exact, 0);
+  return mutant;
+}
+
+std::vector<Mutant> climb(Random random, const Case& base, const Examiner& examiner,
+                          const oracle::Scrutiny& scrutiny) {
+  std::vector<Mutant> tried;
+  Mutant best = seen(examiner, scrutiny, base.query);
+  if (const auto along = along_semiaxis(random, base.scene, best))
+    tried.push_back(best = seen(examiner, scrutiny, *along));
+  for (int round = 0; round < kRounds; ++round) {
+    const Mutant here = best;
+    for (int move = 0; move < kMovesPerRound; ++move) {
+      tried.push_back(seen(examiner, scrutiny, next_query(random, base.scene, examiner, here, move)));
+      if (tried.back().margin() < best.margin()) best = tried.back();
+    }
+    if (best.margin() == 0) break;
+  }
+  return tried;
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,302 @@
+// Other coordinates, units and names for a scene, and one more dimension.
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "fuzz/rewording/exact_sums.hpp"
+#include "fuzz/rewording/rewording_steps.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+template <class TheScene, class F>
+void for_each_vector(TheScene& scene, const F& lengths, const F& positions) {
+  for (auto& lattice : scene.lattices) {
+    for (int i = 0; i < scene.dimension; ++i) lengths(lattice.vectors[i]);
+    for (auto& atom : lattice.atoms) {
+      positions(atom.position);
+      for (auto& axis : atom.semiaxes) lengths(axis);
+    }
+  }
+}
+
+template <class T>
+void shuffle(Random& random, std::vector<T>& values) {
+  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random.below(i)]);
+}
+
+std::vector<int> drawn_order(Random& random, std::size_t count) {
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  shuffle(random, order);
+  return order;
+}
+
+// ---- coordinates exchanged and reflected
+
+class Axes final : public RewordingStep {
+ public:
+  Axes(Random& random, int dimension) {
+    const std::vector<int> order = drawn_order(random, static_cast<std::size_t>(dimension));
+    for (int i = 0; i < dimension; ++i) from_[i] = order[i], sign_[i] = random.one_in(2) ? -1 : 1;
+  }
+  std::string words() const override { return "axes"; }
+  bool reword(Vec& x, Vec& v) const override {
+    turn(x);
+    turn(v);
+    return true;
+  }
+  void turn(Vec& a) const {
+    const Vec before = a;
+    for (std::size_t i = 0; i < 3; ++i) a[i] = before[from_[i]] == 0 ? 0.0 : sign_[i] * before[from_[i]];
+  }
+
+ private:
+  std::array<int, 3> from_{0, 1, 2}, sign_{1, 1, 1};
+};
+
+// ---- everything moved
+
+class MovedScene final : public RewordingStep {
+ public:
+  explicit MovedScene(const Vec& by) : by_(by) {}
+  std::string words() const override { return "scene moved"; }
+  bool reword(Vec& x, Vec&) const override { return move(x); }
+  bool move(Vec& a) const {
+    const auto sum = exact_sum(a, {1, 0, 0}, {by_, Vec{}, Vec{}});
+    if (sum) a = *sum;
+    return sum.has_value();
+  }
+
+ private:
+  Vec by_;
+};
+
+// An atom to the origin, or by numbers of few bits: in the cell, or far away.
+Vec drawn_translation(Random& random, const Scene& scene) {
+  Vec by{};
+  const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
+  if (random.one_in(3)) {
+    by = lattice.atoms[random.below(lattice.atoms.size())].position;
+    for (double& component : by) component = component == 0 ? 0.0 : -component;
+    return by;
+  }
+  const int unit = std::ilogb(std::max({std::fabs(lattice.vectors[0][0]), std::fabs(lattice.vectors[0][1]),
+                                        std::fabs(lattice.vectors[0][2])}));
+  const int size = static_cast<int>(random.one_in(2) ? random.integer(-4, 4) : random.integer(5, 50));
+  for (int i = 0; i < scene.dimension; ++i)
+    by[i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), std::min(unit + size, 1000));
+  return by;
+}
+
+// ---- other units
+
+class Scaled final : public RewordingStep {
+ public:
+  explicit Scaled(int exponent) : exponent_(exponent) {}
+  std::string words() const override { return "lengths 2^" + std::to_string(exponent_); }
+  bool reword(Vec& x, Vec&) const override {
+    const auto product = exact_scaled(x, exponent_);
+    if (product) x = *product;
+    return product.has_value();
+  }
+  int time_exponent() const override { return exponent_; }
+
+ private:
+  int exponent_;
+};
+
+// The lowest and the highest bit of a scene's numbers.
+struct Range {
+  long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
+  void see(double value) {
+    if (value == 0) return;
+    lowest = std::min(lowest, oracle::OddMantissa(value).exponent);
+    highest = std::max<long>(highest, std::ilogb(value));
+  }
+  void see(const Vec& a) {
+    for (const double component : a) see(component);
+  }
+};
+
+Range range_of(const Scene& scene) {
+  Range range;
+  for (const Lattice& lattice : scene.lattices) {
+    for (int i = 0; i < scene.dimension; ++i) range.see(lattice.vectors[i]);
+    for (const Atom& atom : lattice.atoms) {
+      range.see(atom.radius);
+      range.see(atom.position);
+      for (const Vec& axis : atom.semiaxes) range.see(axis);
+    }
+  }
+  return range;
+}
+
+void scale_scene(Scene& scene, int exponent) {
+  const auto scale = [&](Vec& a) {
+    for (double& component : a) component = std::ldexp(component, exponent);
+  };
+  for_each_vector(scene, scale, scale);
+  for (Lattice& lattice : scene.lattices)
+    for (Atom& atom : lattice.atoms) atom.radius = std::ldexp(atom.radius, exponent);
+}
+
+// ---- other names
+
+class Order final : public RewordingStep {
+ public:
+  Order(Random& random, const Scene& scene) : lattices_(drawn_order(random, scene.lattices.size())) {
+    for (const Lattice& lattice : scene.lattices) atoms_.push_back(drawn_order(random, lattice.atoms.size()));
+  }
+  std::string words() const override { return "order"; }
+
+  // Lattice k of the new scene is lattices_[k] of the old one, its atom i is atoms_[..][i].
+  Scene applied(const Scene& scene) const {
+    Scene result{scene.dimension, {}};
+    for (const int l : lattices_) {
+      result.lattices.push_back({scene.lattices[l].vectors, {}});
+      for (const int a : atoms_[l]) result.lattices.back().atoms.push_back(scene.lattices[l].atoms[a]);
+    }
+    return result;
+  }
+  void there(ObstacleId& id) const override {
+    id.atom = place_of(id.atom, atoms_[id.lattice]);
+    id.lattice = place_of(id.lattice, lattices_);
+  }
+  void back(ObstacleId& id) const override {
+    id.lattice = lattices_[id.lattice];
+    id.atom = atoms_[id.lattice][id.atom];
+  }
+  bool changes() const {
+    return !std::is_sorted(lattices_.begin(), lattices_.end()) ||
+           std::any_of(atoms_.begin(), atoms_.end(),
+                       [](const auto& order) { return !std::is_sorted(order.begin(), order.end()); });
+  }
+
+ private:
+  static int place_of(int value, const std::vector<int>& order) {
+    return static_cast<int>(std::find(order.begin(), order.end(), value) - order.begin());
+  }
+
+  std::vector<int> lattices_;
+  std::vector<std::vector<int>> atoms_;
+};
+
+// ---- one more dimension, other obstacles
+
+class NoChange final : public RewordingStep {
+ public:
+  explicit NoChange(std::string words) : words_(std::move(words)) {}
+  std::string words() const override { return words_; }
+
+ private:
+  std::string words_;
+};
+
+// At most as far as 2^40 of what is needed, or at the end of the range.
+double drawn_height(Random& random, int least) {
+  if (random.one_in(8)) return std::ldexp(1, static_cast<int>(random.integer(least, kLargestExponent)));
+  const auto more = static_cast<int>(random.one_in(2) ? random.below(3) : random.below(41));
+  return std::ldexp(1, std::min(least + more, kLargestExponent));
+}
+
+std::vector<Vec> drawn_axes(Random& random, const std::vector<Vec>& axes) {
+  std::vector<Vec> result;
+  for (const int k : drawn_order(random, axes.size())) {
+    result.push_back(axes[k]);
+    if (random.one_in(2))
+      for (double& component : result.back()) component = component == 0 ? 0.0 : -component;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<RewordingStep> draw_axes(Random& random, Scene& scene) {
+  auto step = std::make_unique<Axes>(random, scene.dimension);
+  const auto turn = [&](Vec& a) { step->turn(a); };
+  for_each_vector(scene, turn, turn);
+  return step;
+}
+
+std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
+  auto step = std::make_unique<MovedScene>(drawn_translation(random, scene));
+  Scene moved = scene;
+  for (Lattice& lattice : moved.lattices)
+    for (Atom& atom : lattice.atoms)
+      if (!step->move(atom.position)) return nullptr;
+  scene = std::move(moved);
+  return step;
+}
+
+std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
+  const Range range = range_of(scene);
+  const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
+  if (least > most) return nullptr;
+  long exponent = random.integer(least, most);
+  switch (random.below(4)) {
+    case 0:
+      exponent = least + static_cast<long>(random.below(4));
+      break;
+    case 1:
+      exponent = most - static_cast<long>(random.below(4));
+      break;
+    case 2:
+      exponent = static_cast<long>(random.integer(-8, 8));
+      break;
+    default:
+      break;
+  }
+  exponent = std::clamp(exponent, least, most);
+  if (exponent == 0) return nullptr;
+  scale_scene(scene, static_cast<int>(exponent));
+  return std::make_unique<Scaled>(static_cast<int>(exponent));
+}
+
+std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
+  auto step = std::make_unique<Order>(random, scene);
+  if (!step->changes()) return nullptr;
+  scene = step->applied(scene);
+  return step;
+}
+
+// A ball or an ellipsoid whose centre is in the plane z = 0 meets it in the disc or ellipse that it was. With
+// a third vector (w, h), h more than twice any number of the scene, no other layer's comes near the plane,
+// and the layer 0 is the old lattice, whatever w is.
+std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
+  if (scene.dimension != 2) return nullptr;
+  const int least = static_cast<int>(range_of(scene).highest) + 2;
+  if (least > kLargestExponent) return nullptr;
+  for (Lattice& lattice : scene.lattices) {
+    const double height = drawn_height(random, least);
+    lattice.vectors[2] = {0, 0, random.one_in(2) ? -height : height};
+    if (random.one_in(2))
+      for (int i = 0; i < 2; ++i)
+        lattice.vectors[2][i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), least - 4);
+    for (Atom& atom : lattice.atoms)
+      if (!atom.is_ball())
+        atom.semiaxes.push_back(
+            {0, 0, std::ldexp(1, std::max(least - 1 - static_cast<int>(random.below(10)), kLeastExponent))});
+  }
+  scene.dimension = 3;
+  return std::make_unique<NoChange>("plane in space");
+}
+
+// r times a signed permutation of the unit vectors; of ellipsoids the semiaxes exchanged and reflected.
+std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
+  for (Lattice& lattice : scene.lattices)
+    for (Atom& atom : lattice.atoms) {
+      if (atom.is_ball()) {
+        if (random.one_in(4)) continue;
+        for (int i = 0; i < scene.dimension; ++i) {
+          atom.semiaxes.emplace_back();
+          atom.semiaxes.back()[i] = atom.radius;
+        }
+        atom.radius = 0;
+      }
+      atom.semiaxes = drawn_axes(random, atom.semiaxes);
+    }
+  return std::make_unique<NoChange>("semiaxes");
+}
+
+}  // namespace lorentz::fuzz

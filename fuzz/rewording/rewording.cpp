@@ -1,0 +1,215 @@
+#include "fuzz/rewording/rewording.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "fuzz/rewording/exact_sums.hpp"
+#include "fuzz/rewording/rewording_steps.hpp"
+
+namespace lorentz::fuzz {
+namespace {
+
+constexpr DrawStep kSteps[] = {draw_basis,          draw_basis,       draw_superlattice,
+                               draw_axes,           draw_moved_scene, draw_scaled,
+                               draw_plane_in_space, draw_ellipsoids,  draw_order};
+constexpr std::uint64_t kMostSteps = 4;
+constexpr int kFewestBits = 1, kMostBits = 50;
+constexpr long kMostBitsOfPeriod = 20;
+
+// The vectors that every lattice of a scene repeats after: of lattice 0 all multiples of `multiple`, if that
+// is no huge number. For each lattice l a matrix P with U_l P k = multiple U_0 k.
+struct Periods {
+  explicit Periods(const Scene& scene) {
+    oracle::CommonExponent common;
+    for (const Lattice& lattice : scene.lattices)
+      for (int k = 0; k < scene.dimension; ++k)
+        for (const double component : lattice.vectors[k]) common.see(component);
+    const auto integers = [&](const Lattice& lattice) {
+      return to_integers(lattice.vectors, scene.dimension, common.get());
+    };
+    const IntegerMatrix first = integers(scene.lattices[0]);
+    std::vector<std::pair<IntegerMatrix, Z>> fractions;  // of U_l^-1 U_0
+    for (const Lattice& lattice : scene.lattices) {
+      const IntegerMatrix u = integers(lattice), a = adjugate(u);
+      fractions.push_back({{a * first[0], a * first[1], a * first[2]}, determinant(u)});
+      for (const IntegerVec& column : fractions.back().first)
+        for (const Z& entry : column) {
+          const Z shared = gcd(entry, fractions.back().second);
+          multiple = lcm(multiple, Z(fractions.back().second / shared));
+        }
+      if (oracle::bit_length(multiple) > kMostBitsOfPeriod) return;
+    }
+    for (auto& [numerator, denominator] : fractions) {
+      for (IntegerVec& column : numerator)
+        for (Z& entry : column) entry = entry * multiple / denominator;
+      in_cells.push_back(std::move(numerator));
+    }
+  }
+
+  bool any() const { return !in_cells.empty(); }
+
+  Z multiple = 1;
+  std::vector<IntegerMatrix> in_cells;
+};
+
+IntegerVec to_integers(const std::array<std::int64_t, 3>& n) {
+  return {Z(static_cast<long>(n[0])), Z(static_cast<long>(n[1])), Z(static_cast<long>(n[2]))};
+}
+
+bool is_normal_above_least(double t) {
+  return std::isfinite(t) && t > std::numeric_limits<double>::min();
+}
+
+}  // namespace
+
+struct Rewording::Impl {
+  Impl(Random& random, const Scene& old) : scene(old), vectors(old.lattices[0].vectors), periods(old) {
+    dimension = old.dimension;
+    if (dimension == 2) vectors[2] = {};
+    for (std::uint64_t count = 1 + random.below(kMostSteps); count > 0; --count)
+      if (auto step = kSteps[random.below(std::size(kSteps))](random, scene))
+        steps.push_back(std::move(step));
+  }
+
+  // By up to 2^50 periods, or by fewer where the sum is no binary64 value: along one vector or along all.
+  void move_start(Random& random, Reworded& reworded) const {
+    const auto drawn = static_cast<int>(random.integer(kFewestBits, kMostBits));
+    const bool along_one = random.one_in(2), powers = random.one_in(2);
+    const std::uint64_t one = random.below(static_cast<std::uint64_t>(dimension));
+    const bool may_round = random.one_in(4);
+    for (int bits = drawn; bits > 0; bits = bits / 2) {
+      std::array<std::int64_t, 3> k{};
+      for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(dimension); ++i) {
+        const std::int64_t size = std::int64_t{1} << bits;
+        const std::int64_t n = powers ? (random.one_in(2) ? size : -size) : random.integer(-size, size);
+        if (!along_one || i == one) k[i] = n;
+      }
+      IntegerVec cells = to_integers(k);
+      for (Z& n : cells) n *= periods.multiple;
+      if (auto x = exact_sum(reworded.query.x, cells, vectors)) {
+        reworded.query.x = *x;
+        reworded.periods = k;
+        return;
+      }
+      if (may_round) {
+        reworded.periods = k;
+        return round_start(cells, reworded);
+      }
+    }
+  }
+
+  // Far from the origin most starts are no binary64 values. The one nearest to it is another question.
+  void round_start(const IntegerVec& cells, Reworded& reworded) const {
+    Vec x = reworded.query.x;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i) x[i] += cells[k].get_d() * vectors[k][i];
+    reworded.rounded = true;
+    if (std::isfinite(x[0] + x[1] + x[2])) reworded.query.x = x;
+  }
+
+  void change_speed(Random& random, Reworded& reworded) const {
+    Vec& v = reworded.query.v;
+    long least = kLeastExponent, most = kLargestExponent;
+    for (const double component : v) {
+      if (component == 0) continue;
+      least = std::max(least, kLeastExponent - oracle::OddMantissa(component).exponent);
+      most = std::min<long>(most, kLargestExponent - std::ilogb(component));
+    }
+    if (least > most) return;
+    const long drawn = random.one_in(4)   ? least + static_cast<long>(random.below(4))
+                       : random.one_in(3) ? most - static_cast<long>(random.below(4))
+                       : random.one_in(2) ? static_cast<long>(random.integer(-8, 8))
+                                          : static_cast<long>(random.integer(least, most));
+    reworded.speed = static_cast<int>(std::clamp(drawn, least, most));
+    v = *exact_scaled(v, reworded.speed);
+  }
+
+  int time_exponent() const {
+    int sum = 0;
+    for (const auto& step : steps) sum += step->time_exponent();
+    return sum;
+  }
+
+  IntegerVec cells_moved(int lattice, const Reworded& reworded) const {
+    return periods.in_cells[lattice] * to_integers(reworded.periods);
+  }
+
+  int dimension;
+  Scene scene;                 // in the new words
+  std::array<Vec, 3> vectors;  // of lattice 0, in the old
+  Periods periods;             // in the old
+  std::vector<std::unique_ptr<RewordingStep>> steps;
+};
+
+Rewording::Rewording(Random& random, const Scene& scene)
+    : impl_(std::make_unique<const Impl>(random, scene)) {}
+Rewording::Rewording(Rewording&&) noexcept = default;
+Rewording& Rewording::operator=(Rewording&&) noexcept = default;
+Rewording::~Rewording() = default;
+
+const Scene& Rewording::scene() const {
+  return impl_->scene;
+}
+
+std::string Rewording::words(const Reworded& reworded) const {
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  for (const auto& step : impl_->steps) add(step->words());
+  std::int64_t farthest = 0;
+  for (const std::int64_t n : reworded.periods) farthest = std::max(farthest, std::abs(n));
+  if (farthest > 0)
+    add("start moved 2^" + std::to_string(std::ilogb(static_cast<double>(farthest))) +
+        (reworded.rounded ? " and rounded" : ""));
+  if (reworded.speed != 0) add("velocity 2^" + std::to_string(reworded.speed));
+  return text;
+}
+
+std::optional<Reworded> Rewording::reword(Random& random, const Query& query) const {
+  Reworded reworded{query};
+  if (impl_->periods.any() && random.one_in(2)) impl_->move_start(random, reworded);
+  if (random.one_in(2)) impl_->change_speed(random, reworded);
+  for (const auto& step : impl_->steps)
+    if (!step->reword(reworded.query.x, reworded.query.v)) return std::nullopt;
+  if (query.from) reworded.query.from = there(*query.from, reworded);
+  return reworded;
+}
+
+ObstacleId Rewording::there(ObstacleId id, const Reworded& reworded) const {
+  if (reworded.periods != std::array<std::int64_t, 3>{}) {
+    IntegerVec n = to_integers(id.cell);
+    const IntegerVec moved = impl_->cells_moved(id.lattice, reworded);
+    for (std::size_t i = 0; i < 3; ++i) n[i] += moved[i];
+    id.cell = to_cell(n);
+  }
+  for (const auto& step : impl_->steps) step->there(id);
+  return id;
+}
+
+ObstacleId Rewording::back(ObstacleId id, const Reworded& reworded) const {
+  for (auto step = impl_->steps.rbegin(); step != impl_->steps.rend(); ++step) (*step)->back(id);
+  if (reworded.periods != std::array<std::int64_t, 3>{}) {
+    IntegerVec n = to_integers(id.cell);
+    const IntegerVec moved = impl_->cells_moved(id.lattice, reworded);
+    for (std::size_t i = 0; i < 3; ++i) n[i] -= moved[i];
+    id.cell = to_cell(n);
+  }
+  return id;
+}
+
+// The rounded time is the rounded time in other units where both are normal numbers; a time that underflowed,
+// or lies beyond the largest, has lost what decides.
+std::optional<Answer> Rewording::carried(const Answer& exact, const Reworded& reworded) const {
+  if (reworded.rounded) return std::nullopt;
+  if (exact.outcome == Outcome::never) return Answer::never();
+  if (exact.outcome == Outcome::inside) return Answer::inside(there(exact.obstacle, reworded));
+  if (exact.outcome != Outcome::hit || !exact.time) return std::nullopt;
+  const int exponent = impl_->time_exponent() - reworded.speed;
+  double time = *exact.time;
+  if (exponent != 0) {
+    time = std::ldexp(time, exponent);
+    if (!is_normal_above_least(*exact.time) || !is_normal_above_least(time)) return std::nullopt;
+  }
+  return Answer::hit(there(exact.obstacle, reworded), time);
+}
+
+}  // namespace lorentz::fuzz

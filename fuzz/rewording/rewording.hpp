@@ -1,0 +1,59 @@
+// The same question in other words: another basis, units, axes, names, a start elsewhere in the lattice. The
+// answer must be the same one. docs/campaigns.md, "In other words", has the relations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::fuzz {
+
+/// A query in the words of a rewording, and what of them is its own and not the scene's.
+struct Reworded {
+  Query query;
+  std::array<std::int64_t, 3> periods{};  ///< its start was moved by so many periods of the scene
+  int speed = 0;                          ///< its velocity was multiplied by 2^speed
+  bool rounded = false;  ///< its start is the old one moved, rounded to binary64: another question
+};
+
+/// Other words for one scene: a chain of a few steps, each drawn as mild or as hard as the numbers let it go.
+/// Everything is exact: what cannot be said in binary64 is not said.
+class Rewording {
+ public:
+  /// The scene must be without flaws, its vectors independent.
+  Rewording(Random& random, const Scene& scene);
+  Rewording(Rewording&&) noexcept;
+  Rewording& operator=(Rewording&&) noexcept;
+  ~Rewording();
+
+  /// The scene in the new words.
+  const Scene& scene() const;
+
+  /// What was done, like "basis 2^37, lengths 2^-1000, start moved 2^12, velocity 2^40".
+  std::string words(const Reworded& reworded) const;
+
+  /// A query without flaws in the new words, its start often moved by periods of the scene and its velocity
+  /// in other units; nothing if its numbers are no binary64 values there.
+  std::optional<Reworded> reword(Random& random, const Query& query) const;
+
+  /// The obstacle of the old words in the new ones, and of the new ones in the old.
+  ObstacleId there(ObstacleId id, const Reworded& reworded) const;
+  ObstacleId back(ObstacleId id, const Reworded& reworded) const;
+
+  /// The exact answer to the old question as one to the new: `hit`, `inside` or `never`. Of obstacles entered
+  /// together the first by name is another one there, maybe; what is said is true but for that. Nothing where
+  /// the old answer does not tell the time's rounding in the new units, or the question is another one.
+  std::optional<Answer> carried(const Answer& exact, const Reworded& reworded) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,46 @@
+// The steps that rewordings are chains of. Private to fuzz/.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <lorentz/problem.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::fuzz {
+
+/// Other words for one scene. What the two say of obstacles and of times is the same thing, exactly.
+class RewordingStep {
+ public:
+  virtual ~RewordingStep() = default;
+
+  /// Like "basis 2^37".
+  virtual std::string words() const = 0;
+
+  /// The same start and velocity; false where they are no binary64 values in the new words.
+  virtual bool reword(Vec& /*x*/, Vec& /*v*/) const { return true; }
+
+  virtual void there(ObstacleId&) const {}
+  virtual void back(ObstacleId&) const {}
+
+  /// Times are multiplied by 2^time_exponent().
+  virtual int time_exponent() const { return 0; }
+};
+
+/// Draws a step and rewords the scene; null, with the scene as it was, where it does not go or would change
+/// nothing. How hard it goes is drawn, too: small and extreme steps are as frequent as all between.
+using DrawStep = std::unique_ptr<RewordingStep> (*)(Random&, Scene&);
+
+// cell_rewording.cpp
+std::unique_ptr<RewordingStep> draw_basis(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_superlattice(Random&, Scene&);
+
+// frame_rewording.cpp
+std::unique_ptr<RewordingStep> draw_axes(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_moved_scene(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_scaled(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_order(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_plane_in_space(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_ellipsoids(Random&, Scene&);
+
+}  // namespace lorentz::fuzz

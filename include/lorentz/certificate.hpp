@@ -1,0 +1,66 @@
+// Proofs that an answer is right, as docs/certificates.md defines them: data only. Who writes them is
+// prover.hpp, who checks them certificate_check.hpp.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+/// Integer vectors b_1, .., b_d in the coordinates n of a lattice's primitive vectors. Of a 2D problem: the
+/// first two rows and columns; the rest is zero.
+using CertificateBasis = std::array<Cell, 3>;
+
+/// An end of a window: mantissa * 2^exponent.
+struct WindowEnd {
+  static constexpr long kMostExponent = 1 << 16;  ///< in absolute value; no checker has to go further
+
+  Integer mantissa;
+  long exponent = 0;
+
+  WindowEnd() = default;
+  WindowEnd(Integer mantissa, long exponent = 0) : mantissa(std::move(mantissa)), exponent(exponent) {}
+  WindowEnd(double value) {  ///< must be finite
+    int e = 0;
+    mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &e), 53));
+    exponent = e - 53;
+  }
+};
+
+/// "0x1f4p-3", with an integer mantissa of any length.
+std::string text_of(const WindowEnd& end);
+
+/// What a text in hexadecimal says, exactly ("0x1f4p-3", "-0X1.8"); nothing if it is none, or has an exponent
+/// beyond kMostExponent once the mantissa is an integer.
+std::optional<WindowEnd> window_end_from(std::string_view text);
+
+/// The binary64 that an end is exactly, if there is one.
+std::optional<double> binary64_of(const WindowEnd& end);
+
+/// Of `hit` and `inside`: the obstacles of one atom with `from` <= T <= `to`, T the time at which the line is
+/// nearest to the centre (in the atom's own coordinates), are to be looked at in this basis.
+struct Window {
+  int lattice = 0;
+  int atom = 0;
+  WindowEnd from, to;
+  CertificateBasis basis;
+};
+
+/// Of `never`: the obstacles of one atom lie in rows along b_1, which is parallel to v.
+struct Rows {
+  int lattice = 0;
+  int atom = 0;
+  CertificateBasis basis;
+};
+
+struct Certificate {
+  std::vector<Window> windows;  ///< of `hit` and `inside`; those of an atom in the order of time
+  std::vector<Rows> rows;       ///< of `never`; one of each atom
+};
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,37 @@
+// The second opinion about certificates (docs/certificates.md): checks a proof and knows nothing of how
+// answers are found. It shares no code with the oracle's searches, nor their comparison and rounding of
+// times.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <lorentz/certificate.hpp>
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+class CertificateCheck {
+ public:
+  /// Puts the scene into integers, once. Of a scene with a flaw or with dependent vectors nothing is proved.
+  /// `most_work`: the rows and obstacles that a proof may make it look at, some millions a second.
+  explicit CertificateCheck(const Scene& scene, long most_work = 10'000'000);
+  CertificateCheck(CertificateCheck&&) noexcept;
+  CertificateCheck& operator=(CertificateCheck&&) noexcept;
+  ~CertificateCheck();
+
+  /// Nothing if the certificate proves the answer; else what is wrong, in one line that names the window, the
+  /// atom or the obstacle. Of the answer that is outcome, obstacle, time and, if there are digits,
+  /// time_decimal; the collision's detail is no part of it. Whatever the certificate holds, no false answer
+  /// passes. A proof that is too big is refused: numbers of more than 4096 bits, more than 10^6 rows in a
+  /// window or of an atom, more work than allowed. Safe to call from several threads.
+  std::optional<std::string> refutation(const Query& query, const Answer& answer,
+                                        const Certificate& certificate) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,74 @@
+// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The
+// one place that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a
+// hexadecimal float ("0x1.8p-1") will do; keys that are not known are ignored.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/line_reader.hpp>
+#include <lorentz/problem.hpp>
+
+namespace lorentz {
+
+/// An id as JSON text: a quoted string, an integer, or null where there was none.
+using Id = std::string;
+
+/// What a line of a query stream turned out to be.
+struct StreamItem {
+  enum class Kind { scene, query, bad, nothing };  ///< nothing: a blank line or a `golden` header
+  Kind kind = Kind::nothing;
+  Id id = "null";
+  Scene scene;
+  Query query;
+  std::string message;     ///< of `bad`
+  bool no_scene = false;   ///< `bad` because no scene holds
+  bool bad_scene = false;  ///< the bad line was a scene: what follows has none
+};
+
+/// Reads the lines of query and answer streams.
+class ExchangeReader {
+ public:
+  ExchangeReader();
+  ~ExchangeReader();
+
+  /// A line of a query stream. `scene` is the scene that holds, or null: then every query is bad. Scenes and
+  /// queries are free of flaws (flaw_of), or the item is bad.
+  void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
+
+  /// A line of an answer stream. `components` becomes the number of its cell's coordinates (0: no cell),
+  /// which is for the caller to hold against the scene's dimension. Throws InputError. False for a blank line
+  /// or a `golden` header.
+  bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer, std::size_t& components);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A scene file, TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the place.
+Scene read_scene_file(const std::string& path);
+
+/// Appends a line, with its line end. A 2D problem has two components everywhere.
+void append_scene_line(std::string& out, const Scene& scene);
+void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
+void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
+
+/// What the formats are read with, and its versions.
+std::string exchange_libraries();
+
+/// Beyond 2^53 in absolute value as a decimal string.
+void append_integer(std::string& out, const Integer& n);
+
+/// A JSON string with its quotes.
+std::string json_quoted(std::string_view text);
+
+/// Shortest text that reads back as the same binary64; "inf" in quotes for an infinity.
+void append_number(std::string& out, double value);
+
+/// A decimal or ("0x...") hexadecimal float, all of the text; throws InputError.
+double parse_number(std::string_view text);
+
+}  // namespace lorentz

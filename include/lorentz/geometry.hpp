@@ -1,0 +1,68 @@
+// Elementary geometry in plain binary64: products, a line and a ball, coordinates in a cell or an ellipsoid.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz {
+
+inline double dot(const Vec& a, const Vec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
+/// quadratic t = -B - sqrt(B^2 - C), B = x.v / v^2, C = (x^2 - r^2) / v^2; may be negative; nothing if B^2 <
+/// C.
+inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
+  const double v2 = dot(v, v);
+  const double B = dot(x, v) / v2;
+  const double C = (dot(x, x) - r * r) / v2;
+  const double discriminant = B * B - C;
+  if (discriminant < 0) return std::nullopt;
+  return -B - std::sqrt(discriminant);
+}
+
+/// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
+/// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.
+inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
+  double largest = 0;
+  for (int i = 0; i < dimension; ++i)
+    for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
+  const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  for (int i = 0; i < dimension; ++i)
+    for (double& component : vectors[i]) component = std::scalbn(component, -exponent);
+  for (int i = dimension; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
+  std::array<Vec, 3> dual;
+  for (int i = 0; i < 3; ++i) {
+    const Vec &a = vectors[(i + 1) % 3], &b = vectors[(i + 2) % 3];
+    dual[i] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+  const double volume = dot(vectors[0], dual[0]);
+  for (int i = 0; i < dimension; ++i)
+    for (double& component : dual[i]) component = std::scalbn(component / volume, -exponent);
+  for (int i = dimension; i < 3; ++i) dual[i] = Vec{0, 0, 1};
+  return dual;
+}
+
+/// The columns of A of an obstacle { position + A y : |y| < 1 }; a ball's are its radius times the axes. In
+/// 2D the third is zero.
+inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
+  std::array<Vec, 3> columns{};
+  for (int i = 0; i < dimension; ++i) {
+    if (atom.is_ball())
+      columns[i][i] = atom.radius;
+    else
+      columns[i] = atom.semiaxes[i];
+  }
+  return columns;
+}
+
+/// (dual_1 . a, dual_2 . a, dual_3 . a): the coordinates of a.
+inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
+  return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};
+}
+
+}  // namespace lorentz

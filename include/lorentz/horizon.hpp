@@ -1,0 +1,79 @@
+// Which ways through a scene are free for ever: the infinite channels that its obstacles leave open. In 2D
+// these are corridors along lattice vectors; in 3D layers between lattice planes, and cylindrical channels
+// along lattice vectors. What is open is decided exactly; what is printed of it is rounded. docs/horizon.md
+// has the mathematics.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+/// A corridor (2D) or a planar channel (3D), and its translates by the scene's periods.
+struct Channel {
+  /// 2D: the lattice vector along the corridor, in the first lattice's primitive vectors. 3D: the indices (h
+  /// k l) of the first lattice's planes parallel to it. Coprime, the first that is not 0 above 0.
+  std::array<Integer, 3> indices;
+  Vec vector{};         ///< 2D: that lattice vector. 3D: the reciprocal vector (h k l), normal to the planes
+  double width = 0;     ///< correctly rounded; above 0, unless it is too small for a binary64
+  Vec point{};          ///< on the channel's middle line or plane, rounded
+  bool inside = false;  ///< the rounded point is inside; decided exactly
+  Integer count = 1;    ///< so many channels of this kind in a common period of superposed lattices; this one
+                        ///< is the widest of them
+};
+
+/// A channel along a line that lies in no planar one: a hole in the scene's shadow along `direction`.
+struct Cylinder {
+  std::array<Integer, 3> direction;  ///< coprime, in the primitive vectors; the first that is not 0 above 0
+  Vec vector{};                      ///< the same, Cartesian
+  Vec point{};                       ///< rounded, on a line within the channel
+  bool inside = false;               ///< that line is inside; decided exactly
+  double radius = 0;                 ///< approximate: of a cylinder around that line
+};
+
+/// Lattice planes that leave no planar channel open, but nearly: infinitely many directions within the plane
+/// have cylindrical channels if the obstacles just touch, very many if they overlap by very little.
+struct CylinderFamily {
+  std::array<Integer, 3> indices;  ///< (h k l) of the planes
+  bool infinite = false;           ///< touching: one in all but finitely many directions
+  double directions = 0;           ///< not infinite: about so many directions would have to be looked at
+};
+
+struct Horizon {
+  int dimension = 0;
+  std::vector<Channel> channels;  ///< the widest first
+  std::size_t normals = 0;        ///< different directions (3D: normals) among the channels
+  /// Directions (3D: normals) of which it is not known whether they have channels: three lattices or more
+  /// with very long common periods.
+  std::vector<std::array<Integer, 3>> undecided;
+
+  /// P(free path from a uniform start > t) ~ tail_constant / t; of one lattice of obstacles that do not
+  /// overlap.
+  std::optional<double> tail_constant;
+  std::string no_tail_constant;  ///< else the reason
+
+  std::vector<Cylinder> cylinders;       ///< 3D
+  std::vector<CylinderFamily> families;  ///< 3D
+  std::string no_cylinders;              ///< not empty: cylinders were not searched for, and why
+
+  bool is_infinite() const;
+  /// True if no path is infinite, and that is known.
+  bool is_finite() const;
+};
+
+/// So many channels are possible that listing them all is out of reach: the small obstacles' fault.
+struct TooManyChannels : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// All open channels of a scene without flaws (flaw_of, dependence_in); with `min_width` above 0 the
+/// corridors and planar channels at least that wide. The search for cylinders can be left out: among small
+/// obstacles it is the longer one. Throws TooManyChannels.
+Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true);
+
+}  // namespace lorentz::oracle

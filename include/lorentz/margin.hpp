@@ -1,0 +1,71 @@
+// How hard a question was: the margin of its answer and the condition of its time (docs/verdicts.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+/// Margins are computed up to this many ulps; a larger one is reported as this.
+inline constexpr double kLargestMargin = 0x1p20;
+
+/// A decision that an answer rests on.
+enum class DecisionKind {
+  containing,  ///< does the obstacle contain x?
+  meeting,     ///< does the line meet the obstacle?
+  order        ///< is the obstacle entered before the one that is hit?
+};
+
+/// How many obstacles the search for a margin looks at, at the most, before it is content with the smallest
+/// margin of those.
+inline constexpr long kMarginBudget = 10'000;
+
+struct Decision {
+  DecisionKind kind = DecisionKind::meeting;
+  ObstacleId obstacle;
+  bool yes = false;  ///< what was decided
+  double margin =
+      0;  ///< in ulps: how far the inputs must move, each by so many ulps, to change it; to first order
+};
+
+/// An obstacle that a flight came near, on its way to the answer.
+struct Passed {
+  ObstacleId obstacle;
+  double time = 0;  ///< at which the line is nearest to its centre, in the coordinates in which it is a ball
+  double gap = 0;   ///< distance of the line from it, in units of its radius there; below 0: it is met
+  double margin = 0;  ///< of that decision, in ulps; not limited
+};
+
+/// Answers of one scene, looked at closely.
+class Scrutiny {
+ public:
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  explicit Scrutiny(const Scene& scene);
+  Scrutiny(Scrutiny&&) noexcept;
+  Scrutiny& operator=(Scrutiny&&) noexcept;
+  ~Scrutiny();
+
+  /// The decision with the smallest margin of all that the exact answer `hit` or `inside` rests on; of
+  /// `never` and of errors nothing. The margin is at most kLargestMargin (then the decision means nothing).
+  /// With a smaller budget (of which each width of the search has its own) the margin is an upper bound more
+  /// often; 0: one narrow search, some 500 obstacles.
+  std::optional<Decision> hardest_decision(const Query& query, const Answer& exact,
+                                           long budget = kMarginBudget) const;
+
+  /// The obstacles that the flight of an exact `hit` passed at the smallest distances in units of their
+  /// radii, up to and with the one that it hit; in order of time, `most` of them at most.
+  std::vector<Passed> passed(const Query& query, const Answer& exact, std::size_t most) const;
+
+  /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
+  /// make. Requires an exact `hit`.
+  double condition(const Query& query, const Answer& exact) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,28 @@
+// Writes certificates: proofs that an exact answer is right, for those who do not believe the oracle.
+#pragma once
+
+#include <memory>
+
+#include <lorentz/certificate.hpp>
+
+namespace lorentz::oracle {
+
+class Prover {
+ public:
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  explicit Prover(const Scene& scene);
+  Prover(Prover&&) noexcept;
+  Prover& operator=(Prover&&) noexcept;
+  ~Prover();
+
+  /// The certificate of an exact `hit`, `inside` or `never`; of an error an empty one. Of a wrong answer,
+  /// whatever it says is refuted by who checks it. Few windows of few rows, however long the flight; but
+  /// around obstacles of very many cells in radius, as many rows as these cross.
+  Certificate prove(const Query& query, const Answer& exact) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,54 @@
+// Judging an answer by the exact one, with a tolerance that is derived and not guessed (docs/verdicts.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+enum class Verdict {
+  agree,        ///< the same outcome and the same obstacle, the time within its tolerance
+  ill_posed,    ///< another one, but the inputs need to move by no more than k ulps each for it to be right
+  wrong,        ///< another one, and not so; or a time off by more than k times its condition
+  undecided,    ///< it said that it does not know
+  unsupported,  ///< it said that it does not do this kind of query
+  error,        ///< it said that the query is none, or broke
+  missing       ///< there is no answer
+};
+
+/// The tolerance k, in ulps of the inputs, unless told otherwise.
+inline constexpr double kDefaultUlps = 4;
+
+struct Judgement {
+  Verdict verdict = Verdict::missing;
+  /// Where the obstacle hit is right and a finite time is given: |t - t_exact| / ulp(t_exact), from the
+  /// rounded t_exact.
+  std::optional<double> ulps = {};
+  /// Of ill_posed and wrong: by how many ulps the inputs must move at least for the answer to be right. Of
+  /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong
+  /// time: the tolerance that it would have needed.
+  double departs = 0;
+  bool wrong_time = false;  ///< `wrong` for the time alone
+};
+
+class Judge {
+ public:
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  explicit Judge(const Scene& scene);
+  Judge(Judge&&) noexcept;
+  Judge& operator=(Judge&&) noexcept;
+  ~Judge();
+
+  /// `exact` is the oracle's answer to the query without a time limit. Costs nothing to speak of where the
+  /// two agree.
+  Judgement judge(const Query& query, const Answer& exact, const Answer& given,
+                  double ulps = kDefaultUlps) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace lorentz::oracle

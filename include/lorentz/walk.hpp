@@ -1,0 +1,33 @@
+// The second oracle: cell by cell, exact, slow, without any cleverness. It exists to catch the first one, and
+// shares nothing with it but the problem statement: neither code nor arithmetic (CGAL's MP_Float, not GMP).
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::oracle {
+
+class Walk {
+ public:
+  /// The scene must have no flaw. After `max_cells` cells of one atom's lattice the walk gives up.
+  explicit Walk(Scene scene, std::int64_t max_cells = 100'000)
+      : scene_(std::move(scene)), max_cells_(max_cells) {}
+
+  /// The exact answer, time correctly rounded, or `later` if nothing is entered before `max_time` (an
+  /// infinity: no limit), which is compared with the exact time; `undecided` if the flight passes more than
+  /// max_cells cells, or if a start beyond 2^50 cells or an obstacle beyond 100 cells makes it not worth
+  /// trying; `error` for an invalid query.
+  Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  Scene scene_;
+  std::int64_t max_cells_;
+};
+
+/// The libraries that the walk computes with, and their versions.
+std::string walk_libraries();
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,43 @@
+// Exact times of entries for certificate_check: compared, and held against rounded ones. Shares nothing with
+// quadratic.*. Private to oracle/.
+#pragma once
+
+#include <string>
+
+#include "oracle/integers/integer.hpp"
+
+namespace lorentz::oracle::certificate {
+
+/// Longest decimal number that is read.
+inline constexpr std::size_t kMaxDigits = 1300;
+
+/// Sign of a + sqrt(c) - sqrt(b), for b, c >= 0.
+int sign_of(const Z& a, const Z& c, const Z& b);
+
+/// The time (s - sqrt(d)) / q of an entry, q > 0.
+struct Time {
+  Z s = 0, d = 0, q = 1;
+};
+
+/// Sign of a - b.
+int compare(const Time& a, const Time& b);
+
+/// An entry in the query's own unit: time * 2^exponent.
+struct ScaledTime {
+  Time time;
+  long exponent;
+
+  /// Sign of this minus n / m, m > 0.
+  int compare(const Z& n, const Z& m) const;
+  /// Sign of this minus n 2^k.
+  int compare_dyadic(const Z& n, long k) const;
+};
+
+/// Does the exact time, which is not negative, round to this, to nearest, ties to even, beyond the largest to
+/// infinity?
+bool rounds_to(const ScaledTime& exact, double given);
+
+/// Are these the first significant digits of the exact time, which is not negative, rounded half to even?
+bool rounds_to(const ScaledTime& exact, const std::string& given);
+
+}  // namespace lorentz::oracle::certificate

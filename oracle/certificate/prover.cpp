@@ -1,0 +1,190 @@
+#include <lorentz/prover.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+
+#include "oracle/exact/cylinder.hpp"
+#include "oracle/exact/exact_query.hpp"
+#include "oracle/exact/short_basis.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+template <std::size_t D>
+CertificateBasis certificate_basis(const Basis<D>& basis) {
+  CertificateBasis result;
+  for (std::size_t i = 0; i < D; ++i) result[i] = to_cell<D>(basis[i].n);
+  return result;
+}
+
+// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards by no more than a 64th of rho:
+// however long the window, what lies just beyond its end may be crowded.
+class Ends {
+ public:
+  Ends(const Z& low, const Z& high, const Z& rho, const Z& v2, long exponent) : v2_(v2), exponent_(exponent) {
+    unit_ = bit_length(rho) - bit_length(v2) - 8 + exponent;
+    from = end(low, false);
+    to = end(high, true);
+  }
+  WindowEnd from, to;
+
+ private:
+  WindowEnd end(const Z& s, bool upwards) const {
+    const long shift = exponent_ - unit_;
+    const Z numerator = shift >= 0 ? shifted_left(s, shift) : s;
+    const Z denominator = shift >= 0 ? v2_ : shifted_left(v2_, -shift);
+    Z mantissa = upwards ? ceil_div(numerator, denominator) : floor_div(numerator, denominator);
+    long exponent = unit_;
+    if (mantissa == 0) return {};
+    const long zeros = static_cast<long>(mpz_scan1(mantissa.get_mpz_t(), 0));
+    return {to_integer(mantissa >> zeros), exponent + zeros};
+  }
+
+  const Z& v2_;
+  long exponent_, unit_;
+};
+
+// The shortest integer vector parallel to n.
+template <std::size_t D>
+ZVec<D> primitive_vector(ZVec<D> n) {
+  Z divisor = 0;
+  for (const Z& component : n) divisor = gcd(divisor, component);
+  for (Z& component : n) component /= divisor;
+  return n;
+}
+
+struct Bezout {
+  Z gcd, x, y;  // a x + b y = gcd
+};
+
+Bezout bezout(const Z& a, const Z& b) {
+  Bezout result;
+  mpz_gcdext(result.gcd.get_mpz_t(), result.x.get_mpz_t(), result.y.get_mpz_t(), a.get_mpz_t(),
+             b.get_mpz_t());
+  return result;
+}
+
+// Bases of Z^d that begin with n, a vector without a common divisor.
+std::array<ZVec<2>, 2> completed(const ZVec<2>& n) {
+  const Bezout one = bezout(n[0], n[1]);
+  return {n, ZVec<2>{-one.y, one.x}};
+}
+
+std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
+  if (n[0] == 0 && n[1] == 0) return {n, ZVec<3>{1, 0, 0}, ZVec<3>{0, 1, 0}};
+  const Bezout pair = bezout(n[0], n[1]), all = bezout(pair.gcd, n[2]);
+  const Z a = n[0] / pair.gcd, b = n[1] / pair.gcd;
+  return {n, ZVec<3>{-pair.y, pair.x, 0}, ZVec<3>{-all.y * a, -all.y * b, all.x}};
+}
+
+// The product of two vectors' parts across v, times v^2.
+template <std::size_t D>
+struct AcrossForm {
+  const Flight<D>& flight;
+  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
+    return flight.v2 * dot(a.p, b.p) - dot(flight.v, a.p) * dot(flight.v, b.p);
+  }
+};
+
+void shorten_across(Basis<2>&, const Flight<2>&) {}
+
+void shorten_across(Basis<3>& basis, const Flight<3>& flight) {
+  std::array<LatticePoint<3>, 2> pair{basis[1], basis[2]};
+  reduce(pair, AcrossForm<3>{flight});
+  basis[1] = std::move(pair[0]);
+  basis[2] = std::move(pair[1]);
+}
+
+// A row is the same wherever along v the next one begins. Where the numbers would become too long to be
+// checked, beside a step of hundreds of digits, it begins as near as it can.
+template <std::size_t D>
+void shorten_along(const LatticePoint<D>& step, const ZVec<D>& v, LatticePoint<D>& b) {
+  constexpr long kLongBits = 3000;
+  if (std::all_of(b.n.begin(), b.n.end(), [](const Z& n) { return bit_length(n) < kLongBits; })) return;
+  const Z along = dot(v, step.p), s = dot(v, b.p);
+  b.add_multiple(-round_div(along > 0 ? s : Z(-s), abs(along)), step);
+}
+
+template <std::size_t D>
+class Writer {
+ public:
+  Writer(const ExactScene<D>& scene, const Query& query) : scene_(scene), query_(scene, query) {}
+
+  Certificate prove(const Answer& exact) {
+    if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside && exact.outcome != Outcome::never)
+      return {};
+    for_each_atom(scene_, [&](int l, int a) {
+      const View<D> view = query_.view(scene_, l, a);
+      const Z rho_above = root_below(view.radius2 * view.flight.v2) + 1;
+      if (exact.outcome == Outcome::never)
+        add_rows(view, l, a);
+      else if (exact.outcome == Outcome::hit)
+        add_windows(view, l, a, rho_above, -rho_above, s_of_hit(view, exact.obstacle) + rho_above);
+      else if (std::pair(l, a) <= std::pair(exact.obstacle.lattice, exact.obstacle.atom))
+        add_windows(view, l, a, rho_above, -rho_above, rho_above);
+    });
+    return std::move(certificate_);
+  }
+
+ private:
+  // t v^2 rounded up, for the time t of the hit and the v of this view.
+  Z s_of_hit(const View<D>& view, const ObstacleId& hit) const {
+    const View<D> own = query_.view(scene_, hit.lattice, hit.atom);
+    ZVec<D> c =
+        centre_of<D>(scene_, hit.lattice, hit.atom, to_zvec<D>(hit.cell), query_.x, query_.length_exponent);
+    if (const auto& frame = scene_.lattices[hit.lattice].atoms[hit.atom].frame) c = frame->to_ball * c;
+    const Z s = dot(own.flight.v, c), d = (own.radius2 - dot(c, c)) * own.flight.v2 + s * s;
+    if (d <= 0) throw std::invalid_argument("the obstacle is not hit: there is nothing to prove");
+    return ceil_div((s - floor_sqrt(d)) * view.flight.v2, own.flight.v2);
+  }
+
+  void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
+                   const Z& high) {
+    const long exponent = query_.length_exponent - query_.velocity_exponent;
+    Cylinder<D>(view, view.radius2 * view.flight.v2).cut(low, high, [&](const Stretch<D>& stretch) {
+      const Ends ends(stretch.low, stretch.high, rho_above, view.flight.v2, exponent);
+      certificate_.windows.push_back(
+          {lattice, atom, ends.from, ends.to, certificate_basis<D>(stretch.basis)});
+      return false;
+    });
+  }
+
+  void add_rows(const View<D>& view, int lattice, int atom) {
+    const auto n = completed(primitive_vector<D>(cramer(view.basis, view.flight.v)));
+    Basis<D> basis;
+    for (std::size_t i = 0; i < D; ++i)
+      for (std::size_t k = 0; k < D; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
+    shorten_across(basis, view.flight);
+    for (std::size_t i = 1; i < D; ++i) shorten_along(basis[0], view.flight.v, basis[i]);
+    certificate_.rows.push_back({lattice, atom, certificate_basis<D>(basis)});
+  }
+
+  const ExactScene<D>& scene_;
+  const ExactQuery<D> query_;
+  Certificate certificate_;
+};
+
+}  // namespace
+
+struct Prover::Impl {
+  std::variant<ExactScene<2>, ExactScene<3>> scene;
+};
+
+Prover::Prover(const Scene& scene) {
+  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
+  impl_ = std::make_unique<const Impl>(
+      Impl{scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
+}
+
+Prover::Prover(Prover&&) noexcept = default;
+Prover& Prover::operator=(Prover&&) noexcept = default;
+Prover::~Prover() = default;
+
+Certificate Prover::prove(const Query& query, const Answer& exact) const {
+  return std::visit(
+      [&]<std::size_t D>(const ExactScene<D>& scene) { return Writer<D>(scene, query).prove(exact); },
+      impl_->scene);
+}
+
+}  // namespace lorentz::oracle

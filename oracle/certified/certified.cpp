@@ -1,0 +1,46 @@
+#include <lorentz/certified.hpp>
+
+#include <limits>
+
+namespace lorentz::oracle {
+
+Certified::Certified(const Scene& scene) : scene_(scene), oracle_(scene) {
+  if (!Reduction::beyond(scene)) fast_.emplace(scene);
+}
+
+Answer Certified::first_hit(const Query& query, const Request& request, StageTally* tally) const {
+  Answer answer;
+  first_hit(query, request, answer, tally);
+  return answer;
+}
+
+void Certified::first_hit(const Query& query, const Request& request, Answer& answer,
+                          StageTally* tally) const {
+  answer.clear();
+  if (fast_ && request.digits == 0 && !request.detail && answer_fast(query, request, answer, tally)) return;
+  if (tally) tally->count(Stage::undecided);
+  answer = oracle_.first_hit(query, request);
+}
+
+// The fast engine's answer; false if it does not know it, or does not know the time to the last bit.
+bool Certified::answer_fast(const Query& query, const Request& request, Answer& answer,
+                            StageTally* tally) const {
+  if (auto flaw = flaw_of(query, scene_)) {
+    answer = Answer::error(*flaw);
+    return true;
+  }
+  const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
+  Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded);
+  if (flight.outcome == Outcome::undecided) return false;
+  // Rounding keeps order: only of a time that is rounded to the limit itself one does not know on which side
+  // it is.
+  const bool hit = flight.outcome == Outcome::hit;
+  if (hit && (!flight.time_is_rounded || flight.time == max_time)) return false;
+  if (request.max_time && (flight.outcome == Outcome::never || (hit && flight.time > max_time)))
+    flight.outcome = Outcome::later;
+  set_answer(flight, answer);
+  if (tally) tally->count(flight.stage);
+  return true;
+}
+
+}  // namespace lorentz::oracle

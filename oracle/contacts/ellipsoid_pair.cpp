@@ -1,0 +1,175 @@
+// The ellipsoids have no point in common iff a plane with some normal n parts them: n.c > sqrt(n.S1 n) +
+// sqrt(n.S2 n), c the vector between the centres. The square of the right side is the minimum over 0 < t < 1
+// of n.(S1/(1-t) + S2/t) n, so they are apart iff for some t
+//
+//   F(t) = c.(S1/(1-t) + S2/t)^-1 c = t (1-t) c.((t S1 + (1-t) S2)^-1) c > 1,
+//
+// and they touch iff the largest F is 1 (Perram and Wertheim 1985; Wang, Wang and Kim 2001 have the same
+// polynomial as det(lambda A + B)). F is concave, F(0) = F(1) = 0. With lambda = (1-t)/t and denominators
+// cleared, F - 1 has the sign of
+//
+//   g(lambda) = lambda c.adj(S1 + lambda S2) c - (1 + lambda) det(S1 + lambda S2),    lambda > 0,
+//
+// of degree D + 1 with integer coefficients: two positive roots say apart, one (double) says touch, none
+// overlap. Sturm's theorem counts them.
+#include "oracle/contacts/ellipsoid_pair.hpp"
+
+#include <vector>
+
+namespace lorentz::oracle {
+namespace {
+
+// An integer polynomial: coefficients of 1, x, x^2, ..; the last one is not zero.
+struct Polynomial {
+  std::vector<Z> terms;
+
+  Polynomial() = default;
+  Polynomial(std::vector<Z> coefficients) : terms(std::move(coefficients)) { trim(); }
+
+  void trim() {
+    while (!terms.empty() && terms.back() == 0) terms.pop_back();
+  }
+  bool is_zero() const { return terms.empty(); }
+};
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  if (a.is_zero() || b.is_zero()) return {};
+  std::vector<Z> terms(a.terms.size() + b.terms.size() - 1);
+  for (std::size_t i = 0; i < a.terms.size(); ++i)
+    for (std::size_t k = 0; k < b.terms.size(); ++k) terms[i + k] += a.terms[i] * b.terms[k];
+  return terms;
+}
+
+Polynomial sum(const Polynomial& a, const Polynomial& b, int sign) {
+  std::vector<Z> terms = a.terms;
+  if (terms.size() < b.terms.size()) terms.resize(b.terms.size());
+  for (std::size_t i = 0; i < b.terms.size(); ++i) terms[i] += sign * b.terms[i];
+  return terms;
+}
+
+Polynomial operator+(const Polynomial& a, const Polynomial& b) {
+  return sum(a, b, 1);
+}
+
+Polynomial operator-(const Polynomial& a, const Polynomial& b) {
+  return sum(a, b, -1);
+}
+
+// Adjugates of symmetric matrices, over any ring.
+template <class T>
+std::array<std::array<T, 2>, 2> adjugate_of(const std::array<std::array<T, 2>, 2>& s) {
+  const T off = T() - s[0][1];
+  return {{{s[1][1], off}, {off, s[0][0]}}};
+}
+
+template <class T>
+std::array<std::array<T, 3>, 3> adjugate_of(const std::array<std::array<T, 3>, 3>& s) {
+  std::array<std::array<T, 3>, 3> adj;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = i; k < 3; ++k) {
+      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      adj[i][k] = T(s[i1][k1] * s[i2][k2]) - T(s[i1][k2] * s[i2][k1]);
+      adj[k][i] = adj[i][k];
+    }
+  return adj;
+}
+
+template <class T, std::size_t D>
+T determinant_of(const std::array<std::array<T, D>, D>& s, const std::array<std::array<T, D>, D>& adj) {
+  T result = s[0][0] * adj[0][0];
+  for (std::size_t k = 1; k < D; ++k) result = result + T(s[0][k] * adj[k][0]);
+  return result;
+}
+
+template <std::size_t D>
+Polynomial separation(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
+  std::array<std::array<Polynomial, D>, D> pencil;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) pencil[i][k] = Polynomial({s1[i][k], s2[i][k]});
+  const auto adj = adjugate_of(pencil);
+  Polynomial form;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) form = form + Polynomial({Z(c[i] * c[k])}) * adj[i][k];
+  return Polynomial({0, 1}) * form - Polynomial({1, 1}) * determinant_of(pencil, adj);
+}
+
+Polynomial derivative(const Polynomial& p) {
+  std::vector<Z> terms;
+  for (std::size_t i = 1; i < p.terms.size(); ++i) terms.push_back(p.terms[i] * static_cast<long>(i));
+  return terms;
+}
+
+// Minus the remainder of a by b, times a positive number.
+Polynomial negative_remainder(Polynomial a, const Polynomial& b) {
+  const Z lead = abs(b.terms.back());
+  const int sign = sgn(b.terms.back());
+  while (a.terms.size() >= b.terms.size()) {
+    const std::size_t shift = a.terms.size() - b.terms.size();
+    const Z factor = sign * a.terms.back();
+    for (Z& term : a.terms) term *= lead;
+    for (std::size_t i = 0; i < b.terms.size(); ++i) a.terms[i + shift] -= factor * b.terms[i];
+    a.trim();
+  }
+  Z content = 0;
+  for (const Z& term : a.terms) content = gcd(content, term);
+  for (Z& term : a.terms) term = -term / content;
+  return a;
+}
+
+int sign_changes(const std::vector<int>& signs) {
+  int changes = 0, last = 0;
+  for (const int sign : signs) {
+    if (sign == 0) continue;
+    if (sign == -last) ++changes;
+    last = sign;
+  }
+  return changes;
+}
+
+// How many different positive roots p has; p(0) is not zero.
+int positive_roots(const Polynomial& p) {
+  std::vector<int> at_zero, at_infinity;
+  Polynomial a = p, b = derivative(p);
+  while (!a.is_zero()) {
+    at_zero.push_back(sgn(a.terms.front()));
+    at_infinity.push_back(sgn(a.terms.back()));
+    if (b.is_zero()) break;
+    Polynomial next = negative_remainder(a, b);
+    a = std::move(b);
+    b = std::move(next);
+  }
+  return sign_changes(at_zero) - sign_changes(at_infinity);
+}
+
+}  // namespace
+
+template <std::size_t D>
+Form<D> adjugate(const Form<D>& s) {
+  return adjugate_of(s);
+}
+
+template <std::size_t D>
+Z determinant(const Form<D>& s) {
+  return determinant_of(s, adjugate_of(s));
+}
+
+template <std::size_t D>
+Relation relation_of(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
+  switch (positive_roots(separation<D>(s1, s2, c))) {
+    case 0:
+      return Relation::overlap;
+    case 1:
+      return Relation::touch;
+    default:
+      return Relation::apart;
+  }
+}
+
+template Form<2> adjugate(const Form<2>&);
+template Form<3> adjugate(const Form<3>&);
+template Z determinant(const Form<2>&);
+template Z determinant(const Form<3>&);
+template Relation relation_of(const Form<2>&, const Form<2>&, const ZVec<2>&);
+template Relation relation_of(const Form<3>&, const Form<3>&, const ZVec<3>&);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,52 @@
+#include <lorentz/scene_check.hpp>
+
+#include <algorithm>
+
+#include "oracle/integers/dyadic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+// Determinant of d binary64 vectors, up to a positive factor.
+bool are_dependent(const std::array<Vec, 3>& vectors, int dimension) {
+  CommonExponent common;
+  for (int i = 0; i < dimension; ++i)
+    for (double component : vectors[i]) common.see(component);
+  const auto z = [&](int i, int k) { return scaled(vectors[i][k], common.get()); };
+  if (dimension == 2) return cross(ZVec<2>{z(0, 0), z(0, 1)}, ZVec<2>{z(1, 0), z(1, 1)}) == 0;
+  const auto row = [&](int i) { return ZVec<3>{z(i, 0), z(i, 1), z(i, 2)}; };
+  return dot(cross(row(0), row(1)), row(2)) == 0;
+}
+
+}  // namespace
+
+std::optional<std::string> dependence_in(const Scene& scene) {
+  for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
+    const Lattice& lattice = scene.lattices[l];
+    const std::string where = "lattice " + std::to_string(l);
+    if (are_dependent(lattice.vectors, scene.dimension))
+      return where + ": the primitive vectors are linearly dependent; a lattice needs " +
+             std::to_string(scene.dimension) + " independent ones";
+    for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
+      if (lattice.atoms[a].is_ball()) continue;
+      std::array<Vec, 3> axes{};
+      std::copy(lattice.atoms[a].semiaxes.begin(), lattice.atoms[a].semiaxes.end(), axes.begin());
+      if (are_dependent(axes, scene.dimension))
+        return where + ", atom " + std::to_string(a) + ": the semiaxes are linearly dependent";
+    }
+  }
+  return std::nullopt;
+}
+
+std::string description_of(const Contact& contact) {
+  const auto name = [](int lattice, int atom) {
+    return "lattice " + std::to_string(lattice) + ", atom " + std::to_string(atom);
+  };
+  const std::string first = name(contact.lattice, contact.atom),
+                    second = name(contact.other_lattice, contact.other_atom),
+                    verb = contact.overlap ? " overlap" : " touch";
+  if (first == second) return "the obstacles of " + first + verb + " their own translates";
+  return "obstacles of " + first + " and of " + second + verb;
+}
+
+}  // namespace lorentz::oracle

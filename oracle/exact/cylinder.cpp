@@ -1,0 +1,190 @@
+#include "oracle/exact/cylinder.hpp"
+
+#include <optional>
+
+#include "oracle/exact/exact_line.hpp"
+#include "oracle/exact/short_basis.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr long kFewRows = 24;
+constexpr long kManyRows = 1000;  // more than a stretch ought to have that is no longer than it is wide
+
+// 4^across |h|^2 + 4^along s^2 in the plane.
+struct StripForm {
+  const Flight<2>& flight;
+  long across, along;
+  Z operator()(const LatticePoint<2>& a, const LatticePoint<2>& b) const {
+    return shifted_left(cross(flight.v, a.p) * cross(flight.v, b.p), 2 * across) +
+           shifted_left(dot(flight.v, a.p) * dot(flight.v, b.p), 2 * along);
+  }
+};
+
+// The rows k2 of the window's rectangle, |h| <= reach and low <= s <= high. With v' = v turned by a right
+// angle v^2 w = s v + h v', so v^2 cross(b1, w) = h s_1 - s h_1 for every point w.
+Range rows_of_strip(const View<2>& view, const Z& reach, const Basis<2>& basis, const Z& low, const Z& high) {
+  const Z& v2 = view.flight.v2;
+  const Z h1 = cross(view.flight.v, basis[0].p), s1 = dot(view.flight.v, basis[0].p);
+  const auto [least, most] = ordered(-low * h1, -high * h1);
+  const Z spread = reach * abs(s1), home = v2 * cross(basis[0].p, view.offset.p);
+  return multiples_between(least - spread - home, most + spread - home, v2 * cross(basis[0].p, basis[1].p));
+}
+
+// Visits the rows of each plane that comes near, as (plane, its section, rows) until `take` returns true.
+template <class Take>
+bool for_each_section(const View<3>& view, const Planes& planes, const Basis<3>& basis, const Z& low,
+                      const Z& high, const Take& take) {
+  const Range levels = planes.levels(view.offset, low, high);
+  const PlanePoint g1 = planes.in_plane(basis[0]), g2 = planes.in_plane(basis[1]);
+  for (Z k3 = levels.first; k3 <= levels.last; ++k3) {
+    PlaneSection section = planes.section(view.offset, k3, low, high);
+    if (section.empty) continue;
+    // A checker of certificates may bound the rows by the whole window; so the cuts must be made for that.
+    if (!planes.head_on) {
+      section.z_low = low;
+      section.z_high = high;
+    }
+    if (take(section, planes.rows(section, g1, g2))) return true;
+  }
+  return false;
+}
+
+struct Count {
+  Z rows;
+  std::optional<PlaneSection> widest;  // the section with the most rows
+};
+
+Count count_rows(const View<3>& view, const Planes& planes, const Basis<3>& basis, const Z& low,
+                 const Z& high) {
+  const Z levels = planes.levels(view.offset, low, high).count();
+  if (levels > kFewRows) return {levels, {}};
+  Count count{0, {}};
+  Z most = 0;
+  for_each_section(view, planes, basis, low, high, [&](const PlaneSection& section, const Range& rows) {
+    count.rows += rows.count();
+    if (rows.count() > most) {
+      most = rows.count();
+      count.widest = section;
+    }
+    return false;
+  });
+  return count;
+}
+
+}  // namespace
+
+template <>
+Z Cylinder<2>::shorten(Basis<2>& basis, const Z& low, const Z& high) const {
+  reduce(basis, StripForm{view_.flight, bit_length(high - low), bit_length(2 * reach_)});
+  return rows_of_strip(view_, reach_, basis, low, high).count();
+}
+
+template <>
+Z Cylinder<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) const {
+  const Planes planes(view_.flight, reach2_, basis[0], basis[1], basis[2]);
+  const Count count = count_rows(view_, planes, basis, low, high);
+  if (count.rows <= kFewRows || !count.widest) return count.rows;
+  // A slender section: a basis of the plane that is short for this.
+  std::array<PlanePoint, 2> pair{planes.in_plane(basis[0]), planes.in_plane(basis[1])};
+  reduce(pair, count.widest->form());
+  basis[0] = std::move(pair[0].point);
+  basis[1] = std::move(pair[1].point);
+  return count_rows(view_, planes, basis, low, high).rows;
+}
+
+template <>
+Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
+  const long j = std::max(0L, bit_length(high - low) - bit_length(reach_) - 1);
+  std::array<WindowVector, 3> vectors;
+  for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.flight.v, basis[i].p)};
+  reduce(vectors, WindowForm(view_.flight, j));
+  for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
+  // If v is normal to the planes of b1 and b2, it is not to those of b1 and b3: one can look along these.
+  const auto is_head_on = [this](const Basis<3>& b) {
+    return cross(view_.flight.v, cross(b[0].p, b[1].p)) == ZVec<3>{};
+  };
+  if (is_head_on(basis)) std::swap(basis[1], basis[2]);
+  const Basis<3> reduced = basis;
+  Z fewest = shorten_in_planes(basis, low, high);
+  // If v is nearly normal to the planes, s hardly changes within them, and the ends of the stretch bound
+  // nothing there. Of three families of planes there is one to which v is not.
+  for (int i = 1; i >= 0 && fewest > kManyRows && !is_long(low, high); --i) {
+    Basis<3> other = reduced;
+    std::swap(other[i], other[2]);
+    if (is_head_on(other)) continue;
+    const Z rows = shorten_in_planes(other, low, high);
+    if (rows >= fewest) continue;
+    basis = std::move(other);
+    fewest = rows;
+  }
+  return fewest;
+}
+
+template <std::size_t D>
+bool Cylinder<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
+                         const std::function<bool(const Stretch<D>&)>& take) const {
+  const Z rows = shorten(basis, low, high);
+  if (rows <= kFewRows || !is_long(low, high)) return take({low, high, basis});
+  const Z middle = floor_div(low + high, 2);
+  return cut_on(basis, low, middle, take) || cut_on(basis, middle, high, take);
+}
+
+template <std::size_t D>
+bool Cylinder<D>::cut(const Z& low, const Z& high, const std::function<bool(const Stretch<D>&)>& take) const {
+  return cut_on(view_.basis, low, high, take);
+}
+
+template <std::size_t D>
+bool Cylinder<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch,
+                            const RowVisitor<D>& visit) const {
+  const Row<D> row(view_.flight, start, stretch.basis[0]);
+  Range k;
+  if (row.sg != 0) {
+    k = multiples_between(stretch.low - row.s0, stretch.high - row.s0, row.sg);
+  } else if (row.s0 < stretch.low || row.s0 > stretch.high) {
+    return false;
+  }
+  if (row.A == 0) {
+    if (row.C >= reach2_) return false;
+  } else {
+    const Z disc = row.B * row.B - row.A * (row.C - reach2_);
+    if (disc <= 0) return false;
+    // The ends (-B -+ sqrt(disc)) / A do not count.
+    const Range met{floor_surd(-row.B, -1, disc, row.A) + 1, -floor_surd(row.B, -1, disc, row.A) - 1};
+    k = row.sg == 0 ? met : Range{std::max(k.first, met.first), std::min(k.last, met.last)};
+  }
+  if (k.empty()) return false;
+  LatticePoint<D> first = start;
+  first.add_multiple(k.first, stretch.basis[0]);
+  return visit(first, stretch.basis[0], k.last - k.first);
+}
+
+template <>
+bool Cylinder<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) const {
+  const Range rows = rows_of_strip(view_, reach_, stretch.basis, stretch.low, stretch.high);
+  LatticePoint<2> row = view_.offset;
+  row.add_multiple(rows.first, stretch.basis[1]);
+  for (Z k2 = rows.first; k2 <= rows.last; ++k2, row.add_multiple(1, stretch.basis[1]))
+    if (visit_row(row, stretch, visit)) return true;
+  return false;
+}
+
+template <>
+bool Cylinder<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
+  const LatticePoint<3>& b2 = stretch.basis[1];
+  const Planes planes(view_.flight, reach2_, stretch.basis[0], b2, stretch.basis[2]);
+  return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
+                          [&](const PlaneSection& section, const Range& rows) {
+                            LatticePoint<3> row = section.origin;
+                            row.add_multiple(rows.first, b2);
+                            for (Z k2 = rows.first; k2 <= rows.last; ++k2, row.add_multiple(1, b2))
+                              if (visit_row(row, stretch, visit)) return true;
+                            return false;
+                          });
+}
+
+template class Cylinder<2>;
+template class Cylinder<3>;
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,76 @@
+// The obstacles of one atom that a stretch of a cylinder around the line of flight holds: all of them, by
+// exact bounds in a basis short enough that these are tight. Certificates, margins and judgements are made of
+// this. Private to oracle/.
+#pragma once
+
+#include <functional>
+
+#include "oracle/exact/exact_line.hpp"
+#include "oracle/exact/inside.hpp"
+#include "oracle/exact/planes.hpp"
+
+namespace lorentz::oracle {
+
+/// The centres with low <= s <= high, and the basis in which they are looked for.
+template <std::size_t D>
+struct Stretch {
+  Z low, high;
+  Basis<D> basis;
+};
+
+/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R).
+template <std::size_t D>
+class Cylinder {
+ public:
+  Cylinder(const View<D>& view, const Z& reach2)
+      : view_(view), reach2_(reach2), reach_(reach2 > 0 ? root_below(reach2) : Z(0)) {}
+
+  /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
+  /// shorter than about the cylinder is wide), and hands them out in order, until `take` returns true.
+  /// Returns whether it did. Two neighbours share their ends.
+  bool cut(const Z& low, const Z& high, const std::function<bool(const Stretch<D>&)>& take) const;
+
+  /// The rows of a stretch that hold centres of the cylinder, each as its first such centre, the step, and
+  /// the last index, until `visit` returns true. Returns whether it did.
+  bool visit(const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
+
+ private:
+  bool cut_on(Basis<D> basis, const Z& low, const Z& high,
+              const std::function<bool(const Stretch<D>&)>& take) const;
+  /// Makes the basis short for the stretch; returns the number of rows, or a lower bound that is many.
+  Z shorten(Basis<D>& basis, const Z& low, const Z& high) const;
+  /// In space: the same, for the planes of b1 and b2.
+  Z shorten_in_planes(Basis<D>& basis, const Z& low, const Z& high) const;
+  /// Longer than the cylinder is wide: it may be cut.
+  bool is_long(const Z& low, const Z& high) const { return high - low > reach_ + 1; }
+  bool visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
+
+  const View<D>& view_;
+  const Z reach2_;
+  const Z reach_;  // |h| <= reach for integers in the plane
+};
+
+/// Visits the points of a row that come first into question for the smallest or largest margin: all, or of a
+/// row with more than kManyPoints those at its ends and nearest to the line. (In the plane a margin is
+/// monotone along a row on either side of the line, being a quotient of linear functions, so these are the
+/// ones.)
+template <std::size_t D, class Visit>
+void visit_extremes(const Flight<D>& flight, const LatticePoint<D>& first, const LatticePoint<D>& step,
+                    const Z& last, const Visit& visit) {
+  constexpr long kManyPoints = 64, kFewPoints = 16;
+  const auto visit_range = [&](Z begin, Z end) {
+    begin = std::max(begin, Z(0));
+    end = std::min(end, last);
+    LatticePoint<D> point = first;
+    point.add_multiple(begin, step);
+    for (Z k = begin; k <= end; ++k, point.add_multiple(1, step)) visit(point);
+  };
+  if (last < kManyPoints) return visit_range(0, last);
+  const Row<D> row(flight, first, step);
+  const Z nearest = row.A == 0 ? Z(0) : floor_div(-row.B, row.A);
+  visit_range(0, kFewPoints);
+  visit_range(nearest - kFewPoints, nearest + kFewPoints);
+  visit_range(last - kFewPoints, last);
+}
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,168 @@
+#include "oracle/exact/exact_problem.hpp"
+
+#include "oracle/exact/short_basis.hpp"
+
+namespace lorentz::oracle {
+
+template <>
+Z determinant<2>(const Basis<2>& basis) {
+  return cross(basis[0].p, basis[1].p);
+}
+
+template <>
+Z determinant<3>(const Basis<3>& basis) {
+  return dot(cross(basis[0].p, basis[1].p), basis[2].p);
+}
+
+ZVec<2> cramer(const Basis<2>& b, const ZVec<2>& p) {
+  return {cross(p, b[1].p), cross(b[0].p, p)};
+}
+
+ZVec<3> cramer(const Basis<3>& b, const ZVec<3>& p) {
+  return {dot(p, cross(b[1].p, b[2].p)), dot(p, cross(b[2].p, b[0].p)), dot(p, cross(b[0].p, b[1].p))};
+}
+
+namespace {
+
+ZMatrix<2> adjugate(const ZMatrix<2>& columns) {
+  const auto& [a, b] = columns;
+  return {ZVec<2>{b[1], -b[0]}, ZVec<2>{-a[1], a[0]}};
+}
+
+ZMatrix<3> adjugate(const ZMatrix<3>& columns) {
+  const auto& [a, b, c] = columns;
+  return {cross(b, c), cross(c, a), cross(a, b)};
+}
+
+template <std::size_t D>
+Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
+  for (auto& b : basis) b.p = map * b.p;
+  return basis;
+}
+
+template <std::size_t D>
+ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent) {
+  ExactAtom<D> exact;
+  exact.position = scaled_vector<D>(atom.position, exponent);
+  if (atom.is_ball()) {
+    exact.radius = scaled(atom.radius, exponent);
+    return exact;
+  }
+  ZMatrix<D> columns;
+  for (std::size_t i = 0; i < D; ++i) columns[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
+  BallFrame<D> frame{adjugate(columns), {}};
+  exact.radius = abs(dot(frame.to_ball[0], columns[0]));
+  frame.reduced = mapped(frame.to_ball, reduced);
+  reduce(frame.reduced, EuclideanForm<D>{});
+  exact.frame = std::move(frame);
+  return exact;
+}
+
+}  // namespace
+
+CommonExponent common_exponent(const Scene& scene, double other) {
+  CommonExponent common;
+  common.see(other);
+  const auto see = [&](const Vec& a) {
+    for (const double component : a) common.see(component);
+  };
+  for (const Lattice& lattice : scene.lattices) {
+    for (const Vec& u : lattice.vectors) see(u);
+    for (const Atom& atom : lattice.atoms) {
+      see(atom.position);
+      common.see(atom.radius);
+      for (const Vec& axis : atom.semiaxes) see(axis);
+    }
+  }
+  return common;
+}
+
+template <std::size_t D>
+ExactScene<D>::ExactScene(const Scene& scene) {
+  exponent = common_exponent(scene).get();
+  for (const Lattice& lattice : scene.lattices) {
+    ExactLattice<D> exact;
+    for (std::size_t i = 0; i < D; ++i) {
+      exact.primitive[i].p = scaled_vector<D>(lattice.vectors[i], exponent);
+      for (std::size_t k = 0; k < D; ++k) exact.primitive[i].n[k] = i == k ? 1 : 0;
+    }
+    exact.reduced = exact.primitive;
+    reduce(exact.reduced, EuclideanForm<D>{});
+    for (const Atom& atom : lattice.atoms)
+      exact.atoms.push_back(exact_atom<D>(atom, exact.reduced, exponent));
+    lattices.push_back(std::move(exact));
+  }
+}
+
+namespace {
+
+template <std::size_t D>
+Basis<D> scaled_basis(Basis<D> basis, long shift) {
+  if (shift > 0)
+    for (auto& b : basis)
+      for (auto& component : b.p) component = shifted_left(component, shift);
+  return basis;
+}
+
+}  // namespace
+
+template <std::size_t D>
+View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, const Flight<D>& flight,
+                long exponent) {
+  const auto& exact = scene.lattices[lattice];
+  const auto& obstacle = exact.atoms[atom];
+  const long shift = scene.exponent - exponent;
+  View<D> view;
+  view.radius = shifted_left(obstacle.radius, shift);
+  view.radius2 = view.radius * view.radius;
+  for (std::size_t k = 0; k < D; ++k) view.offset.p[k] = shifted_left(obstacle.position[k], shift) - x[k];
+  if (obstacle.frame) {
+    const ZMatrix<D>& to_ball = obstacle.frame->to_ball;
+    view.basis = scaled_basis<D>(obstacle.frame->reduced, shift);
+    view.offset.p = to_ball * view.offset.p;
+    view.flight.v = to_ball * flight.v;
+    view.flight.v2 = dot(view.flight.v, view.flight.v);
+  } else {
+    view.basis = scaled_basis<D>(exact.reduced, shift);
+    view.flight = flight;
+  }
+  // Bring the offset home: subtract the lattice vector nearest to it (by rounding; any near one will do).
+  const Z det = determinant<D>(view.basis);
+  const ZVec<D> coordinates = cramer(view.basis, view.offset.p);
+  for (std::size_t i = 0; i < D; ++i) {
+    const Z k = det > 0 ? round_div(coordinates[i], det) : round_div(-coordinates[i], -det);
+    if (k != 0) view.offset.add_multiple(-k, view.basis[i]);
+  }
+  return view;
+}
+
+template <std::size_t D>
+Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, long exponent) {
+  const auto& exact = scene.lattices[lattice];
+  Basis<D> basis = scaled_basis<D>(exact.primitive, scene.exponent - exponent);
+  if (const auto& frame = exact.atoms[atom].frame) basis = mapped(frame->to_ball, std::move(basis));
+  std::swap(basis.front(), basis.back());
+  return basis;
+}
+
+template <std::size_t D>
+ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& n, const ZVec<D>& x,
+                  long exponent) {
+  const auto& exact = scene.lattices[lattice];
+  ZVec<D> centre = exact.atoms[atom].position;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) centre[k] += n[i] * exact.primitive[i].p[k];
+  for (std::size_t k = 0; k < D; ++k) centre[k] = shifted_left(centre[k], scene.exponent - exponent) - x[k];
+  return centre;
+}
+
+template struct ExactScene<2>;
+template struct ExactScene<3>;
+template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const Flight<2>&, long);
+template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const Flight<3>&, long);
+template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, long);
+template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, long);
+template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);
+template ZVec<3> centre_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ZVec<3>&, long);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,136 @@
+// A scene and a query as integers: all lengths times one power of two, the velocity times another. Private to
+// oracle/.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "oracle/integers/dyadic.hpp"
+#include "oracle/integers/integer.hpp"
+
+namespace lorentz::oracle {
+
+/// A lattice vector or point: Cartesian p, and n, its coordinates in the scene's primitive vectors.
+template <std::size_t D>
+struct LatticePoint {
+  ZVec<D> p;
+  ZVec<D> n;
+
+  void add_multiple(const Z& k, const LatticePoint& other) {
+    for (std::size_t i = 0; i < D; ++i) {
+      mpz_addmul(p[i].get_mpz_t(), k.get_mpz_t(), other.p[i].get_mpz_t());
+      mpz_addmul(n[i].get_mpz_t(), k.get_mpz_t(), other.n[i].get_mpz_t());
+    }
+  }
+  void negate() {
+    for (std::size_t i = 0; i < D; ++i) {
+      p[i] = -p[i];
+      n[i] = -n[i];
+    }
+  }
+};
+
+template <std::size_t D>
+using Basis = std::array<LatticePoint<D>, D>;
+
+/// Rows of a linear map.
+template <std::size_t D>
+using ZMatrix = std::array<ZVec<D>, D>;
+
+template <std::size_t D>
+ZVec<D> operator*(const ZMatrix<D>& map, const ZVec<D>& a) {
+  ZVec<D> image;
+  for (std::size_t i = 0; i < D; ++i) image[i] = dot(map[i], a);
+  return image;
+}
+
+template <std::size_t D>
+ZMatrix<D> transposed(const ZMatrix<D>& map) {
+  ZMatrix<D> result;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) result[i][k] = map[k][i];
+  return result;
+}
+
+/// Coordinates in which an atom's ellipsoids { p + A y : |y| < 1 } are balls of radius |det A|: those of
+/// adj(A) = det(A) A^-1, which is an integer matrix like A. A linear map leaves lines, lattices and times
+/// what they are, so in these coordinates an ellipsoid is one more scene of balls, and nothing was rounded.
+template <std::size_t D>
+struct BallFrame {
+  ZMatrix<D> to_ball;  ///< adj(A)
+  Basis<D> reduced;    ///< a short basis of the lattice there
+};
+
+template <std::size_t D>
+struct ExactAtom {
+  ZVec<D> position;
+  Z radius;                           ///< in the frame's coordinates, if there is a frame
+  std::optional<BallFrame<D>> frame;  ///< of an ellipsoid
+};
+
+template <std::size_t D>
+struct ExactLattice {
+  Basis<D> primitive;  ///< the scene's own vectors
+  Basis<D> reduced;    ///< a short basis of the same lattice, shortest vector first
+  std::vector<ExactAtom<D>> atoms;
+};
+
+/// That of all lengths in a scene, and of one other.
+CommonExponent common_exponent(const Scene& scene, double other = 0);
+
+template <std::size_t D>
+ZVec<D> scaled_vector(const Vec& a, long exponent) {
+  ZVec<D> result;
+  for (std::size_t k = 0; k < D; ++k) result[k] = scaled(a[k], exponent);
+  return result;
+}
+
+/// The scene with every length multiplied by 2^-exponent.
+template <std::size_t D>
+struct ExactScene {
+  long exponent = 0;
+  std::vector<ExactLattice<D>> lattices;
+
+  explicit ExactScene(const Scene& scene);
+};
+
+/// The flight: velocity v scaled to integers, and v^2.
+template <std::size_t D>
+struct Flight {
+  ZVec<D> v;
+  Z v2;
+};
+
+/// One atom's obstacles seen from the particle, in coordinates in which they are balls: centres are offset +
+/// the lattice, relative to x.
+template <std::size_t D>
+struct View {
+  Flight<D> flight;
+  Basis<D> basis;          ///< reduced
+  LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
+  Z radius;
+  Z radius2;  ///< radius^2
+};
+
+/// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).
+template <std::size_t D>
+View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, const Flight<D>& flight,
+                long exponent);
+
+/// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
+template <std::size_t D>
+Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, long exponent);
+
+/// The centre of the obstacle (lattice, atom, n) relative to x, in the scene's own coordinates.
+template <std::size_t D>
+ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& n, const ZVec<D>& x,
+                  long exponent);
+
+template <std::size_t D>
+Z determinant(const Basis<D>& basis);
+
+/// Coordinates of p in the basis, times its determinant.
+ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
+ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,70 @@
+// One query as integers. Private to oracle/.
+#pragma once
+
+#include <optional>
+
+#include "oracle/exact/exact_line.hpp"
+
+namespace lorentz::oracle {
+
+template <std::size_t D>
+Cell to_cell(const ZVec<D>& n) {
+  Cell cell;
+  for (std::size_t i = 0; i < D; ++i) cell[i] = to_integer(n[i]);
+  return cell;
+}
+
+template <std::size_t D>
+ZVec<D> to_zvec(const Cell& cell) {
+  ZVec<D> n;
+  for (std::size_t i = 0; i < D; ++i) n[i] = to_z(cell[i]);
+  return n;
+}
+
+/// Lengths times 2^-length_exponent, velocities times 2^-velocity_exponent.
+template <std::size_t D>
+struct ExactQuery {
+  long length_exponent, velocity_exponent;
+  ZVec<D> x;
+  Flight<D> flight;
+  std::optional<ObstacleId> from;
+  ZVec<D> from_cell;
+
+  /// Lengths in units 2^-finer of what the numbers need.
+  ExactQuery(const ExactScene<D>& scene, const Query& query, long finer = 0) : from(query.from) {
+    CommonExponent length, velocity;
+    for (std::size_t i = 0; i < D; ++i) {
+      length.see(query.x[i]);
+      velocity.see(query.v[i]);
+    }
+    length_exponent = (query.x == Vec{} ? scene.exponent : std::min(scene.exponent, length.get())) - finer;
+    velocity_exponent = velocity.get();
+    x = scaled_vector<D>(query.x, length_exponent);
+    flight.v = scaled_vector<D>(query.v, velocity_exponent);
+    flight.v2 = dot(flight.v, flight.v);
+    if (from) from_cell = to_zvec<D>(from->cell);
+  }
+
+  /// The coordinates of `from` if it is one of this atom's obstacles, else null.
+  const ZVec<D>* from_in(int lattice, int atom) const {
+    return from && from->lattice == lattice && from->atom == atom ? &from_cell : nullptr;
+  }
+
+  View<D> view(const ExactScene<D>& scene, int lattice, int atom) const {
+    return view_of<D>(scene, lattice, atom, x, flight, length_exponent);
+  }
+
+  /// t = (s - sqrt(d)) / v^2 in the query's own units.
+  Quadratic time_of(const Entry<D>& entry) const {
+    return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
+  }
+};
+
+/// Calls visit(lattice, atom) for every atom of the scene, in order.
+template <std::size_t D, class Visit>
+void for_each_atom(const ExactScene<D>& scene, const Visit& visit) {
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) visit(l, a);
+}
+
+}  // namespace lorentz::oracle

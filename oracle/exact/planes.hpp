@@ -1,0 +1,114 @@
+// The lattice planes and rows that meet a stretch of a cylinder around the line of flight, 3D: exact bounds,
+// rounded outwards, whatever the basis. Private to oracle/.
+#pragma once
+
+#include <utility>
+
+#include "oracle/exact/exact_problem.hpp"
+
+namespace lorentz::oracle {
+
+/// A lattice vector with its s.
+struct WindowVector {
+  LatticePoint<3> point;
+  Z s;
+
+  void add_multiple(const Z& k, const WindowVector& other) {
+    point.add_multiple(k, other.point);
+    mpz_addmul(s.get_mpz_t(), k.get_mpz_t(), other.s.get_mpz_t());
+  }
+};
+
+/// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2: makes a stretch of about 2^(j+1) rho of the cylinder round.
+class WindowForm {
+ public:
+  WindowForm(const Flight<3>& flight, long j)
+      : whole_(shifted_left(flight.v2, 2 * j)), along_(shifted_left(1, 2 * j) - 1) {}
+  Z operator()(const WindowVector& a, const WindowVector& b) const {
+    return whole_ * dot(a.point.p, b.point.p) - along_ * (a.s * b.s);
+  }
+
+ private:
+  Z whole_, along_;
+};
+
+/// min and max of a and b.
+inline std::pair<Z, Z> ordered(const Z& a, const Z& b) {
+  return a <= b ? std::pair(a, b) : std::pair(b, a);
+}
+
+struct Range {
+  Z first, last;  ///< empty if first > last
+  bool empty() const { return first > last; }
+  Z count() const { return empty() ? Z(0) : Z(last - first + 1); }
+};
+
+/// The k with low <= k gap <= high, for gap != 0.
+inline Range multiples_between(const Z& low, const Z& high, const Z& gap) {
+  return gap > 0 ? Range{ceil_div(low, gap), floor_div(high, gap)}
+                 : Range{ceil_div(high, gap), floor_div(low, gap)};
+}
+
+/// A vector in coordinates of its lattice plane: y across the flight, z along it.
+struct PlanePoint {
+  LatticePoint<3> point;
+  Z y, z;
+
+  void add_multiple(const Z& k, const PlanePoint& other) {
+    point.add_multiple(k, other.point);
+    y += k * other.y;
+    z += k * other.z;
+  }
+};
+
+/// (2^across y)^2 + (2^along z)^2.
+struct PlaneForm {
+  long across = 0, along = 0;
+  Z operator()(const PlanePoint& a, const PlanePoint& b) const {
+    return shifted_left(a.y * b.y, 2 * across) + shifted_left(a.z * b.z, 2 * along);
+  }
+};
+
+/// What the section of the cylinder |h| < rho by one plane looks like within a window of s.
+struct PlaneSection {
+  bool empty = true;
+  LatticePoint<3> origin;  ///< a centre of the plane
+  Z low, high;             ///< where the section lies, within the window
+  Z half_width;            ///< |y| v of its points is no more
+  Z z_low, z_high;         ///< the same for z
+
+  /// The form in which the section is about round.
+  PlaneForm form() const;
+};
+
+/// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, e = v x N across the flight within them.
+/// In the plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and more
+/// exactly
+///   v^2 (e.c)^2 + (a s - v^2 level)^2 < rho^2 |e|^2.
+/// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
+/// angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
+struct Planes {
+  const Flight<3>& flight;
+  LatticePoint<3> next;  ///< b3: from plane to plane
+  ZVec<3> normal, e, f;
+  Z a, gap;
+  Z reach2;           ///< rho^2 |v x N|^2
+  Z reach;            ///< its root, rounded down: enough for integers that are less
+  bool head_on;       ///< v is normal to the planes
+  Z across2, across;  ///< rho^2 |e|^2 with the e in use, and its root
+
+  Planes(const Flight<3>& flight, const Z& rho2, const LatticePoint<3>& b1, const LatticePoint<3>& b2,
+         const LatticePoint<3>& b3);
+
+  /// The k3 whose planes offset + k3 b3 come within reach somewhere in low <= s <= high.
+  Range levels(const LatticePoint<3>& offset, const Z& low, const Z& high) const;
+
+  PlaneSection section(const LatticePoint<3>& offset, const Z& k3, const Z& low, const Z& high) const;
+
+  PlanePoint in_plane(const LatticePoint<3>& b) const;
+
+  /// The k2 whose rows origin + k2 g2 + Z g1 may have a point in the section.
+  Range rows(const PlaneSection& section, const PlanePoint& g1, const PlanePoint& g2) const;
+};
+
+}  // namespace lorentz::oracle

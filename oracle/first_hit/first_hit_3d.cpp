@@ -1,0 +1,230 @@
+// First hit in 3D, on any lattice.
+//
+// The flight is cut into windows of s = v.c. A window's piece of the cylinder |h| < rho is made round by
+// scaling (4^j |h|^2 + s^2 for a window of about 2^(j+1) rho), and the basis (b1, b2, b3) is reduced under
+// that form. Then
+//   1. the planes k3 = const that meet the piece are found from the cylinder's own support: few, or the
+//      window is cut; none, and the flight jumps to the s at which the next plane comes within reach;
+//   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
+//      with windows and a scaling of its own: rows k2 = const, few of them, or the window is cut;
+//   3. each row is solved exactly and as a whole (offer_first_on_row).
+// Windows grow while nothing is met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
+// integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
+//
+// Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
+#include "oracle/exact/planes.hpp"
+#include "oracle/exact/short_basis.hpp"
+#include "oracle/first_hit/first_hit.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr long kMany = 8;  // so many planes or rows in a window mean that it surely holds an obstacle
+
+// By how many halvings to cut a window with too many rows (dimension 2) or planes (3): n of them mean some
+// n^dimension obstacles. If that is too much, the windows grow again.
+long cut_for(const Z& count, long dimension) {
+  return std::max(1L, dimension * (bit_length(count / kMany) - 1));
+}
+
+class Solver {
+ public:
+  explicit Solver(const Search<3>& search) : search_(search), rho_above_(search.rho + 1) {}
+  void run();
+
+ private:
+  // Rows of one plane in the window low <= s <= high.
+  struct Section {
+    bool empty = true;
+    Z low, high;  // where the plane's section of the cylinder lies, within the window
+    LatticePoint<3> start;
+    PlanePoint step, next;
+    Range rows;
+    bool along_rows = false;  // the rows run along v: they are all there is, in this window and beyond
+  };
+
+  bool solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
+                   Z high);
+  Section section_of(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3,
+                     const Z& low, const Z& high) const;
+  void solve_rows(const Section& section);
+  void solve_many_rows(const Planes& planes, const Section& section);
+  Z jump_beyond(const Planes& planes, const Z& high) const;
+  Z limited(const Z& high) const {
+    return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_, search_.flight.v2))
+                                    : high;
+  }
+
+  const Search<3>& search_;
+  const Z rho_above_;  // rho rounded up
+};
+
+Solver::Section Solver::section_of(const Planes& planes, const std::array<WindowVector, 3>& basis,
+                                   const Z& k3, const Z& low, const Z& high) const {
+  const PlaneSection extent = planes.section(search_.view.offset, k3, low, high);
+  Section section;
+  section.low = extent.low;
+  section.high = extent.high;
+  section.empty = extent.empty;
+  if (extent.empty) return section;
+  section.start = extent.origin;
+  std::array<PlanePoint, 2> pair{planes.in_plane(basis[0].point), planes.in_plane(basis[1].point)};
+  reduce(pair, extent.form());
+  section.rows = planes.rows(extent, pair[0], pair[1]);
+  section.along_rows = !planes.head_on && pair[0].y == 0 && planes.a == 0;
+  section.step = std::move(pair[0]);
+  section.next = std::move(pair[1]);
+  return section;
+}
+
+void Solver::solve_rows(const Section& section) {
+  for (Z k = section.rows.first; k <= section.rows.last; ++k) {
+    LatticePoint<3> row = section.start;
+    row.add_multiple(k, section.next.point);
+    offer_first_on_row(search_, row, section.step.point);
+  }
+}
+
+// The entry that a ball at the best real place of the row would have, t v^2 = (s - sqrt(d)) / q; nothing if
+// the row misses the cylinder. With A, B, M as in exact_line.cpp it is (A s0 - B sg - sqrt(strip M)) / A.
+struct RealEntry {
+  Z s, d, q;
+};
+
+std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& start,
+                                    const LatticePoint<3>& step) {
+  const Row<3> row(search.flight, start, step);
+  const Z strip = row.B * row.B - row.A * (row.C - search.rho2);
+  if (row.A == 0 || strip <= 0) return std::nullopt;
+  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.flight.v2 * row.gg, row.A};
+}
+
+// An entry as this view times it: another atom's may be in other coordinates, with another v^2.
+RealEntry as_timed_in(const Flight<3>& flight, const Entry<3>& entry) {
+  if (entry.v2 == flight.v2) return {entry.s, entry.d, 1};
+  return {entry.s * flight.v2, entry.d * flight.v2 * flight.v2, entry.v2};
+}
+
+int compare(const RealEntry& a, const RealEntry& b) {
+  return compare_entries(a.s, a.d, a.q, b.s, b.d, b.q);
+}
+
+// A plane so dense with obstacles (r many times their spacing) that even the shortest window has many rows.
+// The real entry is convex in the row number, so start where the ball touches the plane and go both ways,
+// until it comes after the earliest entry found and grows.
+void Solver::solve_many_rows(const Planes& planes, const Section& section) {
+  const Flight<3>& flight = search_.flight;
+  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding here
+  // costs time only; but the right row is one of many, and |N| can be a small integer, so its root gets bits
+  // behind the point.
+  Z z = 0;
+  if (!planes.head_on) {
+    const long bits = 64 + bit_length(section.rows.count());
+    const Z root = floor_sqrt(shifted_left(dot(planes.normal, planes.normal), 2 * bits)) + 1;
+    const Z level = flight.v2 * dot(planes.normal, section.start.p);
+    const Z r = search_.view.radius;
+    z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * flight.v2,
+                  shifted_left(planes.a, bits)) +
+        shifted_left(r * abs(planes.a), bits) / root;
+  }
+  const PlanePoint &g1 = section.step, &g2 = section.next;
+  const PlanePoint start = planes.in_plane(section.start);
+  const Z across = g1.y * (z - start.z) + g1.z * start.y;
+  Z centre = floor_div(across, g1.y * g2.z - g1.z * g2.y);
+  centre = std::min(std::max(centre, section.rows.first), section.rows.last);
+  for (const int direction : {+1, -1}) {
+    std::optional<RealEntry> previous;
+    for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last;
+         k += direction) {
+      LatticePoint<3> row = section.start;
+      row.add_multiple(k, section.next.point);
+      const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);
+      if (entry && search_.earliest.found()) {
+        const bool after_best = compare(*entry, as_timed_in(flight, search_.earliest.entry())) > 0;
+        if (after_best && previous && compare(*entry, *previous) >= 0) break;
+      }
+      previous = entry;
+      offer_first_on_row(search_, row, section.step.point);
+    }
+  }
+}
+
+// Returns true if the plane holds no more than what was found, at any s.
+bool Solver::solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
+                         Z high) {
+  const Z shortest = 2 * rho_above_;
+  Z length = high - low;
+  while (low <= (high = limited(high))) {
+    const Z end = std::min(high, Z(low + length));
+    const Section section = section_of(planes, basis, k3, low, end);
+    const bool few = !section.empty && section.rows.count() <= kMany;
+    if (section.empty) {
+      if (planes.a == 0) return true;
+    } else if (!few && !planes.head_on && section.high - section.low > shortest) {
+      low = section.low;
+      length = std::max(rho_above_, Z((section.high - section.low) >> cut_for(section.rows.count(), 2)));
+      continue;
+    } else if (!few && planes.a != 0) {
+      solve_many_rows(planes, section);
+    } else {
+      solve_rows(section);
+      if (section.along_rows) return true;
+    }
+    low = end + 1;
+    length *= 2;
+  }
+  return false;
+}
+
+// The first s beyond the window at which a plane comes within reach, for a != 0.
+Z Solver::jump_beyond(const Planes& planes, const Z& high) const {
+  const Z home = search_.flight.v2 * dot(planes.normal, search_.view.offset.p);
+  const int sign = sgn(planes.a);
+  const Z a = abs(planes.a), start = sign * home, gap = abs(planes.gap) * search_.flight.v2;
+  // Planes stand at the levels start + k gap, and level k comes within reach at a s + reach >= level.
+  const Z k = ceil_div(a * high + planes.reach + 1 - start, gap);
+  return std::max(Z(high + 1), ceil_div(start + k * gap - planes.reach, a));
+}
+
+void Solver::run() {
+  const Flight<3>& flight = search_.flight;
+  const View<3>& view = search_.view;
+  std::array<WindowVector, 3> basis;
+  for (int i = 0; i < 3; ++i) basis[i] = {view.basis[i], dot(flight.v, view.basis[i].p)};
+  // A window of about one free path, volume / (pi r^2).
+  long j = std::max(0L, bit_length(determinant<3>(view.basis)) - 3 * bit_length(view.radius) - 1);
+  Z low = 1;
+  // After each empty window the next is longer, and by a growing factor: from the edge of a slender section
+  // (a plane grazed at a slope of 2^-60) to its first obstacle it can be 2^30 first windows.
+  long growth = 1;
+  for (;;) {
+    const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);
+    if (high < low) return;
+    reduce(basis, WindowForm(flight, j));
+    const Planes planes(flight, search_.rho2, basis[0].point, basis[1].point, basis[2].point);
+    const Range levels = planes.levels(view.offset, low, high);
+    if (levels.count() > kMany && j > 0) {
+      j = std::max(0L, j - cut_for(levels.count(), 3));
+      continue;
+    }
+    if (levels.empty()) {
+      if (planes.a == 0) return;
+      low = jump_beyond(planes, high);
+    } else {
+      bool exhausted = planes.a == 0;
+      for (Z k3 = levels.first; k3 <= levels.last; ++k3)
+        exhausted &= solve_plane(planes, basis, k3, low, high);
+      if (exhausted) return;
+      low = high + 1;
+    }
+    j += growth++;
+  }
+}
+
+}  // namespace
+
+void search_first_hit(const Search<3>& search) {
+  Solver(search).run();
+}
+
+}  // namespace lorentz::oracle

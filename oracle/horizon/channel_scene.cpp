@@ -1,0 +1,153 @@
+#include "oracle/horizon/channel_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/exact/inside.hpp"
+#include "oracle/exact/short_basis.hpp"
+#include "oracle/integers/dyadic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+template <std::size_t D>
+Z determinant_of(const std::array<ZVec<D>, D>& a) {
+  if constexpr (D == 2)
+    return cross(a[0], a[1]);
+  else
+    return dot(cross(a[0], a[1]), a[2]);
+}
+
+template <std::size_t D>
+Obstacle<D> obstacle_of(const Atom& atom, long exponent) {
+  Obstacle<D> obstacle;
+  obstacle.position = scaled_vector<D>(atom.position, exponent);
+  obstacle.ball = atom.is_ball();
+  for (std::size_t i = 0; i < D; ++i)
+    if (obstacle.ball)
+      obstacle.axes[i][i] = scaled(atom.radius, exponent);
+    else
+      obstacle.axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
+  return obstacle;
+}
+
+}  // namespace
+
+double log2_of(const Z& a) {
+  signed long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, a.get_mpz_t());
+  return std::log2(std::fabs(mantissa)) + static_cast<double>(exponent);
+}
+
+template <std::size_t D>
+Z Obstacle<D>::half_width2(const ZVec<D>& normal) const {
+  if (ball) return axes[0][0] * axes[0][0] * dot(normal, normal);
+  Z sum = 0;
+  for (const ZVec<D>& axis : axes) {
+    const Z part = dot(axis, normal);
+    sum += part * part;
+  }
+  return sum;
+}
+
+template <std::size_t D>
+Z ObstacleLattice<D>::period(const ZVec<D>& normal) const {
+  Z divisor = 0;
+  for (const ZVec<D>& u : vectors) divisor = gcd(divisor, dot(u, normal));
+  return divisor;
+}
+
+template <std::size_t D>
+Block ObstacleLattice<D>::block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const {
+  const Z centre = dot(obstacle.position, normal), half2 = obstacle.half_width2(normal);
+  return {centre, half2, centre, half2};
+}
+
+template <std::size_t D>
+void set_cofactors(ObstacleLattice<D>& lattice) {
+  const auto& u = lattice.vectors;
+  std::array<ZVec<D>, D> columns;
+  if constexpr (D == 2)
+    columns = {ZVec<2>{u[1][1], Z(-u[1][0])}, ZVec<2>{Z(-u[0][1]), u[0][0]}};
+  else
+    columns = {cross(u[1], u[2]), cross(u[2], u[0]), cross(u[0], u[1])};
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) {
+      lattice.cofactors[i].p[k] = columns[i][k];
+      lattice.cofactors[i].n[k] = i == k ? 1 : 0;
+    }
+  lattice.volume = abs(determinant_of<D>(u));
+}
+
+template <std::size_t D>
+ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length)
+    : exponent(common_exponent(scene, unit_length).get()), unit(scaled(unit_length, exponent)) {
+  for (const Lattice& lattice : scene.lattices) {
+    ObstacleLattice<D> exact;
+    for (std::size_t i = 0; i < D; ++i) exact.vectors[i] = scaled_vector<D>(lattice.vectors[i], exponent);
+    set_cofactors<D>(exact);
+    for (const Atom& atom : lattice.atoms) exact.obstacles.push_back(obstacle_of<D>(atom, exponent));
+    std::stable_sort(exact.obstacles.begin(), exact.obstacles.end(), [](const auto& a, const auto& b) {
+      return abs(determinant_of<D>(a.axes)) > abs(determinant_of<D>(b.axes));
+    });
+    lattices.push_back(std::move(exact));
+  }
+}
+
+template <std::size_t D>
+std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period,
+                         std::size_t& work) {
+  // Of many obstacles the first few mostly cover the circle already.
+  std::vector<Block> blocks;
+  for (std::size_t count = 8;; count *= 4) {
+    count = std::min(count, lattice.obstacles.size());
+    while (blocks.size() < count) blocks.push_back(lattice.block(lattice.obstacles[blocks.size()], normal));
+    work += count;
+    std::vector<Gap> gaps = gaps_between(blocks, period);
+    if (gaps.empty() || count == lattice.obstacles.size()) return gaps;
+  }
+}
+
+template <std::size_t D>
+bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit) {
+  reduce(basis, EuclideanForm<D>{});
+  std::size_t seen = 0;
+  const auto row = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+    LatticePoint<D> point = first;
+    // The row through the origin, first = j step, has two primitive points, +-step, however long it is.
+    for (std::size_t i = 0; i < D; ++i) {
+      if (step.n[i] == 0) continue;
+      const Z j = floor_div(first.n[i], step.n[i]);
+      LatticePoint<D> rest = first;
+      rest.add_multiple(-j, step);
+      if (rest.n == ZVec<D>{}) {
+        if (last > 0) visit(step);
+        return false;
+      }
+      break;
+    }
+    for (Z left = last; left >= 0; --left) {
+      if (++seen > most) return true;
+      Z divisor = 0;
+      for (const Z& n : point.n) divisor = gcd(divisor, n);
+      if (divisor == 1 && point.n > ZVec<D>{}) visit(point);
+      point.add_multiple(1, step);
+    }
+    return false;
+  };
+  return !visit_ball<D>(basis, LatticePoint<D>{}, bound2, row);
+}
+
+#define LORENTZ_CHANNEL_SCENE(D)                                                                        \
+  template struct Obstacle<D>;                                                                          \
+  template struct ObstacleLattice<D>;                                                                   \
+  template struct ChannelScene<D>;                                                                      \
+  template std::vector<Gap> gaps_of(const ObstacleLattice<D>&, const ZVec<D>&, const Z&, std::size_t&); \
+  template void set_cofactors(ObstacleLattice<D>&);                                                     \
+  template bool visit_primitive(Basis<D>, const Z&, std::size_t, const NormalVisitor<D>&);
+
+LORENTZ_CHANNEL_SCENE(2)
+LORENTZ_CHANNEL_SCENE(3)
+#undef LORENTZ_CHANNEL_SCENE
+
+}  // namespace lorentz::oracle

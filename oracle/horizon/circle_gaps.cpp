@@ -1,0 +1,91 @@
+#include "oracle/horizon/circle_gaps.hpp"
+
+#include <algorithm>
+
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/root_sums.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+// Sign of (end + sqrt(end2)) - (start - sqrt(start2)).
+int end_against_start(const Z& end, const Z& end2, const Z& start, const Z& start2) {
+  return -sign_of_rest(start - end, start2, end2);
+}
+
+// Sign of (a + sqrt(a2)) - (b + sqrt(b2)).
+int compare_ends(const Z& a, const Z& a2, const Z& b, const Z& b2) {
+  return -compare_entries(-a, a2, -b, b2);
+}
+
+// Each block with its start in [0, period), in ascending order of the starts.
+void put_in_order(std::vector<Block>& blocks, const Z& period) {
+  for (Block& block : blocks) {
+    const Z turns = period * floor_surd(block.start, -1, block.start2, period);
+    block.start -= turns;
+    block.end -= turns;
+  }
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
+    return compare_entries(a.start, a.start2, b.start, b.start2) < 0;
+  });
+}
+
+// Calls visit(reach, reach2, block) for each block in order: reach + sqrt(reach2) is the furthest end before.
+// False if a block alone covers the circle.
+template <class Visit>
+bool sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
+  put_in_order(blocks, period);
+  Z reach, reach2;
+  bool any = false;
+  for (const Block& block : blocks) {
+    if (end_against_start(block.end - period, block.end2, block.start, block.start2) > 0) return false;
+    if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
+      reach = block.end, reach2 = block.end2;
+    any = true;
+  }
+  // The blocks of the period before come first. None of them ends after its successors' starts by more than a
+  // period, so one turn is all it takes.
+  reach -= period;
+  for (const Block& block : blocks) {
+    visit(reach, reach2, block);
+    if (compare_ends(block.end, block.end2, reach, reach2) > 0) reach = block.end, reach2 = block.end2;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period) {
+  std::vector<Gap> gaps;
+  const bool done = sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+    if (end_against_start(reach, reach2, block.start, block.start2) < 0)
+      gaps.push_back({reach, reach2, block.start, block.start2});
+  });
+  return done ? gaps : std::vector<Gap>{};
+}
+
+std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies) {
+  std::vector<Block> blocks;
+  blocks.reserve(gaps.size() * copies);
+  for (unsigned long copy = 0; copy < copies; ++copy)
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      const bool last = i + 1 == gaps.size();
+      const Gap &gap = gaps[i], &next = gaps[last ? 0 : i + 1];
+      const Z turn = period * copy, next_turn = last ? Z(turn + period) : turn;
+      blocks.push_back({Z(gap.high + turn), gap.high2, Z(next.low + next_turn), next.low2});
+    }
+  return blocks;
+}
+
+Cover cover_of(std::vector<Block> blocks, const Z& period) {
+  bool touch = false, gap = blocks.empty();
+  const bool done = sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+    const int order = end_against_start(reach, reach2, block.start, block.start2);
+    touch |= order == 0;
+    gap |= order < 0;
+  });
+  if (!done) return Cover::full;
+  return gap ? Cover::gaps : touch ? Cover::touching : Cover::full;
+}
+
+}  // namespace lorentz::oracle

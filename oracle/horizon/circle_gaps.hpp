@@ -1,0 +1,36 @@
+// Unions of open intervals on a circle, exactly: which parts of a period do the obstacles of a scene, seen
+// along its planes, leave free? Private to oracle/.
+#pragma once
+
+#include <vector>
+
+#include "oracle/integers/integer.hpp"
+
+namespace lorentz::oracle {
+
+/// The open interval (start - sqrt(start2), end + sqrt(end2)), repeated with a period.
+struct Block {
+  Z start, start2, end, end2;
+};
+
+/// The open interval (low + sqrt(low2), high - sqrt(high2)) between two blocks.
+struct Gap {
+  Z low, low2, high, high2;
+
+  /// Its width is width() - sqrt(low2) - sqrt(high2).
+  Z width() const { return high - low; }
+  void shift(const Z& by) { low += by, high += by; }
+};
+
+/// The gaps of the union of the blocks modulo `period`, one period of them in ascending order. A gap has a
+/// width above 0: touching blocks leave none. No blocks, no gaps.
+std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period);
+
+/// The blocks between gaps, `copies` periods of them.
+std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
+
+/// How blocks cover a circle: leaving gaps, touching somewhere so that points stay free, or all of it.
+enum class Cover { gaps, touching, full };
+Cover cover_of(std::vector<Block> blocks, const Z& period);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,345 @@
+#include "oracle/horizon/cylinders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/short_basis.hpp"
+#include "oracle/horizon/hole_centre.hpp"
+#include "oracle/horizon/shadow.hpp"
+#include "oracle/integers/dyadic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr double kMostPlanes = 20'000;
+constexpr double kMostInPlane = 5'000;  // directions
+constexpr std::size_t kMostWork =
+    10'000'000;  // blocks placed, points and discs compared: some microseconds each
+
+// How the blocks of the first few balls cover, or if they leave anything, of all.
+template <class BlockOf>
+Cover cover_by_balls(const ObstacleLattice<3>& lattice, const Z& period, std::size_t& work,
+                     BlockOf block_of) {
+  std::vector<Block> blocks;
+  std::size_t used = 0;
+  for (std::size_t count = 8;; count *= 4) {
+    count = std::min(count, lattice.obstacles.size());
+    for (; used < count; ++used)
+      if (std::optional<Block> block = block_of(lattice.obstacles[used])) blocks.push_back(*block);
+    work += count;
+    const Cover cover = cover_of(blocks, period);
+    if (cover == Cover::full || count == lattice.obstacles.size()) return cover;
+  }
+}
+
+// Between the planes with this normal.
+Cover cover_of_planes(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, std::size_t& work) {
+  return cover_by_balls(lattice, lattice.period(normal), work, [&](const Obstacle<3>& ball) {
+    return std::optional<Block>(lattice.block(ball, normal));
+  });
+}
+
+// The same with each ball shrunk from r to sqrt(r^2 - r_largest^2 / 2^m). (All lengths are times 2^bits.)
+Cover shrunk_cover(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, unsigned long m,
+                   std::size_t& work) {
+  const unsigned long bits = (m + 1) / 2;
+  const Z largest = lattice.obstacles[0].axes[0][0], normal2 = dot(normal, normal);
+  const Z less2 = shifted_left(largest * largest, 2 * bits - m);
+  const auto block_of = [&](const Obstacle<3>& ball) -> std::optional<Block> {
+    const Z half2 = shifted_left(ball.axes[0][0] * ball.axes[0][0], 2 * bits) - less2;
+    if (half2 <= 0) return std::nullopt;
+    const Z centre = shifted_left(dot(ball.position, normal), bits);
+    return Block{centre, half2 * normal2, centre, half2 * normal2};
+  };
+  return cover_by_balls(lattice, shifted_left(lattice.period(normal), bits), work, block_of);
+}
+
+double length_of(const Vec& a) {
+  return std::hypot(a[0], a[1], a[2]);
+}
+
+struct Plane {
+  ZVec<3> indices, normal;
+};
+
+// A basis of the lattice vectors in a plane, shortest first, and one that leads to the next plane.
+struct PlaneBasis {
+  std::array<LatticePoint<3>, 2> in_plane;
+  LatticePoint<3> out;
+};
+
+LatticePoint<3> lattice_vector(const ObstacleLattice<3>& lattice, const ZVec<3>& n) {
+  LatticePoint<3> result;
+  result.n = n;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) result.p[k] += n[i] * lattice.vectors[i][k];
+  return result;
+}
+
+// s a + t b = gcd(a, b) >= 0
+Z bezout(const Z& a, const Z& b, Z& s, Z& t) {
+  Z divisor;
+  mpz_gcdext(divisor.get_mpz_t(), s.get_mpz_t(), t.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  return divisor;
+}
+
+PlaneBasis plane_basis(const ObstacleLattice<3>& lattice, const ZVec<3>& k) {
+  PlaneBasis result;
+  const auto vector = [&](const Z& a, const Z& b, const Z& c) { return lattice_vector(lattice, {a, b, c}); };
+  Z s, t, u, w;
+  const Z d = bezout(k[0], k[1], s, t);
+  if (d == 0) {
+    result = {{vector(1, 0, 0), vector(0, 1, 0)}, vector(0, 0, k[2])};
+  } else {
+    bezout(d, k[2], u, w);
+    result.in_plane = {vector(k[1] / d, -k[0] / d, 0), vector(-s * k[2], -t * k[2], d)};
+    result.out = vector(u * s, u * t, w);
+  }
+  reduce(result.in_plane, EuclideanForm<3>{});
+  return result;
+}
+
+// The obstacles as balls: as they are, or, if they are ellipsoids of one shape A, with all points mapped by
+// |det A| A^-1.
+struct BallScene {
+  ObstacleLattice<3> lattice;
+  std::array<ZVec<3>, 3> rows;     ///< of the map; the identity for balls
+  std::vector<ZVec<3>> positions;  ///< of the obstacles before
+  bool mapped = false;
+  std::string unsupported;
+
+  ZVec<3> map(const ZVec<3>& a) const { return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)}; }
+};
+
+BallScene balls_of(const ChannelScene<3>& scene) {
+  BallScene result;
+  result.lattice = scene.lattices[0];
+  ObstacleLattice<3>& lattice = result.lattice;
+  for (std::size_t l = 1; l < scene.lattices.size(); ++l) {
+    const auto& other = scene.lattices[l];
+    if (other.vectors != lattice.vectors) result.unsupported = "done for one lattice only, or equal ones";
+    lattice.obstacles.insert(lattice.obstacles.end(), other.obstacles.begin(), other.obstacles.end());
+  }
+  std::stable_sort(lattice.obstacles.begin(), lattice.obstacles.end(),
+                   [](const auto& a, const auto& b) { return a.axes[0][0] > b.axes[0][0]; });
+  for (std::size_t i = 0; i < 3; ++i) result.rows[i][i] = 1;
+  const Obstacle<3> first = lattice.obstacles[0];
+  bool same = true, balls = true;
+  for (const auto& obstacle : lattice.obstacles) {
+    same &= obstacle.axes == first.axes;
+    balls &= obstacle.ball;
+    result.positions.push_back(obstacle.position);
+  }
+  if (!balls && !same) result.unsupported = "done for balls only, or ellipsoids of one shape and orientation";
+  if (balls || !same) return result;
+  result.mapped = true;
+  const auto& a = first.axes;
+  const Z det = dot(cross(a[0], a[1]), a[2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.rows[i] = cross(a[(i + 1) % 3], a[(i + 2) % 3]);
+    if (det < 0)
+      for (Z& component : result.rows[i]) component = -component;
+  }
+  for (auto& u : lattice.vectors) u = result.map(u);
+  for (auto& obstacle : lattice.obstacles) {
+    obstacle.position = result.map(obstacle.position);
+    for (auto& axis : obstacle.axes) axis = {};
+    for (std::size_t i = 0; i < 3; ++i) obstacle.axes[i][i] = abs(det);
+    obstacle.ball = true;
+  }
+  set_cofactors<3>(lattice);
+  return result;
+}
+
+class Search {
+ public:
+  Search(const ChannelScene<3>& scene, const BallScene& balls, Horizon& horizon)
+      : scene_(scene), balls_(balls), lattice_(balls.lattice), horizon_(horizon) {}
+
+  void run() {
+    if (!find_planes()) return;
+    for (const Plane& plane : closed_) {
+      look_in(plane);
+      if (work_ <= kMostWork) continue;
+      horizon_.no_cylinders = "the search was stopped, being too long; those listed are open";
+      return;
+    }
+  }
+
+ private:
+  // A hole in the shadow along g has a shortest lattice vector b1 and rows of that 1/|k| apart, k
+  // perpendicular to g. The largest ball alone leaves it, so r^2 < (circumradius)^2 <= (b1^2 + 1/k^2) / 4,
+  // and b1 <= (2 / sqrt 3) / |k|: 1/k^2 > (12/7) r^2. That leaves finitely many k.
+  bool find_planes() {
+    const Z r = lattice_.obstacles[0].axes[0][0], r2 = r * r, volume2 = lattice_.volume * lattice_.volume;
+    const double count =
+        1.0664 + 1.5 * log2_of(ceil_div(7 * volume2, 12 * r2)) - 2 * log2_of(lattice_.volume);
+    const bool done =
+        count < std::log2(kMostPlanes) &&
+        visit_primitive<3>(lattice_.cofactors, ceil_div(7 * volume2, 12 * r2),
+                           static_cast<std::size_t>(4 * kMostPlanes), [&](const LatticePoint<3>& normal) {
+                             if (work_ <= kMostWork) sort_in({normal.n, normal.p});
+                           });
+    if (done && work_ <= kMostWork) return true;
+    horizon_.no_cylinders =
+        "not searched: the obstacles are so small that too many planes come into question";
+    horizon_.families.clear();
+    return false;
+  }
+
+  void sort_in(const Plane& plane) {
+    const Cover cover = cover_of_planes(lattice_, plane.normal, work_);
+    if (cover == Cover::full) {
+      closed_.push_back(plane);
+      return;
+    }
+    taken_.push_back(plane.indices);
+    // Between touching slabs of obstacles the plane in the middle is free but for points, whatever g in it
+    // is.
+    if (cover == Cover::touching) horizon_.families.push_back({named(plane.indices), true, 0});
+  }
+
+  // Along g the balls are lined up in rows of discs b1 = |normal| / |g| apart, and these cover slabs of half
+  // width sqrt(r^2 - b1^2 / 4). If the slabs cover everything for b1^2 = 4 r_largest^2 / 2^m they do so for
+  // all smaller b1: g^2 < 2^m normal^2 / (4 r_largest^2) remains.
+  void look_in(const Plane& plane) {
+    constexpr unsigned long kFinest = 256;
+    unsigned long m = 1;
+    while (m < kFinest && shrunk_cover(lattice_, plane.normal, m, work_) == Cover::gaps) ++m;
+    const Z r = lattice_.obstacles[0].axes[0][0], normal2 = dot(plane.normal, plane.normal);
+    const auto bound = [&] { return Z(ceil_div(shifted_left(normal2, m), 4 * r * r)); };
+    // Points in a disc of that area, one of each pair, 6 / pi^2 of them primitive.
+    const auto count = [&] { return std::exp2(log2_of(bound()) - log2_of(normal2) / 2) * 0.955; };
+    if (count() > kMostInPlane) {
+      horizon_.families.push_back({named(plane.indices), false, count()});
+      while (m > 1 && count() > kMostInPlane / 5) --m;
+    }
+    visit_directions(plane_basis(lattice_, plane.indices), bound());
+  }
+
+  // g = i b1 + j b2, coprime, one of each pair +-g, with g^2 < bound.
+  void visit_directions(const PlaneBasis& basis, const Z& bound) {
+    const auto& [b1, b2] = basis.in_plane;
+    const Z g11 = dot(b1.p, b1.p), g12 = dot(b1.p, b2.p), g22 = dot(b2.p, b2.p), det = g11 * g22 - g12 * g12;
+    if (g11 < bound) look_along(basis, 1, 0);
+    for (Z j = 1; j * j * det < bound * g11; ++j) {
+      const Z disc = j * j * g12 * g12 - g11 * (j * j * g22 - bound);
+      if (disc <= 0) continue;
+      const Z last = -floor_surd(j * g12, -1, disc, g11) - 1;
+      for (Z i = floor_surd(-j * g12, -1, disc, g11) + 1; i <= last && work_ <= kMostWork; ++i)
+        if (gcd(i, j) == 1) look_along(basis, i, j);
+    }
+  }
+
+  void look_along(const PlaneBasis& basis, const Z& i, const Z& j) {
+    work_ += 10;
+    LatticePoint<3> g, next;
+    g.add_multiple(i, basis.in_plane[0]);
+    g.add_multiple(j, basis.in_plane[1]);
+    Z s, t;
+    bezout(i, j, s, t);
+    next.add_multiple(-t, basis.in_plane[0]);
+    next.add_multiple(s, basis.in_plane[1]);
+    Shadow shadow(lattice_, g.p, next.p, basis.out.p);
+    std::optional<HolePoint> hole = hole_of_largest(shadow);
+    if (!hole) return;
+    for (const ZVec<3>& taken : taken_)
+      if (dot(taken, g.n) == 0) return;
+    if (g.n < ZVec<3>{}) g.negate();
+    if (!seen_.insert(g.n).second) return;
+    if (lattice_.obstacles.size() > 1) hole = hole_among_all(shadow);
+    if (hole) add(g, shadow, *hole);
+  }
+
+  // Of many balls the first few mostly cover everything already.
+  std::optional<HolePoint> hole_among_all(Shadow& shadow) {
+    for (std::size_t count = 4;; count *= 4) {
+      count = std::min(count, lattice_.obstacles.size());
+      shadow.see(lattice_, count);
+      const std::optional<HolePoint> hole = hole_of_all(shadow, work_);
+      if (!hole || count == lattice_.obstacles.size()) return hole;
+    }
+  }
+
+  void add(const LatticePoint<3>& g, const Shadow& shadow, const HolePoint& hole) {
+    work_ += shadow.discs.size() > 1 ? 200 : 10;
+    const HoleCentre centre = centre_of(shadow, hole);
+    Cylinder cylinder;
+    cylinder.direction = named(g.n);
+    const LatticePoint<3> vector = lattice_vector(scene_.lattices[0], g.n);
+    for (std::size_t k = 0; k < 3; ++k)
+      cylinder.vector[k] = round_to_binary64({vector.p[k], 1, 0, 1, scene_.exponent});
+    place(cylinder, balls_.positions[hole.disc], centre);
+    cylinder.inside = is_inside(shadow, cylinder.point);
+    horizon_.cylinders.push_back(cylinder);
+  }
+
+  // From the scene of balls back to the scene, rounded: lengths in it are in units of the largest ball's
+  // radius, or, if the balls were ellipsoids, mapped by A.
+  void place(Cylinder& cylinder, const ZVec<3>& position, const HoleCentre& centre) const {
+    const auto real = [&](const Z& a) { return round_to_binary64({a, 1, 0, 1, scene_.exponent}); };
+    const auto& axes = scene_.lattices[0].obstacles[0].axes;
+    double inverse2 = 0;  // squared norm of A^-1
+    for (std::size_t k = 0; k < 3; ++k) {
+      cylinder.point[k] = real(position[k]);
+      if (balls_.mapped) {
+        for (std::size_t i = 0; i < 3; ++i) cylinder.point[k] += centre.offset[i] * real(axes[i][k]);
+        inverse2 +=
+            std::exp2(2 * (log2_of(dot(balls_.rows[k], balls_.rows[k])) / 2 -
+                           log2_of(lattice_.obstacles[0].axes[0][0]) - static_cast<double>(scene_.exponent)));
+      } else {
+        cylinder.point[k] += centre.offset[k] * real(lattice_.obstacles[0].axes[0][0]);
+      }
+    }
+    cylinder.radius =
+        centre.clearance * (balls_.mapped ? 1 / std::sqrt(inverse2) : real(lattice_.obstacles[0].axes[0][0]));
+  }
+
+  bool is_inside(Shadow shadow, const Vec& point) const {
+    CommonExponent common;
+    for (double component : point) {
+      if (!std::isfinite(component)) return false;
+      common.see(component);
+    }
+    const long fine = std::min(scene_.exponent, common.get()), shift = scene_.exponent - fine;
+    for (auto& b : shadow.basis)
+      for (Z& component : b.p) component = shifted_left(component, shift);
+    for (Disc& disc : shadow.discs) {
+      disc.radius = shifted_left(disc.radius, shift);
+      for (Z& component : disc.centre) component = shifted_left(component, shift);
+    }
+    const ZVec<3> exact{scaled(point[0], fine), scaled(point[1], fine), scaled(point[2], fine)};
+    return shadow.discs_around(cross(balls_.map(exact), shadow.along), 0, true).empty();
+  }
+
+  static std::array<Integer, 3> named(ZVec<3> n) {
+    if (n < ZVec<3>{})
+      for (Z& component : n) component = -component;
+    return {to_integer(n[0]), to_integer(n[1]), to_integer(n[2])};
+  }
+
+  const ChannelScene<3>& scene_;
+  const BallScene& balls_;
+  const ObstacleLattice<3>& lattice_;
+  Horizon& horizon_;
+  std::vector<Plane> closed_;
+  std::vector<ZVec<3>> taken_;  ///< planes that are open, or touch: cylinders in these are not listed
+  std::set<ZVec<3>> seen_;
+  std::size_t work_ = 0;
+};
+
+}  // namespace
+
+void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon) {
+  const BallScene balls = balls_of(scene);
+  horizon.no_cylinders = balls.unsupported;
+  if (balls.unsupported.empty()) Search(scene, balls, horizon).run();
+  std::stable_sort(horizon.cylinders.begin(), horizon.cylinders.end(), [](const auto& a, const auto& b) {
+    return std::tuple(-a.radius, length_of(a.vector), b.vector) <
+           std::tuple(-b.radius, length_of(b.vector), a.vector);
+  });
+}
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,218 @@
+#include <lorentz/horizon.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <lorentz/scene_check.hpp>
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/root_sums.hpp"
+#include "oracle/horizon/cylinders.hpp"
+#include "oracle/horizon/slabs.hpp"
+#include "oracle/integers/dyadic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+template <std::size_t D>
+std::array<Integer, 3> integers(const ZVec<D>& a) {
+  std::array<Integer, 3> result;
+  for (std::size_t i = 0; i < D; ++i) result[i] = to_integer(a[i]);
+  return result;
+}
+
+// a / q * 2^exponent
+template <std::size_t D>
+Vec rounded(const ZVec<D>& a, const Z& q, long exponent) {
+  Vec result{};
+  for (std::size_t i = 0; i < D; ++i) result[i] = round_to_binary64({a[i], 1, 0, q, exponent});
+  return result;
+}
+
+// The point of the middle plane that is nearest to the origin.
+template <std::size_t D>
+Vec middle_of(const Slab<D>& slab, long exponent) {
+  // Roots to so many bits that the middle is known to a small part of the gap, if not as a binary64.
+  const Gap& gap = slab.gap;
+  const unsigned long bits = 128 + 2 * static_cast<unsigned long>(bit_length(gap.low2 + gap.high2 + 1));
+  const auto fine = [bits](const Z& a2) { return floor_sqrt(shifted_left(a2, 2 * bits)); };
+  const Z middle = shifted_left(gap.low + gap.high, bits) + fine(gap.low2) - fine(gap.high2);
+  ZVec<D> point = slab.normal;
+  for (Z& component : point) component *= middle;
+  return rounded<D>(point, dot(slab.normal, slab.normal), exponent - static_cast<long>(bits) - 1);
+}
+
+template <std::size_t D>
+bool is_inside(const Slab<D>& slab, const Vec& point, long exponent) {
+  CommonExponent common;
+  for (double component : point) {
+    if (!std::isfinite(component)) return false;
+    common.see(component);
+  }
+  const long fine = std::min(exponent, common.get()), shift = exponent - fine;
+  Z level = 0;
+  for (std::size_t i = 0; i < D; ++i) level += slab.normal[i] * scaled(point[i], fine);
+  const Gap& gap = slab.gap;
+  return sign_of(level - shifted_left(gap.low, shift), -1, shifted_left(gap.low2, 2 * shift)) > 0 &&
+         sign_of(shifted_left(gap.high, shift) - level, -1, shifted_left(gap.high2, 2 * shift)) > 0;
+}
+
+// Indices of the planes of a lattice, and the sign that makes the first of them that is not 0 positive.
+template <std::size_t D>
+ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, int& sign) {
+  const Z period = lattice.period(normal);
+  ZVec<D> indices;
+  sign = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    indices[i] = dot(lattice.vectors[i], normal) / period;
+    if (sign == 0) sign = sgn(indices[i]);
+  }
+  for (Z& index : indices) index *= sign;
+  return indices;
+}
+
+Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long exponent) {
+  int sign = 0;
+  const ZVec<2> k = miller_indices(lattice, slab.normal, sign);
+  // (-k2, k1) is perpendicular to k.
+  const int way = k[1] > 0 ? 1 : -1;
+  ZVec<2> g{Z(k[1] * way), Z(k[0] * -way)};
+  if (g[0] == 0) g[1] = 1;
+  ZVec<2> vector;
+  for (std::size_t i = 0; i < 2; ++i) vector[i] = g[0] * lattice.vectors[0][i] + g[1] * lattice.vectors[1][i];
+  Channel channel;
+  channel.indices = integers<2>(g);
+  channel.vector = rounded<2>(vector, 1, exponent);
+  return channel;
+}
+
+Channel named(const ObstacleLattice<3>& lattice, const Slab<3>& slab, long exponent) {
+  int sign = 0;
+  Channel channel;
+  channel.indices = integers<3>(miller_indices(lattice, slab.normal, sign));
+  ZVec<3> normal = slab.normal;
+  for (Z& component : normal) component *= sign;
+  channel.vector = rounded<3>(normal, lattice.period(slab.normal), -exponent);
+  return channel;
+}
+
+template <std::size_t D>
+Channel channel_of(const ChannelScene<D>& scene, const Slab<D>& slab) {
+  Channel channel = named(scene.lattices[0], slab, scene.exponent);
+  const Gap& gap = slab.gap;
+  channel.width = round_rest(gap.width(), gap.low2, gap.high2, dot(slab.normal, slab.normal), scene.exponent);
+  channel.point = middle_of<D>(slab, scene.exponent);
+  channel.inside = is_inside<D>(slab, channel.point, scene.exponent);
+  channel.count = to_integer(slab.count);
+  return channel;
+}
+
+// |det| of d vectors.
+template <class Vectors>
+double volume_of(const Vectors& u, int dimension) {
+  if (dimension == 2) return std::fabs(u[0][0] * u[1][1] - u[0][1] * u[1][0]);
+  return std::fabs(u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) -
+                   u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
+                   u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]));
+}
+
+double volume_of(const Atom& atom, int dimension) {
+  const double unit_ball = dimension == 2 ? M_PI : 4 * M_PI / 3;
+  return unit_ball *
+         (atom.is_ball() ? std::pow(atom.radius, dimension) : volume_of(atom.semiaxes, dimension));
+}
+
+// Why the volume that a scene leaves free is not simply the cell's less the obstacles', or nothing.
+std::string no_simple_volume(const Scene& scene) {
+  if (scene.lattices.size() > 1) return "for one lattice only";
+  const Contacts contacts = contacts_in(scene, 1000);
+  for (const Contact& contact : contacts.found)
+    if (contact.overlap) return description_of(contact);
+  if (contacts.end != SearchEnd::complete) return "overlaps of obstacles: not all checked";
+  return {};
+}
+
+// A start in a channel of width w, uniform, goes on for longer than t if its direction is within d / t of the
+// channel's on one side and (w - d) / t on the other, d the distance from a wall: a part w / (pi t) of all
+// directions in 2D (there are two ways along a corridor), w / (2 t) in 3D. Of a cell's volume V the part w
+// |k| is in the channel, 1 / |k| being the distance of the planes.
+double tail_constant(const Scene& scene, const std::vector<Channel>& channels) {
+  // In units of a power of two near the cell's size, for its volume may be beyond binary64. C is a length.
+  const int d = scene.dimension;
+  int unit = 0;
+  for (int i = 0; i < d; ++i) {
+    double largest = 0;
+    for (const double component : scene.lattices[0].vectors[i])
+      largest = std::max(largest, std::fabs(component));
+    unit += std::ilogb(largest);
+  }
+  unit /= d;
+  const auto scaled = [unit](auto vectors) {
+    for (Vec& a : vectors)
+      for (double& component : a) component = std::scalbn(component, -unit);
+    return vectors;
+  };
+  const double volume = volume_of(scaled(scene.lattices[0].vectors), d);
+  double sum = 0, free = volume;
+  for (const Atom& atom : scene.lattices[0].atoms)
+    free -= volume_of(Atom{{}, std::scalbn(atom.radius, -unit), scaled(atom.semiaxes)}, d);
+  for (const Channel& channel : channels) {
+    const double length = std::hypot(channel.vector[0], channel.vector[1], channel.vector[2]),
+                 width = std::scalbn(channel.width, -unit);
+    sum += (d == 2 ? std::scalbn(length, -unit) : volume * std::scalbn(length, unit)) * width * width;
+  }
+  return std::scalbn(sum / ((d == 2 ? M_PI : 2) * free), unit);
+}
+
+template <std::size_t D>
+Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders) {
+  const ChannelScene<D> exact(scene, min_width);
+  Slabs<D> slabs = free_slabs(exact);
+  if (!slabs.refusal.empty()) throw TooManyChannels(slabs.refusal);
+  Horizon horizon;
+  horizon.dimension = scene.dimension;
+  std::set<ZVec<D>> normals;
+  for (const Slab<D>& slab : slabs.open) {
+    normals.insert(slab.normal);
+    horizon.channels.push_back(channel_of(exact, slab));
+  }
+  horizon.normals = normals.size();
+  for (const ZVec<D>& normal : slabs.undecided)
+    horizon.undecided.push_back(named(exact.lattices[0], Slab<D>{normal, {}, 1}, exact.exponent).indices);
+  // Of equal width: short vectors first, and then in the order of their components.
+  std::stable_sort(horizon.channels.begin(), horizon.channels.end(), [](const Channel& a, const Channel& b) {
+    const double length_a = std::hypot(a.vector[0], a.vector[1], a.vector[2]),
+                 length_b = std::hypot(b.vector[0], b.vector[1], b.vector[2]);
+    return std::tuple(-a.width, length_a, b.vector) < std::tuple(-b.width, length_b, a.vector);
+  });
+  horizon.no_tail_constant = min_width > 0 ? "not with a least width" : no_simple_volume(scene);
+  if (horizon.no_tail_constant.empty()) {
+    horizon.tail_constant = tail_constant(scene, horizon.channels);
+    if (!std::isfinite(*horizon.tail_constant)) {
+      horizon.tail_constant.reset();
+      horizon.no_tail_constant = "the volumes are beyond binary64";
+    }
+  }
+  if (D == 3 && !with_cylinders) horizon.no_cylinders = "not asked for";
+  if constexpr (D == 3)
+    if (with_cylinders) find_cylinders(exact, horizon);
+  return horizon;
+}
+
+}  // namespace
+
+bool Horizon::is_infinite() const {
+  const auto infinite = [](const CylinderFamily& family) { return family.infinite; };
+  return !channels.empty() || !cylinders.empty() || std::any_of(families.begin(), families.end(), infinite);
+}
+
+bool Horizon::is_finite() const {
+  return !is_infinite() && undecided.empty() && families.empty() && no_cylinders.empty();
+}
+
+Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders) {
+  return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false)
+                              : horizon_in<3>(scene, min_width, with_cylinders);
+}
+
+}  // namespace lorentz::oracle

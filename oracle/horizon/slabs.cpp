@@ -1,0 +1,273 @@
+#include "oracle/horizon/slabs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/root_sums.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr double kMostCandidates = 2e6;        // normals
+constexpr std::size_t kMostWork = 20'000'000;  // blocks
+constexpr double kMostCopies = 1e5;            // blocks in a common period
+
+// A ball of reciprocal lattice points that holds the normal of every slab.
+template <std::size_t D>
+struct Candidates {
+  const ObstacleLattice<D>* lattice;
+  Basis<D> basis;
+  Z bound2;
+  double log2_count = 0;
+};
+
+template <std::size_t D>
+Candidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::array<ZVec<D>, D>& axes,
+                              const Z& bound2) {
+  Candidates<D> result{&lattice, lattice.cofactors, bound2, 0};
+  for (auto& b : result.basis) {
+    const ZVec<D> cofactor = b.p;
+    for (std::size_t i = 0; i < D; ++i) b.p[i] = dot(axes[i], cofactor);
+  }
+  // Points in a ball: its volume over the cell's. Half of them, for +-n are one.
+  const double ball = D == 2 ? 1.6514961294723187 : 2.0664457551999353;  // log2 of pi, of 4 pi / 3
+  result.log2_count =
+      ball + (static_cast<double>(D) * log2_of(bound2)) / 2 - log2_of(determinant<D>(result.basis)) - 1;
+  return result;
+}
+
+template <std::size_t D>
+std::array<ZVec<D>, D> multiple_of_identity(const Z& factor) {
+  std::array<ZVec<D>, D> axes;
+  for (std::size_t i = 0; i < D; ++i) axes[i][i] = factor;
+  return axes;
+}
+
+// Between the planes of a lattice, 1/|k| apart for a reciprocal vector k, an obstacle leaves 1/|k| - 2 |A^T
+// k| / |k|. For a slab of width W that must be at least W (above 0, if W is 0): 2 |A^T k| + W |k| <= 1, and k
+// is found in a ball of the image of the reciprocal lattice under 2 r + W, 2 A^T, or W. Of all obstacles take
+// the one with the fewest candidates.
+template <std::size_t D>
+Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
+  std::vector<Candidates<D>> all;
+  for (const ObstacleLattice<D>& lattice : scene.lattices) {
+    const Obstacle<D>& largest = lattice.obstacles.front();
+    const Z one2 = lattice.volume * lattice.volume, up_to_one2 = one2 + 1;
+    auto doubled = largest.axes;
+    for (auto& axis : doubled)
+      for (Z& component : axis) component *= 2;
+    if (largest.ball) {
+      const Z width = doubled[0][0] + scene.unit;
+      all.push_back(
+          make_candidates<D>(lattice, multiple_of_identity<D>(width), scene.unit > 0 ? up_to_one2 : one2));
+    } else {
+      all.push_back(make_candidates<D>(lattice, doubled, one2));
+      if (scene.unit > 0)
+        all.push_back(make_candidates<D>(lattice, multiple_of_identity<D>(scene.unit), up_to_one2));
+    }
+  }
+  return *std::min_element(all.begin(), all.end(),
+                           [](const auto& a, const auto& b) { return a.log2_count < b.log2_count; });
+}
+
+// The lattices whose planes are equally far apart, taken together, or a superposition of such.
+struct Class {
+  Z period;
+  std::vector<Gap> gaps;
+};
+
+std::vector<Gap> common_gaps(const Class& a, const Class& b, const Z& period) {
+  std::vector<Block> blocks = blocks_between(a.gaps, a.period, Z(period / a.period).get_ui());
+  const std::vector<Block> more = blocks_between(b.gaps, b.period, Z(period / b.period).get_ui());
+  blocks.insert(blocks.end(), more.begin(), more.end());
+  return gaps_between(std::move(blocks), period);
+}
+
+// The number of blocks that common_gaps would look at.
+double copies_in_common(const Class& a, const Class& b, const Z& period) {
+  return std::exp2(std::min(1000.0, log2_of(period / a.period))) * static_cast<double>(a.gaps.size()) +
+         std::exp2(std::min(1000.0, log2_of(period / b.period))) * static_cast<double>(b.gaps.size());
+}
+
+// The larger of two gaps' lower ends, and the smaller of their upper ends.
+Gap common_part(const Gap& a, const Gap& b) {
+  Gap part = a;
+  if (compare_entries(-b.low, b.low2, -a.low, a.low2) < 0) part.low = b.low, part.low2 = b.low2;
+  if (compare_entries(b.high, b.high2, a.high, a.high2) < 0) part.high = b.high, part.high2 = b.high2;
+  return part;
+}
+
+// Against each other the gaps a and b of two classes take every shift that is a multiple of step = gcd of the
+// periods, once each in the common period. In how many do they have a part in common, and which shift has the
+// widest one?
+struct Meetings {
+  Z first, last;  // k, both included; b is shifted by k step
+  Z widest;
+  Gap part;
+};
+
+Meetings meetings_of(const Gap& a, const Gap& b, const Z& step, const Z& least2) {
+  const bool or_equal = least2 > 0;
+  Meetings result;
+  result.last = last_step(a.high - b.low, a.high2, b.low2, least2, step, or_equal);
+  result.first = -last_step(b.high - a.low, b.high2, a.low2, least2, step, or_equal);
+  if (result.first > result.last) return result;
+  // The common part shrinks on both sides of the shift that centres b on a.
+  const auto fine = [](const Z& a2) { return floor_sqrt(shifted_left(a2, 128)); };
+  const Z apart = shifted_left(a.low + a.high - b.low - b.high, 64) + fine(a.low2) - fine(a.high2) -
+                  fine(b.low2) + fine(b.high2);
+  const Z nearest = round_div(apart, shifted_left(step, 65));
+  Z best = -1;
+  for (Z k = nearest - 1; k <= nearest + 1; ++k) {
+    const Z inside = std::clamp(k, result.first, result.last);
+    Gap shifted = b;
+    shifted.shift(inside * step);
+    const Gap part = common_part(a, shifted);
+    const Z width = shifted_left(part.width(), 64) - fine(part.low2) - fine(part.high2);
+    if (width > best) best = width, result.widest = inside, result.part = part;
+  }
+  return result;
+}
+
+template <std::size_t D>
+struct Search {
+  const ChannelScene<D>& scene;
+  Slabs<D> result;
+  std::size_t work = 0;
+
+  // scene.unit seen along this normal, squared.
+  Z least2(const ZVec<D>& normal) const { return scene.unit * scene.unit * dot(normal, normal); }
+
+  void add(const ZVec<D>& normal, const Gap& gap, const Z& count) {
+    if (scene.unit > 0 && sign_of_rest(gap.width(), gap.low2, gap.high2, least2(normal)) < 0) return;
+    result.open.push_back({normal, gap, count});
+  }
+
+  // Where binary64 is finest.
+  static Gap near_origin(Gap gap, const Z& period) {
+    const Z twice_middle = gap.low + gap.high + floor_sqrt(gap.low2) - floor_sqrt(gap.high2);
+    gap.shift(-period * ceil_div(twice_middle - period, 2 * period));
+    return gap;
+  }
+
+  // One class for each period; none if one of them leaves nothing free.
+  std::vector<Class> classes_of(const ZVec<D>& normal) {
+    std::vector<Class> classes;
+    for (const ObstacleLattice<D>& lattice : scene.lattices) {
+      const Z period = lattice.period(normal);
+      std::vector<Gap> gaps = gaps_of<D>(lattice, normal, period, work);
+      if (gaps.empty()) return {};
+      const auto same = std::find_if(classes.begin(), classes.end(),
+                                     [&](const Class& other) { return other.period == period; });
+      if (same == classes.end()) {
+        classes.push_back({period, std::move(gaps)});
+        continue;
+      }
+      same->gaps = common_gaps(*same, {period, std::move(gaps)}, period);
+      if (same->gaps.empty()) return {};
+    }
+    return classes;
+  }
+
+  // Replaces pairs of classes by one as long as their common period is short. False if nothing is free.
+  bool merge(std::vector<Class>& classes) {
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      for (std::size_t k = i + 1; k < classes.size();) {
+        const Z period = lcm(classes[i].period, classes[k].period);
+        const double copies = copies_in_common(classes[i], classes[k], period);
+        if (copies > kMostCopies) {
+          ++k;
+          continue;
+        }
+        work += static_cast<std::size_t>(copies);
+        classes[i] = {period, common_gaps(classes[i], classes[k], period)};
+        if (classes[i].gaps.empty()) return false;
+        classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(k));
+        k = i + 1;
+      }
+    return true;
+  }
+
+  // All gaps that two classes have in common; one line for each pair of a gap here and a gap there.
+  void add_meetings(const ZVec<D>& normal, const Class& a, const Class& b) {
+    const Z step = gcd(a.period, b.period), turns_a = a.period / step, turns_b = b.period / step;
+    Z inverse = 0;
+    if (turns_b > 1) mpz_invert(inverse.get_mpz_t(), turns_a.get_mpz_t(), turns_b.get_mpz_t());
+    for (const Gap& here : a.gaps)
+      for (const Gap& there : b.gaps) {
+        ++work;
+        Meetings found = meetings_of(here, there, step, least2(normal));
+        if (found.first > found.last) continue;
+        // Gap a + m period_a meets gap b + n period_b where n period_b - m period_a = k step.
+        Z m = -found.widest * inverse;
+        m -= turns_b * round_div(m, turns_b);
+        found.part.shift(m * a.period);
+        add(normal, found.part, found.last - found.first + 1);
+      }
+  }
+
+  bool any_pair_closed(const std::vector<Class>& classes) {
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      for (std::size_t k = i + 1; k < classes.size(); ++k) {
+        const Z step = gcd(classes[i].period, classes[k].period);
+        bool any = false;
+        for (const Gap& here : classes[i].gaps)
+          for (const Gap& there : classes[k].gaps) {
+            ++work;
+            const Meetings found = meetings_of(here, there, step, 0);
+            if ((any = found.first <= found.last)) break;
+          }
+        if (!any) return true;
+      }
+    return false;
+  }
+
+  void look_along(const LatticePoint<D>& candidate) {
+    if (work > kMostWork) return;
+    ZVec<D> normal = candidate.p;
+    Z divisor = 0;
+    for (const Z& component : normal) divisor = gcd(divisor, component);
+    for (Z& component : normal) component /= divisor;
+    std::vector<Class> classes = classes_of(normal);
+    if (classes.empty()) return;
+    if (classes.size() > 1 && !merge(classes)) return;
+    if (classes.size() == 1) {
+      for (const Gap& gap : classes[0].gaps) add(normal, near_origin(gap, classes[0].period), 1);
+    } else if (classes.size() == 2) {
+      add_meetings(normal, classes[0], classes[1]);
+    } else if (!any_pair_closed(classes)) {
+      result.undecided.push_back(normal);
+    }
+  }
+};
+
+}  // namespace
+
+template <std::size_t D>
+Slabs<D> free_slabs(const ChannelScene<D>& scene) {
+  Search<D> search{scene, {}, 0};
+  const Candidates<D> candidates = fewest_candidates(scene);
+  bool complete = candidates.log2_count < std::log2(kMostCandidates);
+  if (complete) {
+    // The points come as their images: back to normals by their coefficients.
+    complete =
+        visit_primitive<D>(candidates.basis, candidates.bound2, static_cast<std::size_t>(4 * kMostCandidates),
+                           [&](const LatticePoint<D>& point) {
+                             LatticePoint<D> normal;
+                             for (std::size_t i = 0; i < D; ++i)
+                               normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
+                             search.look_along(normal);
+                           }) &&
+        search.work <= kMostWork;
+  }
+  if (!complete)
+    search.result.refusal = D == 2 ? "too many directions could leave a corridor open"
+                                   : "too many planes could leave a channel open";
+  return search.result;
+}
+
+template Slabs<2> free_slabs(const ChannelScene<2>&);
+template Slabs<3> free_slabs(const ChannelScene<3>&);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,187 @@
+#include "oracle/margin/corridor.hpp"
+
+#include "oracle/exact/short_basis.hpp"
+#include "oracle/first_hit/first_hit.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr long kFiner = 64;  // the ulps of v are integers in units so much finer
+
+// Short vectors are combinations of a reduced basis with small coefficients. Among tiny obstacles (1e-9 and
+// less) dozens of lattice lines run within a few ulps of v, and x lies in the corridor of some of them.
+template <std::size_t D>
+constexpr int kCoefficients = D == 2 ? 16 : 4;
+
+// v and its ulps as integers.
+template <std::size_t D>
+struct Box {
+  ZVec<D> v, ulp;
+  double k;
+
+  Box(const Situation<D>& situation, double ulps) : k(ulps) {
+    for (std::size_t i = 0; i < D; ++i) {
+      v[i] = shifted_left(situation.query().flight.v[i], kFiner);
+      ulp[i] = ceiling(times_power_of_two(situation.ulps().v[i], kFiner));
+    }
+  }
+
+  // Is v within k ulps of f g for some factor f > 0? That is g / f between v - k ulps and v + k ulps.
+  bool contains(const ZVec<D>& g) const {
+    Real least = 0;  // of 1 / f
+    std::optional<Real> most;
+    const auto at_most = [&](const Real& bound) { most = most ? std::min(*most, bound) : bound; };
+    for (std::size_t i = 0; i < D; ++i) {
+      const Real room = k * real(ulp[i]), low = real(v[i]) - room, high = real(v[i]) + room, gi = real(g[i]);
+      if ((low == 0 && gi < 0) || (high == 0 && gi > 0)) return false;
+      if (low > 0) at_most(gi / low);
+      if (low < 0) least = std::max(least, Real(gi / low));
+      if (high > 0) least = std::max(least, Real(gi / high));
+      if (high < 0) at_most(gi / high);
+    }
+    return !most || (least <= *most && *most > 0);
+  }
+
+  // A direction normal to G within k ulps of v: v with each component moved by the same share of its ulp.
+  std::optional<ZVec<D>> normal_to(const ZVec<D>& G) const {
+    Z reach = 0;
+    for (std::size_t i = 0; i < D; ++i) reach += abs(G[i]) * ulp[i];
+    const Z off = dot(G, v);
+    if (off == 0) return v;
+    if (reach == 0 || real(Z(abs(off))) > k * real(reach)) return std::nullopt;
+    ZVec<D> direction;
+    for (std::size_t i = 0; i < D; ++i) direction[i] = v[i] * reach - off * ulp[i] * sgn(G[i]);
+    return direction;
+  }
+};
+
+// A vector of the dual lattice, times the determinant, and its product with v.
+template <std::size_t D>
+struct DualVector {
+  ZVec<D> G;
+  Z along;
+
+  void add_multiple(const Z& k, const DualVector& other) {
+    for (std::size_t i = 0; i < D; ++i) G[i] += k * other.G[i];
+    along += k * other.along;
+  }
+};
+
+std::array<ZVec<2>, 2> dual_vectors(const Basis<2>& b) {
+  return {ZVec<2>{b[1].p[1], -b[1].p[0]}, ZVec<2>{-b[0].p[1], b[0].p[0]}};
+}
+std::array<ZVec<3>, 3> dual_vectors(const Basis<3>& b) {
+  return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
+}
+
+// Calls visit with all combinations of the vectors with small coefficients, up to the sign.
+template <class Vector, std::size_t D, class Visit>
+bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
+  constexpr int kMost = kCoefficients<D>, kWidth = 2 * kMost + 1;
+  int count = 1;
+  for (std::size_t i = 0; i < D; ++i) count *= kWidth;
+  for (int code = count / 2 + 1; code < count; ++code) {
+    Vector sum = basis[0];
+    sum.add_multiple(code % kWidth - kMost - 1, basis[0]);
+    for (std::size_t i = 1, rest = code / kWidth; i < D; ++i, rest /= kWidth)
+      sum.add_multiple(static_cast<long>(rest % kWidth) - kMost, basis[i]);
+    if (visit(sum)) return true;
+  }
+  return false;
+}
+
+// The normal, after a linear map, of what G was normal to.
+ZVec<2> mapped_normal(const ZMatrix<2>& map, const ZVec<2>& G) {
+  const ZVec<2> along = map * ZVec<2>{Z(-G[1]), G[0]};
+  return {Z(-along[1]), along[0]};
+}
+ZVec<3> mapped_normal(const ZMatrix<3>& map, const ZVec<3>& G) {
+  const ZVec<3> one = cross(G, G[0] == 0 && G[1] == 0 ? ZVec<3>{1, 0, 0} : ZVec<3>{0, 0, 1});
+  return cross(map * one, map * cross(G, one));
+}
+
+template <std::size_t D>
+class CorridorSearch {
+ public:
+  CorridorSearch(const Situation<D>& situation, double ulps)
+      : situation_(situation), box_(situation, ulps), ulps_(ulps) {}
+
+  bool found() const {
+    for (const ExactLattice<D>& lattice : situation_.scene().lattices) {
+      if (along_planes(lattice.reduced)) return true;
+      if (D == 3 && along_vectors(lattice.reduced)) return true;
+    }
+    return false;
+  }
+
+ private:
+  // Nothing is ever hit in this direction, obstacles being smaller by what `ulps` ulps make across the
+  // corridor (2D) or the plane channel (3D) with the normal G.
+  bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
+    const ExactQuery<D>& query = situation_.query();
+    const Flight<D> flight{direction, dot(direction, direction)};
+    for (const Uncertain<D>& atom : situation_.atoms()) {
+      const ExactScene<D>& scene = situation_.scene();
+      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, flight, query.length_exponent);
+      if (G != ZVec<D>{}) {
+        const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
+        view.radius -= ceiling(Real(ulps_ * atom.change_along(frame ? mapped_normal(frame->to_ball, G) : G)));
+      }
+      if (view.radius <= 0) continue;
+      view.radius2 = view.radius * view.radius;
+      const Z rho2 = view.radius2 * view.flight.v2;
+      Earliest<D> earliest;
+      search_first_hit(Search<D>{view, view.flight, atom.lattice(), atom.atom(), nullptr, rho2,
+                                 root_below(rho2), earliest});
+      if (earliest.found()) return false;
+    }
+    return true;
+  }
+
+  // Normal to a short vector of the dual lattice: along lattice lines (2D), within lattice planes (3D).
+  bool along_planes(const Basis<D>& basis) const {
+    std::array<DualVector<D>, D> dual;
+    const auto vectors = dual_vectors(basis);
+    for (std::size_t i = 0; i < D; ++i) dual[i] = {vectors[i], dot(vectors[i], box_.v)};
+    const Z v2 = dot(box_.v, box_.v);
+    reduce(dual, [&](const DualVector<D>& a, const DualVector<D>& b) -> Z {
+      return shifted_left(a.along * b.along, 2 * kSharp) + v2 * dot(a.G, b.G);
+    });
+    return any_combination(dual, [&](const DualVector<D>& one) {
+      const auto direction = box_.normal_to(one.G);
+      return direction && is_open(*direction, one.G);
+    });
+  }
+
+  bool along_vectors(Basis<D> basis) const {
+    const Z v2 = dot(box_.v, box_.v);
+    reduce(basis, [&](const LatticePoint<D>& a, const LatticePoint<D>& b) -> Z {
+      const Z along = dot(box_.v, a.p) * dot(box_.v, b.p);
+      return shifted_left(v2 * dot(a.p, b.p) - along, 2 * kSharp) + along;
+    });
+    return any_combination(basis, [&](const LatticePoint<D>& one) {
+      ZVec<D> g = one.p;
+      if (dot(g, box_.v) < 0)
+        for (Z& component : g) component = -component;
+      return box_.contains(g) && is_open(g, {});
+    });
+  }
+
+  static constexpr long kSharp = 50;  // an angle of 2^-50 counts as much as the length
+
+  const Situation<D>& situation_;
+  const Box<D> box_;
+  const double ulps_;
+};
+
+}  // namespace
+
+template <std::size_t D>
+bool open_near(const Situation<D>& situation, double ulps) {
+  return CorridorSearch<D>(situation, ulps).found();
+}
+
+template bool open_near(const Situation<2>&, double);
+template bool open_near(const Situation<3>&, double);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,15 @@
+// Is there a direction near v in which nothing is ever hit? Private to oracle/.
+#pragma once
+
+#include "oracle/margin/situation.hpp"
+
+namespace lorentz::oracle {
+
+/// True if an open corridor or channel contains x (of a corridor or plane channel: give or take `ulps` ulps)
+/// whose direction is within `ulps` ulps of v in every component, a zero being exact: the directions looked
+/// at are those of lattice vectors and (3D) of lattice planes, the shortest few near v, and each is decided
+/// exactly. x must lie in no obstacle by more than `ulps` ulps.
+template <std::size_t D>
+bool open_near(const Situation<D>& situation, double ulps);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,247 @@
+// The smallest margin of an answer. Obstacles that were nearly hit, or nearly contain x, stand within k ulps'
+// worth of change outside the cylinder that the line's obstacles lie in: widen it until the first of them is
+// found, and look at all that the widened cylinder holds. A change grows with the time T along the flight; so
+// does the widening.
+#include <lorentz/margin.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include "oracle/exact/cylinder.hpp"
+#include "oracle/margin/situation.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+// Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
+// are about as hard to tell apart; then the margin is the smallest of those looked at.
+constexpr long kSmallBudget = 500;
+constexpr double kFiner = 0x1p-30, kGrowth = 8;
+constexpr int kMostTries = 4;
+constexpr double kHuge = 1e300;  // reported for what is more
+
+template <std::size_t D>
+class MarginSearch {
+ public:
+  MarginSearch(const Situation<D>& situation, const Answer& exact, long budget)
+      : situation_(situation),
+        exact_(exact),
+        full_budget_(budget),
+        is_hit_(exact.outcome == Outcome::hit),
+        target_(situation.atom_of(exact.obstacle)),
+        target_centre_(situation.centre_of(exact.obstacle)),
+        target_time_(is_hit_ ? target_.time_of(target_centre_) : Real(0)),
+        smallest_(kLargestMargin) {}
+
+  Decision run() {
+    for (const Uncertain<D>& atom : situation_.atoms())
+      if (concerns(atom)) search(atom);
+    decision_.margin = to_double(smallest_, kLargestMargin);
+    return decision_;
+  }
+
+ private:
+  // `inside` rests on the obstacles up to the one named.
+  bool concerns(const Uncertain<D>& atom) const {
+    return is_hit_ || std::pair(atom.lattice(), atom.atom()) <= std::pair(target_.lattice(), target_.atom());
+  }
+
+  // The latest T at which an obstacle of this atom, of radius up to twice its own, counts.
+  Real latest(const Uncertain<D>& atom) const {
+    return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().flight.v2));
+  }
+
+  // Until nothing of this atom with a margin below the smallest can have been missed: at once, or (where that
+  // holds thousands of obstacles, along a wall of a channel) by widening more and more.
+  void search(const Uncertain<D>& atom) {
+    const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
+    const Real at_once = std::min(Real(kLargestMargin), Real(radius / change / 4));
+    Real k = at_once;
+    if (!search_at_once(atom, at_once)) {
+      int tries = 0;
+      do k *= kFiner;
+      while (!search_in_windows(atom, k, kSmallBudget) && ++tries < kMostTries);
+    }
+    for (bool complete = full_budget_ > 0; complete && k < smallest_;) {
+      k = std::min(Real(k * kGrowth), smallest_);
+      complete = search_in_windows(atom, k, full_budget_);
+    }
+  }
+
+  // Widens by as much as leaves the cylinder about as large as it was. Returns whether that was not too much.
+  bool search_at_once(const Uncertain<D>& atom, const Real& k) {
+    const Real wide = real(atom.view().radius) + k * atom.largest_change(latest(atom));
+    budget_ = kSmallBudget;
+    look(atom, wide, first_s(atom, wide), last_s(atom, wide));
+    return budget_ >= 0;
+  }
+
+  // Widens as the changes grow along the flight. Returns whether that was not too much.
+  bool search_in_windows(const Uncertain<D>& atom, const Real& k, long budget) {
+    const Real radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
+    const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
+    Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
+    budget_ = budget;
+    for (Real time = turning_point(); low < end && budget_ >= 0; time *= 2) {
+      const Z high = std::min(end, ceiling(time * v2));
+      look(atom, radius + k * atom.largest_change(time), low, high);
+      low = high;
+    }
+    return budget_ >= 0;
+  }
+
+  // Where the uncertainty of v begins to count for more than that of x.
+  Real turning_point() const {
+    Real x = 0, v = 0;
+    for (std::size_t i = 0; i < D; ++i) {
+      x += situation_.ulps().x[i];
+      v += situation_.ulps().v[i];
+    }
+    return x / v;
+  }
+
+  Z first_s(const Uncertain<D>& atom, const Real& wide) const {
+    return -ceiling(wide * sqrt(real(atom.view().flight.v2)));
+  }
+  Z last_s(const Uncertain<D>& atom, const Real& wide) const {
+    return ceiling(target_time_ * real(atom.view().flight.v2)) - first_s(atom, wide);
+  }
+
+  void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
+    const View<D>& view = atom.view();
+    const Cylinder<D> cylinder(view, ceiling(wide * wide * real(view.flight.v2)));
+    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                    const Z& last) {
+      visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+        --budget_;
+        weigh(atom, Centre<D>(view.flight, point));
+      });
+      return budget_ < 0;
+    };
+    cylinder.cut(low, high,
+                 [&](const Stretch<D>& stretch) { return --budget_ < 0 || cylinder.visit(stretch, visit); });
+  }
+
+  // The decisions about one obstacle.
+  void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
+    if (situation_.is_from(atom, centre.point.n)) return;
+    const bool is_target = &atom == &target_ && centre.point.n == target_centre_.point.n;
+    const bool contains = centre.c2 < atom.view().radius2;
+    if (!is_hit_) {
+      if (is_target ||
+          !(std::pair(atom.lattice(), atom.atom()) == std::pair(target_.lattice(), target_.atom()) &&
+            centre.point.n > target_centre_.point.n))
+        consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
+      return;
+    }
+    consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
+    const bool meets = centre.h2 < atom.rho2();
+    if (is_target || (!meets && centre.s > 0 && nearest_before_target(atom, centre)))
+      consider(DecisionKind::meeting, atom, centre, meets, atom.margin_of_meeting(centre));
+    else if (meets && centre.s > 0)
+      consider(DecisionKind::order, atom, centre, false,
+               margin_of_order(situation_.ulps(), target_, target_centre_, atom, centre));
+  }
+
+  // Would an obstacle that was missed be entered before the one that was hit, were it just met?
+  bool nearest_before_target(const Uncertain<D>& atom, const Centre<D>& centre) const {
+    return compare_entries(centre.s, 0, atom.view().flight.v2, target_centre_.s,
+                           target_.rho2() - target_centre_.h2, target_.view().flight.v2) < 0;
+  }
+
+  void consider(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, bool yes,
+                const Real& margin) {
+    if (margin >= smallest_) return;
+    smallest_ = margin;
+    decision_ = {kind, situation_.id_of(atom, centre.point.n), yes, 0};
+  }
+
+  const Situation<D>& situation_;
+  const Answer& exact_;
+  const long full_budget_;
+  const bool is_hit_;
+  const Uncertain<D>& target_;
+  const Centre<D> target_centre_;
+  const Real target_time_;
+  Real smallest_;
+  Decision decision_;
+  long budget_ = 0;
+};
+
+// Widens the cylinder until enough obstacles are in it, or it is three times as wide.
+template <std::size_t D>
+std::vector<Passed> passed_obstacles(const Situation<D>& situation, const Answer& exact, std::size_t most) {
+  const Uncertain<D>& target = situation.atom_of(exact.obstacle);
+  const Centre<D> hit = situation.centre_of(exact.obstacle);
+  const Real target_time = target.time_of(hit);
+  const long own_units = situation.query().length_exponent - situation.query().velocity_exponent;
+  std::vector<Passed> all;
+  for (double wide = 1 + 0x1p-20; wide < 4 && all.size() < most; wide = 1 + (wide - 1) * 8) {
+    all.clear();
+    for (const Uncertain<D>& atom : situation.atoms()) {
+      const View<D>& view = atom.view();
+      const Real rho = sqrt(real(atom.rho2())), v2 = real(view.flight.v2);
+      const Cylinder<D> cylinder(view, ceiling(Real(wide * wide * real(atom.rho2()))));
+      long budget = kMarginBudget;
+      const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                      const Z& last) {
+        visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+          --budget;
+          const Centre<D> centre(view.flight, point);
+          const Real nearest = real(centre.s) / v2;
+          const bool is_target = &atom == &target && point.n == hit.point.n;
+          if (!is_target && (centre.s <= 0 || nearest > target_time || situation.is_from(atom, point.n)))
+            return;
+          all.push_back({situation.id_of(atom, point.n),
+                         to_double(times_power_of_two(nearest, own_units), kHuge),
+                         to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
+                         to_double(atom.margin_of_meeting(centre), kHuge)});
+        });
+        return budget < 0;
+      };
+      cylinder.cut(1, ceiling(target_time * v2) + ceiling(rho),
+                   [&](const Stretch<D>& stretch) { return --budget < 0 || cylinder.visit(stretch, visit); });
+    }
+  }
+  std::sort(all.begin(), all.end(), [&](const Passed& a, const Passed& b) {
+    const bool a_hit = a.obstacle == exact.obstacle, b_hit = b.obstacle == exact.obstacle;
+    return a_hit != b_hit ? a_hit : a.gap < b.gap;
+  });
+  if (all.size() > most) all.resize(most);
+  std::sort(all.begin(), all.end(), [](const Passed& a, const Passed& b) { return a.time < b.time; });
+  return all;
+}
+
+}  // namespace
+
+struct Scrutiny::Impl {
+  Situations situations;
+};
+
+Scrutiny::Scrutiny(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{Situations(scene)})) {}
+Scrutiny::Scrutiny(Scrutiny&&) noexcept = default;
+Scrutiny& Scrutiny::operator=(Scrutiny&&) noexcept = default;
+Scrutiny::~Scrutiny() = default;
+
+std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact,
+                                                   long budget) const {
+  if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return std::optional(MarginSearch<D>(situation, exact, budget).run());
+  });
+}
+
+std::vector<Passed> Scrutiny::passed(const Query& query, const Answer& exact, std::size_t most) const {
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return passed_obstacles<D>(situation, exact, most);
+  });
+}
+
+double Scrutiny::condition(const Query& query, const Answer& exact) const {
+  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
+    return to_double(change_of_time(situation, exact.obstacle) / Real(ulp(*exact.time)),
+                     std::numeric_limits<double>::max());
+  });
+}
+
+}  // namespace lorentz::oracle

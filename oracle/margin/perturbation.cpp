@@ -1,0 +1,179 @@
+#include "oracle/margin/perturbation.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lorentz::oracle {
+
+double ulp(double value) {
+  const double size = std::min(std::fabs(value), std::numeric_limits<double>::max());
+  const double next = std::nextafter(size, std::numeric_limits<double>::infinity());
+  return std::isfinite(next) ? next - size : size - std::nextafter(size, 0.0);
+}
+
+template <std::size_t D>
+InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact) {
+  double size = 0;
+  for (const Lattice& lattice : scene.lattices)
+    for (const Vec& u : lattice.vectors)
+      for (const double component : u) size = std::max(size, std::fabs(component));
+  for (std::size_t i = 0; i < D; ++i) {
+    x[i] = times_power_of_two(Real(std::max(ulp(query.x[i]), ulp(size))), -exact.length_exponent);
+    v[i] = query.v[i] == 0 ? Real(0) : times_power_of_two(Real(ulp(query.v[i])), -exact.velocity_exponent);
+  }
+}
+
+template <std::size_t D>
+Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, const ExactQuery<D>& exact,
+                        const InputUlps<D>& ulps, int lattice, int atom)
+    : ulps_(ulps),
+      lattice_(lattice),
+      atom_(atom),
+      view_(exact.view(exact_scene, lattice, atom)),
+      rho2_(view_.radius2 * view_.flight.v2) {
+  if (const auto& frame = exact_scene.lattices[lattice].atoms[atom].frame) {
+    to_ball_transposed_ = transposed(frame->to_ball);
+    radius_ulp_ = times_power_of_two(real(view_.radius), -52);
+  } else {
+    for (std::size_t i = 0; i < D; ++i)
+      for (std::size_t k = 0; k < D; ++k) to_ball_transposed_[i][k] = i == k ? 1 : 0;
+    const double radius = scene.lattices[lattice].atoms[atom].radius;
+    radius_ulp_ = times_power_of_two(Real(ulp(radius)), -exact.length_exponent);
+  }
+}
+
+template <std::size_t D>
+Real Uncertain<D>::weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) const {
+  const ZVec<D> image = to_ball_transposed_ * a;
+  Real sum = Real(0);
+  for (std::size_t i = 0; i < D; ++i) sum += abs(real(image[i])) * ulp[i];
+  return sum;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::longest_corner(const std::array<Real, D>& ulp, bool across) const {
+  const ZMatrix<D> to_ball = transposed(to_ball_transposed_);
+  Real longest = Real(0);
+  for (int signs = 0; signs < 1 << D; ++signs) {
+    Real length2 = Real(0), along = Real(0);
+    for (std::size_t i = 0; i < D; ++i) {
+      Real component = Real(0);
+      for (std::size_t k = 0; k < D; ++k)
+        component += real(to_ball[i][k]) * (signs >> k & 1 ? Real(-ulp[k]) : ulp[k]);
+      length2 += component * component;
+      along += component * real(view_.flight.v[i]);
+    }
+    if (across) length2 -= along * along / real(view_.flight.v2);
+    if (length2 > longest) longest = length2;
+  }
+  return sqrt(longest);
+}
+
+template <std::size_t D>
+std::array<Real, D> Uncertain<D>::ulps_at(const Real& time) const {
+  std::array<Real, D> sum;
+  for (std::size_t i = 0; i < D; ++i) sum[i] = ulps_.x[i] + abs(time) * ulps_.v[i];
+  return sum;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::change_along(const ZVec<D>& direction) const {
+  return weighted(direction, ulps_.x) / sqrt(real(dot(direction, direction))) + radius_ulp_;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::margin_of_containing(const Centre<D>& centre) const {
+  const Real change =
+      centre.c2 == 0 ? Real(longest_corner(ulps_.x, false) + radius_ulp_) : change_along(centre.point.p);
+  const Real sum = sqrt(real(centre.c2)) + real(view_.radius);
+  return real(Z(abs(centre.c2 - view_.radius2))) / sum / change;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::margin_of_meeting(const Centre<D>& centre) const {
+  const Flight<D>& flight = view_.flight;
+  const std::array<Real, D> ulp = ulps_at(real(centre.s) / real(flight.v2));
+  // From the centre to the nearest point of the line: (s v - v^2 c) / v^2, of length |h| / |v|.
+  ZVec<D> nearest;
+  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * flight.v[i] - flight.v2 * centre.point.p[i];
+  const Real speed = sqrt(real(flight.v2)), h = sqrt(real(centre.h2));
+  const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : Real(weighted(nearest, ulp) / (speed * h));
+  return real(Z(abs(centre.h2 - rho2_))) / ((h + sqrt(real(rho2_))) * speed) / (change + radius_ulp_);
+}
+
+template <std::size_t D>
+Real Uncertain<D>::margin_of_ahead(const Centre<D>& centre) const {
+  return real(Z(abs(centre.s))) / (weighted(view_.flight.v, ulps_.x) + weighted(centre.point.p, ulps_.v));
+}
+
+// (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): where s > 0 nothing cancels there.
+template <std::size_t D>
+Real Uncertain<D>::time_of(const Centre<D>& centre) const {
+  const Z d = rho2_ - centre.h2;
+  if (d <= 0) return real(centre.s) / real(view_.flight.v2);
+  const Real chord = sqrt(real(d));
+  if (centre.s > 0) return real(Z(centre.c2 - view_.radius2)) / (real(centre.s) + chord);
+  return (real(centre.s) - chord) / real(view_.flight.v2);
+}
+
+// t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
+template <std::size_t D>
+Arrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
+  const Flight<D>& flight = view_.flight;
+  Arrival<D> arrival;
+  arrival.t = time_of(centre);
+  const Real chord = sqrt(real(Z(rho2_ - centre.h2))), v2 = real(flight.v2);
+  ZVec<D> nearest;
+  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * flight.v[i] - flight.v2 * centre.point.p[i];
+  const ZVec<D> v = to_ball_transposed_ * flight.v, n = to_ball_transposed_ * nearest;
+  for (std::size_t i = 0; i < D; ++i) arrival.by_x[i] = (real(n[i]) / chord - real(v[i])) / v2;
+  arrival.by_radius = real(view_.radius) / chord;
+  return arrival;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::largest_change(const Real& latest) const {
+  const std::array<Real, D> ulp = ulps_at(latest);
+  Real sum = radius_ulp_;
+  for (std::size_t i = 0; i < D; ++i)
+    sum += sqrt(real(dot(to_ball_transposed_[i], to_ball_transposed_[i]))) * ulp[i];
+  return sum;
+}
+
+template <std::size_t D>
+Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
+                     const Uncertain<D>& atom2, const Centre<D>& centre2) {
+  const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().flight.v2, centre2.s,
+                                    atom2.rho2() - centre2.h2, atom2.view().flight.v2);
+  if (order == 0) return Real(0);
+  const Arrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
+  const bool same_radius = atom1.lattice() == atom2.lattice() && atom1.atom() == atom2.atom();
+  Real change = same_radius ? Real(abs(two.by_radius - one.by_radius) * atom1.radius_ulp())
+                            : Real(two.by_radius * atom2.radius_ulp() + one.by_radius * atom1.radius_ulp());
+  for (std::size_t i = 0; i < D; ++i) {
+    change += abs(two.by_x[i] - one.by_x[i]) * ulps.x[i];
+    change += abs(two.t * two.by_x[i] - one.t * one.by_x[i]) * ulps.v[i];
+  }
+  return abs(two.t - one.t) / change;
+}
+
+template <std::size_t D>
+Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const Arrival<D>& arrival) {
+  Real change = arrival.by_radius * atom.radius_ulp();
+  for (std::size_t i = 0; i < D; ++i)
+    change += abs(arrival.by_x[i]) * (ulps.x[i] + abs(arrival.t) * ulps.v[i]);
+  return change;
+}
+
+template struct InputUlps<2>;
+template struct InputUlps<3>;
+template class Uncertain<2>;
+template class Uncertain<3>;
+template Real margin_of_order(const InputUlps<2>&, const Uncertain<2>&, const Centre<2>&, const Uncertain<2>&,
+                              const Centre<2>&);
+template Real margin_of_order(const InputUlps<3>&, const Uncertain<3>&, const Centre<3>&, const Uncertain<3>&,
+                              const Centre<3>&);
+template Real largest_change(const InputUlps<2>&, const Uncertain<2>&, const Arrival<2>&);
+template Real largest_change(const InputUlps<3>&, const Uncertain<3>&, const Arrival<3>&);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,109 @@
+// How much a decision changes when the inputs move by an ulp each (docs/verdicts.md). Private to oracle/.
+//
+// The inputs: the components of x, each by max(ulp(x_i), ulp(size of the cell)); those of v, each by
+// ulp(v_i), a zero not at all; the radius of each atom by an ulp, an ellipsoid by a factor 1 +- 2^-52.
+// Everything is in the coordinates of one atom's View, in which its obstacles are balls: a change dx of x is
+// B dx there, B = to_ball. With T = s / v^2 the time at which the line is nearest to the centre c, and t the
+// time of entry:
+//
+//   distance |x - c|          d = m.B dx,                    m the unit vector from c to x
+//   distance of the line      d = n.B (dx + T dv),           n the unit vector from c to the nearest point
+//   time of entry             d = (a.(dx + t dv) - r dr / sqrt(D)),   a = B^T (t v - c) / sqrt(D), D = rho^2
+//   - |h|^2
+//
+// and the largest change is the sum of the absolute values, each times its input's ulp.
+#pragma once
+
+#include "oracle/exact/exact_query.hpp"
+#include "oracle/exact/real.hpp"
+
+namespace lorentz::oracle {
+
+/// A centre seen from x, in the coordinates of its atom's view.
+template <std::size_t D>
+struct Centre {
+  LatticePoint<D> point;
+  Z s, c2, h2;  ///< v.c, |c|^2, |h|^2 = v^2 c^2 - s^2
+
+  Centre(const Flight<D>& flight, LatticePoint<D> centre)
+      : point(std::move(centre)),
+        s(dot(flight.v, point.p)),
+        c2(dot(point.p, point.p)),
+        h2(flight.v2 * c2 - s * s) {}
+};
+
+/// What an ulp of each input is, in the units of an exact query.
+template <std::size_t D>
+struct InputUlps {
+  std::array<Real, D> x, v;
+
+  InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact);
+};
+
+/// A time of entry with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
+template <std::size_t D>
+struct Arrival {
+  Real t;
+  std::array<Real, D> by_x;
+  Real by_radius;
+};
+
+/// One atom's obstacles and the uncertainty of everything about them.
+template <std::size_t D>
+class Uncertain {
+ public:
+  Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, const ExactQuery<D>& exact,
+            const InputUlps<D>& ulps, int lattice, int atom);
+
+  const View<D>& view() const { return view_; }
+  const Z& rho2() const { return rho2_; }
+  int lattice() const { return lattice_; }
+  int atom() const { return atom_; }
+  const Real& radius_ulp() const { return radius_ulp_; }
+
+  /// ||x - c| - r| in ulps.
+  Real margin_of_containing(const Centre<D>& centre) const;
+  /// |distance of the line - r| in ulps.
+  Real margin_of_meeting(const Centre<D>& centre) const;
+  /// |s| in ulps: is the centre ahead?
+  Real margin_of_ahead(const Centre<D>& centre) const;
+  /// Of an obstacle that is met. One that is missed counts as entered where the line is nearest to it
+  /// (derivatives: infinite, so none).
+  Arrival<D> arrival(const Centre<D>& centre) const;
+  Real time_of(const Centre<D>& centre) const;
+
+  /// The largest change of the place of x along a direction, and of r.
+  Real change_along(const ZVec<D>& direction) const;
+
+  /// A bound of the change of |distance of the line - r| and of ||x - c| - r| for all centres with |T| <=
+  /// latest.
+  Real largest_change(const Real& latest) const;
+
+ private:
+  /// Sum of |(B^T a)_i| ulp_i.
+  Real weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) const;
+  /// Largest length of B y over the corners |y_i| = ulp_i, or of its part across the flight.
+  Real longest_corner(const std::array<Real, D>& ulp, bool across) const;
+  std::array<Real, D> ulps_at(const Real& time) const;
+
+  const InputUlps<D>& ulps_;
+  int lattice_, atom_;
+  ZMatrix<D> to_ball_transposed_;
+  View<D> view_;
+  Z rho2_;
+  Real radius_ulp_;
+};
+
+/// |t2 - t1| in ulps, of two entries; zero of a tie.
+template <std::size_t D>
+Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
+                     const Uncertain<D>& atom2, const Centre<D>& centre2);
+
+/// The largest change of a time of entry.
+template <std::size_t D>
+Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const Arrival<D>& arrival);
+
+/// Distance to the next binary64 away from zero; of an infinity that of the largest finite one.
+double ulp(double value);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,103 @@
+// One query with everything that is uncertain about it: what margins and judgements start from. Private to
+// oracle/.
+#pragma once
+
+#include <deque>
+#include <variant>
+
+#include "oracle/margin/perturbation.hpp"
+
+namespace lorentz::oracle {
+
+template <std::size_t D>
+class Situation {
+ public:
+  Situation(const Scene& scene, const ExactScene<D>& exact_scene, const Query& query)
+      : exact_scene_(exact_scene), exact_(exact_scene, query, kFiner), ulps_(scene, query, exact_) {
+    for_each_atom(exact_scene,
+                  [&](int l, int a) { atoms_.emplace_back(scene, exact_scene, exact_, ulps_, l, a); });
+  }
+  Situation(const Situation&) = delete;
+  Situation& operator=(const Situation&) = delete;
+
+  const ExactScene<D>& scene() const { return exact_scene_; }
+  const ExactQuery<D>& query() const { return exact_; }
+  const InputUlps<D>& ulps() const { return ulps_; }
+  const std::deque<Uncertain<D>>& atoms() const { return atoms_; }
+
+  /// The atom of an obstacle, which must exist.
+  const Uncertain<D>& atom_of(const ObstacleId& id) const {
+    for (const Uncertain<D>& atom : atoms_)
+      if (atom.lattice() == id.lattice && atom.atom() == id.atom) return atom;
+    std::abort();
+  }
+
+  Centre<D> centre_of(const ObstacleId& id) const {
+    LatticePoint<D> point;
+    point.n = to_zvec<D>(id.cell);
+    point.p =
+        oracle::centre_of<D>(exact_scene_, id.lattice, id.atom, point.n, exact_.x, exact_.length_exponent);
+    if (const auto& frame = exact_scene_.lattices[id.lattice].atoms[id.atom].frame)
+      point.p = frame->to_ball * point.p;
+    return Centre<D>(atom_of(id).view().flight, std::move(point));
+  }
+
+  bool is_from(const Uncertain<D>& atom, const ZVec<D>& n) const {
+    const ZVec<D>* from = exact_.from_in(atom.lattice(), atom.atom());
+    return from && *from == n;
+  }
+
+  static ObstacleId id_of(const Uncertain<D>& atom, const ZVec<D>& n) {
+    return {atom.lattice(), atom.atom(), to_cell<D>(n)};
+  }
+
+ private:
+  static constexpr long kFiner = 64;  // lengths far below an ulp are integers, too
+
+  const ExactScene<D>& exact_scene_;
+  ExactQuery<D> exact_;
+  InputUlps<D> ulps_;
+  std::deque<Uncertain<D>> atoms_;  // they refer to ulps_
+};
+
+/// The largest change of the time at which an obstacle is entered, in the query's own units.
+template <std::size_t D>
+Real change_of_time(const Situation<D>& situation, const ObstacleId& id) {
+  const Uncertain<D>& atom = situation.atom_of(id);
+  const Real change = largest_change(situation.ulps(), atom, atom.arrival(situation.centre_of(id)));
+  const ExactQuery<D>& query = situation.query();
+  return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
+}
+
+/// The time at which an obstacle is entered, in the query's own units; beyond binary64, too.
+template <std::size_t D>
+Real time_in_own_units(const Situation<D>& situation, const ObstacleId& id) {
+  const ExactQuery<D>& query = situation.query();
+  return times_power_of_two(situation.atom_of(id).time_of(situation.centre_of(id)),
+                            query.length_exponent - query.velocity_exponent);
+}
+
+/// A scene whose queries are looked at closely.
+class Situations {
+ public:
+  explicit Situations(const Scene& scene)
+      : scene_(scene),
+        exact_scene_(scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))) {}
+
+  const Scene& scene() const { return scene_; }
+
+  /// What `work` makes of the query's Situation<2> or Situation<3>.
+  template <class Work>
+  auto with(const Query& query, const Work& work) const {
+    return std::visit(
+        [&]<std::size_t D>(const ExactScene<D>& exact) { return work(Situation<D>(scene_, exact, query)); },
+        exact_scene_);
+  }
+
+ private:
+  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
+  Scene scene_;
+  Exact exact_scene_;
+};
+
+}  // namespace lorentz::oracle

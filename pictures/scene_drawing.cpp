@@ -1,0 +1,295 @@
+// What both kinds of pictures share.
+#include "pictures/scene_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include "pictures/drawing_parts.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+// A short basis of the lattice, so that few cells are looked at: pairs are reduced until none gets shorter.
+std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
+  std::array<Vec, 3> u = lattice.vectors;
+  constexpr int kMostSteps = 10'000;
+  bool shorter = true;
+  for (int step = 0; step < kMostSteps && shorter; ++step) {
+    shorter = false;
+    for (int i = 0; i < dimension; ++i)
+      for (int k = 0; k < dimension; ++k) {
+        const double share = i == k ? 0 : std::round(dot(u[i], u[k]) / dot(u[k], u[k]));
+        if (share == 0) continue;
+        Vec next = u[i];
+        for (int m = 0; m < 3; ++m) next[m] -= share * u[k][m];
+        if (!(dot(next, next) < dot(u[i], u[i]) * (1 - 1e-9))) continue;
+        u[i] = next;
+        shorter = true;
+      }
+  }
+  return u;
+}
+
+double reach_of(const Atom& atom, int dimension) {
+  return principal_semiaxes(atom, dimension)[0];
+}
+
+// Looks at no more cells than this, whatever the scene is.
+constexpr double kMostCells = 300'000;
+
+// One atom's obstacles in the box.
+void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>& u, const Box& box,
+                   std::vector<Placed>& found, bool& cut) {
+  const int d = scene.dimension;
+  const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
+  const double reach = reach_of(atom, d);
+  const std::array<Vec, 3> rows = dual_of(u, d);
+  const Vec middle = box.centre();
+  std::array<std::int64_t, 3> first{}, last{};
+  double cells = 1;
+  for (int i = 0; i < d; ++i) {
+    double at = 0, half = 0;
+    for (int k = 0; k < d; ++k) {
+      at += rows[i][k] * (middle[k] - atom.position[k]);
+      half += std::fabs(rows[i][k]) * ((box.high[k] - box.low[k]) / 2 + reach);
+    }
+    if (!(std::fabs(at) + half < 1e15))
+      throw InputError("this is too far from the origin, or too fine, to be drawn");
+    first[i] = static_cast<std::int64_t>(std::ceil(at - half));
+    last[i] = static_cast<std::int64_t>(std::floor(at + half));
+    cells *= 2 * half + 1;
+  }
+  if (cells > kMostCells) {
+    cut = true;
+    return;
+  }
+  for (std::int64_t i = first[0]; i <= last[0]; ++i)
+    for (std::int64_t k = first[1]; k <= last[1]; ++k)
+      for (std::int64_t m = first[2]; m <= last[2]; ++m) {
+        for (int c = 0; c < 3; ++c)
+          obstacle.centre[c] = atom.position[c] + static_cast<double>(i) * u[0][c] +
+                               static_cast<double>(k) * u[1][c] +
+                               (d == 3 ? static_cast<double>(m) * u[2][c] : 0);
+        if (box.contains(obstacle.centre, reach)) found.push_back(obstacle);
+      }
+}
+
+}  // namespace
+
+void Box::include(const Vec& point, double margin) {
+  for (int k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], point[k] - margin);
+    high[k] = std::max(high[k], point[k] + margin);
+  }
+}
+
+bool Box::contains(const Vec& point, double margin) const {
+  for (int k = 0; k < 3; ++k)
+    if (point[k] < low[k] - margin || point[k] > high[k] + margin) return false;
+  return true;
+}
+
+Vec Box::centre() const {
+  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+}
+
+std::vector<Placed> obstacles_in(const Scene& scene, const Box& box, bool& cut) {
+  std::vector<Placed> found;
+  cut = false;
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {
+    const std::array<Vec, 3> u = short_vectors(scene.lattices[l], scene.dimension);
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a)
+      add_obstacles(scene, {l, a, {}}, u, box, found, cut);
+  }
+  return found;
+}
+
+void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std::string>& remarks) {
+  if (obstacles.size() <= kMostDrawn) return;
+  const auto distance2 = [&](const Placed& a) {
+    const Vec arm{a.centre[0] - centre[0], a.centre[1] - centre[1], a.centre[2] - centre[2]};
+    return dot(arm, arm);
+  };
+  remarks.push_back(fmt::format("the picture would hold {} obstacles; the {} nearest to its middle are drawn",
+                                obstacles.size(), kMostDrawn));
+  std::sort(obstacles.begin(), obstacles.end(),
+            [&](const Placed& a, const Placed& b) { return distance2(a) < distance2(b); });
+  obstacles.resize(kMostDrawn);
+}
+
+double cell_size(const Scene& scene) {
+  return std::pow(cell_volume(scene.lattices[0], scene.dimension), 1.0 / scene.dimension);
+}
+
+Vec cell_at(const Scene& scene, const Vec& point) {
+  const auto& u = scene.lattices[0].vectors;
+  const auto rows = dual_of(u, scene.dimension);
+  Vec corner{};
+  for (int i = 0; i < scene.dimension; ++i)
+    for (int k = 0; k < 3; ++k) corner[k] += std::floor(dot(rows[i], point)) * u[i][k];
+  return corner;
+}
+
+std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
+                           std::vector<std::string>& remarks) {
+  const double longest = kLongestFlight * cell_size(scene);
+  std::vector<Line> lines;
+  std::size_t far = 0, cut = 0;
+  for (const Flight& flight : flights) {
+    const Query& query = flight.query;
+    Line line{query.x, query.x, true, &flight};
+    Vec arm{};
+    for (int k = 0; k < 3; ++k) arm[k] = query.x[k] - flights[0].query.x[k];
+    if (!(std::sqrt(dot(arm, arm)) <= longest)) {
+      ++far;
+      continue;
+    }
+    const double speed = std::hypot(query.v[0], query.v[1], query.v[2]);
+    double length = flight.answer.time.value_or(0) * speed;
+    if (flight.answer.outcome == Outcome::hit && !(length <= longest)) {
+      ++cut;
+      line.ends = false;
+      length = longest;
+    } else if (flight.answer.outcome == Outcome::never) {
+      line.ends = false;
+      length = 3 * cell_size(scene);
+    }
+    for (int k = 0; k < 3; ++k) line.to[k] += length * (query.v[k] / speed);
+    lines.push_back(line);
+  }
+  if (cut > 0)
+    remarks.push_back(
+        fmt::format("flights longer than {} cells end in an arrow there: {}", kLongestFlight, cut));
+  if (far > 0)
+    remarks.push_back(fmt::format("flights left out, for they start more than {} cells from the first: {}",
+                                  kLongestFlight, far));
+  return lines;
+}
+
+namespace {
+
+// The obstacle that a flight hits or starts in, if any.
+bool obstacle_of(const Scene& scene, const Flight& flight, Placed& obstacle) {
+  if (flight.answer.outcome == Outcome::never) return false;
+  const ObstacleId& id = flight.answer.obstacle;
+  const Lattice& lattice = scene.lattices[id.lattice];
+  obstacle = {id.lattice, id.atom, lattice.atoms[id.atom].position};
+  for (int i = 0; i < scene.dimension; ++i)
+    for (int k = 0; k < 3; ++k)
+      obstacle.centre[k] += std::strtod(id.cell[i].decimal().c_str(), nullptr) * lattice.vectors[i][k];
+  return true;
+}
+
+}  // namespace
+
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines) {
+  std::vector<Placed> hits;
+  std::set<std::tuple<int, int, Vec>> seen;
+  Placed hit;
+  for (const Line& line : lines)
+    if (line.ends && obstacle_of(scene, *line.flight, hit) &&
+        seen.emplace(hit.lattice, hit.atom, hit.centre).second)
+      hits.push_back(hit);
+  return hits;
+}
+
+std::size_t colour_index(const Scene& scene, const Placed& obstacle) {
+  std::size_t index = static_cast<std::size_t>(obstacle.atom);
+  for (int l = 0; l < obstacle.lattice; ++l) index += scene.lattices[l].atoms.size();
+  return index;
+}
+
+// Told apart by the colour-blind too: after Paul Tol's "muted" and "bright" schemes.
+const Colour& colour(std::size_t index) {
+  static constexpr Colour kColours[] = {{"#4477aa", "#284b70", "#b9d0e8"}, {"#ddaa33", "#8a6514", "#f7e3b0"},
+                                        {"#44aa88", "#1f6650", "#b8e6d6"}, {"#aa4499", "#6b2460", "#e8bfe1"},
+                                        {"#88a030", "#55661a", "#dbe6ae"}, {"#cc6677", "#8a3342", "#f3cdd3"},
+                                        {"#66ccee", "#2a7f9c", "#d3f1fb"}, {"#777777", "#444444", "#dddddd"},
+                                        {"#bb7744", "#754520", "#eed3bf"}, {"#6655bb", "#3a2d7d", "#cfc8f0"}};
+  return kColours[index % std::size(kColours)];
+}
+
+std::string name_of(const Scene& scene, const Placed& obstacle) {
+  const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
+  std::string name = scene.lattices.size() > 1 ? fmt::format("lattice {}, ", obstacle.lattice) : "";
+  name += fmt::format("atom {}: ", obstacle.atom);
+  if (atom.is_ball()) return name + fmt::format("radius {:.4g}", atom.radius);
+  const auto [a, b, c] = principal_semiaxes(atom, scene.dimension);
+  return name + (scene.dimension == 2 ? fmt::format("semiaxes {:.4g}, {:.4g}", a, b)
+                                      : fmt::format("semiaxes {:.4g}, {:.4g}, {:.4g}", a, b, c));
+}
+
+double add_legend(Svg& svg, const Scene& scene, double top, bool flights,
+                  const std::vector<std::string>& notes) {
+  constexpr std::size_t kMostEntries = 12;
+  constexpr double kRow = 22, kLetter = 7;
+  std::vector<Placed> entries;
+  std::size_t atoms = 0, longest = 24, slot = 0;
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
+      if (++atoms > kMostEntries) continue;
+      entries.push_back({l, a, {}});
+      longest = std::max(longest, name_of(scene, entries.back()).size());
+    }
+  const double space = kPictureWidth - 2 * kMargin;
+  const auto columns = static_cast<std::size_t>(space / (28 + kLetter * static_cast<double>(longest)));
+  const auto place = [&] {
+    const Point at{kMargin + 8 + static_cast<double>(slot % columns) * space / static_cast<double>(columns),
+                   top + 8 + static_cast<double>(slot / columns) * kRow};
+    ++slot;
+    return at;
+  };
+  const auto label = [&](Point at, const std::string& words) { svg.text({at.x + 16, at.y + 4.5}, words); };
+  for (const Placed& obstacle : entries) {
+    const Colour& c = colour(colour_index(scene, obstacle));
+    const Point at = place();
+    svg.ellipse(at, {7, 7, 0}, fmt::format("fill=\"{}\" stroke=\"{}\"", c.fill, c.dark));
+    label(at, name_of(scene, obstacle));
+  }
+  if (atoms > kMostEntries) label(place(), fmt::format("and {} more atoms", atoms - kMostEntries));
+  const Point cell = place();
+  svg.polygon({{cell.x - 7, cell.y + 5},
+               {cell.x + 3, cell.y + 5},
+               {cell.x + 7, cell.y - 5},
+               {cell.x - 3, cell.y - 5}},
+              "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\"");
+  label(cell, scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell");
+  if (flights) {
+    const Point at = place();
+    svg.polyline({{at.x - 8, at.y}, {at.x + 6, at.y}},
+                 fmt::format("stroke=\"{}\" stroke-width=\"1.6\"", kFlightColour));
+    svg.ellipse({at.x + 6, at.y}, {2.6, 2.6, 0}, fmt::format("fill=\"{}\"", kFlightColour));
+    label(at, "flight to its first hit");
+    const Point goes_on = place();
+    svg.arrow({goes_on.x - 9, goes_on.y}, {goes_on.x + 9, goes_on.y}, 9, kFlightColour, 1.6);
+    label(goes_on, "goes on, or never hits");
+  }
+  double bottom = top + 8 + static_cast<double>((slot + columns - 1) / columns) * kRow;
+  for (const std::string& note : notes) {
+    svg.text({kMargin, bottom + 4}, note, "fill=\"#555555\" font-size=\"12\"");
+    bottom += 18;
+  }
+  return bottom;
+}
+
+// M M^T = [[p, q], [q, s]] has the squared semiaxes as eigenvalues.
+EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
+  const double p = dot(m1, m1), q = dot(m1, m2), s = dot(m2, m2);
+  const double mean = (p + s) / 2, spread = std::hypot((p - s) / 2, q);
+  const Vec normal = cross(m1, m2);
+  const double major2 = mean + spread, minor2 = dot(normal, normal) / major2;
+  const double angle = spread > 1e-12 * mean ? std::atan2(2 * q, p - s) / 2 : 0;
+  return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
+}
+
+Drawing draw_scene(const Scene& scene, const std::string& title, const std::vector<Flight>& flights) {
+  return scene.dimension == 2 ? draw_scene_2d(scene, title, flights) : draw_scene_3d(scene, title, flights);
+}
+
+}  // namespace lorentz::cli

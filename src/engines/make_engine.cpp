@@ -1,0 +1,72 @@
+// The table of all engines: their names, which scenes are beyond them, how they are made.
+#include <lorentz/engine.hpp>
+#include <lorentz/reduction.hpp>
+#include "src/engines/classical/cell_walk.hpp"
+#include "src/engines/classical/classical.hpp"
+#include "src/engines/published/published.hpp"
+
+namespace lorentz {
+namespace {
+
+class Unsupported : public Engine {
+ public:
+  Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
+
+ private:
+  void first_hit_scaled(const Ray&, double, Answer& answer) const override {
+    answer = Answer::unsupported_because(why_);
+  }
+  std::string why_;
+};
+
+// One ball in the middle of each unit cell, and nothing of any other in it.
+bool is_one_ball_a_cell(const Scene& scene) {
+  return is_unit_scene(scene) && scene.lattices[0].atoms[0].radius <= 0.5;
+}
+
+std::optional<std::string> beyond_classical(const Scene& scene) {
+  return is_one_ball_a_cell(scene) ? std::nullopt : CellWalk::beyond(scene);
+}
+
+std::unique_ptr<Engine> make_classical(const Scene& scene) {
+  if (is_one_ball_a_cell(scene)) return std::make_unique<Classical>(scene);
+  return std::make_unique<CellWalk>(scene);
+}
+
+template <class E>
+std::unique_ptr<Engine> make(const Scene& scene) {
+  return std::make_unique<E>(scene);
+}
+
+// All engines: name, why a scene is beyond it (or nothing), and how it is made.
+struct Entry {
+  const char* name;
+  std::optional<std::string> (*beyond)(const Scene&);
+  std::unique_ptr<Engine> (*make)(const Scene&);
+};
+
+constexpr Entry kEngines[] = {
+    {"classical", beyond_classical, make_classical},
+    {"published", Published::beyond, make<Published>},
+    {"reduction", Reduction::beyond, make<Reduction>},
+};
+
+}  // namespace
+
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kEngines) names.push_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
+  for (const Entry& entry : kEngines) {
+    if (entry.name != name) continue;
+    if (auto why = entry.beyond(scene))
+      return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
+    return entry.make(scene);
+  }
+  return nullptr;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,163 @@
+#include "src/engines/published/published_bravais.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "src/engines/published/published_search.hpp"
+
+namespace lorentz {
+
+using namespace published_search;
+
+namespace {
+
+// The paper's sigma_1 of the matrix with these rows.
+template <int kDimension>
+double first_singular_value(const std::array<Vec, 3>& rows) {
+  Eigen::Matrix<double, kDimension, kDimension> matrix;
+  for (int i = 0; i < kDimension; ++i)
+    for (int k = 0; k < kDimension; ++k) {
+      if (!std::isfinite(rows[i][k])) return kNoLimit;
+      matrix(i, k) = rows[i][k];
+    }
+  return Eigen::JacobiSVD<Eigen::Matrix<double, kDimension, kDimension>>(matrix).singularValues()(0);
+}
+
+// The time at which the line leaves the disc of radius r around the origin, or is closest to it if it misses
+// it.
+double exit_time(const Vec& x, const Vec& v, double r) {
+  const double v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
+  return -B + std::sqrt(std::max(B * B - C, 0.0));
+}
+
+}  // namespace
+
+PublishedBravais::PublishedBravais(const Scene& scene, int l, int a)
+    : dimension_(scene.dimension),
+      lattice_(l),
+      atom_(a),
+      radius_(scene.lattices[l].atoms[a].radius),
+      position_(scene.lattices[l].atoms[a].position) {
+  for (int i = 0; i < dimension_; ++i) vectors_[i] = scene.lattices[l].vectors[i];
+  dual_ = dual_of(vectors_, dimension_);
+  circumscribed_ =
+      radius_ * (dimension_ == 2 ? first_singular_value<2>(dual_) : first_singular_value<3>(dual_));
+}
+
+std::optional<std::string> PublishedBravais::beyond(const Scene& scene, int l, int a) {
+  if (!scene.lattices[l].atoms[a].is_ball()) return "does balls only, no semiaxes";
+  for (int i = 0; i < scene.dimension; ++i)
+    for (const double component : scene.lattices[l].vectors[i])
+      if (component != 0 && !(std::fabs(component) > 0x1p-200 && std::fabs(component) < 0x1p200))
+        return "does lattice vectors with components between 2^-200 and 2^200 only";
+  const PublishedBravais bravais(scene, l, a);
+  if (!(bravais.circumscribed_ <= 0.5))
+    return "does cells only in which the circumscribed radius, r times the first singular value of the "
+           "cell's inverse, is at most half the spacing, 1/2";
+  if (!(bravais.circumscribed_ > 0x1p-200)) return "does radii above 2^-200 of the cell only";
+  return std::nullopt;
+}
+
+// In the square or cubic lattice: M_os (x - p).
+Vec PublishedBravais::transformed_place(const Vec& x) const {
+  return coordinates(dual_, minus(x, position_));
+}
+
+// x from the centre of the obstacle in cell n, in the scene.
+Vec PublishedBravais::relative(const Vec& x, const Vec& n) const {
+  Vec arm = minus(x, position_);
+  for (int i = 0; i < dimension_; ++i)
+    for (int k = 0; k < dimension_; ++k) arm[k] -= n[i] * vectors_[i][k];
+  return arm;
+}
+
+bool PublishedBravais::leaves(const Ray& ray, Vec& n) const {
+  return ray.from && ray.from->lattice == lattice_ && ray.from->atom == atom_ && cell_of(*ray.from, n);
+}
+
+ObstacleId PublishedBravais::obstacle_of(const Vec& n) const {
+  ObstacleId id{lattice_, atom_, {}};
+  for (int i = 0; i < 3; ++i) id.cell[i] = Integer(std::llround(n[i]));
+  return id;
+}
+
+// The circumscribed balls do not overlap, so x can be in the nearest obstacle only.
+std::optional<Answer> PublishedBravais::start(const Ray& ray) const {
+  const Vec place = transformed_place(ray.x);
+  for (const double component : place)
+    if (!(std::fabs(component) < kMaxStart))
+      return Answer::unsupported_because("start too far from the origin for binary64");
+  const Vec home{std::round(place[0]), std::round(place[1]), std::round(place[2])};
+  const Vec arm = relative(ray.x, home);
+  Vec from{};
+  if (!(dot(arm, arm) < radius_ * radius_) || (leaves(ray, from) && from == home)) return std::nullopt;
+  return Answer::inside(obstacle_of(home));
+}
+
+Answer PublishedBravais::flight_of(const Ray& ray, double limit, Proposals& proposals) const {
+  return dimension_ == 2 ? flight_2d(ray, limit, proposals) : flight_3d(ray, limit, proposals);
+}
+
+Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& proposals) const {
+  const Vec v = coordinates(dual_, ray.v);
+  Vec x = transformed_place(ray.x), from{};
+  const bool has_from = leaves(ray, from);
+  Disc last{from[0], from[1]};
+  const Disc* leaving = has_from ? &last : nullptr;
+  double elapsed = 0;
+  long passes = Published::kMaxTotalPasses;
+  for (long round = 0; round < Published::kMaxRounds && elapsed <= limit; ++round) {
+    if (!(std::fabs(x[0]) < kMaxStart && std::fabs(x[1]) < kMaxStart)) return Answer::undecided();
+    const long before = passes;
+    const PlaneResult result = first_disc({x[0], x[1]}, {v[0], v[1]}, circumscribed_, leaving, passes);
+    proposals.passes += before - passes + 1;
+    if (auto answer = answer_for(result.found)) return *answer;
+    ++proposals.made;
+    // The classical quadratic in the scene, from the place that is closest to the circumscribed disc.
+    const Vec centre{result.disc[0], result.disc[1], 0}, arm = minus(x, centre);
+    const double near = elapsed - dot(arm, v) / dot(v, v);
+    const Vec there{ray.x[0] + near * ray.v[0], ray.x[1] + near * ray.v[1], 0};
+    const Vec true_arm = relative(there, centre);
+    const auto entry = entry_time(true_arm, ray.v, radius_);
+    const bool is_ahead = near > dot(true_arm, ray.v) / dot(ray.v, ray.v);
+    if (entry && is_ahead && !(has_from && centre == from))
+      return Answer::hit(obstacle_of(centre), std::max(near + *entry, 0.0));
+    ++proposals.false_ellipse;
+    const double leaves_after = exit_time(arm, v, circumscribed_);
+    if (!(leaves_after > 0) && leaving && last == result.disc) return Answer::undecided();  // no way on
+    for (int i = 0; i < 2; ++i) x[i] += std::max(leaves_after, 0.0) * v[i];
+    elapsed += std::max(leaves_after, 0.0);
+    last = result.disc;
+    leaving = &last;
+  }
+  return elapsed > limit ? Answer::never() : Answer::undecided();
+}
+
+Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& proposals) const {
+  Vec v = coordinates(dual_, ray.v);
+  const double speed = std::sqrt(dot(v, v));
+  for (double& component : v) component /= speed;
+  Vec from{}, centre{};
+  const bool has_from = leaves(ray, from);
+  const auto is_hit = [&](const Vec& n, const Vec& x, double elapsed) -> std::optional<double> {
+    ++proposals.made;
+    const bool meets_ball = entry_time(minus(x, n), v, circumscribed_).has_value();
+    if (!meets_ball) ++proposals.false_tricylinder;
+    // The classical quadratic in the scene, from the place arrived at.
+    const double now = elapsed / speed;
+    Vec there{};
+    for (int k = 0; k < 3; ++k) there[k] = ray.x[k] + now * ray.v[k];
+    const auto entry = entry_time(relative(there, n), ray.v, radius_);
+    if (!entry && meets_ball) ++proposals.false_ellipse;
+    if (!entry || !(*entry >= 0) || (has_from && n == from)) return std::nullopt;
+    return *entry * speed;
+  };
+  Answer answer =
+      first_sphere(transformed_place(ray.x), v, circumscribed_, has_from ? &from : nullptr,
+                   {Published::kMaxTotalPasses, true, proposals.passes}, limit * speed, is_hit, centre);
+  if (answer.outcome == Outcome::hit) return Answer::hit(obstacle_of(centre), *answer.time / speed);
+  return answer;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,369 @@
+#include "src/engines/reduction/bravais.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <lorentz/geometry.hpp>
+#include "src/engines/reduction/bounds.hpp"
+
+namespace lorentz {
+namespace {
+
+constexpr double kMaxTransform = 0x1p20;  // cells more skewed than that are not done
+constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
+
+// Components of lattice vectors (which are about 1) below this are taken as zero, so that no product with a
+// velocity's underflows. What that changes, times 2^20 of the short basis, over 2^53 cells, is below
+// kFlushed.
+constexpr double kTinyVectorComponent = 0x1p-480;
+
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec rounded(const WideVec& a) {
+  return {a[0].hi, a[1].hi, a[2].hi};
+}
+
+double length(const Vec& a) {
+  return std::sqrt(dot(a, a));
+}
+
+Vec times(const Vec (&rows)[3], const Vec& a) {
+  return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)};
+}
+
+// What is short: in the metric of a shape, in which its ellipsoids are balls, or without one as usual.
+struct Metric {
+  const Shape* shape = nullptr;
+
+  Vec operator()(const Vec& a) const { return shape ? times(shape->to_ball, a) : a; }
+
+  // Of a linear form: its largest value on the unit ball.
+  double length_of_form(const Vec& g) const {
+    return shape ? length(times(shape->cofactor, g)) / shape->volume : length(g);
+  }
+
+  // Of all forms g with |g| = 1.
+  double length_of_longest_form() const { return shape ? shape->cofactor_size / shape->volume : 1; }
+};
+
+// A basis while it is made shorter: integer combinations of the primitive vectors, recomputed from these at
+// each step, so that no error accumulates.
+struct Shortening {
+  int dimension;
+  std::array<Vec, 3> primitive;
+  Metric metric;
+  double T[3][3]{};
+  WideVec B[3];
+  bool complete = true;  // no component was taken as zero
+
+  Shortening(const Lattice& lattice, int d, double scale, Metric in)
+      : dimension(d), primitive(lattice.vectors), metric(in) {
+    for (int i = 0; i < d; ++i)
+      for (double& component : primitive[i]) set_component(component, scale);
+    for (int i = d; i < 3; ++i) primitive[i] = Vec{double(i == 0), double(i == 1), double(i == 2)};
+    for (int i = 0; i < 3; ++i) {
+      T[i][i] = 1;
+      recompute(i);
+    }
+  }
+
+  void set_component(double& component, double scale) {
+    const bool was_zero = component == 0;
+    component *= scale;
+    if (std::fabs(component) < kTinyVectorComponent) component = 0, complete &= was_zero;
+  }
+
+  void recompute(int i) {
+    for (int k = 0; k < 3; ++k) {
+      B[i][k] = Wide(0);
+      for (int j = 0; j < 3; ++j) B[i][k] = B[i][k] + Wide::product(T[i][j], primitive[j][k]);
+    }
+  }
+
+  // Are all components of B those of the scene's lattice, sums without rounding?
+  bool is_exact() const {
+    if (!complete) return false;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (int j = 0; j < 3; ++j) {
+          const Wide step = Wide::product(T[i][j], primitive[j][k]), next = Wide::sum(sum, step.hi);
+          if (step.lo != 0 || next.lo != 0) return false;
+          sum = next.hi;
+        }
+      }
+    return true;
+  }
+
+  Vec seen(int i) const { return metric(rounded(B[i])); }
+
+  // B_i minus the nearest integer combination of the shorter ones; true if that shortens it.
+  bool shorten(int i) {
+    bool changed = false;
+    for (int j = 0; j < dimension; ++j) {
+      if (j == i) continue;
+      const Vec a = seen(i), b = seen(j);
+      if (dot(b, b) > dot(a, a)) continue;
+      const double k = std::nearbyint(dot(a, b) / dot(b, b));
+      if (k == 0) continue;
+      const auto before = std::to_array(T[i]);
+      const WideVec old = B[i];
+      for (int c = 0; c < 3; ++c) T[i][c] -= k * T[j][c];
+      recompute(i);
+      if (dot(seen(i), seen(i)) < dot(a, a)) {
+        changed = true;
+      } else {
+        std::copy(before.begin(), before.end(), T[i]);
+        B[i] = old;
+      }
+    }
+    return changed;
+  }
+
+  void run() {
+    for (int pass = 0; pass < 1000; ++pass) {
+      bool changed = false;
+      for (int i = 0; i < dimension; ++i) changed |= shorten(i);
+      if (!changed) break;
+    }
+    for (int i = 0; i < dimension; ++i)  // shortest first
+      for (int j = i + 1; j < dimension; ++j)
+        if (length(seen(j)) < length(seen(i))) {
+          std::swap(B[i], B[j]);
+          std::swap(T[i], T[j]);
+        }
+  }
+};
+
+void set_dual(Bravais& bravais) {
+  const Vec b[3] = {rounded(bravais.basis[0]), rounded(bravais.basis[1]), rounded(bravais.basis[2])};
+  const double volume = dot(b[0], cross(b[1], b[2]));
+  for (int i = 0; i < 3; ++i) {
+    bravais.dual[i] = cross(b[(i + 1) % 3], b[(i + 2) % 3]);
+    for (double& component : bravais.dual[i]) component /= volume;
+  }
+  bravais.volume = std::fabs(volume);
+  double defect = 1 / bravais.volume, shortest = 0x1p1000;
+  for (int i = 0; i < 3; ++i) defect *= length(b[i]);
+  for (int i = 0; i < bravais.dimension; ++i) shortest = std::min(shortest, length(b[i]));
+  bravais.coordinate_error = kCoordinate * kRoundoff * defect * defect / shortest;
+}
+
+// Of the coordinates of what lies within half a cell of a lattice point.
+double home_error(const Bravais& bravais) {
+  double size = 0;
+  for (int i = 0; i < bravais.dimension; ++i)
+    for (const Wide& component : bravais.basis[i]) size += std::fabs(component.hi);
+  return 0.6 * size * bravais.coordinate_error;
+}
+
+// The adjugate. Entries are below 2^20, or the scene is not done. False if the determinant is not 1 or -1:
+// then integers were rounded on the way.
+bool set_inverse(Bravais& bravais) {
+  const auto& t = bravais.transform;
+  const auto minor = [&](int i, int j) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+    return t[a][c] * t[b][d] - t[a][d] * t[b][c];
+  };
+  const std::int64_t determinant = t[0][0] * minor(0, 0) + t[0][1] * minor(0, 1) + t[0][2] * minor(0, 2);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) bravais.inverse[i][j] = determinant * minor(j, i);
+  return determinant == 1 || determinant == -1;
+}
+
+// A lower bound of the shortest lattice vector: a vector with a coefficient of 2 or more in absolute value is
+// at least 2/|dual_i| long; the others are tried.
+double shortest_vector(const Bravais& bravais, const Metric& metric) {
+  const int d = bravais.dimension;
+  double shortest = 0x1p1000;
+  for (int i = 0; i < d; ++i) shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
+  for (int a = 0; a <= 1; ++a)
+    for (int b = -1; b <= 1; ++b)
+      for (int c = d == 3 ? -1 : 0; c <= (d == 3 ? 1 : 0); ++c) {
+        if (a == 0 && b == 0 && c == 0) continue;
+        Vec sum{};
+        for (int k = 0; k < 3; ++k)
+          sum[k] = a * bravais.basis[0][k].hi + b * bravais.basis[1][k].hi + c * bravais.basis[2][k].hi;
+        shortest = std::min(shortest, length(metric(sum)));
+      }
+  return shortest;
+}
+
+bool is_too_skewed(const Shortening& shortening) {
+  for (const auto& row : shortening.T)
+    for (const double t : row)
+      if (!(std::fabs(t) < kMaxTransform)) return true;
+  return false;
+}
+
+// Why this atom is beyond the engine, or nothing.
+std::string beyond(const Bravais& bravais, const Metric& metric) {
+  const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
+  const double shortest =
+      bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - 0x1p-40);
+  const Vec& reach = bravais.reach;
+  if (!(shortest > 0x1p-60 && shortest < 0x1p60 && home_error(bravais) < kMaxHomeError))
+    return "does not do lattices of so different spacings, or so flat a cell";
+  if (metric.shape && !(2 * bravais.radius <= shortest))
+    return "does ellipsoids only that do not overlap their own translates";
+  if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
+  if (!(std::max({reach[0], reach[1], reach[2]}) < 1 - 2 * kMaxHomeError))
+    return "does not do obstacles that reach so far into a cell so flat";
+  if (!(bravais.radius >= smallest * shortest))
+    return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
+           " of the shortest lattice vector only";
+  return "";
+}
+
+bool set_basis(Bravais& bravais, const Shortening& shortening) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    bravais.basis[i] = shortening.B[i];
+    for (int k = 0; k < 3; ++k) {
+      bravais.transform[i][k] = std::llround(shortening.T[i][k]);
+      for (int j = 0; j < 3; ++j)
+        largest = std::max(largest, std::fabs(shortening.T[i][j] * shortening.primitive[j][k]));
+    }
+  }
+  bravais.exact = shortening.is_exact();
+  bravais.basis_error = bravais.exact ? 0 : 32 * 0x1p-106 * largest;  // three sums of 3 u^2 each, generously
+  set_dual(bravais);
+  return set_inverse(bravais);
+}
+
+// One lattice, in the scale of the scene.
+class LatticePreparation {
+ public:
+  LatticePreparation(const Scene& scene, int lattice, double scale)
+      : scene_(scene),
+        lattice_(scene.lattices[lattice]),
+        index_(lattice),
+        scale_(scale),
+        short_(shortened({})) {
+    is_unit_ = lattice_.vectors == unit_scene(scene.dimension, 1).lattices[0].vectors && scale == 1;
+  }
+
+  /// Adds the atoms; why it cannot, or nothing.
+  std::string add_to(PreparedScene& prepared) {
+    if (is_too_skewed(short_)) return kTooSkewed;
+    for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
+      Bravais bravais;
+      bravais.dimension = scene_.dimension;
+      bravais.lattice = index_;
+      bravais.atom = a;
+      const std::string why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
+      if (!why.empty()) return why;
+      prepared.atoms.push_back(bravais);
+    }
+    return "";
+  }
+
+ private:
+  Shortening shortened(Metric metric) const {
+    Shortening shortening(lattice_, scene_.dimension, scale_, metric);
+    shortening.run();
+    return shortening;
+  }
+
+  std::string set_ball(Bravais& bravais) const {
+    const Atom& atom = lattice_.atoms[bravais.atom];
+    set_place(bravais);
+    bravais.unit = is_unit_ && atom.position == Vec{};
+    bravais.radius = atom.radius * scale_;
+    return set_basis(bravais, short_) ? finish(bravais, {}) : kTooSkewed;
+  }
+
+  // A short basis in the metric of the shape; that of the atom before, if it has the same shape.
+  std::string set_ellipsoid(Bravais& bravais) {
+    const Atom& atom = lattice_.atoms[bravais.atom];
+    std::vector<Vec> semiaxes = atom.semiaxes;
+    for (int i = 0; i < scene_.dimension && atom.is_ball(); ++i) {
+      semiaxes.emplace_back();
+      semiaxes.back()[i] = atom.radius;
+    }
+    for (Vec& axis : semiaxes)
+      for (double& component : axis) component *= scale_;
+    if (last_semiaxes_ != semiaxes) {
+      shape_ = shape_of(semiaxes);
+      if (!shape_) return "does not do ellipsoids as slender as this one, or as small";
+      shaped_ = shortened({&*shape_});
+      last_semiaxes_ = std::move(semiaxes);
+    }
+    if (is_too_skewed(*shaped_)) return kTooSkewed;
+    set_place(bravais);
+    bravais.shape = *shape_;
+    bravais.radius = shape_->radius;
+    if (!set_basis(bravais, *shaped_)) return kTooSkewed;
+    std::string why = finish(bravais, {&*shape_});
+    if (is_unit_ && atom.position == Vec{} && why.empty()) use_axes(bravais);
+    return why;
+  }
+
+  // The unit lattice's own vectors, which are exact, instead of shorter ones: as long as no obstacle reaches
+  // so far that one step along each axis does not lead to all that can contain a point.
+  void use_axes(Bravais& bravais) const {
+    Bravais axes = bravais;
+    set_basis(axes, short_);
+    set_reach(axes, {&bravais.shape});
+    axes.unit = std::max({axes.reach[0], axes.reach[1], scene_.dimension == 3 ? axes.reach[2] : 0}) < 0.99;
+    if (axes.unit) bravais = axes;
+  }
+
+  void set_place(Bravais& bravais) const {
+    for (int k = 0; k < 3; ++k) bravais.position[k] = lattice_.atoms[bravais.atom].position[k] * scale_;
+  }
+
+  static void set_reach(Bravais& bravais, const Metric& metric) {
+    for (int i = 0; i < bravais.dimension; ++i)
+      bravais.reach[i] = bravais.radius * (1 + 0x1p-30) *
+                         (metric.length_of_form(bravais.dual[i]) +
+                          2 * bravais.coordinate_error * metric.length_of_longest_form());
+    bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < 0.499);
+  }
+
+  static std::string finish(Bravais& bravais, const Metric& metric) {
+    set_reach(bravais, metric);
+    return beyond(bravais, metric);
+  }
+
+  const Scene& scene_;
+  const Lattice& lattice_;
+  int index_;
+  double scale_;
+  bool is_unit_ = false;
+  Shortening short_;
+  std::vector<Vec> last_semiaxes_;
+  std::optional<Shape> shape_;
+  std::optional<Shortening> shaped_;
+};
+
+bool has_ellipsoids(const Scene& scene) {
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms)
+      if (!atom.is_ball()) return true;
+  return false;
+}
+
+}  // namespace
+
+PreparedScene prepare(const Scene& scene) {
+  PreparedScene prepared;
+  prepared.ellipsoids = has_ellipsoids(scene);
+  Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});
+  unscaled.run();
+  const double first = length(rounded(unscaled.B[0]));
+  if (!(first > 0x1p-400 && first < 0x1p400)) {
+    prepared.beyond = "does lattice vectors between 2^-400 and 2^400 only";
+    return prepared;
+  }
+  prepared.exponent = std::ilogb(first);
+  const double scale = std::ldexp(1, -prepared.exponent);
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()) && prepared.beyond.empty(); ++l)
+    prepared.beyond = LatticePreparation(scene, l, scale).add_to(prepared);
+  return prepared;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,57 @@
+// One atom of one lattice, prepared for the reduction engine: balls of one radius, or ellipsoids of one
+// shape, on a Bravais lattice, with a short basis of it. What is here is computed once a scene.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <lorentz/problem.hpp>
+#include "src/engines/base/double_double.hpp"
+#include "src/engines/reduction/shape.hpp"
+
+namespace lorentz {
+
+using WideVec = std::array<Wide, 3>;
+
+/// Integers of the search, held in binary64: exact below this, and never used beyond.
+inline constexpr double kMaxCoefficient = 0x1p53;
+
+struct Bravais {
+  int dimension = 0;
+  int lattice = 0, atom = 0;  ///< which of the scene
+  bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
+  double radius = 0;  ///< of an ellipsoid: the shape's
+  Vec position{};
+  WideVec
+      basis[3];  ///< a short basis B_i = sum_j transform[i][j] u_j; columns beyond the dimension: the axes
+  std::int64_t transform[3][3]{};
+  Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64
+  double coordinate_error = 0;   ///< a coordinate dual_i . a errs by at most this times |a_1| + |a_2| + |a_3|
+  Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
+  bool reaches_out = true;       ///< some reach is so large that x may lie in an obstacle of another cell
+  double volume = 0;             ///< of a cell (2D: area)
+  double basis_error = 0;        ///< of each component of a basis vector, at most
+  bool exact = false;            ///< the basis vectors are binary64, and those of the scene, without error
+  std::int64_t inverse[3][3]{};  ///< of transform: u_i = sum_j inverse[i][j] B_j
+  Shape shape;                   ///< only in scenes that have ellipsoids, there of balls too
+};
+
+/// All lengths are scaled by 2^-exponent, so that the shortest lattice vector of the first lattice lies in
+/// [1, 2); the unit lattices keep their own.
+struct PreparedScene {
+  int exponent = 0;
+  std::vector<Bravais> atoms;  ///< in the order of (lattice, atom)
+  bool ellipsoids = false;     ///< there are some
+  std::string beyond;          ///< why the reduction engine does not do the scene; empty if it does
+};
+
+/// For a scene without flaws.
+PreparedScene prepare(const Scene& scene);
+
+/// Radii that the engine does, in units of the shortest lattice vector (of ellipsoids: both in the metric of
+/// their shape): at most 1/2 (then the obstacles of one atom do not overlap, and are entered in the order of
+/// their centres), at least this (see docs/bounds.md).
+inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
+
+}  // namespace lorentz

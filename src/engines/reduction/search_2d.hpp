@@ -1,0 +1,250 @@
+// The search for the first ball along a prepared direction, in 2D (direction_2d.hpp says how). Private to the
+// reduction engine.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "src/engines/reduction/direction_2d.hpp"
+#include "src/engines/reduction/encounter.hpp"
+
+namespace lorentz {
+
+/// The search for one start.
+template <class Arch, bool kUnit, bool kBall>
+class Search2 {
+  using DD = DoubleDouble<Arch>;
+
+ public:
+  Search2(const Bravais& lattice, const Direction2<kUnit, kBall>& direction, const Offset<2>& offset)
+      : lattice_(lattice), to_(direction), offset_(offset) {}
+
+  Stage stage = Stage::binary64;
+  Wide best[2];  ///< coefficients of the ball found, from the home cell, in the short basis
+  double best_s = std::numeric_limits<double>::infinity(), best_slack = 0, best_s_error = 0,
+         best_slack_error = 0;
+  double best_h = 0;  ///< v x d; of ellipsoids only
+
+  /// `from`: coefficients of the ball that is being left, or null. Entered after s_limit: need not be found.
+  Outcome run(const Wide* from, double s_limit) {
+    from_ = from;
+    s_limit_ = s_limit;
+    if (!to_.usable || !set_anchor()) return give_up();
+    const Arm2 &R = to_.R, &L = to_.L;
+    const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = reach_of_rows();
+    if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
+    const double slope = (kUnit ? L.D : (L.D + L.D_error) * (1 + 0x1p-48)) * to_.inverse_A;
+    for (double n = std::ceil(nu - reach);; ++n) {
+      double last = nu + reach;
+      if (L.D > 0) last += std::min(best_s, s_limit) * slope;
+      if (!(n <= last)) break;
+      if (!look_in_row(n)) return give_up();
+      if (best_s < std::numeric_limits<double>::infinity() &&
+          R.D > 2 * to_.rho * (1 + kSlop) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
+        break;  // rows come one after the other
+    }
+    if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
+    return Outcome::never;  // before s_limit; or rows exactly parallel to the line were all passed
+  }
+
+ private:
+  static constexpr double kSlop = 0x1p-30;
+
+  Outcome give_up() {
+    stage = Stage::undecided;
+    return Outcome::undecided;
+  }
+
+  // Rows in the strip beside the start: within this of nu, which errs, too. On the unit lattices D_R >= 2
+  // rho, so the terms of nu are below 2^20, each rounded some ten times: 2^-29 in all; among tiny balls they
+  // are about 1, and what y errs by counts. On other lattices the terms are what they are.
+  double reach_of_rows() const {
+    constexpr double kRowSlop = 0x1p-28, kRows = 16 * kRoundoff;
+    const Arm2& L = to_.L;
+    if constexpr (kUnit && kBall) return kRowSlop + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
+    const double height = to_.rho + kRows * (std::fabs(y_) + to_.rho) + y_error_,
+                 along = kRows * std::fabs(s_) + s_error_;
+    return kRowSlop + (L.S * height + L.D * along) * to_.inverse_A;
+  }
+
+  // Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice
+  // point nearest to the start in the coordinates of R and L, since the home cell's are so large that their
+  // products leave the exact integers, and multiply what errors D_R and D_L have.
+  bool set_anchor() {
+    const Arm2 &R = to_.R, &L = to_.L;
+    const DD h = add_product(add_product(DD(0.0), DD(offset_.d[1]), to_.v[0]), DD(offset_.d[0]), -to_.v[1]);
+    const double size = std::fabs(offset_.d[0].hi) + std::fabs(offset_.d[1].hi);
+    y_ = to_.sigma * h.hi;
+    y_error_ = kRoundoff * std::fabs(y_) + 4 * offset_.error + kAnchorTerms * size + kFlushed;
+    s_ = along(0) * offset_.d[0].hi + along(1) * offset_.d[1].hi;
+    s_error_ = kAlong * kRoundoff * size + 4 * offset_.error;
+    if constexpr (!kBall)
+      s_error_ =
+          to_.shape.along_error * size + 4 * offset_.error * (std::fabs(along(0)) + std::fabs(along(1)));
+    if (to_.rho > 0x1p-20) return true;
+    const double n = std::nearbyint(-(L.S * y_ + L.D * s_) * to_.inverse_A);
+    const double m = std::nearbyint((R.S * y_ - R.D * s_) * to_.inverse_A);
+    double terms = 0, along = 0;
+    for (int i = 0; i < 2; ++i) {
+      const DD sum =
+          DD::product(n, R.n[i]) + DD::product(m, L.n[i]);  // large terms, but what they leave is not
+      if (!(std::fabs(sum.hi) < kMaxCoefficient && std::fabs(n) < kMaxCoefficient &&
+            std::fabs(m) < kMaxCoefficient))
+        return false;
+      anchor_[i] = sum.hi;
+      terms += std::fabs(anchor_[i]) * to_.M[i];
+      if constexpr (kBall)
+        along += std::fabs(anchor_[i] * to_.S[i]);
+      else
+        s_error_ += to_.shape.along_error * std::fabs(anchor_[i]) * to_.size_of[i];
+    }
+    y_ = to_.sigma * compensated(h);
+    y_error_ += kAnchor * kRoundoff * std::fabs(y_) + kAnchorTerms * terms;
+    anchor_error_ = y_error_;
+    s_ += anchor_[0] * to_.S[0] + anchor_[1] * to_.S[1];
+    s_error_ += kAlong * kRoundoff * along;
+    return true;
+  }
+
+  double along(int k) const {
+    if constexpr (kBall) return to_.v[k];
+    return to_.shape.along[k];
+  }
+
+  // h + anchor_0 H_0 + anchor_1 H_1, its large terms cancelling exactly.
+  double compensated(DD h) const {
+    const DD a = DD::product(anchor_[0], to_.H[0].hi), b = DD::product(anchor_[1], to_.H[1].hi);
+    const DD ab = DD::sum(a.hi, b.hi), all = DD::sum(ab.hi, h.hi);
+    double low = (a.lo + b.lo) + (ab.lo + all.lo) + h.lo;
+    if constexpr (!kUnit) low += anchor_[0] * to_.H[0].lo + anchor_[1] * to_.H[1].lo;
+    return all.hi + low;
+  }
+
+  // The first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
+  bool look_in_row(double n) {
+    const Arm2 &R = to_.R, &L = to_.L;
+    const double y = y_ + n * R.D, rho = to_.rho;
+    const double behind = -(s_ + n * R.S) * to_.inverse_S_L;
+    double m = behind;
+    double unsure = kSlop;
+    if (L.D > 0) {
+      m = std::max(m, (y - rho) * to_.inverse_D_L);
+      unsure += (16 * kRoundoff * (std::fabs(y) + std::fabs(n * R.D) + rho) + y_error_) * to_.inverse_D_L;
+      if constexpr (!kUnit) unsure += (std::fabs(n) * R.D_error + std::fabs(m) * L.D_error) * to_.inverse_D_L;
+    }
+    if (unsure > 0.25) return look_closely_in_row(n);
+    return look_from(n, std::ceil(m - unsure));
+  }
+
+  // The balls of row n from m on, until one is met or the row has left the strip.
+  bool look_from(double n, double m) {
+    for (int step = 0; step < 16; ++step) {
+      const Look look = look_at(n, m + step);
+      if (look == Look::doubtful) return false;
+      if (look != Look::before) return true;
+    }
+    return false;
+  }
+
+  enum class Look { before, taken, beyond, doubtful };
+
+  // The ball at n R + m L: before the strip or behind the start, met, or beyond the strip.
+  Look look_at(double n, double m) {
+    const Arm2 &R = to_.R, &L = to_.L;
+    const double h = height_in_row(y_, n, R.D, m, L.D);
+    const double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) +
+                         y_error_ + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
+    const double s = sum_along(s_, n, R.S, m, L.S);
+    double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
+    if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;
+    const Decision meets = is_below(h, to_.rho, error, rho_error());
+    if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;
+    if (s < -s_error) return Look::before;
+    if (s - s_error > std::min(best_s + best_s_error, s_limit_)) return Look::beyond;
+    double N[2] = {anchor_[0] + n * R.n[0] + m * L.n[0], anchor_[1] + n * R.n[1] + m * L.n[1]};
+    for (int i = 0; i < 2; ++i)
+      if (!(std::fabs(N[i]) < kMaxCoefficient && std::fabs(n * R.n[i]) < kMaxCoefficient &&
+            std::fabs(m * L.n[i]) < kMaxCoefficient))
+        return Look::doubtful;
+    if (from_ && N[0] == from_[0].hi && N[1] == from_[1].hi && from_[0].lo == 0 && from_[1].lo == 0)
+      return Look::before;
+    if (meets == Decision::yes && s > s_error)
+      return offer(N, s, s_error, slack_scale() * ((to_.rho - h) * (to_.rho + h)),
+                   slack_scale() * (4 * to_.rho * (error + rho_error() * to_.rho)), h);
+    return look_closely(N, h);
+  }
+
+  double rho_error() const {
+    if constexpr (kBall) return kRho * kRoundoff;
+    return to_.shape.rho_error;
+  }
+
+  double slack_scale() const {
+    if constexpr (kBall) return 1;
+    return to_.shape.slack_scale;
+  }
+
+  Look offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
+    if (!(s + s_error < best_s - best_s_error)) return Look::doubtful;
+    best[0] = Wide(N[0]), best[1] = Wide(N[1]);
+    best_s = s, best_s_error = s_error, best_slack = slack, best_slack_error = slack_error;
+    if constexpr (!kBall) best_h = to_.sigma * h;
+    return Look::taken;
+  }
+
+  // The same decisions in double-double.
+  [[gnu::noinline]] Look look_closely(const double* N, double h) {
+    stage = std::max(stage, Stage::double_double);
+    const Wide wide_N[2] = {N[0], N[1]};
+    Wide d[2];
+    const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
+    const Encounter<SplitProduct, 2, kBall> encounter(to_.v, d, error, lattice_);
+    const Decision meets = encounter.meets();
+    if (meets == Decision::doubtful) return Look::doubtful;
+    if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look::beyond : Look::before;
+    const Decision ahead = encounter.is_ahead();
+    if (ahead == Decision::doubtful) return Look::doubtful;
+    if (ahead == Decision::no) return Look::before;
+    return offer(N, encounter.s.hi, encounter.s_error + kRoundoff * encounter.s.hi, encounter.slack.hi,
+                 encounter.slack_error + kRoundoff * encounter.slack.hi, h);
+  }
+
+  // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
+  [[gnu::noinline]] bool look_closely_in_row(double n) {
+    const Arm2 &R = to_.R, &L = to_.L;
+    stage = std::max(stage, Stage::double_double);
+    double N[2];
+    for (int i = 0; i < 2; ++i) {
+      N[i] = anchor_[i] + n * R.n[i];
+      if (!(std::fabs(n * R.n[i]) < kMaxCoefficient && std::fabs(N[i]) < kMaxCoefficient)) return false;
+    }
+    const Wide wide_N[2] = {N[0], N[1]};
+    Wide d[2];
+    const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
+    const Encounter<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
+    const Wide h = (d[1] * to_.v[0] - d[0] * to_.v[1]) * to_.sigma;
+    Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
+    if constexpr (!kBall) {
+      const Wide& scale = lattice_.shape.wide_cofactor[2][2];
+      rho = rho / (scale.hi < 0 ? -scale : scale);
+    }
+    const Wide m = (h - rho) / Wide(L.D, L.D_low);
+    const double unsure =
+        (start.across_error + kStable * (std::fabs(h.hi) + rho.hi) + std::fabs(m.hi) * L.D_error) / L.D +
+        kStable * std::fabs(m.hi) + kSlop;
+    if (!(unsure < 0.25)) return false;
+    const double first =
+        std::max(std::ceil(m.value() - unsure), std::ceil(-(s_ + n * R.S) * to_.inverse_S_L - kSlop));
+    return std::fabs(first) < kMaxCoefficient && look_from(n, first);
+  }
+
+  const Bravais& lattice_;
+  const Direction2<kUnit, kBall>& to_;
+  const Offset<2>& offset_;
+  const Wide* from_ = nullptr;
+  double s_limit_ = 0;
+  double anchor_[2]{}, anchor_error_ = 0;  // of an anchor that is not the home cell
+  double y_ = 0, y_error_ = 0, s_ = 0, s_error_ = 0;
+};
+
+}  // namespace lorentz

@@ -1,0 +1,332 @@
+// Lines of query and answer streams.
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "src/exchange/exchange_json.hpp"
+
+namespace lorentz {
+namespace {
+
+struct Components {
+  Vec values{};
+  std::size_t count = 0;
+};
+
+Components read_components(json::value value, const char* key) {
+  if (value.type() != json::json_type::array)
+    throw InputError(std::string(key) + ": needs an array of numbers");
+  Components result;
+  for (json::value element : value.get_array()) {
+    const double number = read_number(element, key);
+    if (result.count < 3) result.values[result.count] = number;
+    ++result.count;
+  }
+  return result;
+}
+
+struct CellRead {
+  Cell cell{};
+  std::size_t count = 0;
+};
+
+CellRead read_cell(json::value value) {
+  if (value.type() != json::json_type::array) throw InputError("cell: needs an array of integers");
+  CellRead result;
+  for (json::value element : value.get_array()) {
+    Integer n = read_integer(element, "cell");
+    if (result.count < 3) result.cell[result.count] = std::move(n);
+    ++result.count;
+  }
+  return result;
+}
+
+int read_index(json::value value, const char* key) {
+  const Integer n = read_integer(value, key);
+  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
+    throw InputError(std::string(key) + ": is no index");
+  return static_cast<int>(n.int64());
+}
+
+Id read_id(json::value value) {
+  if (value.type() == json::json_type::string) return json_quoted(value.get_string().value());
+  if (value.type() == json::json_type::null) {
+    skip(value);
+    return "null";
+  }
+  std::string id;
+  append_integer(id, read_integer(value, "id"));
+  return id;
+}
+
+struct FromRead {
+  ObstacleId obstacle;
+  std::size_t components = 0;
+  bool lattice = false, atom = false;
+};
+
+FromRead read_from(json::value value) {
+  if (value.type() != json::json_type::object)
+    throw InputError("from: needs an object with lattice, atom and cell");
+  FromRead from;
+  for (auto field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    if (key == "lattice") {
+      from.obstacle.lattice = read_index(field.value(), "from.lattice");
+      from.lattice = true;
+    } else if (key == "atom") {
+      from.obstacle.atom = read_index(field.value(), "from.atom");
+      from.atom = true;
+    } else if (key == "cell") {
+      CellRead cell = read_cell(field.value());
+      from.obstacle.cell = std::move(cell.cell);
+      from.components = cell.count;
+    } else {
+      skip(field.value());
+    }
+  }
+  if (!from.lattice || !from.atom || from.components == 0)
+    throw InputError("from: needs lattice, atom and cell");
+  return from;
+}
+
+std::string not_json(const LineReader::Line& line, const std::string& why) {
+  const auto nuls = std::count(line.text.begin(), line.text.end(), '\0');
+  if (nuls > 0)
+    return "not JSON: holds " + std::to_string(nuls) +
+           " NUL bytes (was the file overwritten or cut while it was written?)";
+  return "not JSON: " + why;
+}
+
+bool is_blank(const LineReader::Line& line) {
+  return !line.too_long && line.text.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+// What a line of a query stream says, before it is held against the scene.
+struct QueryFields {
+  Components x, v;
+  std::optional<FromRead> from;
+  std::optional<SceneNode> scene;
+  bool golden = false;
+  bool has_x = false, has_v = false, has_scene = false;
+};
+
+void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields) {
+  if (key == "x") {
+    fields.has_x = true;
+    fields.x = read_components(value, "x");
+  } else if (key == "v") {
+    fields.has_v = true;
+    fields.v = read_components(value, "v");
+  } else if (key == "id") {
+    id = read_id(value);
+  } else if (key == "from") {
+    fields.from = read_from(value);
+  } else if (key == "scene") {
+    fields.has_scene = true;
+    fields.scene = read_node(value);
+  } else {
+    fields.golden |= key == "golden";
+    skip(value);
+  }
+}
+
+void check_dimension(const char* what, std::size_t count, int dimension) {
+  if (count != static_cast<std::size_t>(dimension))
+    throw InputError(std::string(what) + ": has " + std::to_string(count) +
+                     " components, the scene has dimension " + std::to_string(dimension));
+}
+
+Query query_from(QueryFields& fields, const Scene& scene) {
+  if (!fields.has_x) throw InputError("x is missing");
+  if (!fields.has_v) throw InputError("v is missing");
+  check_dimension("x", fields.x.count, scene.dimension);
+  check_dimension("v", fields.v.count, scene.dimension);
+  Query query{fields.x.values, fields.v.values, {}};
+  if (fields.from) {
+    check_dimension("from.cell", fields.from->components, scene.dimension);
+    query.from = std::move(fields.from->obstacle);
+  }
+  if (auto flaw = flaw_of(query, scene)) throw InputError(*flaw);
+  return query;
+}
+
+}  // namespace
+
+struct ExchangeReader::Impl {
+  json::parser parser;
+  json::document document;
+
+  // The line's object. What is no object is no line of any stream.
+  json::object open(const LineReader::Line& line) {
+    if (line.too_long)
+      throw InputError("line longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
+    document = parser.iterate(line.text.data(), line.text.size(), line.text.size() + LineReader::kPadding);
+    if (document.type() != json::json_type::object)
+      throw InputError("not JSON as it should be: a line is one object, {...}");
+    return document.get_object();
+  }
+
+  void close() {
+    if (!ended(document)) throw NotJson{"more than one value in the line"};
+  }
+
+  void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
+};
+
+ExchangeReader::ExchangeReader() : impl_(std::make_unique<Impl>()) {}
+ExchangeReader::~ExchangeReader() = default;
+
+void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
+  QueryFields fields;
+  std::string flaw;  // the first; reading goes on, for the id may follow
+  for (auto field : open(line)) {
+    const std::string_view key = field.unescaped_key();
+    item.bad_scene |= key == "scene";  // should its value turn out to be no JSON
+    try {
+      read_query_field(key, field.value(), item.id, fields);
+    } catch (const InputError& error) {
+      if (flaw.empty()) flaw = error.what();
+    }
+    item.bad_scene = fields.has_scene;
+  }
+  close();
+  if (!flaw.empty()) throw InputError(flaw);
+  if (fields.scene) {
+    item.scene = scene_from(*fields.scene);
+    item.bad_scene = false;
+    item.kind = StreamItem::Kind::scene;
+  } else if (!fields.golden || fields.has_x || fields.has_v) {
+    item.no_scene = scene == nullptr;
+    if (item.no_scene) throw InputError("no scene before this query");
+    item.query = query_from(fields, *scene);
+    item.kind = StreamItem::Kind::query;
+  }
+}
+
+namespace {
+
+// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not for
+// the scene before it.
+bool begins_as_scene(std::string_view text) {
+  for (const std::string_view part : {"{", "\"scene\"", ":"}) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    if (!text.starts_with(part)) return false;
+    text.remove_prefix(part.size());
+  }
+  return true;
+}
+
+}  // namespace
+
+void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
+  item.kind = StreamItem::Kind::nothing;
+  item.id = "null";
+  item.no_scene = item.bad_scene = false;
+  if (is_blank(line)) return;
+  const auto bad = [&](std::string message) {
+    item.kind = StreamItem::Kind::bad;
+    item.message = std::move(message);
+    item.bad_scene |= begins_as_scene(line.text);
+    if (item.bad_scene) item.id = "null";
+  };
+  try {
+    impl_->read_query(line, scene, item);
+  } catch (const simdjson::simdjson_error& error) {
+    bad(not_json(line, error.what()));
+  } catch (const NotJson& error) {
+    bad(not_json(line, error.why));
+  } catch (const InputError& error) {
+    bad(error.what());
+  }
+}
+
+namespace {
+
+Outcome outcome_named(std::string_view name) {
+  if (name == "hit") return Outcome::hit;
+  if (name == "never") return Outcome::never;
+  if (name == "inside") return Outcome::inside;
+  if (name == "later") return Outcome::later;
+  if (name == "undecided") return Outcome::undecided;
+  if (name == "error") return Outcome::error;
+  throw InputError("outcome: " + json_quoted(name) +
+                   " is none of hit, never, inside, later, undecided, error");
+}
+
+double read_time(json::value value) {
+  if (value.type() == json::json_type::string && value.get_string().value() == "inf")
+    return std::numeric_limits<double>::infinity();
+  const double time = read_number(value, "time");
+  if (time < 0) throw InputError("time: is below zero");
+  return time;
+}
+
+struct AnswerFields {
+  bool outcome = false, lattice = false, atom = false, golden = false;
+  std::size_t components = 0;  // of the cell
+};
+
+void read_answer_field(std::string_view key, json::value value, Id& id, Answer& answer, AnswerFields& has) {
+  if (key == "id") {
+    id = read_id(value);
+  } else if (key == "outcome") {
+    answer.outcome = outcome_named(value.get_string().value());
+    has.outcome = true;
+  } else if (key == "lattice") {
+    answer.obstacle.lattice = read_index(value, "lattice");
+    has.lattice = true;
+  } else if (key == "atom") {
+    answer.obstacle.atom = read_index(value, "atom");
+    has.atom = true;
+  } else if (key == "cell") {
+    CellRead cell = read_cell(value);
+    answer.obstacle.cell = std::move(cell.cell);
+    has.components = cell.count;
+  } else if (key == "time") {
+    answer.time = read_time(value);
+  } else if (key == "message") {
+    answer.message = value.get_string().value();
+  } else if (key == "reason") {
+    answer.unsupported = value.get_string().value() == "unsupported";
+  } else {
+    has.golden |= key == "golden";
+    skip(value);
+  }
+}
+
+}  // namespace
+
+bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components) {
+  AnswerFields has;
+  for (auto field : object) {
+    const std::string_view key = field.unescaped_key();
+    read_answer_field(key, field.value(), id, answer, has);
+  }
+  if (has.golden && !has.outcome) return false;
+  if (!has.outcome) throw InputError("outcome is missing");
+  const bool names_obstacle = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+  if (names_obstacle && !(has.lattice && has.atom && has.components > 0))
+    throw InputError("needs lattice, atom and cell");
+  components = has.components;
+  return true;
+}
+
+bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answer& answer,
+                                      std::size_t& components) {
+  if (is_blank(line)) return false;
+  answer = Answer{};
+  id = "null";
+  components = 0;
+  try {
+    const bool is_answer = read_answer(impl_->open(line), id, answer, components);
+    impl_->close();
+    return is_answer;
+  } catch (const simdjson::simdjson_error& error) {
+    throw InputError(not_json(line, error.what()));
+  } catch (const NotJson& error) {
+    throw InputError(not_json(line, error.why));
+  }
+}
+
+}  // namespace lorentz

@@ -1,0 +1,131 @@
+#include "src/exchange/exchange_scene.hpp"
+
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "src/exchange/exchange_number.hpp"
+
+namespace lorentz {
+
+const SceneNode* SceneNode::member(const char* key) const {
+  const Object* object = std::get_if<Object>(&value);
+  if (!object) return nullptr;
+  for (auto member = object->rbegin(); member != object->rend(); ++member)
+    if (member->key == key) return &member->node;
+  return nullptr;
+}
+
+namespace {
+
+// The number that a text was found to be, or why it is none.
+double finite(std::optional<double> number, std::string_view text, const std::string& place,
+              const char* what) {
+  if (!number) throw InputError(place + ": " + json_quoted(text) + what);
+  if (std::isinf(*number))
+    throw InputError(place + ": " + json_quoted(text) + " is beyond the range of binary64");
+  return *number;
+}
+
+bool looks_hexadecimal(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return text.starts_with("0x") || text.starts_with("0X");
+}
+
+}  // namespace
+
+double parse_hexadecimal(std::string_view text, const std::string& place) {
+  constexpr const char* kWhat =
+      " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
+  if (!looks_hexadecimal(text)) throw InputError(place + ": the string " + json_quoted(text) + kWhat);
+  return finite(nearest_hexadecimal(text), text, place, kWhat);
+}
+
+double parse_number(std::string_view text) {
+  if (looks_hexadecimal(text)) return parse_hexadecimal(text, "number");
+  return finite(nearest_decimal(text), text, "number", " is no finite number");
+}
+
+namespace {
+
+const SceneNode& required(const SceneNode& node, const char* key, const std::string& place) {
+  if (!std::holds_alternative<SceneNode::Object>(node.value))
+    throw InputError((place.empty() ? "scene" : place) + ": needs an object");
+  const SceneNode* member = node.member(key);
+  if (!member) throw InputError((place.empty() ? "scene" : place) + ": " + key + " is missing");
+  return *member;
+}
+
+double number_at(const SceneNode& node, const std::string& place) {
+  if (const double* number = std::get_if<double>(&node.value)) return *number;
+  if (const std::string* text = std::get_if<std::string>(&node.value)) return parse_hexadecimal(*text, place);
+  throw InputError(place + ": needs a number");
+}
+
+const SceneNode::Array& array_at(const SceneNode& node, const std::string& place) {
+  if (const auto* array = std::get_if<SceneNode::Array>(&node.value)) return *array;
+  throw InputError(place + ": needs an array");
+}
+
+std::string item(const std::string& place, std::size_t i) {
+  return place + "[" + std::to_string(i) + "]";
+}
+
+Vec vector_at(const SceneNode& node, int dimension, const std::string& place) {
+  const auto& array = array_at(node, place);
+  if (array.size() != static_cast<std::size_t>(dimension))
+    throw InputError(place + ": has " + std::to_string(array.size()) +
+                     " components, the scene has dimension " + std::to_string(dimension));
+  Vec result{};
+  for (std::size_t i = 0; i < array.size(); ++i) result[i] = number_at(array[i], item(place, i));
+  return result;
+}
+
+std::vector<Vec> vectors_at(const SceneNode& node, int dimension, const std::string& place) {
+  const auto& array = array_at(node, place);
+  if (array.size() != static_cast<std::size_t>(dimension))
+    throw InputError(place + ": needs " + std::to_string(dimension) + " vectors, has " +
+                     std::to_string(array.size()));
+  std::vector<Vec> result;
+  for (std::size_t i = 0; i < array.size(); ++i)
+    result.push_back(vector_at(array[i], dimension, item(place, i)));
+  return result;
+}
+
+Atom atom_from(const SceneNode& node, int dimension, const std::string& place) {
+  Atom atom;
+  atom.position = vector_at(required(node, "position", place), dimension, place + ".position");
+  const SceneNode* radius = node.member("radius");
+  const SceneNode* semiaxes = node.member("semiaxes");
+  if (!radius && !semiaxes) throw InputError(place + ": radius is missing (or semiaxes)");
+  if (radius && semiaxes) throw InputError(place + ": has both radius and semiaxes; leave one out");
+  if (radius)
+    atom.radius = number_at(*radius, place + ".radius");
+  else
+    atom.semiaxes = vectors_at(*semiaxes, dimension, place + ".semiaxes");
+  return atom;
+}
+
+}  // namespace
+
+Scene scene_from(const SceneNode& node) {
+  Scene scene;
+  const double dimension = number_at(required(node, "dimension", ""), "dimension");
+  if (dimension != 2 && dimension != 3) throw InputError("dimension: must be 2 or 3");
+  scene.dimension = static_cast<int>(dimension);
+  const auto& lattices = array_at(required(node, "lattices", ""), "lattices");
+  for (std::size_t l = 0; l < lattices.size(); ++l) {
+    const std::string place = item("lattices", l);
+    Lattice lattice;
+    const auto vectors =
+        vectors_at(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
+    std::copy(vectors.begin(), vectors.end(), lattice.vectors.begin());
+    const auto& atoms = array_at(required(lattices[l], "atoms", place), place + ".atoms");
+    for (std::size_t a = 0; a < atoms.size(); ++a)
+      lattice.atoms.push_back(atom_from(atoms[a], scene.dimension, item(place + ".atoms", a)));
+    scene.lattices.push_back(std::move(lattice));
+  }
+  if (auto flaw = flaw_of(scene)) throw InputError(*flaw);
+  return scene;
+}
+
+}  // namespace lorentz

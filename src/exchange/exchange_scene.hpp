@@ -1,0 +1,34 @@
+// A parsed value of a scene file or line, whatever its syntax was. Private to the exchange library.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz {
+
+/// A number, a string, an array, an object, or something that no scene has (monostate).
+struct SceneNode {
+  struct Member;
+  using Array = std::vector<SceneNode>;
+  using Object = std::vector<Member>;
+  std::variant<std::monostate, double, std::string, Array, Object> value;
+
+  /// The member of that name, or null.
+  const SceneNode* member(const char* key) const;
+};
+
+struct SceneNode::Member {
+  std::string key;
+  SceneNode node;
+};
+
+/// Throws InputError with the place of what is missing or wrong, e.g. "lattices[0].atoms[1].radius".
+Scene scene_from(const SceneNode& node);
+
+/// "0x1.8p-1" and the like; throws InputError, naming `place`.
+double parse_hexadecimal(std::string_view text, const std::string& place);
+
+}  // namespace lorentz

@@ -1,0 +1,112 @@
+// Scene files: TOML, or JSON with the same keys.
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include <lorentz/exchange.hpp>
+#include "src/exchange/exchange_json.hpp"
+#include "src/exchange/exchange_toml.hpp"
+
+namespace lorentz {
+namespace {
+
+SceneNode node_from(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    SceneNode::Object object;
+    for (const auto& [key, value] : *table) object.push_back({std::string(key.str()), node_from(value)});
+    return {std::move(object)};
+  }
+  if (const auto* array = node.as_array()) {
+    SceneNode::Array elements;
+    for (const auto& value : *array) elements.push_back(node_from(value));
+    return {std::move(elements)};
+  }
+  if (const auto* number = node.as_floating_point()) return {number->get()};
+  if (const auto* integer = node.as_integer()) return {static_cast<double>(integer->get())};
+  if (const auto* text = node.as_string()) return {text->get()};
+  return {};
+}
+
+// The parser and its tables are recursive, so a key of 100 000 dotted parts would take the stack with it.
+void check_dotted_keys(const std::string& text) {
+  int dots = 0;
+  for (const char c : text) {
+    if (c == '.')
+      check_depth(++dots);
+    else if (c == ',' || c == '=' || c == '\n' || c == '[' || c == '{' || c == '#')
+      dots = 0;
+  }
+}
+
+SceneNode parse_toml(const std::string& text) {
+  check_dotted_keys(text);
+  try {
+    return node_from(toml::parse(with_hexadecimal_numbers(text)));
+  } catch (const toml::parse_error& error) {
+    throw InputError("line " + std::to_string(error.source().begin.line) +
+                     ": not TOML: " + std::string(error.description()));
+  }
+}
+
+// The line in which the reader stands, as far as it can tell.
+std::string line_of(json::document& document, const simdjson::padded_string& text) {
+  const char* place = nullptr;
+  if (document.current_location().get(place)) return "";
+  return "line " + std::to_string(1 + std::count(text.data(), place, '\n')) + ": ";
+}
+
+SceneNode parse_json(const std::string& text) {
+  json::parser parser;
+  const simdjson::padded_string padded(text);
+  json::document document;
+  // A document that was not begun must not be asked where it stands.
+  if (const auto error = parser.iterate(padded).get(document))
+    throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
+  try {
+    SceneNode node = read_node(document.get_value());
+    if (!ended(document)) throw NotJson{"more than one value"};
+    const SceneNode* inner = node.member("scene");
+    return inner ? SceneNode(*inner) : node;
+  } catch (const simdjson::simdjson_error& error) {
+    throw InputError(line_of(document, padded) + "not JSON: " + error.what());
+  } catch (const NotJson& error) {
+    throw InputError(line_of(document, padded) + "not JSON: " + error.why);
+  }
+}
+
+std::string text_of(const std::string& path) {
+  LineReader reader(path);
+  std::string text;
+  for (LineReader::Line line; reader.next(line);) {
+    if (line.too_long)
+      throw InputError("a line is longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
+    text.append(line.text);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+Scene read_scene_file(const std::string& path) {
+  try {
+    const std::string text = text_of(path);
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
+    return scene_from(text[first] == '{' ? parse_json(text) : parse_toml(text));
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
+
+std::string exchange_libraries() {
+  const auto dotted = [](int major, int minor, int patch) {
+    return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch);
+  };
+  return "simdjson " +
+         dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
+                simdjson::SIMDJSON_VERSION_REVISION) +
+         "\ntoml++ " + dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
+}
+
+}  // namespace lorentz

@@ -1,0 +1,85 @@
+#include <lorentz/line_reader.hpp>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include <lorentz/errors.hpp>
+
+namespace lorentz {
+
+LineReader::LineReader(const std::string& path)
+    : name_(path == "-" ? "standard input" : path), buffer_(1 << 16) {
+  descriptor_ = path == "-" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) throw FileError(path + ": " + std::strerror(errno));
+  struct stat status {};
+  if (fstat(descriptor_, &status) == 0 && S_ISDIR(status.st_mode)) {
+    if (descriptor_ != STDIN_FILENO) close(descriptor_);
+    throw FileError(name_ + ": is a directory, not a file");
+  }
+}
+
+LineReader::~LineReader() {
+  if (descriptor_ > STDIN_FILENO) close(descriptor_);
+}
+
+// Reads more behind the unread bytes, making room for it; false at the end of the stream.
+bool LineReader::fill() {
+  if (at_end_) return false;
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  if (end_ + kPadding >= buffer_.size()) buffer_.resize(2 * buffer_.size());
+  if (before_waiting_) before_waiting_();
+  ssize_t count;
+  do {
+    count = read(descriptor_, buffer_.data() + end_, buffer_.size() - kPadding - end_);
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) throw FileError(name_ + ": " + std::strerror(errno));
+  at_end_ = count == 0;
+  end_ += static_cast<std::size_t>(count);
+  return count > 0;
+}
+
+void LineReader::skip_rest_of_line() {
+  for (;;) {
+    if (const void* newline = std::memchr(buffer_.data() + begin_, '\n', end_ - begin_)) {
+      begin_ = static_cast<const char*>(newline) - buffer_.data() + 1;
+      return;
+    }
+    begin_ = end_;
+    if (!fill()) return;
+  }
+}
+
+bool LineReader::next(Line& line) {
+  std::size_t searched = 0;
+  for (;;) {
+    const char* start = buffer_.data() + begin_;
+    const void* newline = std::memchr(start + searched, '\n', end_ - begin_ - searched);
+    const std::size_t length = newline ? static_cast<const char*>(newline) - start : end_ - begin_;
+    if (newline || (at_end_ && length > 0)) {
+      line = {std::string_view(start, length), ++number_, false};
+      constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+      if (number_ == 1 && line.text.starts_with(kByteOrderMark))
+        line.text.remove_prefix(kByteOrderMark.size());
+      begin_ += length + (newline ? 1 : 0);
+      return true;
+    }
+    if (at_end_) return false;
+    if (length > kMaxLine) {
+      skip_rest_of_line();
+      line = {{}, ++number_, true};
+      return true;
+    }
+    searched = length;
+    fill();
+  }
+}
+
+}  // namespace lorentz

@@ -1,0 +1,155 @@
+#include "src/problem/scene_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <lorentz/geometry.hpp>
+
+namespace lorentz::cli {
+
+using std::numbers::pi;
+
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// One-sided Jacobi (Hestenes 1958): columns are turned in pairs until all are perpendicular; their lengths
+// are the singular values then.
+std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
+  std::array<Vec, 3> a = semiaxes_of(atom, dimension);
+  constexpr int kSweeps = 60;
+  bool turned = true;
+  for (int sweep = 0; sweep < kSweeps && turned; ++sweep) {
+    turned = false;
+    for (int i = 0; i < dimension; ++i)
+      for (int k = i + 1; k < dimension; ++k) {
+        const double aii = dot(a[i], a[i]), akk = dot(a[k], a[k]), aik = dot(a[i], a[k]);
+        if (std::fabs(aik) <= 1e-17 * std::sqrt(aii * akk)) continue;
+        turned = true;
+        const double zeta = (akk - aii) / (2 * aik);
+        const double t = std::copysign(1.0, zeta) / (std::fabs(zeta) + std::hypot(1.0, zeta));
+        const double c = 1 / std::hypot(1.0, t), s = c * t;
+        for (int m = 0; m < 3; ++m) {
+          const double ai = a[i][m], ak = a[k][m];
+          a[i][m] = c * ai - s * ak;
+          a[k][m] = s * ai + c * ak;
+        }
+      }
+  }
+  std::array<double, 3> lengths{};
+  for (int i = 0; i < dimension; ++i) lengths[i] = std::hypot(a[i][0], a[i][1], a[i][2]);
+  std::sort(lengths.rbegin(), lengths.rend());
+  return lengths;
+}
+
+double cell_volume(const Lattice& lattice, int dimension) {
+  const auto& u = lattice.vectors;
+  return std::fabs(dimension == 2 ? cross(u[0], u[1])[2] : dot(cross(u[0], u[1]), u[2]));
+}
+
+double volume_of(const Atom& atom, int dimension) {
+  const auto [a, b, c] = principal_semiaxes(atom, dimension);
+  return dimension == 2 ? pi * a * b : 4 * pi / 3 * a * b * c;
+}
+
+// Carlson's duplication (1995): each step brings the three a factor of 4 nearer to each other, until a few
+// terms of a series give the rest to 1e-16.
+double carlson_rf(double x, double y, double z) {
+  for (;;) {
+    const double mean = (x + y + z) / 3;
+    const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
+    if (std::max({std::fabs(dx), std::fabs(dy), std::fabs(dz)}) < 1e-3) {
+      const double e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+      return (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44) / std::sqrt(mean);
+    }
+    const double shift = std::sqrt(x * y) + std::sqrt(y * z) + std::sqrt(z * x);
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+}
+
+double carlson_rd(double x, double y, double z) {
+  double sum = 0, factor = 1;
+  for (;;) {
+    const double mean = (x + y + 3 * z) / 5;
+    const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
+    if (std::max({std::fabs(dx), std::fabs(dy), std::fabs(dz)}) < 1e-3) {
+      const double e2 = dx * dy - 6 * dz * dz, e3 = (3 * dx * dy - 8 * dz * dz) * dz,
+                   e4 = 3 * (dx * dy - dz * dz) * dz * dz, e5 = dx * dy * dz * dz * dz;
+      return 3 * sum + factor *
+                           (1 - 3 * e2 / 14 + e3 / 6 + 9 * e2 * e2 / 88 - 3 * e4 / 22 - 9 * e2 * e3 / 52 +
+                            3 * e5 / 26) /
+                           (mean * std::sqrt(mean));
+    }
+    const double shift = std::sqrt(x * y) + std::sqrt(y * z) + std::sqrt(z * x);
+    sum += factor / (std::sqrt(z) * (z + shift));
+    factor /= 4;
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+}
+
+// An ellipse has the perimeter 4 a E(e). An ellipsoid has the surface 4 pi RG(a^2 b^2, a^2 c^2, b^2 c^2)
+// (DLMF 19.33.1), and with z between x and y every term of 2 RG = z RF - (x - z)(y - z) RD / 3 + sqrt(x y /
+// z) (19.21.10) is positive.
+double surface_of(const Atom& atom, int dimension) {
+  const auto [a, b, c] = principal_semiaxes(atom, dimension);
+  if (dimension == 2) return 4 * a * std::comp_ellint_2(std::sqrt((1 - b / a) * (1 + b / a)));
+  const double p = b / a, q = c / a;  // 1 >= p >= q
+  const double x = p * p, y = p * p * q * q, z = q * q;
+  if (!(z > 1e-300)) return std::numeric_limits<double>::quiet_NaN();  // too slender for the integrals
+  return 2 * pi * a * a *
+         (z * carlson_rf(x, y, z) - (x - z) * (y - z) * carlson_rd(x, y, z) / 3 + std::sqrt(x * y / z));
+}
+
+namespace {
+
+// A power of two of about the cell's size, by the exponents alone: the cell's volume may be beyond binary64.
+int size_exponent(const Lattice& lattice, int dimension) {
+  int sum = 0;
+  for (int i = 0; i < dimension; ++i) {
+    double largest = 0;
+    for (const double component : lattice.vectors[i]) largest = std::max(largest, std::fabs(component));
+    sum += std::ilogb(largest);
+  }
+  return sum / dimension;
+}
+
+Scene scaled(Scene scene, int exponent) {
+  const auto scale = [exponent](Vec& a) {
+    for (double& component : a) component = std::scalbn(component, exponent);
+  };
+  for (Lattice& lattice : scene.lattices) {
+    for (Vec& u : lattice.vectors) scale(u);
+    for (Atom& atom : lattice.atoms) {
+      atom.radius = std::scalbn(atom.radius, exponent);
+      for (Vec& axis : atom.semiaxes) scale(axis);
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+std::optional<Filling> filling_of(const Scene& given) {
+  const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
+  Filling filling;
+  for (const Lattice& lattice : scaled(given, -exponent).lattices) {
+    const double cell = cell_volume(lattice, d);
+    for (const Atom& atom : lattice.atoms) {
+      for (int i = 0; i < d; ++i)
+        if (!std::isnormal(principal_semiaxes(atom, d)[i])) return std::nullopt;
+      filling.fraction += volume_of(atom, d) / cell;
+      filling.surface += surface_of(atom, d) / cell;
+    }
+  }
+  filling.mean_free_path = (d == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
+  filling.surface = std::scalbn(filling.surface, -exponent);
+  filling.mean_free_path = std::scalbn(filling.mean_free_path, exponent);
+  const bool in_range = std::isnormal(filling.fraction) && std::isnormal(filling.surface) &&
+                        std::isfinite(filling.mean_free_path);
+  if (!in_range) return std::nullopt;
+  return filling;
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,36 @@
+// Volumes, surfaces and the mean free path of a scene, in binary64. In 2D a volume is an area and a surface a
+// perimeter.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::cli {
+
+Vec cross(const Vec& a, const Vec& b);
+
+/// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
+/// values of its matrix.
+std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
+
+double cell_volume(const Lattice& lattice, int dimension);
+double volume_of(const Atom& atom, int dimension);
+double surface_of(const Atom& atom, int dimension);
+
+/// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0.
+double carlson_rf(double x, double y, double z);
+double carlson_rd(double x, double y, double z);
+
+/// Of a scene without overlaps: the share of space that the obstacles take, their surface per volume, and the
+/// mean free path between hits by Santalo's formula, which follows from these: pi (1 - filling) / surface in
+/// 2D, 4 (1 - filling) / surface in 3D.
+struct Filling {
+  double fraction = 0, surface = 0, mean_free_path = 0;
+};
+
+/// Nothing if it is beyond the range of binary64.
+std::optional<Filling> filling_of(const Scene& scene);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,184 @@
+// The families of cases as such: repeatable, in order, without flaws, and marked with the tags that they
+// explain.
+#include "cases/families/family.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include <lorentz/scene_check.hpp>
+#include "cases/bad_queries.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Case;
+using fuzz::Family;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 4;
+constexpr std::uint64_t kCount = 2000;
+
+std::string scene_line(const Scene& scene) {
+  std::string out;
+  append_scene_line(out, scene);
+  return out;
+}
+
+// Everything that there is to a case, to the bit.
+std::string text_of(const Case& one) {
+  std::string text = stream(one.scene, one.query);
+  for (const std::string& tag : one.tags) text += tag + " ";
+  return text;
+}
+
+}  // namespace
+
+// Philox4x64-10 written down once more, from the paper: the multipliers, the Weyl keys, ten rounds.
+std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> c, std::array<std::uint64_t, 2> key) {
+  __extension__ using Wide = unsigned __int128;
+  for (int round = 0; round < 10; ++round) {
+    const Wide a = Wide{0xd2e7470ee14c6c93} * c[0], b = Wide{0xca5a826395121157} * c[2];
+    c = {static_cast<std::uint64_t>(b >> 64) ^ c[1] ^ key[0], static_cast<std::uint64_t>(b),
+         static_cast<std::uint64_t>(a >> 64) ^ c[3] ^ key[1], static_cast<std::uint64_t>(a)};
+    key = {key[0] + 0x9e3779b97f4a7c15, key[1] + 0xbb67ae8584caa73b};
+  }
+  return c;
+}
+
+TEST_CASE("Random numbers are Philox4x64-10 of (seed, name), (index, use, block)", "[cases][family]") {
+  // Random123's own table of known answers.
+  CHECK(philox({}, {}) == std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc,
+                                                       0xd7e772cee186176b, 0x7e68b68aec7ba23b});
+  constexpr std::uint64_t kNameA = 0xaf63dc4c8601ec8c;  // FNV-1a of "a"
+  fuzz::Random random(20161115, "a", 7), scenes(20161115, "a", 7, fuzz::Use::scenes);
+  for (const std::uint64_t block : {0, 1, 2})
+    for (const std::uint64_t word : philox({7, 0, block, 0}, {20161115, kNameA}))
+      CHECK(random.bits() == word);
+  CHECK(scenes.bits() == philox({7, 1, 0, 0}, {20161115, kNameA})[0]);
+  fuzz::Random once_more(20161115, "a", 7);
+  CHECK(once_more.uniform() == std::ldexp(philox({7, 0, 0, 0}, {20161115, kNameA})[0] >> 11, -53));
+}
+
+TEST_CASE("A case depends on seed, family and index: not on the order, the thread, or other families",
+          "[cases][family]") {
+  INFO("seed 4");
+  std::vector<std::pair<const Family*, std::uint64_t>> order;
+  std::map<std::pair<const Family*, std::uint64_t>, std::string> first, again;
+  for (const Family& family : fuzz::families())
+    for (std::uint64_t index = 0; index < 160; ++index) {
+      order.emplace_back(&family, index);
+      first[order.back()] = text_of(family.make(kSeed, index));
+    }
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(5));
+  std::thread([&] {
+    for (const auto& [family, index] : order) again[{family, index}] = text_of(family->make(kSeed, index));
+  }).join();
+  long different_seed = 0, different_family = 0;
+  for (const auto& [key, text] : first) {
+    INFO(key.first->name() << " " << key.second);
+    CHECK(again[key] == text);
+    different_seed += text_of(key.first->make(kSeed + 1, key.second)) != text;
+  }
+  const Family &flat = *fuzz::family_named("grazing"), &other = *fuzz::family_named("ties");
+  for (std::uint64_t index = 0; index < 100; ++index)
+    different_family += text_of(flat.make(kSeed, index)) != text_of(other.make(kSeed, index));
+  CHECK(different_seed >= static_cast<long>(first.size()) - 20);  // the published examples are what they are
+  CHECK(different_family == 100);
+}
+
+TEST_CASE("Cases are without flaws, their tags explained, and every explained tag occurs",
+          "[cases][family]") {
+  INFO("seed 4");
+  std::set<std::string_view> names;
+  for (const Family& family : fuzz::families()) {
+    INFO(family.name());
+    CHECK(names.insert(family.name()).second);
+    CHECK(fuzz::family_named(family.name()) == &family);
+    CHECK_FALSE(family.description().empty());
+    std::map<std::string_view, long> met;
+    for (const fuzz::Tag& tag : family.tags()) {
+      CHECK(met.emplace(tag.name, 0).second);
+      CHECK(tag.note.size() > 10);
+    }
+    std::string last;
+    for (std::uint64_t index = 0; index < kCount; ++index) {
+      const Case one = family.make(kSeed, index);
+      INFO("index " << index << " " << text_of(one));
+      const std::string scene = scene_line(one.scene);
+      if (scene != last) {
+        REQUIRE_FALSE(flaw_of(one.scene));
+        REQUIRE_FALSE(oracle::dependence_in(one.scene));
+        last = scene;
+      }
+      REQUIRE_FALSE(flaw_of(one.query, one.scene));
+      if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
+      REQUIRE_FALSE(one.tags.empty());
+      REQUIRE(std::set<std::string>(one.tags.begin(), one.tags.end()).size() == one.tags.size());
+      for (const std::string& tag : one.tags) {
+        REQUIRE(met.contains(tag));
+        ++met[tag];
+      }
+    }
+    for (const auto& [tag, count] : met) {
+      INFO(tag);
+      CHECK(count > 0);
+    }
+  }
+  CHECK(names.size() == 17);
+  CHECK(fuzz::family_named("no such family") == nullptr);
+}
+
+TEST_CASE("Cases share a scene in rows of 32, and no query comes twice", "[cases][family]") {
+  INFO("seed 4");
+  for (const Family& family : fuzz::families()) {
+    INFO(family.name());
+    std::set<std::string> scenes, cases;
+    for (std::uint64_t index = 0; index < kCount; ++index) {
+      const Case one = family.make(kSeed, index);
+      if (family.name() == "published-faults" && index < fuzz::kCasesPerScene) continue;
+      if (index % fuzz::kCasesPerScene == 0) {
+        const Case last = family.make(kSeed, index + fuzz::kCasesPerScene - 1);
+        CHECK(scene_line(one.scene) == scene_line(last.scene));
+        scenes.insert(scene_line(one.scene));
+      }
+      cases.insert(stream(one.scene, one.query));
+    }
+    CHECK(scenes.size() > 20);
+    CHECK(cases.size() >= kCount - fuzz::kCasesPerScene - 2);
+  }
+}
+
+TEST_CASE("Bad queries are well-formed, each different, and refused by the reader", "[cases][family]") {
+  std::set<std::string> texts, used, explained;
+  for (const fuzz::Tag& tag : fuzz::bad_query_tags()) explained.insert(std::string(tag.name));
+  REQUIRE_FALSE(flaw_of(fuzz::bad_query_scene()));
+  ExchangeReader reader;
+  const auto read = [&](const std::string& text) {
+    LineReader::Line line;
+    const std::string padded = "{\"id\":\"a\"," + text + "}" + std::string(LineReader::kPadding, ' ');
+    line.text = std::string_view(padded).substr(0, padded.size() - LineReader::kPadding);
+    StreamItem item;
+    reader.read_query_line(line, &fuzz::bad_query_scene(), item);
+    return item;
+  };
+  for (const fuzz::BadQuery& bad : fuzz::bad_queries()) {
+    INFO(bad.tag << ": " << bad.text);
+    CHECK(texts.insert(bad.text).second);
+    CHECK(explained.contains(bad.tag));
+    used.insert(bad.tag);
+    const StreamItem item = read(bad.text);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.id == "\"a\"");  // the line could be read, the question is what is bad
+    CHECK(item.message.find("not JSON") == std::string::npos);
+  }
+  CHECK(used == explained);
+  CHECK(texts.size() > 100);
+  CHECK(read("\"x\":[0.25,0.5],\"v\":[1,0.5],\"from\":{\"lattice\":0,\"atom\":1,\"cell\":[0,\"-7\"]}").kind ==
+        StreamItem::Kind::query);
+}

@@ -1,0 +1,205 @@
+// The subcommands about scenes, `scene` and `horizon`, as their users call them.
+#include <catch2/catch.hpp>
+
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz::test;
+
+namespace {
+
+// Whether tags open and close in pairs, and nothing else of XML's grammar is broken that these pictures could
+// break.
+bool is_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    if (end == std::string::npos || xml.find('<', at + 1) < end) return false;
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return false;
+    const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+    if (tag[0] == '?' || tag.back() == '/') continue;
+    if (tag[0] != '/') {
+      open.push_back(name);
+    } else {
+      if (open.empty() || "/" + open.back() != name) return false;
+      open.pop_back();
+    }
+  }
+  return open.empty() && !contains(xml, "nan") && !contains(xml, "inf");
+}
+
+std::size_t times(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("scene list: the catalogue, as a table and as JSON", "[cli][scene_command]") {
+  const Folder folder;
+  const Run table = folder.lorentz("scene list"), json = folder.lorentz("scene list --json");
+  CHECK(table.status == 0);
+  CHECK(lines(table.out) >= 28);
+  CHECK(contains(table.out, "Face-centred cubic"));
+  CHECK(json.out.starts_with(
+      R"({"scenes":[{"name":"bcc","dimension":3,"lattices":1,"atoms":1,"description":"Body-)"));
+  // A broken file is named, and the others are listed.
+  fs::create_directory(folder.file("scenes"));
+  folder.write("scenes/good.toml",
+               "# Good.\ndimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], atoms = [{position = "
+               "[0, 0], radius = 0.1}]}]\n");
+  folder.write("scenes/bad.toml", "dimension = 4\n");
+  const std::string command = "LORENTZ_DATA=" + folder.file("") + " " + LORENTZ_PROGRAM + " scene list >" +
+                              folder.file("o") + " 2>" + folder.file("e");
+  CHECK(WEXITSTATUS(std::system(command.c_str())) == 2);
+  CHECK(contains(folder.read("o"), "1  Good."));
+  CHECK(contains(folder.read("e"), "bad.toml: dimension"));
+}
+
+TEST_CASE("scene show: contacts, filling and mean free path, or why there are none", "[cli][scene_command]") {
+  const Folder folder;
+  const Run fcc = folder.lorentz("scene show fcc");
+  CHECK(fcc.status == 0);
+  CHECK(fcc.err.empty());
+  for (const char* part : {"cell volume  0.25", "sphere of radius 0.28", "none touch, none overlap",
+                           "0.3678092903", "0.6416854364", "horizon"})
+    CHECK(contains(fcc.out, part));
+  // (2, 0) touches and (1, 0) overlaps: the warning is of the worse.
+  CHECK(contains(folder.lorentz("horizon square --radius 1").err, "overlap their own translates"));
+  CHECK(contains(fcc.out, "infinite: 4 normals of planar channels"));
+  CHECK(contains(folder.lorentz("scene show cesium-chloride").out, "infinite: 25 directions of cylindrical"));
+  CHECK(contains(folder.lorentz("scene show triangular").out, "finite: every path ends"));
+  const Run touching = folder.lorentz("scene show square --radius 0.5");
+  CHECK(contains(touching.out, "0 overlap, 2 touch"));
+  CHECK(contains(touching.out, "atom 0 touches atom 0 of cell (1, 0)"));
+  CHECK(contains(touching.out, "0.2146018366"));
+  const Run overlapping = folder.lorentz("scene show overlapping");
+  CHECK(contains(overlapping.out, "atom 0 overlaps atom 1 of cell (0, 0)"));
+  CHECK(contains(overlapping.out, "not given, for obstacles overlap"));
+  CHECK(contains(folder.lorentz("scene show square --radius 1e9").out, "and 990 more"));
+  CHECK(contains(folder.lorentz("scene show superposition-pi-5").out, "of two lattices overlap"));
+  const Run json = folder.lorentz("scene show square --radius 0.5 --json");
+  CHECK(contains(json.out,
+                 R"("contacts":{"count":2,"complete":true,"first":[{"lattice":0,"atom":0,"other_lattice":0,)"
+                 R"("other_atom":0,"cell":[0,1],"kind":"touch"})"));
+  CHECK(contains(json.out, R"("scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]])"));
+  CHECK(contains(folder.lorentz("scene show overlapping --json").out, R"("filling":null)"));
+
+  const Run mistyped = folder.lorentz("scene show fccc");
+  CHECK(mistyped.status == 3);
+  CHECK(contains(mistyped.err, "diamond, "));
+  CHECK(folder.lorentz("scene").status == 2);
+  CHECK(folder.lorentz("scene show").status == 2);
+  CHECK(folder.lorentz("scene show ellipse --radius 0.1").status == 2);
+  const Run paint = folder.lorentz("scene paint square");
+  CHECK(paint.status == 2);
+  CHECK(contains(paint.err, "no subcommand is called \"paint\"; there are list, show, draw"));
+  for (const char* help : {"scene --help", "scene list --help", "scene show --help", "scene draw --help"})
+    CHECK(contains(folder.lorentz(help).out, "Example:"));
+}
+
+TEST_CASE("scene draw: well-formed pictures of the whole catalogue", "[cli][scene_command]") {
+  const Folder folder;
+  for (const auto& file : fs::directory_iterator(std::string(LORENTZ_SOURCE_DIR) + "/data/scenes")) {
+    const Run run = folder.lorentz("scene draw " + file.path().stem().string());
+    INFO(file.path() << run.err);
+    CHECK(run.status == 0);
+    CHECK(is_well_formed(run.out));
+    CHECK(contains(run.out, "viewBox=\"0 0 800 "));
+    CHECK(run.out.size() < 100'000);
+  }
+  // 4 x 4 cells around the first hold 4 x 4 discs; one more in the legend.
+  CHECK(times(folder.lorentz("scene draw square").out, "<circle") == 16 + 1);
+  // 2 x 2 x 2 cells have 27 corners.
+  CHECK(times(folder.lorentz("scene draw cubic").out, "<circle") == 27 + 1);
+  CHECK(folder.lorentz("scene draw square -o " + folder.file("p.svg")).out.empty());
+  CHECK(is_well_formed(folder.read("p.svg")));
+  CHECK(folder.lorentz("scene draw square -o /nowhere/p.svg").status == 3);
+  CHECK(folder.lorentz("scene draw").status == 2);
+  const auto odd = folder.write("a&b<c>.toml",
+                                "dimension = 2\nlattices = [{vectors = [[1e-9, 0], [1e9, 1]], atoms = "
+                                "[{position = [0, 0], radius = 0.1}]}]\n");
+  const Run strange = folder.lorentz("scene draw '" + odd + "'");
+  CHECK(strange.status == 0);
+  CHECK(is_well_formed(strange.out));
+  CHECK(contains(strange.out, "a&amp;b&lt;c&gt;"));
+}
+
+TEST_CASE("scene draw: flights end at the exact first hit", "[cli][scene_command]") {
+  const Folder folder;
+  // From (1/2, 0) to the disc of (1, 0): 1/4 of the cell long.
+  const Run hit = folder.lorentz("scene draw --queries " + folder.write("q", kScene + kGood));
+  INFO(hit.out << hit.err);
+  CHECK(hit.status == 0);
+  CHECK(hit.err.empty());
+  CHECK(is_well_formed(hit.out));
+  CHECK(times(hit.out, "stroke=\"#c0182b\" stroke-width=\"2\"") == 1);  // the obstacle that is hit
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0, cell1 = 0, cell2 = 0;
+  const auto flight = hit.out.find("stroke=\"#c0182b\" stroke-width=\"1.4\"/>");
+  REQUIRE(flight != std::string::npos);
+  const auto line = hit.out.rfind("points=\"", flight), cell = hit.out.find("<polygon points=\"");
+  REQUIRE(std::sscanf(hit.out.c_str() + line, "points=\"%lf,%lf %lf,%lf", &x1, &y1, &x2, &y2) == 4);
+  REQUIRE(std::sscanf(hit.out.c_str() + cell, "<polygon points=\"%lf,%*f %lf", &cell1, &cell2) == 2);
+  CHECK(x2 - x1 == Approx((cell2 - cell1) / 4).margin(0.02));
+  CHECK(x1 - cell1 == Approx((cell2 - cell1) / 2).margin(0.02));
+  CHECK(y1 == y2);
+  const Run up =
+      folder.lorentz("scene draw --queries " + folder.write("q1", kScene + R"({"x":[0,0.5],"v":[0,1]})"
+                                                                           "\n"));
+  const auto upwards = up.out.find("stroke=\"#c0182b\" stroke-width=\"1.4\"/>");
+  REQUIRE(upwards != std::string::npos);
+  REQUIRE(std::sscanf(up.out.c_str() + up.out.rfind("points=\"", upwards), "points=\"%lf,%lf %lf,%lf", &x1,
+                      &y1, &x2, &y2) == 4);
+  CHECK(x1 == x2);
+  CHECK(y2 < y1 - 20);
+
+  const Run never = folder.lorentz("scene draw cubic --queries " +
+                                   folder.write("q2", R"({"x":[0.5,0.5,0.5],"v":[0,0,1]})"
+                                                      "\n"
+                                                      R"({"x":[0.05,0,0],"v":[0,0,1]})"
+                                                      "\n"
+                                                      R"({"x":[0.5,0.5,0.5],"v":[1,1e-9,0]})"
+                                                      "\n"
+                                                      R"({"x":[1e6,0.5,0.5],"v":[1,1e-9,0]})"
+                                                      "\n"));
+  CHECK(never.status == 0);
+  CHECK(is_well_formed(never.out));
+  CHECK(contains(never.err, "flights left out"));
+  // A second scene does not fit into the picture; a bad line is complained of.
+  CHECK(contains(folder.lorentz("scene draw --queries " + folder.write("q3", kScene + kGood + kScene)).err,
+                 "first scene"));
+  CHECK(folder.lorentz("scene draw --queries " + folder.write("q4", kScene + "bad\n" + kGood)).status == 2);
+  CHECK(folder.lorentz("scene draw --queries " + folder.write("q5", kGood)).status == 2);
+}
+
+TEST_CASE("horizon: verdicts, tables, JSON and refusals", "[cli][scene_command]") {
+  const Folder folder;
+  const Run square = folder.lorentz("horizon square --radius 0.4");
+  CHECK(square.status == 0);
+  CHECK(square.err.empty());
+  CHECK(square.out.starts_with("infinite horizon: 2 corridor directions\n"));
+  CHECK(contains(square.out, "C = 0.0512014"));
+  CHECK(folder.lorentz("horizon --scene square --radius 0.4").out == square.out);
+  CHECK(folder.lorentz("horizon square --radius 0.5").out.starts_with("finite horizon"));
+  CHECK(contains(folder.lorentz("horizon square --limit 3").out, "... and 17 more (--limit 20 shows them)"));
+  CHECK(contains(folder.lorentz("horizon square --radius 0.4 --min-width 0.3").out, "no channel is so wide"));
+  const std::string json = folder.lorentz("horizon square --radius 0.4 --json").out;
+  CHECK(contains(json, R"("horizon":"infinite","directions":2)"));
+  CHECK(contains(
+      json,
+      R"({"direction":[1,0],"vector":[1,0],"width":0.19999999999999996,"point":[0,0.5],"point_inside":true,"count":1})"));
+  const Run small = folder.lorentz("horizon square --radius 1e-9");
+  CHECK(small.status == 2);
+  CHECK(small.out.empty());
+  CHECK(contains(small.err, "--min-width W"));
+  CHECK(folder.lorentz("horizon square --radius 1e-9 --min-width 0.2").status == 0);
+  CHECK(contains(folder.lorentz("horizon cubic --no-cylinders").out, "193 normals of planar channels"));
+  CHECK(contains(folder.lorentz("horizon cubic --radius 0.45 --json").out, R"("direction":[1,1,1])"));
+  for (const char* bad : {"horizon", "horizon square --scene cubic", "horizon square --min-width 0",
+                          "horizon square --radius x", "horizon square --limit -1"}) {
+    INFO(bad);
+    CHECK(folder.lorentz(bad).status == 2);
+  }
+  CHECK(folder.lorentz("horizon nowhere").status == 3);
+}

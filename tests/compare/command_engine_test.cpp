@@ -1,0 +1,468 @@
+// cmd:COMMAND: other programs as engines, and what is made of their faults. tests/compare/odd_engine.py and
+// tests/compare/silent_engine.sh have the faults.
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz::test;
+
+namespace {
+
+constexpr int kQueries = 20;
+
+// The shell, which stays and waits, would keep the program's output open: with exec it does not stay.
+std::string odd(const std::string& fault) {
+  return "'cmd:exec " LORENTZ_PYTHON " -I -S " LORENTZ_SOURCE_DIR "/tests/compare/odd_engine.py " + fault +
+         "'";
+}
+
+std::string silent(const std::string& fault) {
+  return "'cmd:sh " LORENTZ_SOURCE_DIR "/tests/compare/silent_engine.sh " + fault + "'";
+}
+
+// Queries "q0", "q1", ... that start at (0, 0.5), (1, 0.5), ...
+std::string stream(int count = kQueries) {
+  std::string text = kScene;
+  for (int k = 0; k < count; ++k)
+    text += "{\"id\":\"q" + std::to_string(k) + "\",\"x\":[" + std::to_string(k) + ",0.5],\"v\":[1,1]}\n";
+  return text;
+}
+
+std::string answer_to(int k) {
+  const std::string n = std::to_string(k);
+  return "{\"id\":\"q" + n + R"(","outcome":"hit","lattice":0,"atom":0,"cell":[)" + n + ",0],\"time\":" + n +
+         "}";
+}
+
+std::string error_to(int k, const std::string& beginning) {
+  return "{\"id\":\"q" + std::to_string(k) + R"(","outcome":"error","message":")" + beginning;
+}
+
+// Every query has its answer in its place, but for query 5, which has this error.
+void check_all_but_fifth(const std::string& out, const std::string& error) {
+  INFO(out);
+  std::istringstream answers(out);
+  int k = 0;
+  for (std::string line; std::getline(answers, line); ++k) {
+    if (k == 5 && !error.empty())
+      CHECK(line.starts_with(error_to(5, error)));
+    else
+      CHECK(line == answer_to(k));
+  }
+  CHECK(k == kQueries);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Does a process go on running? One that was killed may take a moment to die, and may stay a zombie, which a
+// signal would reach.
+bool goes_on_running(const std::string& pid_file) {
+  int pid = 0;
+  std::ifstream(pid_file) >> pid;
+  REQUIRE(pid > 0);
+  for (int i = 0; i < 100; ++i) {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    if (!(stat >> number >> name >> state) || state == "Z") return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("A program may answer line by line, in blocks, or when its input ends",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  for (const char* manner : {"fine", "buffered", "at-end"}) {
+    const Run run = folder.lorentz("first-hit --engine " + odd(manner) + " " + queries);
+    INFO(manner << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    check_all_but_fifth(run.out, "");
+  }
+}
+
+TEST_CASE("A program's fault costs the query that it shows at, is reported with it, and nothing else is lost",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  struct Fault {
+    std::string name, error, said;
+  };
+  const std::string bad_line =
+      R"(cmd gave no answer to this query before that to a later one; before that it )";
+  const Fault fault = GENERATE_COPY(values<Fault>({
+      {"dies", "cmd died (exit 3) on this query", "died (exit 3) on this query"},
+      {"dies-buffered", "cmd died (exit 3) on this query", "asked again, fewer at a time"},
+      {"ends", "cmd ended (exit 0) without an answer", "ended (exit 0)"},
+      {"crashes", "cmd died (signal 11, ", "died (signal 11, "},
+      {"garbage", bad_line + "wrote a line that is no answer, \\\"rubbish\\\"", "no answer, \"rubbish\""},
+      {"long-line", bad_line + "wrote a line that is too long", "wrote a line that is too long"},
+      {"half", "cmd wrote a line that is no answer, ", "needs lattice, atom and cell"},
+      {"swaps", "cmd gave no answer to this query before that to a later one",
+       "answered this query after a later"},
+      {"unknown-id", bad_line + "gave an answer with an id that no query has, 123456", "123456"},
+      {"skips", "cmd gave no answer to this query before that to a later one",
+       "gave no answer to this query"},
+      {"dimension", "cmd gave a cell of 3 components in a scene of dimension 2", "3 components"},
+      {"no-such-lattice", "cmd named an obstacle that the scene does not have", "(lattice 1, atom 0)"},
+      {"no-such-atom", "cmd named an obstacle that the scene does not have", "(lattice 0, atom 7)"},
+      {"twice", "", "answered this query again"},
+  }));
+  const Run run = folder.lorentz("first-hit --engine " + odd(fault.name) + " " + queries);
+  INFO(fault.name << "\n" << run.err);
+  CHECK(run.status == 3);
+  check_all_but_fifth(run.out, fault.error);
+  CHECK(contains(run.err, fault.said));
+  // What was asked, as a stream that can be asked again.
+  if (fault.name != "dies-buffered")
+    CHECK(contains(run.err, ":\n" + kScene + "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
+  CHECK(contains(run.err, "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
+}
+
+TEST_CASE("An answer after the last query, and one too few", "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream(6));
+  const Run twice = folder.lorentz("first-hit --engine " + odd("twice") + " " + queries);
+  CHECK(twice.status == 3);
+  CHECK(contains(twice.err, "answered this query again:\n"));
+  CHECK(lines(twice.out) == 6);
+  CHECK(twice.out.ends_with(answer_to(5) + "\n"));
+  const Run skips = folder.lorentz("first-hit --engine " + odd("skips") + " " + queries);
+  CHECK(skips.status == 3);
+  CHECK(skips.out.ends_with(error_to(5, "cmd ended (exit 0) without an answer to this query\"}\n")));
+}
+
+TEST_CASE("Answers without an id: to the query whose turn it is, or of the scene",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  const Run query = folder.lorentz("first-hit --engine " + odd("nameless") + " " + queries);
+  CHECK(query.status == 0);  // an error is an answer
+  check_all_but_fifth(query.out, "not mine\"}");
+  const Run scene = folder.lorentz("first-hit --engine " + odd("refuses-scene") + " " + queries);
+  CHECK(scene.status == 0);
+  CHECK(contains(scene.err, "says of the scene: too wild a scene"));
+  check_all_but_fifth(scene.out, "");
+  const Run first =
+      folder.lorentz("first-hit --engine " + odd("nameless 0") + " " + folder.write("p", stream(3)));
+  CHECK(first.out == error_to(0, "not mine\"}\n") + answer_to(1) + "\n" + answer_to(2) + "\n");
+  const Run only =
+      folder.lorentz("first-hit --engine " + odd("nameless 0") + " " + folder.write("o", stream(1)));
+  CHECK(only.status == 0);
+  CHECK(only.out == error_to(0, "not mine\"}\n"));
+}
+
+TEST_CASE("Lines between the answers cost no answer, but are reported", "[compare][command_engine]") {
+  const Folder folder;
+  const Run run = folder.lorentz("first-hit --engine " + odd("talks") + " " + folder.write("q", stream()));
+  CHECK(run.status == 3);
+  CHECK(contains(run.err, "wrote a line that is no answer, \"loading, please wait\""));
+  check_all_but_fifth(run.out, "");
+}
+
+TEST_CASE("A silent program is killed, with all that it started", "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  for (const std::string fault : {"sleeps", "closes-input"}) {
+    const Run run = folder.lorentz("first-hit --timeout 0.5 --engine " + silent(fault) + " " + queries);
+    INFO(fault << run.err);
+    CHECK(run.status == 3);
+    CHECK(contains(run.err, "gave no answer within 0.5 s:\n"));
+    check_all_but_fifth(run.out, fault == "sleeps" ? "cmd gave no answer within 0.5 s\"" : "cmd ");
+  }
+  const Run buffered = folder.lorentz("first-hit --timeout 0.4 --engine " + silent("sleeps-buffered 1") +
+                                      " " + folder.write("p", stream(3)));
+  INFO(buffered.err);
+  CHECK(buffered.out ==
+        answer_to(0) + "\n" + error_to(1, "cmd gave no answer within 0.4 s\"}\n") + answer_to(2) + "\n");
+  // The grandchild, too.
+  const std::string pid = folder.file("pid");
+  const auto start = std::chrono::steady_clock::now();
+  const Run never = folder.lorentz("first-hit --timeout 0.1 --engine 'cmd:sleep 1000 & echo $! >" + pid +
+                                   "; wait' " + queries);
+  CHECK(never.status == 3);
+  CHECK(seconds_since(start) < 8);
+  CHECK(lines(never.out) == kQueries);
+  CHECK(contains(never.out, error_to(4, "cmd gave no answer within 0.1 s")));
+  CHECK(contains(never.out,
+                 error_to(5, "cmd was given up after 5 failures in a row; this query was not asked")));
+  CHECK(contains(never.err, "is given up after 5 failures in a row"));
+  CHECK_FALSE(goes_on_running(pid));
+}
+
+TEST_CASE("A program that closes its output is not waited for", "[compare][command_engine]") {
+  const Folder folder;
+  const auto start = std::chrono::steady_clock::now();
+  const Run run =
+      folder.lorentz("first-hit --engine " + odd("closes-output") + " " + folder.write("q", stream()));
+  CHECK(run.status == 3);
+  check_all_but_fifth(run.out, "cmd closed its output before this query's answer");
+  CHECK(seconds_since(start) < 10);
+}
+
+TEST_CASE("Programs that do not start, or end at once", "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  for (const auto& [command, message] :
+       {std::pair<std::string, std::string>{"/no/such/program",
+                                            "cmd died (exit 127, no such command) on this query"},
+        {R"(sh -c "kill -SEGV \$\$"; exit $?)", "cmd died (exit 139, signal 11, "},
+        {"true", "cmd ended (exit 0) without an answer to this query"}}) {
+    const Run run = folder.lorentz("first-hit --engine 'cmd:" + command + "' " + queries);
+    INFO(run.out << run.err);
+    CHECK(run.status == 3);
+    CHECK(lines(run.out) == kQueries);
+    CHECK(run.out.starts_with(error_to(0, message)));
+    CHECK(contains(run.out, error_to(4, message)));
+    CHECK(contains(run.out, error_to(5, "cmd was given up")));
+    CHECK(run.out.ends_with(
+        error_to(19, "cmd was given up after 5 failures in a row; this query was not asked\"}\n")));
+  }
+}
+
+TEST_CASE("A program that ends after some answers is started again, with its scene",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("first-hit --engine " + odd("ends-after 8") + " " + folder.write("q", stream()));
+  INFO(run.out << run.err);
+  CHECK(run.status == 3);
+  CHECK(lines(run.out) == kQueries);
+  CHECK(contains(run.out,
+                 answer_to(7) + "\n" + error_to(8, "cmd died (exit 4) on this query\"}\n") + answer_to(9)));
+  CHECK(contains(run.out, answer_to(16) + "\n" + error_to(17, "cmd died (exit 4)")));
+  CHECK(run.out.ends_with(answer_to(19) + "\n"));
+}
+
+TEST_CASE("The end of a program: its status, and if it does not come", "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  const Run status = folder.lorentz("first-hit --engine " + odd("bad-exit") + " " + queries);
+  CHECK(status.status == 0);  // every answer is there
+  CHECK(contains(status.err, "ended with exit 9 after its last answer"));
+  const auto start = std::chrono::steady_clock::now();
+  const Run stays = folder.lorentz("first-hit --engine " + odd("stays") + " " + queries);
+  CHECK(stays.status == 0);
+  CHECK(contains(stays.err, "did not end when its input did"));
+  CHECK(seconds_since(start) < 10);
+}
+
+TEST_CASE("A program's stderr is ours, however much it is", "[compare][command_engine]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("first-hit --engine " + odd("complains") + " " + folder.write("q", stream()));
+  CHECK(run.status == 0);
+  CHECK(run.err.size() == 100'001u * kQueries);
+  check_all_but_fifth(run.out, "");
+}
+
+TEST_CASE("Ids of the user's, bad lines and scenes around another program", "[compare][command_engine]") {
+  const Folder folder;
+  const std::string solid =
+      R"({"scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.25}]}]}})"
+      "\n";
+  const std::string mixed = kGood + kScene + kGood + kGood + "bad\n" + R"({"x":[0.5,0],"v":[1,0]})" + "\n" +
+                            solid + R"({"id":7,"x":[0.5,0,0],"v":[1,0,0]})" + "\n" + kGood + kScene + kGood;
+  const auto queries = folder.write("q", mixed);
+  const Run own = folder.lorentz("first-hit --engine oracle " + queries);
+  const Run other = folder.lorentz("first-hit --engine cmd:" LORENTZ_PROGRAM "' first-hit' " + queries);
+  INFO(other.err);
+  CHECK(other.status == 2);
+  CHECK(other.out == own.out);
+}
+
+TEST_CASE("A time limit and the detail are added to other programs' answers; digits are the oracle's",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood + R"({"id":7,"x":[0,0.5],"v":[1,0]})" + "\n");
+  const std::string engine = "--engine cmd:" LORENTZ_PROGRAM "' first-hit' " + queries;
+  for (const std::string option : {"--detail ", "--max-time 0.25 ", "--max-time 0.26 "})
+    CHECK(folder.lorentz("first-hit " + option + engine).out ==
+          folder.lorentz("first-hit " + option + queries).out);
+  CHECK(folder.lorentz("first-hit --digits 5 " + engine).status == 2);
+}
+
+TEST_CASE("Answers come while the input pauses", "[compare][command_engine]") {
+  const Folder folder;
+  const auto rest = folder.write("rest", kGood);
+  const std::string out = folder.file("o");
+  const auto query = [](int k) { return stream(k + 1).substr(stream(k).size()); };
+  struct Case {
+    std::string manner, text;
+    int count;
+  };
+  for (const auto& [manner, text, count] : {Case{"fine", stream(3), 3}, Case{"at-end", stream(3), 3},
+                                            Case{"nameless 0", kScene + query(1) + kScene + query(0), 2}}) {
+    const std::string number = std::to_string(count);
+    const std::string command =
+        "{ cat " + folder.write("first", text) + "; for i in $(seq 50); do sleep 0.1; test $(wc -l <" + out +
+        ") = " + number + " && break; done; wc -l <" + out + " >" + folder.file("early") + "; cat " + rest +
+        "; } | " LORENTZ_PROGRAM " first-hit --engine " + odd(manner) + " >" + out;
+    CHECK(std::system((": >" + out + "; " + command).c_str()) == 0);
+    CHECK(folder.read("early") == number + "\n");
+    CHECK(lines(folder.read("o")) == static_cast<std::size_t>(count) + 1);
+  }
+}
+
+TEST_CASE("A program that ends between two queries is to blame for it, and neither of them",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const std::string out = folder.file("o");
+  const std::string command = "{ cat " + folder.write("first", stream(1)) +
+                              "; for i in $(seq 50); do sleep 0.1; test -s " + out + " && break; done; cat " +
+                              folder.write("rest", kGood) + "; } | " LORENTZ_PROGRAM " first-hit --engine " +
+                              odd("leaves 0") + " >" + out + " 2>" + folder.file("e");
+  CHECK(std::system((": >" + out + "; " + command).c_str()) != 0);
+  CHECK(lines(folder.read("o")) == 2);
+  CHECK_FALSE(contains(folder.read("o"), "error"));
+  CHECK(contains(folder.read("e"), "ended (exit 0) before it was told to"));
+}
+
+TEST_CASE("The one query that a program dies of is found with few starts", "[compare][command_engine]") {
+  const Folder folder;
+  const std::string starts = folder.file("starts");
+  const Run run = folder.lorentz("first-hit --engine 'cmd:echo >>" + starts + "; " +
+                                 odd("dies-buffered").substr(5) + " " + folder.write("q", stream()));
+  check_all_but_fifth(run.out, "cmd died (exit 3) on this query");
+  CHECK(lines(folder.read("starts")) <= 14);  // one a query would be more
+}
+
+TEST_CASE("A program that was given up has one more chance in a new scene", "[compare][command_engine]") {
+  const Folder folder;
+  const auto query = [](int k) { return stream(k + 1).substr(stream(k).size()); };
+  std::string text = kScene + query(0);
+  for (int i = 0; i < 7; ++i) text += query(5);
+  text += query(1) + kScene + query(2) + query(5) + query(3);
+  const Run run = folder.lorentz("first-hit --engine " + odd("dies") + " " + folder.write("q", text));
+  INFO(run.out << run.err);
+  CHECK(contains(run.out, error_to(1, "cmd was given up")));
+  CHECK(contains(run.out, answer_to(2) + "\n" + error_to(5, "cmd died (exit 3)")));
+  CHECK(run.out.ends_with(answer_to(3) + "\n"));
+}
+
+TEST_CASE("When this program is killed, so is the other", "[compare][command_engine]") {
+  const Folder folder;
+  const std::string pid = folder.file("pid");
+  const std::string command = LORENTZ_PROGRAM " first-hit --engine 'cmd:sleep 1000 & echo $! >" + pid +
+                              "; wait' " + folder.write("q", stream()) + " & p=$!; while ! test -s " + pid +
+                              "; do sleep 0.02; done; kill $p; wait $p; test $? = 143";
+  CHECK(std::system(("{ " + command + "; } 2>/dev/null").c_str()) == 0);
+  CHECK_FALSE(goes_on_running(pid));
+}
+
+TEST_CASE("Names: commands with commas, none, and who else there is", "[compare][command_engine]") {
+  const Folder folder;
+  CHECK(folder.lorentz("compare --engine cmd:").status == 2);
+  CHECK(folder.lorentz("first-hit --engine 'cmd:  ' " + folder.write("q", kScene + kGood)).status == 2);
+  CHECK(contains(folder.lorentz("compare --engine nobody").err, "cmd:COMMAND"));
+  CHECK(folder.lorentz("first-hit --timeout 0 " + folder.file("q")).status == 2);
+  for (const char* help : {"first-hit --help", "compare --help", "bench --help"})
+    CHECK(contains(folder.lorentz(help).out, "cmd:COMMAND"));
+  const Run run = folder.lorentz("compare --json --count 50 -e 'oracle,cmd:echo a,b >&2; " LORENTZ_PROGRAM
+                                 " first-hit' --engine reduction,oracle");
+  INFO(run.out << run.err);
+  CHECK(run.status == 0);
+  CHECK(run.err == "a,b\n");
+  CHECK(contains(run.out, R"({"engine":"cmd:echo a,b >&2; )"));
+  CHECK(contains(run.out, R"({"engine":"reduction","queries":50,"agree":50)"));
+  CHECK(contains(run.out, R"(first-hit","queries":50,"agree":50)"));
+}
+
+TEST_CASE("compare counts a failed query as an error and has exit status 3, before 2 and 1",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const Run run = folder.lorentz("compare --json --queries " + folder.write("q", stream() + "bad\n") +
+                                 " --engine " + odd("dies"));
+  INFO(run.out << run.err);
+  CHECK(run.status == 3);
+  CHECK(contains(
+      run.out,
+      R"("queries":20,"agree":0,"ill_posed":0,"wrong":19,"undecided":0,"unsupported":0,"error":1,)"));
+  const std::string said = "died (exit 3) on this query";  // and it is not run again
+  CHECK(contains(run.err, said));
+  CHECK(run.err.find(said) == run.err.rfind(said));
+}
+
+TEST_CASE("bench takes other programs", "[compare][command_engine]") {
+  const Folder folder;
+  const Run run = folder.lorentz("bench --scene square --radius 0.1 --count 200 --csv " + folder.file("c") +
+                                 " --engine cmd:" LORENTZ_PROGRAM "' first-hit --engine reduction'");
+  INFO(run.out << run.err);
+  CHECK(run.status == 0);
+  CHECK(contains(folder.read("c"), "square,0.1,drawn,cmd:"));
+}
+
+TEST_CASE("A hundred thousand queries through the pipes are answered as without them",
+          "[compare][command_engine]") {
+  const Folder folder;
+  std::string text = kScene;
+  for (int i = 0; i < 100'000; ++i)
+    text += "{\"id\":" + std::to_string(i % 1000) + ",\"x\":[0.5," + std::to_string(0.3 + 4e-6 * i) +
+            "],\"v\":[" + std::to_string(1 + i % 17) + "," + std::to_string(i % 13 - 6) + "]}\n";
+  const auto queries = folder.write("q", text);
+  const Run own = folder.lorentz("first-hit --engine reduction " + queries);
+  const Run other =
+      folder.lorentz("first-hit --engine cmd:" LORENTZ_PROGRAM "' first-hit --engine reduction' " + queries);
+  CHECK(other.status == 0);
+  CHECK(lines(other.out) == 100'000);
+  CHECK(other.out == own.out);
+  // A program that reads all before it answers gets as many as may be on their way, again and again.
+  const std::string all = folder.file("all");
+  const Run at_end =
+      folder.lorentz("first-hit --engine 'cmd:cat >" + all + "; wc -l <" + all +
+                     " >&2; " LORENTZ_PROGRAM " first-hit --engine reduction " + all + "' " + queries);
+  CHECK(at_end.status == 0);
+  CHECK(at_end.out == own.out);
+  CHECK(lines(at_end.err) >= 25);
+  std::istringstream counts(at_end.err);
+  for (int count = 0; counts >> count;) CHECK(count <= 4097);  // and the scene
+}
+
+TEST_CASE("The examples agree with the oracle", "[compare][command_engine]") {
+  const Folder folder;
+  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'",
+                                   "cmd:" LORENTZ_NAIVE_ENGINE})
+    for (const std::string scene : {"square", "cubic"}) {
+      const Run run =
+          folder.lorentz("compare --json --scene " + scene + " --radius 0.1 --count 30 --engine " + engine);
+      INFO(engine << run.out << run.err);
+      CHECK(run.status == 0);
+      CHECK(contains(run.out, R"("queries":30,"agree":30,)"));
+    }
+}
+
+TEST_CASE("The examples read their streams properly", "[compare][command_engine]") {
+  const Folder folder;
+  const std::string python = LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py <";
+  const std::string leaving =
+      R"({"id":"l","x":[0.25,0],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0,0]}})";
+  const std::string inside = R"({"id":"i","x":[0.1,0],"v":[1,0]})",
+                    corridor = R"({"id":"c","x":[0,0.5],"v":[1,0]})";
+  const auto queries =
+      folder.write("q", kGood + kScene + "bad\n" + leaving + "\n" + inside + "\n" + corridor + "\n");
+  CHECK(std::system((python + queries + " >" + folder.file("o")).c_str()) == 0);
+  const std::string out = folder.read("o");
+  INFO(out);
+  CHECK(out.starts_with(R"({"id": "good", "outcome": "error", "message": "no scene"})"
+                        "\n"
+                        R"({"id": null, "outcome": "error", )"));
+  CHECK(contains(out,
+                 R"({"id": "l", "outcome": "hit", "time": 0.5, "lattice": 0, "atom": 0, "cell": [1, 0]})"));
+  CHECK(contains(out, R"({"id": "i", "outcome": "inside", "lattice": 0, "atom": 0, "cell": [0, 0]})"));
+  CHECK(out.ends_with("{\"id\": \"c\", \"outcome\": \"undecided\"}\n"));
+  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'",
+                                   "cmd:" LORENTZ_NAIVE_ENGINE})
+    CHECK(contains(folder.lorentz("compare --json --scene ellipse --count 10 --engine " + engine).out,
+                   R"("unsupported":10)"));
+  const Run crystal = folder.lorentz("compare --json --scene hcp --count 20 --engine 'cmd:" LORENTZ_PYTHON
+                                     " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'");
+  CHECK(contains(crystal.out, R"("agree":20,)"));
+}

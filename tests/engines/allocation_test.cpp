@@ -1,0 +1,58 @@
+// The reduction engine allocates nothing in a query: counted, by replacing the global operator new. (Not
+// under the address sanitizer, which has an operator new of its own.)
+#ifndef __SANITIZE_ADDRESS__
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <new>
+
+#include <lorentz/reduction.hpp>
+
+namespace {
+long allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+TEST_CASE("A flight allocates nothing, in any model", "[engines][allocation]") {
+  using namespace lorentz;
+  for (const int dimension : {2, 3}) {
+    Scene scene = unit_scene(dimension, 0.01);
+    for (int model = 0; model < 3; ++model) {
+      if (model == 1) scene.lattices[0].vectors[0][1] = 0.3;
+      if (model == 2) scene.lattices[0].atoms.push_back(Atom{{0.5, 0.4, 0}, 0.02, {}});
+      const Reduction engine(scene);
+      Query query{{0.3, 0.2, dimension == 3 ? 0.7 : 0}, {0.61, 0.23, dimension == 3 ? 0.37 : 0}, {}};
+      const auto direction = engine.direction(query.v);
+      const long before = allocations;
+      Answer answer;
+      for (int i = 0; i < 1000; ++i) {
+        query.v[0] += 0.001;
+        answer = answer_of(engine.fly(query));
+        engine.fly(direction, query.x);
+        engine.fly(query, 1e3, Reduction::Time::rounded);
+      }
+      const long after = allocations;
+      CHECK(after == before);
+      CHECK(answer.outcome == Outcome::hit);
+    }
+  }
+  const long before = allocations;
+  int* volatile one = new int(1);
+  const long after = allocations;
+  delete one;
+  CHECK(after == before + 1);  // it does count
+}
+
+#endif

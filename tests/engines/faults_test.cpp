@@ -1,0 +1,109 @@
+// Wrong answers that were once given (docs/faults.md), each in its smallest case: `reduction`, `certified`,
+// the oracle and `walk` answer it rightly.
+#include <catch2/catch.hpp>
+
+#include <lorentz/certified.hpp>
+#include <lorentz/walk.hpp>
+#include "tests/engines/reduction_support.hpp"
+
+using namespace lorentz;
+
+namespace {
+
+Scene one_atom(int dimension, const std::array<Vec, 3>& vectors, double radius) {
+  Scene scene = unit_scene(dimension, radius);
+  scene.lattices[0].vectors = vectors;
+  return scene;
+}
+
+ObstacleId at(std::int64_t a, std::int64_t b, std::int64_t c = 0) {
+  return {0, 0, {Integer(a), Integer(b), Integer(c)}};
+}
+
+// Everyone who claims to be exact says so; `reduction` may leave it undecided.
+void check_all(const Scene& scene, const Query& query, const Answer& expected) {
+  INFO(test::stream(scene, query) << test::line(expected, scene.dimension));
+  CHECK(test::same(oracle::Oracle(scene).first_hit(query), expected));
+  CHECK(test::same(oracle::Certified(scene).first_hit(query), expected));
+  const Answer walked = oracle::Walk(scene).first_hit(query);
+  if (walked.outcome != Outcome::undecided) CHECK(test::same(walked, expected));
+  test::Count count;
+  if (!Reduction::beyond(scene)) test::check(scene, query, count);
+}
+
+}  // namespace
+
+TEST_CASE("Fault: 10^13 cells out a start in a neighbour's ball was taken to be free", "[engines][faults]") {
+  const Scene cubic = one_atom(3, {Vec{0.7, 0, 0}, Vec{0, 0.7, 0}, Vec{0, 0, 0.7}}, 0.34929299999999996);
+  check_all(
+      cubic,
+      {{-5914691461647.849, 2.8, -0.7}, {-0.09441574703194348, -0.6028799830594829, -2.794610126792895}, {}},
+      Answer::inside(at(-8449559230925, 4, -1)));
+}
+
+TEST_CASE("Fault: in a skewed cell `from` was forgotten, 64 bits being too few for it", "[engines][faults]") {
+  const Scene skewed = one_atom(2, {Vec{490001, -700}, Vec{-700, 1}}, 0.25);
+  check_all(skewed, {{1099511627776.125, 1099511627776}, {1, 0}, at(770757651070976, 539531455261310976)},
+            Answer::hit(at(770757651070977, 539531455261311676), 0.625));
+  // Of coordinates beyond 64 bits.
+  const Scene more = one_atom(2, {Vec{0x1p19, 1}, Vec{0x1p38 - 1, 0x1p19}}, 0.25);
+  const Query start{{0x1p43 + 0.125, 0x1p43}, {1, 0}, {}};
+  const Answer first = oracle::Oracle(more).first_hit(start);
+  REQUIRE(first.outcome == Outcome::inside);
+  CHECK_FALSE(first.obstacle.cell[0].fits_int64());
+  const Query leaving{start.x, start.v, first.obstacle};
+  check_all(more, leaving, oracle::Oracle(more).first_hit(leaving));
+}
+
+TEST_CASE("Fault: `never` was said where a component that vanishes in other units leads to a hit",
+          "[engines][faults]") {
+  const Query along{{0, 1}, {1, 0}, {}};
+  for (const double tiny : {5e-324, 0x1p-700}) {
+    const Scene drifting = one_atom(2, {Vec{2, tiny}, Vec{0, 2}}, 0.5);
+    CHECK(oracle::Oracle(drifting).first_hit(along).outcome == Outcome::hit);
+    check_all(drifting, along, oracle::Oracle(drifting).first_hit(along));
+    const Scene diagonal = one_atom(2, {Vec{1, tiny}, Vec{0, 1}}, 0.25);
+    const Query query{{0.5, 0}, {1, 1}, {}};
+    CHECK(oracle::Oracle(diagonal).first_hit(query).outcome == Outcome::hit);
+    check_all(diagonal, query, oracle::Oracle(diagonal).first_hit(query));
+    const Scene spatial = one_atom(3, {Vec{2, 0, tiny}, Vec{0, 2, 0}, Vec{0, 0, 2}}, 0.5);
+    const Query in_space{{0, 1, 1}, {1, 0, 0}, {}};
+    check_all(spatial, in_space, oracle::Oracle(spatial).first_hit(in_space));
+  }
+  const Scene large = one_atom(2, {Vec{0x1p399, 0x1p-700}, Vec{0, 0x1p399}}, 0x1p397);
+  const Query between{{0, 0x1p398}, {1, 0}, {}};
+  CHECK(oracle::Oracle(large).first_hit(between).outcome == Outcome::hit);
+  check_all(large, between, oracle::Oracle(large).first_hit(between));
+}
+
+TEST_CASE("Fault: a time limit was held against the rounded time", "[engines][faults]") {
+  const Scene scene = unit_scene(2, 0.1);
+  const Query query{{-0.5, 0}, {1, 0}, {}};
+  const oracle::Walk walk(scene);
+  REQUIRE(walk.first_hit(query).time == 0.4);  // a binary64 above the exact time
+  for (const double limit : {0.3999999999999999, 0.4, 0.4000000000000001, 0.0, -1.0}) {
+    INFO("limit " << limit);
+    const Answer exact = oracle::Oracle(scene).first_hit(query, {.max_time = limit});
+    CHECK(exact.outcome == (limit >= 0.4 ? Outcome::hit : Outcome::later));
+    CHECK(test::same(walk.first_hit(query, limit), exact));
+    CHECK(test::same(oracle::Certified(scene).first_hit(query, {.max_time = limit}), exact));
+  }
+  // Nothing before the limit, and nothing at all; a walk that a limit ends early.
+  CHECK(walk.first_hit({{0, 0.5}, {1, 0}, {}}, 1e300).outcome == Outcome::later);
+  CHECK(oracle::Walk(unit_scene(2, 1e-6), 100).first_hit({{0, 0.5}, {1, 0.37}, {}}, 10).outcome ==
+        Outcome::later);
+}
+
+TEST_CASE("Fault: a hit just before a time limit was not found, 10^24 cells out", "[engines][faults]") {
+  const Scene scene = one_atom(2, {Vec{1, 4}, Vec{-1, 3}}, 0.25);
+  const Query query{{0, 1.5}, {1.9777177083685562, 1.0224560545442454e-25}, {}};
+  const double time = *oracle::Oracle(scene).first_hit(query).time;
+  for (const double limit : {std::nextafter(time, 0), time, std::nextafter(time, 1e300), time * (1 + 0x1p-40),
+                             time * (1 + 0x1p-25), 2 * time}) {
+    INFO("limit " << limit);
+    const Answer exact = oracle::Oracle(scene).first_hit(query, {.max_time = limit});
+    CHECK(test::same(oracle::Certified(scene).first_hit(query, {.max_time = limit}), exact));
+    const Answer given = make_engine("reduction", scene)->first_hit(query, limit);
+    if (given.outcome != Outcome::undecided) CHECK(given.outcome == exact.outcome);
+  }
+}

@@ -1,0 +1,358 @@
+#include <lorentz/exchange.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cstdio>
+#include <fstream>
+
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using test::Draw;
+
+namespace {
+
+// A line as the reader wants it: with bytes behind it that may be read.
+class Padded {
+ public:
+  explicit Padded(std::string_view text) : buffer_(text) {
+    buffer_.append(LineReader::kPadding, ' ');
+    size_ = text.size();
+  }
+  LineReader::Line line() const { return {std::string_view(buffer_.data(), size_), 1, false}; }
+
+ private:
+  std::string buffer_;
+  std::size_t size_;
+};
+
+StreamItem read(std::string_view text, const Scene* scene) {
+  ExchangeReader reader;
+  StreamItem item;
+  reader.read_query_line(Padded(text).line(), scene, item);
+  return item;
+}
+
+const Scene kSquare = unit_scene(2, 0.1);
+
+std::string without_line_end(std::string text) {
+  text.pop_back();
+  return text;
+}
+
+double drawn_double(Draw& draw) {
+  for (;;) {
+    const double value = std::bit_cast<double>((draw.below(1ull << 32) << 32) | draw.below(1ull << 32));
+    if (std::isfinite(value)) return value;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Queries round-trip bit for bit, in decimal and in hexadecimal", "[exchange]") {
+  Draw draw(41);
+  INFO("seed 41");
+  for (int i = 0; i < 20000; ++i) {
+    Query query;
+    for (int k = 0; k < 2; ++k) query.x[k] = drawn_double(draw), query.v[k] = drawn_double(draw);
+    std::string text;
+    append_query_line(text, "\"a\"", query, 2);
+    const StreamItem item = read(without_line_end(text), &kSquare);
+    INFO(text);
+    REQUIRE(item.kind == StreamItem::Kind::query);
+    REQUIRE(item.id == "\"a\"");
+    for (int k = 0; k < 2; ++k) {
+      REQUIRE(std::bit_cast<std::uint64_t>(item.query.x[k]) == std::bit_cast<std::uint64_t>(query.x[k]));
+      REQUIRE(std::bit_cast<std::uint64_t>(item.query.v[k]) == std::bit_cast<std::uint64_t>(query.v[k]));
+    }
+    char hex[200];
+    std::snprintf(hex, sizeof hex, R"({"x":["%a","%a"],"v":["%a","%a"]})", query.x[0], query.x[1], query.v[0],
+                  query.v[1]);
+    const StreamItem again = read(hex, &kSquare);
+    INFO(hex << again.message);
+    REQUIRE(again.kind == StreamItem::Kind::query);
+    REQUIRE(again.query.x == query.x);
+    REQUIRE(again.query.v == query.v);
+  }
+}
+
+TEST_CASE("Numbers of 17 digits and numbers as other languages write them", "[exchange]") {
+  const auto x0 = [](const std::string& number) {
+    const StreamItem item = read("{\"x\":[" + number + ",0],\"v\":[1,0]}", &kSquare);
+    INFO(number << " " << item.message);
+    REQUIRE(item.kind == StreamItem::Kind::query);
+    return item.query.x[0];
+  };
+  CHECK(x0("0.10000000000000001") == 0.1);
+  CHECK(x0("1E2") == 100);
+  CHECK(x0("-0.0") == 0);
+  CHECK(x0("100000000000000000000") == 1e20);  // as JavaScript writes it
+  CHECK(x0("123456789012345678901234567890.5") == 123456789012345678901234567890.5);
+  CHECK(x0("\"0x1p-1074\"") == 0x1p-1074);
+  CHECK(x0("\"-0X1.8P+3\"") == -12);
+  CHECK(x0("2.2250738585072011e-308") == 2.2250738585072011e-308);
+}
+
+TEST_CASE("Scenes round-trip", "[exchange]") {
+  Draw draw(42);
+  INFO("seed 42");
+  for (int i = 0; i < 200; ++i) {
+    Scene scene = test::scene_of(draw, test::Style::near_grid, draw.one_in(2) ? 2 : 3);
+    if (draw.one_in(3)) {
+      Atom& atom = scene.lattices[0].atoms[0];
+      atom.radius = 0;
+      for (int k = 0; k < scene.dimension; ++k) atom.semiaxes.push_back(draw.vec(scene.dimension, -1, 1));
+    }
+    std::string text, again;
+    append_scene_line(text, scene);
+    const StreamItem item = read(without_line_end(text), nullptr);
+    INFO(text << item.message);
+    REQUIRE(item.kind == StreamItem::Kind::scene);
+    append_scene_line(again, item.scene);
+    REQUIRE(again == text);
+  }
+}
+
+TEST_CASE("Answers round-trip, cells beyond 2^53 as strings", "[exchange]") {
+  Answer hit = Answer::hit({1,
+                            2,
+                            {Integer(-3), *Integer::from_decimal("9007199254740993"),
+                             *Integer::from_decimal("-18446744073709551616")}},
+                           0.1);
+  std::string text;
+  append_answer_line(text, "7", hit, 3);
+  CHECK(text ==
+        "{\"id\":7,\"outcome\":\"hit\",\"lattice\":1,\"atom\":2,\"cell\":[-3,\"9007199254740993\",\"-"
+        "18446744073709551616\"],"
+        "\"time\":0.1}\n");
+  ExchangeReader reader;
+  Id id;
+  Answer answer;
+  std::size_t components = 0;
+  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
+  CHECK(id == "7");
+  CHECK(test::same(hit, answer));
+
+  hit.time = INFINITY;
+  text.clear();
+  append_answer_line(text, "null", hit, 3);
+  CHECK(text.find("\"time\":\"inf\"") != std::string::npos);
+  REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
+  CHECK(std::isinf(*answer.time));
+
+  for (const Answer& other :
+       {Answer::never(), Answer::undecided(), Answer::inside({0, 0, {Integer(1), Integer(2), Integer(0)}}),
+        Answer::error("v is \"zero\"\n"), Answer::unsupported_because("too large")}) {
+    text.clear();
+    append_answer_line(text, "\"b\"", other, 2);
+    INFO(text);
+    REQUIRE(reader.read_answer_line(Padded(without_line_end(text)).line(), id, answer, components));
+    CHECK(test::same(other, answer));
+    CHECK(answer.message == other.message);
+    CHECK(answer.unsupported == other.unsupported);
+  }
+}
+
+TEST_CASE("Ids come back as they were given", "[exchange]") {
+  const auto id = [](const std::string& text) {
+    return read("{\"id\":" + text + ",\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id;
+  };
+  CHECK(id("\"a1\"") == "\"a1\"");
+  CHECK(id("17") == "17");
+  CHECK(id("-17") == "-17");
+  CHECK(id("\"a\\\"b\\\\c\"") == "\"a\\\"b\\\\c\"");
+  CHECK(id("\"\\u00e9\"") == "\"\xc3\xa9\"");
+  CHECK(id("null") == "null");
+}
+
+TEST_CASE("Every sort of bad line is told by name, and keeps its id where it can be read", "[exchange]") {
+  struct Case {
+    const char* text;
+    const char* message;
+    const char* id;
+  };
+  const Case cases[] = {
+      {"nonsense", "not JSON", "null"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0]", "not JSON", "null"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0]} 2", "not JSON", "null"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0]} {}", "more than one value", "1"},
+      {"[1,2]", "not JSON", "null"},
+      {"{\"id\":1,\"x\":[0,0.5]}", "v is missing", "1"},
+      {"{\"id\":1,\"v\":[0,0.5]}", "x is missing", "1"},
+      {"{\"id\":1,\"x\":[0,0.5,0],\"v\":[1,0]}", "x: has 3 components", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1]}", "v: has 1 components", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[0,-0.0]}", "v is zero", "1"},
+      {"{\"id\":1,\"x\":[0,NaN],\"v\":[1,0]}", "", "1"},
+      {"{\"id\":1,\"x\":[0,1e999],\"v\":[1,0]}", "x: is beyond the range", "1"},
+      {"{\"x\":[0,\"nan\"],\"v\":[1,0],\"id\":\"late\"}", "no hexadecimal float", "\"late\""},
+      {"{\"id\":1,\"x\":[0,\"0x1p2000\"],\"v\":[1,0]}", "range", "1"},
+      {"{\"id\":1,\"x\":[0,null],\"v\":[1,0]}", "x: needs a number", "1"},
+      {"{\"id\":1,\"x\":5,\"v\":[1,0]}", "x: needs an array", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"from\":{}}", "from: needs lattice, atom and cell", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"from\":{\"lattice\":0,\"atom\":0,\"cell\":[0]}}",
+       "from.cell: has 1", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"from\":{\"lattice\":1,\"atom\":0,\"cell\":[0,0]}}",
+       "from names lattice 1", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"from\":{\"lattice\":0,\"atom\":0,\"cell\":[0,0.5]}}",
+       "cell: needs an integer", "1"},
+      {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"other\":[1,}", "not JSON", "1"},
+  };
+  for (const Case& one : cases) {
+    const StreamItem item = read(one.text, &kSquare);
+    INFO(one.text << " -> " << item.message);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.message.find(one.message) != std::string::npos);
+    CHECK(item.id == one.id);
+  }
+  CHECK(read("{\"id\":1,\"x\":[0,0.5],\"v\":[1,0]}", nullptr).message == "no scene before this query");
+  CHECK(read(std::string("\0\0{\"id\":1}", 10), &kSquare).message.find("2 NUL bytes") != std::string::npos);
+}
+
+TEST_CASE("What is nearly JSON is none, also where it would be ignored", "[exchange]") {
+  for (const char* value : {"01", "1.", ".5", "-", "1e", "0x10", "+1", "tru", "nul", "1.2.3", "'a'"}) {
+    const StreamItem item =
+        read(std::string("{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"other\":") + value + "}", &kSquare);
+    INFO(value << " -> " << item.message);
+    CHECK(item.kind == StreamItem::Kind::bad);
+  }
+  CHECK(read("{\"id\":01,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).kind == StreamItem::Kind::bad);
+  CHECK(read("[1,2]", &kSquare).message.find("one object") != std::string::npos);
+}
+
+TEST_CASE("Nesting is bounded, in lines and in scene files", "[exchange]") {
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  for (const std::string& text : {"{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"z\":" + deep + "}",
+                                  "{\"scene\":" + deep + "}", "{\"golden\":" + deep + "}"}) {
+    const StreamItem item = read(text, &kSquare);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.message.find("nested deeper") != std::string::npos);
+  }
+  std::string dotted = "a";
+  for (int i = 0; i < 100'000; ++i) dotted += ".a";
+  const std::string path = test::temporary_file();
+  for (const std::string& text : {deep, "{\"a\":" + deep + "}", dotted + " = 1\n"}) {
+    std::ofstream(path) << text;
+    CHECK_THROWS_AS(read_scene_file(path), InputError);
+  }
+  std::remove(path.c_str());
+}
+
+TEST_CASE("Of a key that comes twice the last counts, everywhere", "[exchange]") {
+  CHECK(read("{\"id\":1,\"id\":2,\"x\":[9,9],\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "2");
+  const StreamItem scene = read(
+      "{\"scene\":{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[{\"position\":[0,0],"
+      "\"radius\":1,\"radius\":2}]}]}}",
+      nullptr);
+  CHECK(scene.scene.lattices[0].atoms[0].radius == 2);
+}
+
+TEST_CASE("Numbers too small are rounded, too large are refused, in every notation", "[exchange]") {
+  CHECK(parse_number("1e-999") == 0);
+  CHECK(parse_number("0x1p-2000") == 0);
+  CHECK(parse_number("0x1.8p-1074") == 0x1p-1073);
+  CHECK(parse_number("+0.5") == 0.5);
+  CHECK(parse_number("-0x1p-3") == -0.125);
+  for (const char* text :
+       {"1e999", "0x1p2000", "inf", "nan", "", "-", "0x", "1x", "1 ", "--1", "+-1", "infinity", "0x1p"}) {
+    INFO(text);
+    CHECK_THROWS_AS(parse_number(text), InputError);
+  }
+}
+
+TEST_CASE("Large numbers never look like integers, large ids are strings", "[exchange]") {
+  std::string text;
+  append_number(text, 63050394783186936.0);
+  CHECK(text == "6.3050394783186936e+16");
+  CHECK(read("{\"id\":9007199254740993,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "\"9007199254740993\"");
+  CHECK(read("{\"id\":9007199254740992,\"x\":[0,0.5],\"v\":[1,0]}", &kSquare).id == "9007199254740992");
+}
+
+TEST_CASE("A bad answer line is refused, not guessed at", "[exchange]") {
+  ExchangeReader reader;
+  Id id;
+  Answer answer;
+  std::size_t components = 0;
+  for (const char* text : {R"({"id":1})", R"({"id":1,"outcome":"maybe"})", R"({"id":1,"outcome":"hit"})",
+                           R"({"id":1,"outcome":"hit","atom":0,"cell":[1,2],"time":1})",
+                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[]})",
+                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[1,2],"time":-1})",
+                           R"({"id":1,"outcome":"hit","lattice":-1,"atom":0,"cell":[1,2],"time":1})"}) {
+    INFO(text);
+    CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer, components), InputError);
+  }
+  CHECK_FALSE(reader.read_answer_line(Padded("{\"golden\":{}}").line(), id, answer, components));
+}
+
+TEST_CASE("Blank lines and golden headers are passed over, unknown keys ignored", "[exchange]") {
+  CHECK(read("", &kSquare).kind == StreamItem::Kind::nothing);
+  CHECK(read(" \t\r", &kSquare).kind == StreamItem::Kind::nothing);
+  CHECK(read("{\"golden\":{\"format\":1}}", nullptr).kind == StreamItem::Kind::nothing);
+  CHECK(read("{\"id\":1,\"tags\":[\"a\",{\"b\":[1e999,true,null]}],\"x\":[0,0.5],\"v\":[1,0],\"expect\":{"
+             "\"x\":[]}}\r",
+             &kSquare)
+            .kind == StreamItem::Kind::query);
+}
+
+TEST_CASE("Every sort of bad scene is told by its place", "[exchange]") {
+  const auto message = [](const std::string& scene) {
+    const StreamItem item = read("{\"scene\":" + scene + "}", nullptr);
+    INFO(scene << " -> " << item.message);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.bad_scene);
+    return item.message;
+  };
+  const auto with_atom = [](const std::string& atom) {
+    return "{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[" + atom + "]}]}";
+  };
+  CHECK(message("5").find("needs an object") != std::string::npos);
+  CHECK(message("{\"dimension\":4,\"lattices\":[]}").find("must be 2 or 3") != std::string::npos);
+  CHECK(message("{\"dimension\":2,\"lattices\":[]}").find("at least one lattice") != std::string::npos);
+  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0]],\"atoms\":[]}]}")
+            .find("needs 2 vectors") != std::string::npos);
+  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[]}]}")
+            .find("at least one atom") != std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0]}")).find("lattices[0].atoms[0]: radius is missing") !=
+        std::string::npos);
+  CHECK(message(with_atom("{\"radius\":1}")).find("position is missing") != std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":0}")).find("above zero") != std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":-1}")).find("above zero") != std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0,0],\"radius\":1}")).find("has 3 components") !=
+        std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":1,\"semiaxes\":[[1,0],[0,1]]}")).find("both") !=
+        std::string::npos);
+  CHECK(message(with_atom("{\"position\":[0,0],\"semiaxes\":[[1,0]]}")).find("needs 2 vectors") !=
+        std::string::npos);
+}
+
+TEST_CASE("Scene files: TOML and JSON, with the place of what is wrong", "[exchange]") {
+  const std::string path = test::temporary_file();
+  const auto read_text = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return read_scene_file(path);
+  };
+  const std::string toml =
+      "dimension = 2\n[[lattices]]\nvectors = [[1, 0], [\"0x1p-1\", 1.5]]\n[[lattices.atoms]]\nposition = "
+      "[0, 0]\nradius = 0.25\n";
+  const Scene scene = read_text(toml);
+  CHECK(scene.lattices[0].vectors[1] == Vec{0.5, 1.5, 0});
+  CHECK(scene.lattices[0].atoms[0].radius == 0.25);
+  std::string json;
+  append_scene_line(json, scene);
+  const Scene again = read_text(json);
+  CHECK(again.lattices[0].vectors == scene.lattices[0].vectors);
+  CHECK_THROWS_WITH(read_text(""), Catch::Contains("is empty"));
+  CHECK_THROWS_WITH(read_text("dimension = 2\nlattices = [[\n"),
+                    Catch::Contains("line 2") && Catch::Contains("not TOML"));
+  CHECK_THROWS_WITH(read_text("dimension = 2\n"), Catch::Contains("lattices is missing"));
+  CHECK_THROWS_WITH(read_text("{\"dimension\":2"), Catch::Contains("not JSON"));
+  // What the parser refuses as a whole, before it stands anywhere.
+  CHECK_THROWS_WITH(read_text("{\"dimension\":2,\"lattices"), Catch::Contains("not JSON"));
+  CHECK_THROWS_WITH(read_text("{\"\xff\":2}"), Catch::Contains("not JSON"));
+  CHECK_THROWS_WITH(read_text("dimension = 2\n[[lattices]]\nvectors = [[1, 0], [0, "
+                              "inf]]\n[[lattices.atoms]]\nposition = [0, 0]\nradius = 1\n"),
+                    Catch::Contains("not finite"));
+  std::remove(path.c_str());
+  CHECK_THROWS_AS(read_scene_file(path), FileError);
+  CHECK_THROWS_AS(read_scene_file("/"), FileError);
+}

@@ -1,0 +1,137 @@
+// What the families of campaigns only are out to reach, decided exactly.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/reduction.hpp>
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using lorentz::oracle::Oracle;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+bool has(const fuzz::Case& one, const char* tag) {
+  return std::find(one.tags.begin(), one.tags.end(), tag) != one.tags.end();
+}
+
+// Calls visit(case, exact answer, the scene's oracle) for the first cases of a family.
+template <class Visit>
+void visit_cases(const fuzz::Family& family, std::uint64_t count, Visit visit) {
+  for (std::uint64_t index = 0; index < count; ++index) {
+    const fuzz::Case one = family.make(kSeed, index);
+    INFO(family.name() << ' ' << index << ", seed " << kSeed);
+    const Oracle& oracle = fuzz::oracle_of(one.scene);
+    visit(one, oracle.first_hit(one.query), oracle);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Times of the family early lie beside midway, and are rounded to where they are",
+          "[fuzz][campaign_families]") {
+  int odd = 0;
+  visit_cases(fuzz::early(), 600, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    REQUIRE(exact.outcome == Outcome::hit);
+    const Vec &x = one.query.x, &v = one.query.v;
+    const int k = v[0] != 0 ? 0 : v[1] != 0 ? 1 : 2;
+    // 54 bits, which a long double holds: (|x_k| - 4 k) / |v_k|, the radius being 5 k.
+    const long double r = one.scene.lattices[0].atoms[0].radius,
+                      midway = (std::fabs(static_cast<long double>(x[k])) - r / 5 * 4) / std::fabs(v[k]);
+    REQUIRE(static_cast<double>(midway) != midway);
+    REQUIRE((*exact.time < midway) == has(one, "early"));
+    odd += (static_cast<double>(midway) < midway) != has(one, "early");
+  });
+  CHECK(odd > 200);  // where ties to even would go the other way
+}
+
+TEST_CASE("Flights of the family nearly-parallel end, farther than double-double can tell",
+          "[fuzz][campaign_families]") {
+  int far = 0, not_known = 0;
+  visit_cases(fuzz::nearly_parallel(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    if (has(one, "parallel")) {
+      REQUIRE(exact.outcome == Outcome::never);
+      return;
+    }
+    REQUIRE(exact.outcome == Outcome::hit);
+    far += *exact.time * fuzz::length(one.query.v) > 0x1p90;
+    not_known += Reduction(one.scene).fly(one.query).outcome == Outcome::undecided;
+  });
+  CHECK(far > 200);
+  CHECK(not_known > 200);
+}
+
+TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz][campaign_families]") {
+  int close = 0, inside = 0, surface = 0;
+  visit_cases(fuzz::ellipsoid_edges(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    const auto hardest = oracle::Scrutiny(one.scene).hardest_decision(one.query, exact, 0);
+    close += hardest && hardest->margin < 64;
+    surface += has(one, "surface");
+    inside += exact.outcome == Outcome::inside;
+  });
+  CHECK(close > 120);
+  CHECK(inside > surface / 4);
+  CHECK(inside < surface);
+}
+
+TEST_CASE("Flights of the family drift last long before they meet a plane", "[fuzz][campaign_families]") {
+  int long_flights = 0, by_bits = 0;
+  visit_cases(fuzz::drift(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    if (!has(one, "by-bits")) return;
+    ++by_bits;
+    REQUIRE(exact.outcome == Outcome::hit);
+    long_flights += *exact.time > 0x1p36;
+  });
+  CHECK(by_bits > 60);
+  CHECK(long_flights > by_bits / 2);
+}
+
+TEST_CASE("Starts of the family vast-ellipsoids lie in many obstacles", "[fuzz][campaign_families]") {
+  int inside = 0;
+  visit_cases(fuzz::vast_ellipsoids(), 96,
+              [&](const fuzz::Case& one, const Answer& exact, const Oracle& oracle) {
+                inside += exact.outcome == Outcome::inside;
+                if (exact.outcome != Outcome::inside) return;
+                fuzz::Case next = one;
+                next.query.from = exact.obstacle;
+                const Answer second = oracle.first_hit(next.query);
+                REQUIRE(second.outcome == Outcome::inside);
+              });
+  CHECK(inside > 90);
+}
+
+TEST_CASE("Starts of the family nearby are nearer to the obstacle that they enter than its radius",
+          "[fuzz][campaign_families]") {
+  visit_cases(fuzz::nearby(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    REQUIRE(exact.outcome == Outcome::hit);
+    REQUIRE(*exact.time * fuzz::length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
+  });
+}
+
+TEST_CASE("In the family unequal-radii both obstacles are met, and reduction knows most of it",
+          "[fuzz][campaign_families]") {
+  int known = 0, first = 0;
+  visit_cases(fuzz::unequal_radii(), 200, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+    known += Reduction(one.scene).fly(one.query).outcome == exact.outcome;
+    first += exact.obstacle.atom == 0;
+  });
+  CHECK(known > 180);
+  CHECK(first > 20);
+  CHECK(first < 180);
+}
+
+TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[fuzz][campaign_families]") {
+  int few = 0;
+  visit_cases(fuzz::dense_rows(), 200, [&](const fuzz::Case&, const Answer& exact, const Oracle&) {
+    few += exact.outcome == Outcome::hit && *exact.time < 8;
+  });
+  CHECK(few > 150);
+}

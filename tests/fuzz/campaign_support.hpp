@@ -1,0 +1,69 @@
+// Subjects and stores for the tests of campaigns.
+#pragma once
+
+#include <sstream>
+
+#include <lorentz/oracle.hpp>
+#include "fuzz/campaign/store.hpp"
+
+namespace lorentz::test {
+
+/// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.
+class SkewedSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    Answer answer = oracle_->first_hit(query);
+    const bool skewed = query.from && query.v[0] > 0.5 && query.from->cell[0] == Integer(0);
+    if (skewed && answer.outcome == Outcome::hit && answer.obstacle.cell[0].fits_int64())
+      answer.obstacle.cell[0] = answer.obstacle.cell[0].int64() + 1;
+    replies_.push_back({std::move(answer), {}});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  std::optional<oracle::Oracle> oracle_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+inline fuzz::MakeSubject skewed_subjects() {
+  return [] { return std::make_unique<SkewedSubject>(); };
+}
+
+inline std::string text_of(const fuzz::Account& a) {
+  std::ostringstream out;
+  out << a.next << ' ' << a.cases << ' ' << a.mutants << ' ' << a.reworded << ' ' << a.margin << ' '
+      << a.margin_index;
+  for (const std::uint64_t n : a.kinds) out << ' ' << n;
+  for (const std::uint64_t n : a.stages) out << ' ' << n;
+  for (const auto& [sort, number] : a.sorts)
+    if (number > 0) out << '\n' << sort << ": " << number;
+  return out.str() + '\n';
+}
+
+inline std::string text_of(const fuzz::Stored& stored) {
+  const fuzz::Finding& f = stored.finding;
+  std::ostringstream out;
+  out << stored.label() << '\n'
+      << f.words << '|' << f.kind << '|' << f.sort << '|' << f.cause << '|' << f.departs << '|'
+      << f.margin.value_or(-1) << '|' << f.bits << '|' << f.complexity << '|' << f.tries << '\n';
+  for (const fuzz::CaseText* text : {&f.text, &f.shrunk})
+    out << text->scene << '\n' << text->query << '\n' << text->given << '\n' << text->exact << '\n';
+  return out.str();
+}
+
+/// Everything that a store holds.
+inline std::string text_of(const fuzz::Store& store) {
+  std::string out;
+  for (const fuzz::Campaign& campaign : store.campaigns()) {
+    const fuzz::Manifest& m = campaign.manifest;
+    out += m.engine + ' ' + m.targets + ' ' + std::to_string(m.seed) + ' ' + m.options + ' ' + m.shard + '\n';
+    for (const fuzz::Target& target : fuzz::targets())
+      if (m.targets.find(target.name()) != std::string::npos)
+        out += std::string(target.name()) + ' ' + text_of(store.account(campaign.id, target.name()));
+  }
+  for (const fuzz::Stored& one : store.findings()) out += text_of(one);
+  return out;
+}
+
+}  // namespace lorentz::test

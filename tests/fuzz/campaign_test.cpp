@@ -1,0 +1,462 @@
+// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, mutants, kinds.
+#include "fuzz/campaign/campaign.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <thread>
+
+#include <lorentz/scene_check.hpp>
+#include "cases/families/family_list.hpp"
+#include "cases/parts.hpp"
+#include "fuzz/examine/variants.hpp"
+#include "tests/fuzz/campaign_support.hpp"
+#include "tests/support/command_line.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Account;
+using fuzz::Kind;
+using fuzz::Plan;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+Plan plan_of(std::initializer_list<const char*> names) {
+  Plan plan;
+  for (const char* name : names) plan.targets.push_back(fuzz::target_named(name));
+  plan.seed = kSeed;
+  plan.mutate = 8;
+  return plan;
+}
+
+// A campaign up to a number of cases, in a store.
+void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
+            const fuzz::MakeSubject& subjects = skewed_subjects()) {
+  fuzz::Manifest manifest{"1",
+                          "skewed",
+                          "",
+                          plan.seed,
+                          "",
+                          plan.keep,
+                          std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
+  for (const fuzz::Target* target : plan.targets)
+    manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
+  const std::int64_t id = store.open_campaign(manifest);
+  std::vector<Account> accounts;
+  for (const fuzz::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
+  fuzz::StoreJournal journal(store, id);
+  fuzz::Bounds bounds;
+  bounds.count = count;
+  bounds.jobs = jobs;
+  fuzz::run(plan, bounds, subjects, accounts, journal);
+}
+
+std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, count, jobs);
+  return text_of(store);
+}
+
+// Does much work in flights along a diagonal, and gives up where |v_1| < |v_2| / 8.
+class WorkingSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override {
+    Answer answer = oracle_->first_hit(query);
+    if (std::fabs(query.v[0]) < std::fabs(query.v[1]) / 8) answer = Answer::undecided();
+    if (std::fabs(query.v[0]) > 8 * std::fabs(query.v[1])) answer = Answer::error("what?");
+    replies_.push_back({std::move(answer), query.v[0] == query.v[1] ? 1e5 : 10});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  std::optional<oracle::Oracle> oracle_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+// Says what it is told to.
+class ToldSubject final : public fuzz::Subject {
+ public:
+  using Says = std::function<Answer(const Query&)>;
+  explicit ToldSubject(Says says) : says_(std::move(says)) {}
+  void ask(const Query& query) override { replies_.push_back({says_(query)}); }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene&) override {}
+  Says says_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+// What an answer is taken for with a tolerance of so many ulps.
+Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
+  ToldSubject subject([&](const Query&) { return answer; });
+  return fuzz::Examiner(subject, scene, ulps).examine(query).kind;
+}
+
+std::string outcome_in(const std::string& answer) {
+  const std::string key = "\"outcome\":\"";
+  const std::size_t begin = answer.find(key) + key.size();
+  return answer.substr(begin, answer.find('"', begin) - begin);
+}
+
+// Right in cells of an ordinary size; in others it sees nothing. With a time limit it takes rounded times for
+// exact ones.
+class ParochialSubject final : public fuzz::Subject {
+ public:
+  void ask(const Query& query) override { replies_.push_back({answer(query)}); }
+  Limits limits() const override { return Limits::exact; }
+  void ask_until(const Query& query, double max_time) override {
+    replies_.push_back({limited(answer(query), max_time)});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override {
+    const double size = fuzz::length(scene.lattices[0].vectors[0]);
+    knows_ = size > 0x1p-60 && size < 0x1p60;
+    oracle_.emplace(scene);
+  }
+  Answer answer(const Query& query) const { return knows_ ? oracle_->first_hit(query) : Answer::never(); }
+  std::optional<oracle::Oracle> oracle_;
+  bool knows_ = true;
+  std::vector<fuzz::Reply> replies_;
+};
+
+// What a campaign of a few targets finds in a subject that errs in other words alone.
+std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account& all) {
+  Plan plan = plan_of({"generic", "grazing", "superpositions"});
+  plan.counts.ulps = 0;
+  plan.reword = reword;
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 128, 2, [] { return std::make_unique<ParochialSubject>(); });
+  for (const fuzz::Target* target : plan.targets) all.add(store.account(1, target->name()));
+  return store.findings();
+}
+
+}  // namespace
+
+TEST_CASE("What goes wrong in other words alone is found, and keeps its words", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  Account without, with;
+  CHECK(findings_in_other_words(0, without).empty());
+  CHECK(without.reworded == 0);
+  int lengths = 0, limits = 0;
+  for (const fuzz::Stored& one : findings_in_other_words(1, with)) {
+    const fuzz::Finding& f = one.finding;
+    INFO(one.label() << ": " << f.words << '\n' << f.text.scene << '\n' << f.text.query);
+    if (f.words.starts_with("digits")) continue;  // what a reader misread
+    CHECK(f.kind == "wrong");
+    CHECK(one.label().ends_with('r'));
+    CHECK(f.sort.ends_with("in other words"));
+    const bool limit = f.words.find("limit") != std::string::npos;
+    limits += limit;
+    if (limit) continue;
+    ++lengths;
+    CHECK(f.words.find("2^") != std::string::npos);
+    CHECK(f.text.given.find("never") != std::string::npos);
+  }
+  CHECK(lengths > 2);
+  CHECK(limits > 2);
+  CHECK(with.reworded > (with.cases + with.mutants) / 2);
+  CHECK(with.reworded <= with.cases + with.mutants);
+}
+
+TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary", "generic"});
+  const std::string once = one_run(plan, 300, 1);
+  CHECK(once.find("leaving/") != std::string::npos);
+  CHECK(once.find("boundary/") != std::string::npos);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 300, 1);
+  std::uint64_t mutants = 0;
+  for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
+  CHECK(mutants > 900 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(mutants < 900 / 4 * 24);
+  for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 300, jobs) == once);
+}
+
+TEST_CASE("A campaign that is gone on with is the one that was never stopped", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary"});
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  for (const std::uint64_t count : {1, 7, 40, 41, 150}) run_in(store, plan, count, 2);
+  CHECK(text_of(store) == one_run(plan, 150, 1));
+}
+
+TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on from there",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary"});
+  std::vector<Account> accounts(2);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  fuzz::StoreJournal journal(store, 1);
+  fuzz::Bounds bounds;
+  bounds.seconds = 0.2;
+  bounds.jobs = 2;
+  fuzz::run(plan, bounds, skewed_subjects(), accounts, journal);
+  for (const Account& account : accounts) {
+    CHECK(account.next > 0);
+    CHECK(account.cases == account.next);
+    std::uint64_t judged = 0;
+    for (const std::uint64_t number : account.kinds) judged += number;
+    CHECK(judged == account.cases + account.mutants + account.reworded);
+  }
+}
+
+TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  Folder folder;
+  Plan plan = plan_of({"leaving", "boundary"});
+  const std::string once = one_run(plan, 150, 2);
+  std::vector<std::string> paths;
+  plan.shards = 3;
+  for (plan.shard = 0; plan.shard < 3; ++plan.shard) {
+    paths.push_back(folder.file("shard" + std::to_string(plan.shard)));
+    fuzz::Store store(paths.back(), fuzz::Store::Access::write);
+    run_in(store, plan, 150, 1);
+  }
+  fuzz::Store merged(":memory:", fuzz::Store::Access::write);
+  fuzz::merge(paths, merged);
+  CHECK(text_of(merged) == once);
+
+  SECTION("one of them went on: they can be read together, not gone on with") {
+    plan.shard = 1;
+    {
+      fuzz::Store store(paths[1], fuzz::Store::Access::write);
+      run_in(store, plan, 160, 1);
+    }
+    fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
+    fuzz::merge(paths, uneven);
+    CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::Manifest::kMerged);
+    CHECK(uneven.account(1, "leaving").next == 150);
+    CHECK(uneven.account(1, "leaving").cases == 153);
+  }
+}
+
+TEST_CASE("Of each sort a target keeps the first few findings, and counts all", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"leaving"});
+  plan.keep = 2;
+  plan.mutate = 0;
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 200, 3);
+  const Account account = store.account(1, "leaving");
+  std::map<std::string, std::vector<std::uint64_t>> kept;
+  for (const fuzz::Stored& one : store.findings()) kept[one.finding.sort].push_back(one.finding.index);
+  std::uint64_t all = 0;
+  REQUIRE(account.sorts.size() > 1);
+  for (const auto& [sort, number] : account.sorts) {
+    INFO(sort);
+    CHECK(kept[sort].size() == std::min<std::uint64_t>(number, 2));
+    all += number;
+  }
+  CHECK(all == account.kinds[static_cast<std::size_t>(Kind::wrong)] +
+                   account.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
+  CHECK(all > 20);
+
+  plan.mutate = 1;  // a case and its mutants, which mostly fail alike, are one finding
+  fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
+  run_in(mutated, plan, 40, 2);
+  std::set<std::pair<std::string, std::uint64_t>> seen;
+  for (const fuzz::Stored& one : mutated.findings())
+    CHECK(seen.emplace(one.finding.sort, one.finding.index).second);
+  CHECK(seen.size() >= 2);
+}
+
+TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as asked for",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"corner"});
+  plan.mutate = 0;
+  std::vector<Account> accounts(1);
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  fuzz::Bounds bounds;
+  bounds.count = 100;
+  for (const bool undecided : {true, false}) {
+    accounts = {{}};
+    plan.counts.undecided = undecided;
+    fuzz::StoreJournal journal(store, undecided);
+    fuzz::run(
+        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, accounts, journal);
+  }
+  const auto number = [&](Kind kind) { return accounts[0].kinds[static_cast<std::size_t>(kind)]; };
+  CHECK(number(Kind::undecided) > 10);
+  CHECK(number(Kind::error) > 10);
+  CHECK(number(Kind::slow) > 3);
+  CHECK(number(Kind::wrong) == 0);
+  std::map<std::pair<std::int64_t, std::string>, int> found;
+  for (const fuzz::Stored& one : store.findings()) ++found[{one.campaign, one.finding.kind}];
+  CHECK(found[{1, "undecided"}] > 0);
+  CHECK(found[{0, "undecided"}] == 0);
+  CHECK(found[{0, "slow"}] > 0);
+  CHECK(found[{0, "error"}] > 0);
+}
+
+TEST_CASE("With no ulp forgiven a tie decided the other way is wrong, and so is a tangent that is hit",
+          "[fuzz][campaign]") {
+  Scene two = unit_scene(2, 0.625);  // above and below the line, entered together
+  two.lattices[0].vectors = {Vec{4, 0}, Vec{0, 1}};
+  Scene same_place = unit_scene(2, 0.25);
+  same_place.lattices[0].atoms.push_back(same_place.lattices[0].atoms[0]);
+  const ObstacleId below{0, 0, {Integer(1)}}, above{0, 0, {Integer(1), Integer(1)}}, second{0, 1, {}};
+  struct {
+    Scene scene;
+    Query query;
+    Answer right, wrong;
+  } const cases[] = {
+      {two, {{1, 0.5}, {1, 0}, {}}, Answer::hit(below, 2.625), Answer::hit(above, 2.625)},
+      {same_place, {{-0.5, 0}, {1, 0}, {}}, Answer::hit({}, 0.25), Answer::hit(second, 0.25)},
+      {unit_scene(2, 0.25), {{0.5, 0.25}, {1, 0}, {}}, Answer::never(), Answer::hit(below, 0.5)},
+      {unit_scene(2, 0.25), {{0.25, 0}, {1, 0.5}, {}}, {}, Answer::inside({})},  // on the surface
+  };
+  for (const auto& one : cases) {
+    INFO(stream(one.scene, one.query) << line(one.wrong, 2));
+    Answer right = oracle::Oracle(one.scene).first_hit(one.query);
+    if (one.right.outcome != Outcome::undecided) REQUIRE(same_obstacle(right, one.right));
+    Answer wrong = one.wrong;
+    if (right.time && wrong.time) wrong.time = right.time;
+    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::fine);
+    CHECK(kind_of(one.scene, one.query, wrong, 0) == Kind::wrong);
+    CHECK(kind_of(one.scene, one.query, wrong, 4) == Kind::fine);
+    if (!right.time) continue;
+    right.time = std::nextafter(*right.time, 10);
+    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::wrong_time);
+    CHECK(kind_of(one.scene, one.query, right, 4) == Kind::fine);
+  }
+}
+
+TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is true", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  Plan plan = plan_of({"generic", "boundary", "never"});
+  plan.mutate = 0;
+  plan.reword = 0;
+  plan.keep = 4;
+  // Wrong in two ways, and about hits, starts inside, and flights without end.
+  const auto subjects = [] {
+    return std::make_unique<ToldSubject>([](const Query& query) {
+      return query.v[0] > 0 ? Answer::never() : Answer::inside(fuzz::obstacle(7, 7));
+    });
+  };
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(store, plan, 60, 2, subjects);
+  std::map<std::string, int> met;
+  for (const fuzz::Stored& one : store.findings()) {
+    const auto& [text, shrunk] = std::tie(one.finding.text, one.finding.shrunk);
+    INFO(text.scene << text.query << '\n' << shrunk.scene << shrunk.query);
+    CHECK(outcome_in(shrunk.given) == outcome_in(text.given));
+    CHECK(outcome_in(shrunk.exact) == outcome_in(text.exact));
+    CHECK(one.finding.complexity < 6000);
+    ++met[outcome_in(text.given) + " for " + outcome_in(text.exact)];
+  }
+  for (const char* sort :
+       {"never for hit", "inside for hit", "never for inside", "inside for inside", "inside for never"}) {
+    INFO(sort);
+    CHECK(met[sort] > 0);
+  }
+}
+
+TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  for (const fuzz::Target& target : fuzz::targets()) {
+    INFO(target.name());
+    CHECK(fuzz::target_named(target.name()) == &target);
+    std::string again;
+    const std::string first = stream(target.make(kSeed, 77).scene, target.make(kSeed, 77).query);
+    std::thread([&] {
+      target.make(kSeed, 3);
+      const fuzz::Case one = target.make(kSeed, 77);
+      again = stream(one.scene, one.query);
+    }).join();
+    CHECK(again == first);
+  }
+  CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
+  CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
+  for (const fuzz::Family& family :
+       {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(), fuzz::early(),
+        fuzz::nearly_parallel(), fuzz::ellipsoid_edges(), fuzz::drift(), fuzz::vast_ellipsoids(),
+        fuzz::nearby(), fuzz::unequal_radii(), fuzz::dense_rows(), fuzz::dense_layers(), fuzz::slender(),
+        fuzz::far_starts(), fuzz::specks()}) {
+    std::map<std::string, int> met;
+    for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
+    const std::size_t explained = met.size();
+    for (std::uint64_t index = 0; index < 2000; ++index) {
+      const fuzz::Case one = family.make(kSeed, index);
+      INFO(family.name() << ' ' << index << ' ' << stream(one.scene, one.query));
+      if (index % 32 == 0) REQUIRE_FALSE((flaw_of(one.scene) || oracle::dependence_in(one.scene)));
+      REQUIRE(fuzz::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
+      REQUIRE_FALSE(flaw_of(one.query, one.scene));
+      if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
+      for (const std::string& tag : one.tags) ++met[tag];
+    }
+    CHECK(met.size() == explained);
+    for (const auto& [tag, count] : met) {
+      INFO(tag);
+      CHECK(count > 0);
+    }
+  }
+}
+
+TEST_CASE("Flights of the target leaving start on the obstacle they leave, and go outwards",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  int on_surface = 0;
+  for (std::uint64_t index = 0; index < 500; ++index) {
+    const fuzz::Case one = fuzz::target_named("leaving")->make(kSeed, index);
+    REQUIRE(one.query.from);
+    const Vec centre = centre_of(one.scene, *one.query.from);
+    Vec arm{};
+    for (int i = 0; i < 3; ++i) arm[i] = one.query.x[i] - centre[i];
+    const double r = one.scene.lattices[0].atoms[one.query.from->atom].radius;
+    on_surface += std::fabs(std::hypot(arm[0], arm[1], arm[2]) / r - 1) < 1e-9;
+    if (std::find(one.tags.begin(), one.tags.end(), "few-bits") == one.tags.end())
+      REQUIRE(arm[0] * one.query.v[0] + arm[1] * one.query.v[1] + arm[2] * one.query.v[2] > 0);
+  }
+  CHECK(on_surface > 300);
+}
+
+TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are queries with their answers",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  int improved = 0, at_the_edge = 0;
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    const fuzz::Case base = fuzz::target_named("generic")->make(kSeed, index);
+    const oracle::Oracle oracle(base.scene);
+    const oracle::Scrutiny scrutiny(base.scene);
+    const auto nobody = skewed_subjects()();
+    const fuzz::Examiner examiner(*nobody, base.scene, oracle::kDefaultUlps);
+    const auto mutants = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
+    const auto again = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
+    REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
+    REQUIRE(mutants.size() == again.size());
+    double least = 1e300;
+    for (std::size_t i = 0; i < mutants.size(); ++i) {
+      REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, again[i].question.query));
+      REQUIRE_FALSE(flaw_of(mutants[i].question.query, base.scene));
+      REQUIRE(same(mutants[i].question.exact, oracle.first_hit(mutants[i].question.query)));
+      least = std::min(least, mutants[i].margin());
+    }
+    // Each round goes on from the best before it.
+    fuzz::Random random(1, "climb", index);
+    fuzz::Mutant best = fuzz::seen(examiner, scrutiny, base.query);
+    REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
+    improved += least < best.margin();
+    at_the_edge += least < 4;
+    for (std::size_t i = 0; i < mutants.size();) {
+      const fuzz::Mutant here = best;
+      for (int move = 0; move < fuzz::kMovesPerRound; ++move, ++i) {
+        const Query query = fuzz::next_query(random, base.scene, examiner, here, move);
+        REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, query));
+        if (mutants[i].margin() < best.margin()) best = mutants[i];
+      }
+    }
+    CHECK(best.margin() <= least);
+  }
+  CHECK(improved > 50);
+  CHECK(at_the_edge > 40);
+}

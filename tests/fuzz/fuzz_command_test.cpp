@@ -1,0 +1,307 @@
+// `lorentz fuzz` as its users call it.
+#include <catch2/catch.hpp>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/fuzz/campaign_support.hpp"
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Store;
+
+namespace {
+
+std::string stored(const std::string& path) {
+  return text_of(Store(path, Store::Access::read));
+}
+
+// Starts the program and kills it after a time, whatever it is at.
+void killed_after(std::chrono::milliseconds time, const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> argv{const_cast<char*>(LORENTZ_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    if (!std::freopen("/dev/null", "w", stdout)) _exit(126);
+    if (!std::freopen("/dev/null", "w", stderr)) _exit(126);
+    execv(LORENTZ_PROGRAM, argv.data());
+    _exit(127);
+  }
+  std::this_thread::sleep_for(time);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+}
+
+}  // namespace
+
+TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, shows them",
+          "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string store = " --store " + folder.file("store");
+  const Run run =
+      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "seed 20161115"));
+  CHECK(contains(run.out, "wrong, an obstacle passed over, 2D, unit lattice"));
+  CHECK(contains(run.out, "wrong, an obstacle passed over, 3D, unit lattice"));
+  CHECK(run.err.empty());
+  const Run list = folder.lorentz("fuzz list --all" + store);
+  CHECK(list.status == 0);
+  CHECK(contains(list.out, "1/published-faults/0 "));
+  const Run show = folder.lorentz("fuzz show 1/published-faults/0" + store);
+  CHECK(show.status == 0);
+  CHECK(contains(show.out, "as found:\n{\"scene\":"));
+  CHECK(contains(show.out, "\"x\":[-0.04390243902439024,0.1951219512195122],\"v\":[9,5]"));
+  const Run again =
+      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+  CHECK(contains(again.err, "goes on with campaign 1"));
+  CHECK(again.out == run.out);
+
+  const Run stream = folder.lorentz("fuzz export --all --queries" + store);
+  CHECK(stream.status == 0);
+  folder.write("queries", stream.out);
+  const Run compare =
+      folder.lorentz("compare --json -e published,oracle --queries " + folder.file("queries"));
+  CHECK(compare.status == 1);
+  CHECK(contains(compare.out,
+                 "\"engine\":\"published\",\"queries\":" + std::to_string(lines(list.out) - 6) + ","));
+  CHECK(
+      contains(compare.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":" + std::to_string(lines(list.out) - 6)));
+}
+
+TEST_CASE("What a campaign found is exported as a golden set, which check and verify take",
+          "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string store = " --store " + folder.file("store");
+  folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+  const Run set = folder.lorentz("fuzz export" + store);
+  CHECK(set.status == 0);
+  CHECK(contains(set.out, "\"generator\":\"lorentz fuzz --engine published --seed 20161115"));
+  CHECK(contains(set.out, "\"tags\":[\"published-faults\",\"wrong\"]"));
+  const std::string file = folder.write("set.ndjson", set.out);
+  const Run verify = folder.lorentz("golden verify --walk " + file);
+  INFO(verify.out << verify.err);
+  CHECK(verify.status == 0);
+  CHECK(folder.lorentz("golden check " + file + " -e certified").status == 0);
+  CHECK(folder.lorentz("golden check " + file + " -e published").status == 1);
+  const Run check_py =
+      folder.run(std::string(LORENTZ_PYTHON) + " " + LORENTZ_SOURCE_DIR + "/data/check.py " + file);
+  CHECK(check_py.status == 0);
+  CHECK(contains(check_py.out, "all verified"));
+}
+
+TEST_CASE("It says which layers decided, and who judged", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const Run certified = folder.lorentz("fuzz -e certified -t grazing --count 300 --mutate 0");
+  CHECK(contains(certified.out, "decided in binary64: "));
+  CHECK(contains(certified.out, "; by exact arithmetic: "));
+  CHECK(contains(certified.out, "judged by the oracle"));
+  const Run reduction =
+      folder.lorentz("fuzz -e reduction -t grazing --count 300 --mutate 0 --reword 0 --json");
+  const auto number = [&](const std::string& key) {
+    const std::size_t at = reduction.out.find("\"" + key + "\":");
+    return at == std::string::npos ? -1 : std::stoi(reduction.out.substr(at + key.size() + 3));
+  };
+  CHECK(number("binary64") > 0);
+  CHECK(number("double_double") > 0);
+  CHECK(number("exact") == number("undecided"));
+  CHECK(number("binary64") + number("double_double") + number("exact") == 300 - number("unsupported"));
+  const Run classical = folder.lorentz("fuzz -e classical -t large-radius --count 100 --judge certified");
+  CHECK(contains(classical.out, "judged by certified"));
+  CHECK_FALSE(contains(classical.out, "decided in binary64"));
+}
+
+#ifdef LORENTZ_MPIRUN
+TEST_CASE("Two processes find what one finds, to the bit", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = " fuzz -e reduction -t leaving,grazing --count 800 --undecided --store ";
+  const Run one = folder.lorentz(what + folder.file("one"));
+  const Run two =
+      folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                 LORENTZ_PROGRAM + what + folder.file("two"));
+  INFO(two.err);
+  CHECK(one.status == 0);
+  CHECK(two.status == 0);
+  CHECK(contains(one.out, "1/leaving/"));
+  CHECK(contains(one.out, "in double-double: "));
+  CHECK(two.out == one.out);
+  CHECK(stored(folder.file("two")) == stored(folder.file("one")));
+  const Run locked =
+      folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                 LORENTZ_PROGRAM + " fuzz -t leaving --count 1 --store /no/such/folder/store");
+  CHECK(locked.status == 3);
+  CHECK(contains(locked.err, "/no/such/folder/store"));
+}
+#endif
+
+TEST_CASE("A campaign can end at its first finding", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = "fuzz -e published -t published-faults --no-undecided --json --count 3000 ";
+  const Run run = folder.lorentz(what + "--first");
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "\"cases\":1,"));
+  CHECK(contains(run.out, "\"id\":\"1/published-faults/0\""));
+  CHECK(run.out == folder.lorentz(what + "--first --jobs 3").out);
+  const Run none = folder.lorentz("fuzz -e certified -t grazing --count 300 --first --json");
+  CHECK(none.status == 0);
+  CHECK(contains(none.out, "\"cases\":300,"));
+}
+
+TEST_CASE("With no ulp forgiven an answer is the exact one or wrong", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = "fuzz -e classical -t tie --count 64 --mutate 0 --no-undecided ";
+  const Run lenient = folder.lorentz(what + "--ulps 4"), strict = folder.lorentz(what + "--ulps 0");
+  CHECK(lenient.status == 0);
+  CHECK(strict.status == 1);
+  CHECK(contains(strict.out, "wrong, an obstacle"));
+  CHECK(folder.lorentz("fuzz -e certified -t tie --count 64 --mutate 0 --ulps 0 --times").status == 0);
+}
+
+TEST_CASE("Where nothing is wrong it says what that means", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz("fuzz -e certified -t grazing --count 300");
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, "wrong: 0 in 300: at most 0.01 of such cases, with 95 %"));
+  CHECK(contains(run.out, "no findings"));
+  const Run json =
+      folder.lorentz("fuzz -e certified -t grazing --count 300 --json --seed 18446744073709551615");
+  CHECK(json.status == 0);
+  CHECK(contains(json.out, "\"seed\":\"18446744073709551615\""));
+  CHECK(contains(json.out, "\"cases\":300"));
+  CHECK(contains(json.out, "\"wrong_at_most\":0.01"));
+  CHECK(contains(json.out, "\"findings\":[]"));
+}
+
+TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had never been",
+          "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::vector<std::string> arguments{"fuzz",    "-e",   "reduction",   "-t",     "leaving,grazing",
+                                           "--count", "2500", "--undecided", "--jobs", "2"};
+  std::string line;
+  for (const std::string& argument : arguments) line += argument + ' ';
+  folder.lorentz(line + "--store " + folder.file("once"));
+  const std::string once = stored(folder.file("once"));
+  CHECK(contains(once, "leaving/"));
+  auto with_store = arguments;
+  with_store.insert(with_store.end(), {"--store", folder.file("killed")});
+  std::uint64_t next = 0;
+  for (const int milliseconds : {600, 30, 700}) {
+    killed_after(std::chrono::milliseconds(milliseconds), with_store);
+    const Store store(folder.file("killed"), Store::Access::read);
+    const std::uint64_t now = store.account(1, "leaving").next;
+    CHECK(now >= next);
+    next = now;
+  }
+  CHECK(next > 0);
+  WARN("killed at " << next << " of 2500");
+  folder.lorentz(line + "--store " + folder.file("killed"));
+  CHECK(stored(folder.file("killed")) == once);
+}
+
+TEST_CASE("Shards merged on the command line are one run", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = "fuzz -e reduction -t leaving,boundary --count 400 --undecided --store ";
+  folder.lorentz(what + folder.file("once"));
+  for (const std::string i : {"0", "1", "2"}) folder.lorentz(what + folder.file(i) + " --shard " + i + "/3");
+  const std::string all = folder.file("2") + ' ' + folder.file("0") + ' ' + folder.file("1");
+  const Run merged = folder.lorentz("fuzz merge " + all + " -o " + folder.file("merged"));
+  CHECK(merged.status == 0);
+  CHECK(stored(folder.file("merged")) == stored(folder.file("once")));
+  CHECK(folder.lorentz("fuzz merge " + all + " -o " + folder.file("merged")).status == 2);
+  const Run same =
+      folder.lorentz("fuzz merge " + folder.file("1") + ' ' + folder.file("1") + "x -o " + folder.file("n"));
+  CHECK(same.status == 3);
+  CHECK_FALSE(fs::exists(folder.file("n")));
+}
+
+TEST_CASE("A program that is wrong on purpose is found", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string script = folder.write(
+      "engine.sh", std::string(LORENTZ_PROGRAM) +
+                       " first-hit --engine certified | sed -u 's/\"cell\":.0,1/\"cell\":[0,2/'\n");
+  const Run run = folder.lorentz("fuzz -t generic --count 512 --mutate 0 --jobs 2 --json --engine 'cmd:sh " +
+                                 script + "'");
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "\"cause\":\"wrong, an obstacle"));
+  CHECK(contains(run.out, "\"cell\":[0,2"));
+}
+
+TEST_CASE("The exit status where an engine only errs, or is wrong in times only", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const auto engine = [&](const std::string& edit) {
+    return " --engine 'cmd:sh " +
+           folder.write("engine.sh", std::string(LORENTZ_PROGRAM) +
+                                         " first-hit --engine certified | sed -u '" + edit + "'\n") +
+           "'";
+  };
+  const std::string campaign = "fuzz -t generic --count 64 --mutate 0 --reword 0 --json";
+  const std::string errs = engine(R"(s/"outcome".*/"outcome":"error","message":"no"}/)");
+  const Run only_errors = folder.lorentz(campaign + errs);
+  CHECK(only_errors.status == 1);
+  CHECK(contains(only_errors.out, "\"wrong\":0,"));
+  CHECK(contains(only_errors.out, "\"error\":64,"));
+  const Run compared = folder.lorentz("compare --json --count 64" + errs);
+  CHECK(compared.status == 0);  // it owns to not knowing
+  CHECK(contains(compared.out, "\"wrong\":0,"));
+  CHECK(contains(compared.out, "\"error\":64,"));
+  const std::string late = engine(R"(s/"time":.*/"time":1e9}/)");
+  const Run times = folder.lorentz(campaign + late), strict = folder.lorentz(campaign + " --times" + late);
+  CHECK(contains(times.out, "\"wrong\":0,"));
+  CHECK(contains(times.out, "\"findings\":[]"));
+  CHECK(times.status == 0);
+  CHECK(contains(strict.out, "\"cause\":\"wrong time"));
+  CHECK(strict.status == 1);
+}
+
+TEST_CASE("A program that breaks is reported, and is no reason to stop", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("fuzz -t generic --count 8 --mutate 0 --reword 0 --json --engine 'cmd:exit 7'");
+  CHECK(run.status == 3);
+  CHECK(contains(run.out, "\"error\":8"));
+  CHECK(contains(run.err, "exit 7"));
+}
+
+TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const auto refused = [&](const std::string& options, const std::string& message, int status = 2) {
+    const Run run = folder.lorentz("fuzz " + options);
+    INFO(options << '\n' << run.err);
+    CHECK(run.status == status);
+    CHECK(contains(run.err, message));
+    CHECK(run.out.empty());
+  };
+  refused("--target nonsense", "no target is called \"nonsense\"; there are generic, near-rational,");
+  refused("-t grazing,grazing", "--target: grazing is named twice");
+  refused("-e nonsense", "no engine is called \"nonsense\"");
+  refused("-e cmd:", "cmd: is no engine yet");
+  refused("--time 0", "--time: must be above zero");
+  refused("--time soon", "--time: ");
+  refused("--count 0", "--count: \"0\" is no whole number from 1");
+  refused("--seed x", "--seed: \"x\" is no whole number");
+  refused("--jobs 0", "--jobs: \"0\" is no whole number from 1 to 1024");
+  refused("--shard 3", "--shard: \"3\" is not I/N");
+  refused("--shard 3/3", "--shard: \"3\" is no whole number from 0 to 2");
+  refused("--shard 0/0", "--shard: \"0\" is no whole number from 1");
+  refused("--keep 0", "--keep: ");
+  refused("--mutate -1", "--mutate: ");
+  refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
+  refused("--undecided --no-undecided", "excludes");
+  refused("--judge nobody", "--judge: \"nobody\" is none; there are oracle and certified");
+  refused("--judge certified -e reduction", "certified rests on reduction, and is no judge of either");
+  refused("--timeout 0", "--timeout: must be above zero");
+  refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");
+  refused("list", "--store is required");
+  refused("list --store " + folder.file("absent"), folder.file("absent") + ": No such file", 3);
+  refused("merge x", "--output is required");
+  refused("--count 1 --store /no/such/folder/store", "/no/such/folder/store", 3);
+  folder.lorentz("fuzz -t grazing --count 1 --store " + folder.file("store"));
+  refused("show 1/grazing/5 --store " + folder.file("store"), "no finding is called \"1/grazing/5\"");
+}

@@ -1,0 +1,191 @@
+// The oracle says the same in other words, and so do the engines that claim to be exact.
+#include "tests/fuzz/rewording_support.hpp"
+
+#include <deque>
+#include <filesystem>
+
+#include <lorentz/scene_check.hpp>
+#include "cases/families/target.hpp"
+#include "cases/parts.hpp"
+#include "fuzz/examine/time_limit.hpp"
+#include "fuzz/rewording/notation.hpp"
+#include "golden/reader.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Random;
+using fuzz::Reworded;
+using fuzz::Rewording;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1301;
+
+enum class Who { oracle, engines };
+
+// One question in the words of one of some rooms.
+void require_same_in(Room& room, Random& random, const Query& query, const Answer& exact, Who who,
+                     Tally& tally) {
+  const auto reworded = room.rewording.reword(random, query);
+  if (!reworded) {
+    ++tally.met["(no binary64)"];
+    return;
+  }
+  const Scene& other = room.rewording.scene();
+  INFO("in other words: " << room.rewording.words(*reworded) << '\n' << stream(other, reworded->query));
+  REQUIRE_FALSE(flaw_of(reworded->query, other));
+  tally.see(room.rewording.words(*reworded));
+  if (query.from) {
+    ++tally.met["(from)"];
+    REQUIRE(room.rewording.back(*reworded->query.from, *reworded) == *query.from);
+  }
+  const Answer there = room.oracle.first_hit(reworded->query);
+  require_carried(room, *reworded, exact, there, tally);
+  if (who == Who::engines) require_exact_engines(room, reworded->query, there, tally);
+}
+
+// A scene in some other words.
+std::deque<Room> rooms_of(Random& random, const Scene& scene, int count) {
+  std::deque<Room> rooms;
+  for (int i = 0; i < count; ++i) {
+    Rewording rewording(random, scene);
+    INFO(rewording.words({}) << '\n' << stream(rewording.scene(), {}));
+    REQUIRE_FALSE(flaw_of(rewording.scene()));
+    REQUIRE_FALSE(oracle::dependence_in(rewording.scene()));
+    rooms.emplace_back(std::move(rewording));
+  }
+  return rooms;
+}
+
+// The cases of a target, each in two of four other words for its scene.
+void require_same_in_other_words(const fuzz::Target& target, std::uint64_t seed, std::uint64_t count, Who who,
+                                 Tally& tally) {
+  std::deque<Room> rooms;
+  std::optional<oracle::Oracle> oracle;
+  std::optional<Scene> scene;
+  for (std::uint64_t index = 0; index < count; ++index) {
+    const fuzz::Case one = target.make(seed, index);
+    Random random(seed, target.name(), index, fuzz::Use::rewordings);
+    INFO(target.name() << ' ' << index << ", seed " << seed << '\n' << stream(one.scene, one.query));
+    if (!scene || !fuzz::same(*scene, one.scene)) {
+      scene = one.scene;
+      oracle.emplace(*scene);
+      rooms = rooms_of(random, *scene, 4);
+    }
+    const Answer exact = oracle->first_hit(one.query);
+    INFO("exact: " << line(exact, one.scene.dimension));
+    for (const std::uint64_t i : {index % 4, (index + 1) % 4})
+      require_same_in(rooms[i], random, one.query, exact, who, tally);
+  }
+}
+
+// Each record of a golden set in two of three other words for its scene.
+void require_same_in_other_words(const std::string& path, Tally& tally) {
+  golden::Reader reader(path);
+  golden::ReadRecord read;
+  std::deque<Room> rooms;
+  std::size_t scene_number = ~std::size_t{0};
+  for (std::uint64_t index = 0; reader.next(read); ++index) {
+    if (!read.query) continue;
+    Random random(kSeed, reader.header().name, index, fuzz::Use::rewordings);
+    if (scene_number != reader.scene_number()) rooms = rooms_of(random, reader.scene(), 3);
+    scene_number = reader.scene_number();
+    INFO(path << ':' << read.line << ", seed " << kSeed);
+    ++tally.met["(records)"];
+    for (const std::uint64_t i : {index % 3, (index + 1) % 3})
+      require_same_in(rooms[i], random, *read.query, read.record.expect, Who::engines, tally);
+  }
+}
+
+Tally in_golden_sets() {
+  Tally tally;
+  for (const auto& file : std::filesystem::directory_iterator(LORENTZ_SOURCE_DIR "/data/golden"))
+    if (file.path().extension() == ".ndjson") require_same_in_other_words(file.path(), tally);
+  return tally;
+}
+
+}  // namespace
+
+TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewording]") {
+  Tally tally;
+  for (const fuzz::Target& target : fuzz::targets())
+    require_same_in_other_words(target, kSeed, 512, Who::oracle, tally);
+  tally.print("the oracle in other words, all targets, 512 cases each, seed " + std::to_string(kSeed));
+  // A generator that rots is seen.
+  for (const char* word : {"basis", "superlattice", "axes", "scene moved", "lengths", "plane in space",
+                           "semiaxes", "order", "start moved", "start moved and rounded", "velocity"}) {
+    INFO(word);
+    CHECK(tally.met[word] > 200);
+  }
+  CHECK(tally.met["(carried over)"] > 8000);
+  CHECK(tally.met["(ties)"] > 50);
+  CHECK(tally.met["(from)"] > 500);
+  CHECK(tally.farthest["basis"] >= 40);
+  CHECK(tally.farthest["start moved"] >= 50);
+  CHECK(tally.farthest["lengths"] > 950);
+  CHECK(tally.nearest["lengths"] < -950);
+  CHECK(tally.farthest["velocity"] > 1000);
+  CHECK(tally.nearest["velocity"] < -1000);
+}
+
+TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {
+  std::map<std::string, int> misread;
+  int questions = 0;
+  for (const fuzz::Target& target : fuzz::targets())
+    for (std::uint64_t index = 0; index < 320; ++index, ++questions) {
+      const fuzz::Case one = target.make(kSeed, index);
+      Random random(kSeed, target.name(), index, fuzz::Use::rewordings);
+      const auto misreading = fuzz::misreading(random, one.scene, one.query);
+      if (misreading && ++misread[misreading->notation] == 1)
+        UNSCOPED_INFO(target.name() << ' ' << index << ", " << misreading->notation << ": "
+                                    << misreading->line);
+    }
+  INFO("seed " << kSeed << ", " << questions << " questions");
+  CHECK(misread.empty());
+}
+
+TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the time itself",
+          "[fuzz][rewording]") {
+  constexpr std::uint64_t kOther = 1303;
+  std::map<fuzz::LimitAt, int> met, later;
+  for (const fuzz::Target& target : fuzz::targets())
+    for (std::uint64_t index = 0; index < 64; ++index) {
+      const fuzz::Case one = target.make(kOther, index);
+      const oracle::Oracle& oracle = fuzz::oracle_of(one.scene);
+      const Answer exact = oracle.first_hit(one.query);
+      Random random(kOther, target.name(), index, fuzz::Use::rewordings);
+      const fuzz::LimitAt at = fuzz::drawn_limit(random, fuzz::Subject::Limits::exact, exact);
+      if (at == fuzz::LimitAt::none) continue;
+      oracle::Request request;
+      request.max_time = fuzz::limit_of(at, exact);
+      const bool is_later = oracle.first_hit(one.query, request).outcome == Outcome::later;
+      ++met[at];
+      later[at] += is_later;
+      INFO("seed " << kOther << ", " << target.name() << ' ' << index << ": " << fuzz::words_of(at));
+      if (exact.outcome != Outcome::hit)
+        CHECK(is_later == (exact.outcome == Outcome::never));
+      else if (at != fuzz::LimitAt::time)
+        CHECK(is_later == (at == fuzz::LimitAt::below || at == fuzz::LimitAt::half));
+    }
+  for (const auto at :
+       {fuzz::LimitAt::below, fuzz::LimitAt::above, fuzz::LimitAt::half, fuzz::LimitAt::twice})
+    CHECK(met[at] > 50);
+  CHECK(later[fuzz::LimitAt::time] > 50);
+  CHECK(met[fuzz::LimitAt::time] - later[fuzz::LimitAt::time] > 50);
+}
+
+TEST_CASE("Rewording: every golden record holds in other words", "[fuzz][rewording]") {
+  Tally tally = in_golden_sets();
+  tally.print("golden records in other words, seed " + std::to_string(kSeed));
+  CHECK(tally.met["(records)"] > 10'500);
+}
+
+TEST_CASE("Rewording: a million questions in other words to certified and reduction",
+          "[fuzz][rewording][long]") {
+  constexpr std::uint64_t kOther = 1302;
+  Tally tally;
+  for (const fuzz::Target& target : fuzz::targets())
+    require_same_in_other_words(target, kOther, 1'250'000 / 2 / fuzz::targets().size(), Who::engines, tally);
+  tally.print("certified and reduction in other words, seed " + std::to_string(kOther));
+  CHECK(tally.met["(reduction: decided)"] + tally.met["(reduction: undecided)"] > 1'000'000);
+}

@@ -1,0 +1,145 @@
+// Shrinking: the failure stays, the numbers become readable.
+#include "fuzz/examine/shrink.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "fuzz/campaign/campaign.hpp"
+#include "fuzz/examine/engine_subject.hpp"
+#include "fuzz/examine/examiner.hpp"
+#include "tests/fuzz/campaign_support.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::bits_of;
+using fuzz::Kind;
+using fuzz::Shrunk;
+
+namespace {
+
+constexpr int kReadable = 12;
+
+// Keeps what a case of the published algorithm's is.
+Shrunk shrink_published(const Scene& scene, const Query& query, Kind kind, int tries) {
+  const auto subject = cli::subject_maker("published")();
+  const auto kind_of = [&](const Scene& s, const Query& q) {
+    if (!fuzz::is_sound(s) || flaw_of(q, s)) return Kind::fine;
+    return fuzz::Examiner(*subject, s, 4).examine(q).kind;
+  };
+  REQUIRE(kind_of(scene, query) == kind);
+  const Shrunk shrunk = fuzz::shrink(
+      scene, query, [&](const Scene& s, const Query& q) { return kind_of(s, q) == kind; }, {}, tries);
+  CHECK(kind_of(shrunk.scene, shrunk.query) == kind);
+  CHECK(shrunk.tries <= tries);
+  return shrunk;
+}
+
+}  // namespace
+
+TEST_CASE("Significant bits of a number", "[fuzz][shrink]") {
+  CHECK(bits_of(0) == 0);
+  CHECK(bits_of(1) == 1);
+  CHECK(bits_of(-0.5) == 1);
+  CHECK(bits_of(3) == 2);
+  CHECK(bits_of(0x1p-1074) == 1);
+  CHECK(bits_of(0x3p-1074) == 2);
+  CHECK(bits_of(0x1p1023) == 1);
+  CHECK(bits_of(0.1) == 52);
+  CHECK(bits_of(1 + 0x1p-52) == 53);
+}
+
+TEST_CASE("The published algorithm's faults shrink to numbers that can be read", "[fuzz][shrink]") {
+  const auto check = [](const Shrunk& shrunk) {
+    INFO(stream(shrunk.scene, shrunk.query));
+    CHECK(fuzz::most_bits(shrunk.scene, shrunk.query) <= kReadable);
+    CHECK(is_unit_scene(shrunk.scene));
+  };
+  SECTION("skipped disc") {
+    check(shrink_published(unit_scene(2, 0.2), {{-9.0 / 205, 8.0 / 41}, {9, 5}, ObstacleId{}}, Kind::wrong,
+                           2000));
+    check(shrink_published(unit_scene(2, 0.05), {{-7.0 / 500, 6.0 / 125}, {8, 7}, ObstacleId{}}, Kind::wrong,
+                           2000));
+  }
+  SECTION("late sphere") {
+    check(shrink_published(unit_scene(3, 0.2), {{0.8, 0.2, 0.5}, {-25, 2, -1}, {}}, Kind::wrong, 2000));
+  }
+  SECTION("endless channel, at the price of its cap for each try") {
+    check(shrink_published(unit_scene(2, 1.0 / 81), {{0, 0.878597}, {2, 1}, {}}, Kind::undecided, 40));
+  }
+  SECTION("a slow drift") {
+    check(shrink_published(unit_scene(2, 1e-5), {{0, 0.3}, {1, 2.5e-5}, {}}, Kind::slow, 400));
+  }
+}
+
+TEST_CASE("What does not matter goes: lattices, atoms, ellipsoids, `from`, far cells", "[fuzz][shrink]") {
+  const double root = 0.8660254037844386;
+  Scene scene{2,
+              {{{Vec{1, 0}, Vec{0.5, root}, Vec{}},
+                {{{0.1, 0.2}, 0, {{0.2, 0.01}, {-0.01, 0.1}}}, {{0.5, 0.3}, 0.123, {}}}},
+               {{Vec{3, 0.1}, Vec{0.2, 2}, Vec{}}, {{{0.3, 0.3}, 0.05, {}}}}}};
+  const Query query{{1000.123, -77.7}, {-0.3, 0.9}, ObstacleId{1, 0, {Integer(5), Integer(-3), Integer(0)}}};
+  const auto any = [](const Scene& s, const Query& q) { return fuzz::is_sound(s) && !flaw_of(q, s); };
+  const Shrunk shrunk = fuzz::shrink(scene, query, any);
+  CHECK(is_unit_scene(shrunk.scene));
+  CHECK_FALSE(shrunk.query.from);
+  CHECK(shrunk.query.x == Vec{});
+  CHECK(fuzz::most_bits(shrunk.scene, shrunk.query) == 1);
+}
+
+TEST_CASE("What matters stays", "[fuzz][shrink]") {
+  const Scene scene = unit_scene(3, 0.3);
+  const Query query{
+      {0.3, 0.1, 0.77}, {0.123, 0.7, -0.2}, ObstacleId{0, 0, {Integer(0), Integer(2), Integer(0)}}};
+  int asked = 0;
+  const auto needs = [&](const Scene& s, const Query& q) {
+    ++asked;
+    return !flaw_of(q, s) && q.from && q.from->cell[1] == Integer(2) && q.v[2] < 0 && q.x[0] > 0.29 &&
+           s.lattices[0].atoms[0].radius > 0.26;
+  };
+  REQUIRE(needs(scene, query));
+  asked = 0;
+  const Shrunk shrunk = fuzz::shrink(scene, query, needs);
+  CHECK(needs(shrunk.scene, shrunk.query));
+  CHECK(shrunk.tries == asked - 1);
+  CHECK(shrunk.query.v[2] == -1);
+  CHECK(bits_of(shrunk.query.x[0]) <= 2);
+  CHECK(bits_of(shrunk.scene.lattices[0].atoms[0].radius) == 1);
+  const Shrunk again = fuzz::shrink(scene, query, needs);
+  CHECK(stream(again.scene, again.query) == stream(shrunk.scene, shrunk.query));
+}
+
+TEST_CASE("Tries are bounded, and no case is tried twice", "[fuzz][shrink]") {
+  const Scene scene = unit_scene(2, 0.3);
+  const Query query{{0.3, 0.1}, {0.123, 0.7}, {}};
+  std::set<std::string> seen;
+  const auto never = [&](const Scene& s, const Query& q) {
+    CHECK(seen.insert(stream(s, q)).second);
+    return false;
+  };
+  const Shrunk all = fuzz::shrink(scene, query, never);
+  CHECK(all.tries == static_cast<int>(seen.size()));
+  CHECK(all.tries < fuzz::kShrinkTries);
+  seen.clear();
+  CHECK(fuzz::shrink(scene, query, never, {}, 7).tries == 7);
+  CHECK(seen.size() == 7);
+}
+
+TEST_CASE("A shorter flight, where it is as simple", "[fuzz][shrink]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const oracle::Oracle oracle(scene);
+  double length = 0;
+  const auto hits = [&](const Scene& s, const Query& q) {
+    if (flaw_of(q, s) || !is_unit_scene(s) || s.lattices[0].atoms[0].radius != 0.25 || q.v != Vec{1, 0x1p-6})
+      return false;
+    const Answer answer = oracle.first_hit(q);
+    length = answer.time.value_or(-1);
+    return answer.outcome == Outcome::hit;
+  };
+  const Query query{{0.5, 0.40625}, {1, 0x1p-6}, {}};
+  REQUIRE(hits(scene, query));
+  const double before = length;
+  const Shrunk shrunk = fuzz::shrink(scene, query, hits, [&] { return length; });
+  REQUIRE(hits(shrunk.scene, shrunk.query));
+  CHECK(length < before);
+}

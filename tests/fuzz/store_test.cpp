@@ -1,0 +1,157 @@
+// The store: what goes in comes out, one writer at a time, and no other file is taken for one.
+#include "fuzz/campaign/store.hpp"
+
+#include <sqlite3.h>
+
+#include <catch2/catch.hpp>
+
+#include <lorentz/errors.hpp>
+#include "tests/fuzz/campaign_support.hpp"
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Store;
+
+namespace {
+
+fuzz::Manifest manifest(const std::string& shard = "0/1") {
+  return {"1.2", "an engine", "leaving,scale", ~std::uint64_t{0}, "options", 3, shard};
+}
+
+fuzz::Finding finding() {
+  fuzz::Finding f;
+  f.target = "leaving";
+  f.index = 12345678901;
+  f.step = 7;
+  f.kind = "wrong";
+  f.sort = "wrong, 2D";
+  f.cause = "a cause";
+  f.text = {"scene", "query '\"", "given", "exact"};
+  f.shrunk = {"s", "q", "g", "e"};
+  f.departs = std::numeric_limits<double>::infinity();
+  f.margin = 0x1.23456789abcdep-300;
+  f.bits = 12;
+  f.complexity = 3210;
+  f.tries = 99;
+  return f;
+}
+
+std::string message_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+}  // namespace
+
+TEST_CASE("What is put in a store comes out of it", "[fuzz][store]") {
+  const Folder folder;
+  fuzz::Account account;
+  account.next = 1ull << 60;
+  account.cases = 5;
+  account.mutants = 6;
+  for (std::size_t k = 0; k < account.kinds.size(); ++k) account.kinds[k] = k * k;
+  account.sorts = {{"one", 1}, {"two", 2}};
+  account.margin = 4.9e-324;
+  account.margin_index = 17;
+  {
+    Store store(folder.file("store"), Store::Access::write);
+    CHECK(store.open_campaign(manifest()) == 1);
+    CHECK(store.open_campaign(manifest("1/2")) == 2);
+    CHECK(store.open_campaign(manifest()) == 1);
+    store.put(2, "leaving", account);
+    store.put(2, finding());
+    store.commit();
+  }
+  const Store store(folder.file("store"), Store::Access::read);
+  REQUIRE(store.campaigns().size() == 2);
+  CHECK(store.campaigns()[1].manifest == manifest("1/2"));
+  CHECK(text_of(store.account(2, "leaving")) == text_of(account));
+  CHECK(text_of(store.account(2, "scale")) == text_of(fuzz::Account{}));
+  CHECK(text_of(store.account(1, "leaving")) == text_of(fuzz::Account{}));
+  REQUIRE(store.findings().size() == 1);
+  CHECK(text_of(store.findings()[0]) == text_of(fuzz::Stored{2, finding()}));
+  CHECK(store.findings()[0].label() == "2/leaving/12345678901.7");
+}
+
+TEST_CASE("What was not committed is not there; readers see what was", "[fuzz][store]") {
+  const Folder folder;
+  Store store(folder.file("store"), Store::Access::write);
+  store.open_campaign(manifest());
+  store.put(1, finding());
+  CHECK(Store(folder.file("store"), Store::Access::read).findings().empty());
+  store.commit();
+  CHECK(Store(folder.file("store"), Store::Access::read).findings().size() == 1);
+}
+
+TEST_CASE("Two writers are refused, with what to do; also another process", "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store");
+  {
+    const Store store(path, Store::Access::write);
+    for (const auto access : {Store::Access::write, Store::Access::settled})
+      CHECK(
+          contains(message_of([&] { Store other(path, access); }), "another process is running a campaign"));
+    const Run run = folder.lorentz("fuzz --count 1 --store " + path);
+    CHECK(run.status == 3);
+    CHECK(contains(run.err, path + ": another process is running a campaign on this store"));
+    CHECK(folder.lorentz("fuzz list --store " + path).status == 0);
+  }
+  CHECK(folder.lorentz("fuzz -t grazing --count 1 --store " + path).status == 0);
+}
+
+TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
+  const Folder folder;
+  const std::string text =
+      folder.write("text", "this is no database, however long it may be: " + std::string(2000, 'x'));
+  CHECK(
+      contains(message_of([&] { Store store(text, Store::Access::write); }), "is no store of lorentz fuzz"));
+  const std::string other = folder.file("other");
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(other.c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, "CREATE TABLE mine (x)", nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+  const std::string before = folder.read("other");
+  for (const auto access : {Store::Access::write, Store::Access::read})
+    CHECK(contains(message_of([&] { Store store(other, access); }), "is a database, but no store"));
+  CHECK(folder.read("other") == before);
+  CHECK(
+      contains(message_of([&] { Store store(folder.file("absent"), Store::Access::read); }), "No such file"));
+  CHECK(contains(message_of([&] { Store store("/no/such/folder/store", Store::Access::write); }),
+                 "/no/such/folder"));
+}
+
+TEST_CASE("Only shards of one campaign are merged", "[fuzz][store]") {
+  const Folder folder;
+  const auto store_with = [&](const std::string& name, const fuzz::Manifest& m) {
+    Store store(folder.file(name), Store::Access::write);
+    store.open_campaign(m);
+    return folder.file(name);
+  };
+  fuzz::Manifest seeded = manifest("1/2"), versioned = manifest("1/2"), engined = manifest("1/2"),
+                 targeted = manifest("1/2"), optioned = manifest("1/2");
+  seeded.seed = 1;
+  versioned.version = "2";
+  engined.engine = "other";
+  targeted.targets = "leaving";
+  optioned.options = "others";
+  const std::string first = store_with("first", manifest("0/2"));
+  const auto message = [&](const std::string& second) {
+    Store into(":memory:", Store::Access::write);
+    return message_of([&] { fuzz::merge({first, second}, into); });
+  };
+  CHECK(contains(message(store_with("a", seeded)), "seed 18446744073709551615 and 1"));
+  CHECK(contains(message(store_with("b", versioned)), "version 1.2 and 2"));
+  CHECK(contains(message(store_with("c", engined)), "engine an engine and other"));
+  CHECK(contains(message(store_with("d", targeted)), "targets leaving,scale and leaving"));
+  CHECK(contains(message(store_with("e", optioned)), "options options and others"));
+  CHECK(contains(message(store_with("f", manifest("1/3"))), "shard 0/2 and 1/3"));
+  CHECK(contains(message(store_with("g", manifest("0/2"))), "are the same shard, 0/2"));
+  CHECK(message(store_with("h", manifest("1/2"))) == "nothing was thrown");
+  { Store empty(folder.file("i"), Store::Access::write); }
+  CHECK(contains(message(folder.file("i")), "different campaigns"));
+}

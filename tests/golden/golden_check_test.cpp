@@ -1,0 +1,203 @@
+// lorentz golden check and explain: engines against sets, one record in full.
+#include <catch2/catch.hpp>
+
+#include "tests/golden/golden_support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+const std::string kCommitted = std::string(LORENTZ_SOURCE_DIR) + "/data/golden/";
+
+// An engine in Python that passes the oracle's answers on, changed by a statement about `a`.
+std::string engine(const Folder& folder, const std::string& statement) {
+  const std::string script = folder.write(
+      "engine.py",
+      "import json, subprocess, sys\n"
+      "answers = subprocess.run([sys.argv[1], 'first-hit', '--engine', 'oracle'], stdin=sys.stdin, "
+      "capture_output=True, text=True).stdout\n"
+      "for line in answers.splitlines():\n"
+      "    a = json.loads(line)\n"
+      "    " +
+          statement +
+          "\n"
+          "    print(json.dumps(a))\n");
+  return "'cmd:" LORENTZ_PYTHON " " + script + " " LORENTZ_PROGRAM "'";
+}
+
+std::string first_id(const std::string& set, const std::string& word) {
+  golden::Reader reader(kCommitted + set + ".ndjson");
+  for (golden::ReadRecord read; reader.next(read);)
+    if (contains(read.text, word)) return read.record.id;
+  throw std::logic_error("no record of " + set + " holds " + word);
+}
+
+bool is_json(const Folder& folder) {
+  return std::system(
+             (LORENTZ_PYTHON " -m json.tool --json-lines " + folder.file("out") + " >/dev/null").c_str()) ==
+         0;
+}
+
+}  // namespace
+
+TEST_CASE("golden check: exact engines agree, the published one does not", "[golden][golden_check]") {
+  const Folder folder;
+  const Run good = folder.lorentz("golden check --engine reduction ties bad-queries");
+  INFO(good.out << good.err);
+  CHECK(good.status == 0);
+  CHECK(contains(good.out, "reduction\n"));
+  CHECK(contains(good.out, "ties"));
+  CHECK_FALSE(contains(good.out, "failures"));
+  CHECK(folder.lorentz("golden check -e certified,oracle --strict grazing").status == 0);
+  beginning_of_set(folder, "published-faults", 60);
+  const std::string faults = folder.file("published-faults.ndjson");
+  const Run bad = folder.lorentz("golden check " + faults + " --engine published --failures 2");
+  CHECK(bad.status == 1);
+  CHECK(contains(bad.out, "The first failures:"));
+  CHECK(lines(bad.out.substr(bad.out.find("The first failures"))) == 1 + 2 * 3 + 1);
+  CHECK_FALSE(
+      contains(folder.lorentz("golden check " + faults + " -e published --failures 0").out, "failures:"));
+  // In the plane a cell has two components.
+  CHECK(contains(bad.out, "expected \"outcome\":\"hit\",\"lattice\":0,\"atom\":0,\"cell\":[1,1],"));
+  // What it says to run again runs, and fails on that record alone.
+  const std::string again = between(bad.out, "again: lorentz ", "\n");
+  const Run once = folder.lorentz(again + " --json");
+  CHECK(once.status == 1);
+  CHECK(contains(once.out, "\"records\":1,\"agree\":0,"));
+}
+
+TEST_CASE("golden check: tables of numbers, as JSON and as a page", "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "published-faults", 60);
+  const std::string sets = folder.file("published-faults.ndjson") + " ties ";
+  const Run json = folder.lorentz("golden check -e published -e reduction " + sets + " --json");
+  CHECK(json.status == 1);
+  CHECK(is_json(folder));
+  CHECK(lines(json.out) == 2);
+  CHECK(json.out.starts_with(
+      "{\"engine\":\"published\",\"sets\":[{\"set\":\"published-faults\",\"records\":47,"));
+  CHECK(contains(
+      json.out,
+      "{\"engine\":\"reduction\",\"sets\":[{\"set\":\"published-faults\",\"records\":47,\"agree\":"));
+  CHECK(contains(json.out, "\"skipped-disc\":{\"records\":"));
+  const Run page = folder.lorentz("golden check -e published,reduction " + sets + "--markdown --failures 1");
+  CHECK(page.status == 1);
+  CHECK(page.out.starts_with(
+      "| set | records | published | reduction |\n|---|---|---|---|\n| published-faults | 47 | "));
+  CHECK(contains(page.out, "\n## published\n\n| set | tag | records | of these |"));
+  CHECK(contains(page.out, "skipped-disc"));
+  CHECK(contains(page.out, "\n## reduction\n\nNo wrong answer.\n"));
+  CHECK(contains(page.out, "```\n"));
+}
+
+TEST_CASE("golden check: another program that lies, is silent about some, or breaks",
+          "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "generic-2d", 130);
+  const std::string set = folder.file("generic-2d.ndjson");
+  const auto checked = [&](const std::string& statement, const std::string& more = "") {
+    return folder.lorentz("golden check --json --engine " + engine(folder, statement) + " " +
+                          (more.empty() ? set : more));
+  };
+  const Run honest = checked("pass");
+  INFO(honest.out << honest.err);
+  CHECK(honest.status == 0);
+  CHECK(contains(honest.out, "\"records\":125,\"agree\":125,\"ill_posed\":0,\"wrong\":0,"));
+  const Run cells = checked("a['cell'][0] += 1");
+  CHECK(cells.status == 1);
+  CHECK(contains(cells.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":125,\"wrong_time\":0,"));
+  const Run times = checked("a['time'] *= 1 + 1e-9");
+  CHECK(times.status == 1);
+  CHECK(contains(times.out, "\"wrong\":125,\"wrong_time\":125,"));
+  const Run nothing = checked("a = {'id': a['id'], 'outcome': 'undecided'}");
+  CHECK(nothing.status == 0);
+  CHECK(contains(nothing.out, "\"undecided\":125,"));
+  CHECK(checked("a = {'id': a['id'], 'outcome': 'undecided'}", set + " --strict").status == 1);
+  const Run error = checked("a = {'id': a['id'], 'outcome': 'error', 'message': 'no'}");
+  CHECK(error.status == 1);
+  CHECK(contains(error.out, "\"error\":125"));
+  // To what is no query an answer is wrong, and an error right.
+  CHECK(checked("pass", "bad-queries").status == 0);
+  const Run sure = checked("a = {'id': a['id'], 'outcome': 'never'}", "bad-queries");
+  CHECK(sure.status == 1);
+  CHECK(contains(sure.out, "\"wrong\":115,"));
+  CHECK(folder.lorentz("golden check --engine 'cmd:exit 5' generic-2d --timeout 5").status == 3);
+}
+
+TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden][golden_check]") {
+  const Folder folder;
+  const std::string id = first_id("grazing", "\"margin\":");
+  const Run one = folder.lorentz("golden check -e reduction --json grazing --id " + id);
+  CHECK(one.status == 0);
+  CHECK(contains(one.out, "\"records\":1,\"agree\":1,"));
+  CHECK(contains(folder.lorentz("golden check -e reduction --json --id " + id).out,
+                 "\"records\":1,\"agree\":1,"));
+  const Run none = folder.lorentz("golden check -e reduction grazing --id 0123456789abcdef");
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, "0123456789abcdef"));
+  // Times that are wrong by a few conditions are not by a million.
+  beginning_of_set(folder, "published-faults", 100);
+  const auto wrong = [&](const char* ulps) {
+    const Run run = folder.lorentz("golden check -e published --json --ulps " + std::string(ulps) + " " +
+                                   folder.file("published-faults.ndjson"));
+    return std::stoi(between(run.out, "\"wrong\":", ","));
+  };
+  CHECK(wrong("1e-3") >= wrong("4"));
+  CHECK(wrong("1e6") < wrong("4"));
+  for (const char* bad :
+       {"", "-e nobody", "-e reduction --ulps 0", "-e reduction --ulps 1e9", "-e reduction --ulps x",
+        "-e reduction --failures -1", "-e reduction --timeout 0"}) {
+    INFO(bad);
+    const Run run = folder.lorentz(std::string("golden check ties ") + bad);
+    CHECK(run.status == 2);
+    CHECK_FALSE(run.err.empty());
+  }
+  CHECK(folder.lorentz("golden check -e reduction no-such-set").status == 3);
+}
+
+TEST_CASE("golden explain: a hit, inside, never, and what is no query", "[golden][golden_check]") {
+  const Folder folder;
+  const auto explained = [&](const std::string& set, const std::string& word) {
+    const std::string id = first_id(set, word);
+    const Run run = folder.lorentz("golden explain " + id);
+    INFO(run.err);
+    CHECK(run.status == 0);
+    CHECK(contains(run.out, set + ".ndjson:"));
+    CHECK(contains(run.out, id));
+    CHECK(contains(run.out, "{\"scene\":"));
+    return run.out;
+  };
+  const std::string hit = explained("grazing", "\"outcome\":\"hit\"");
+  CHECK(contains(hit, "It hits lattice 0, atom 0, cell ("));
+  CHECK(contains(hit, "its condition"));
+  CHECK(contains(hit, "passed by (radii)"));
+  CHECK(contains(hit, " hit\n"));
+  const std::string hard = explained("ties", "\"margin\":0,");
+  CHECK(contains(hard, "The hard decision: is "));
+  CHECK(contains(hard, "entered before the obstacle that is hit? No, by 0 ulps."));
+  CHECK(contains(explained("boundary-starts", "\"outcome\":\"inside\""), "It starts inside lattice "));
+  CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
+  CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is no query: "));
+  const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
+  const std::string far = first_id("generic-3d", "\"outcome\":\"hit\"");
+  const std::size_t all = lines(folder.lorentz("golden explain " + far + " generic-3d").out);
+  CHECK(lines(folder.lorentz("golden explain --most 1 " + far + " generic-3d").out) < all);
+  const Run unknown = folder.lorentz("golden explain 0123456789abcdef");
+  CHECK(unknown.status == 2);
+  CHECK(contains(unknown.err, "0123456789abcdef"));
+  CHECK(folder.lorentz("golden explain " + id + " ties").status == 2);
+  CHECK(folder.lorentz("golden explain").status == 2);
+  CHECK(folder.lorentz("golden explain --most 0 " + id).status == 2);
+}
+
+TEST_CASE("golden: a reader that has enough does not keep it waiting", "[golden][golden_check]") {
+  const Folder folder;
+  for (const char* arguments :
+       {"make --set generic-2d --count 1e9", "check -e reduction ties", "list", "verify ties grazing"}) {
+    INFO(arguments);
+    const std::string command = std::string("timeout 20 bash -c '" LORENTZ_PROGRAM " golden ") + arguments +
+                                " 2>/dev/null | head -1 >/dev/null'";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 0);
+  }
+}

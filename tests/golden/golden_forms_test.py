@@ -1,0 +1,141 @@
+"""One grammar of golden sets: data/check.py and `lorentz golden verify` accept and refuse the same forms of one set.
+python3 tests/golden/golden_forms_test.py PROGRAM"""
+import contextlib, hashlib, importlib.util, io, json, pathlib, re, subprocess, sys, tempfile, unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SPEC = importlib.util.spec_from_file_location("check", ROOT / "data" / "check.py")
+check = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(check)
+PROGRAM = ""
+
+def sample(name, *parts):
+    """The first record of a committed set with these parts, and its scene."""
+    for line in (ROOT / "data" / "golden" / f"{name}.ndjson").read_text().splitlines():
+        if line.startswith('{"scene"'):
+            scene = line
+        elif all(part in line for part in parts):
+            return scene, line
+
+HIT = sample("generic-2d", '"outcome":"hit"', '"x":[0.', '"v":[0.')
+NEVER = sample("never", '"outcome":"never"', '"rows"')
+INSIDE = sample("large-radius", '"outcome":"inside"')
+ERROR = sample("bad-queries", '"v":[0,0]')
+FROM = sample("boundary-starts", '"outcome":"hit"', '"from":{"lattice":0')
+CASES = {"hit": HIT, "never": NEVER, "inside": INSIDE, "error": ERROR, "from": FROM}
+
+def with_id(scene, line):
+    """The record with the id that belongs to its question."""
+    scene, line = scene.rstrip(b"\r"), bytes(line)
+    begin, end = line.index(b'],"') + 2, line.index(b',"expect"')
+    identity = hashlib.sha256(scene + b"\n" + line[begin:end]).hexdigest()[:16].encode()
+    return re.sub(rb'^(\s*\{\s*"id"\s*:\s*")[0-9a-f]{16}', rb"\g<1>" + identity, line)
+
+def golden(kind, old="", new="", where="record", repair=True):
+    """A set of one case, with one change in its header, scene line or record."""
+    tags = sorted({tag for tag in json.loads(CASES[kind][1])["tags"]})
+    header = json.dumps({"golden": {"format": 1, "name": "n", "description": "d", "generator": "g", "version": "v", "count": 1,
+                                    "tags": {tag: "what it means" for tag in tags}}}, separators=(",", ":"))
+    lines = {"header": header, "scene": CASES[kind][0], "record": CASES[kind][1]}
+    lines = {key: line.encode() for key, line in lines.items()}
+    old, new = (text.encode() if type(text) is str else text for text in (old, new))
+    if old:
+        assert old in lines[where], (old, lines[where])
+        lines[where] = lines[where].replace(old, new, 1)
+    if repair:
+        with contextlib.suppress(ValueError):
+            lines["record"] = with_id(lines["scene"], lines["record"])
+    return b"\n".join(lines.values()) + b"\n"
+
+def verdicts(folder, forms):
+    """What each of the two says: for each text, whether it is accepted."""
+    result = []
+    for i, text in enumerate(forms):
+        path = folder / f"{i}.ndjson"
+        path.write_bytes(text)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            try:
+                python = check.check(str(path))
+            except Exception as e:
+                python, _ = 2, said.write(repr(e))
+        program = subprocess.run([PROGRAM, "golden", "verify", path], capture_output=True, text=True)
+        assert program.returncode in (0, 1, 2), program
+        result.append((python == 0, program.returncode == 0, said.getvalue()[-300:] + program.stderr[-300:]))
+    return result
+
+def in_record(kind, *changes, **more):
+    return [golden(kind, old, new, **more) for old, new in changes]
+
+BASIS, X, CELL = '"basis":[[1,-1],[1,0]]', "0.665659173810049", '"cell":[1,0]'
+LATTICE, FROM, TO, TIME = '[{"lattice":0,', '"from":-0.23876953125', '"to":0.3857421875', '"time":0.1469403008318714'
+DEEP = 62  # further brackets in a record
+
+ACCEPTED = {
+    "as it is": [golden(kind) for kind in CASES],
+    "line ends": [golden(kind).replace(b"\n", b"\r\n") for kind in CASES] + [golden("hit")[:-1], golden("hit") + b"\n \t\r\n\r\n"],
+    "a byte order mark": [b"\xef\xbb\xbf" + golden("hit")],
+    "spaces": in_record("hit", ('"margin":', ' "margin" :\t'), ('"expect":{', '"expect" : { '), (LATTICE, '[ {"lattice" :0 ,'), ('{"id":"', '{ "id" : "'),
+                        ('"x":[', '"x": [')) + [golden("hit", '"scene":{', '"scene" : { ', "scene"), golden("hit", '"count":1', '"count" : 1 ', "header"),
+                        golden("hit", "}}", "}} ", "scene")],
+    "integers": in_record("hit", (BASIS, '"basis":[[1.0,-1e0],["1","-0"]]'), (BASIS, '"basis":[[10e-1,-1],["001",-0]]'), (BASIS, '"basis":[[1,-1],[1,-0.0]]'),
+                          (CELL, '"cell":["1",0.0]'), (LATTICE, '[{"lattice":"0",'), (LATTICE, '[{"lattice":0e9,'), (CELL, '"cell":[1.000000000000000000000001,0]')) +
+                [golden("hit", '"count":1', '"count":1.0', "header"), golden("hit", '"format":1', '"format":"1"', "header")] +
+                in_record("from", ('"cell":[5,3]', '"cell":[5.0,"3"]')),
+    "decimal numbers": in_record("hit", (X, X + "00000000000000000000"), (X, "66565917381004.90E-14"), (X, "0.66565917381004900000000000000000000001"),
+                                 (TIME, '"time":0.14694030083187141118'), (FROM, '"from":-0.238769531250000000000000001'), (TO, '"to":38.57421875e-2')),
+    "hexadecimal numbers": in_record("hit", (FROM, '"from":"-0x1p0"'), (FROM, '"from":"-0X.8"'), (FROM, '"from":"-0x1.P-1"'), (TO, '"to":"+0x1p+0"'), (TO, '"to":"0xFf"'),
+                                     (TO, '"to":"0x0.800000000000000000000001"'), (X, '"%s"' % float(X).hex()), (X, '"+%s"' % float(X).hex().upper())) +
+                           [golden("hit", '"dimension":2', '"dimension":"0x1p1"', "scene"), golden("hit", '"dimension":2', '"dimension":2.0', "scene"),
+                            golden("hit", "[1,0]", '["+0x1","0X0P5"]', "scene")] + in_record("error", ("[0,0]", '["0x0","-0x0p9"]')),
+    "keys": in_record("hit", ('"margin"', '"more":{"x":[1],"y":null},"margin"'), ('"margin"', '"m\\u0061rgin"'), ('"margin"', '"margin":3,"margin"'),
+                      ('"expect":{', '"expect":{"other":[],'), ('"windows":', '"windows":[],"windows":'), ('"x":', '"x":[7],"x":'), ('"v":', '"note":"\\ud83d\\ude00","v":')) +
+            [golden("hit", '"scene":{', '"scene":{"more":1,', "scene"), golden("hit", '{"golden"', '{"more":1,"golden"', "header")],
+    "nested": in_record("hit", ('"margin"', '"deep":' + "[" * DEEP + "]" * DEEP + ',"margin"')),
+    "errors": in_record("error", ("[0,0]", "[0,1e400]"), ("[0,0]", "[null,true]"), ("[0,0]", '"0"'), ("[0,0]", '["0x",1]'), ("[0,0]", '["1.5",1]'), ("[0,0]", '["0x1p9999",1]'),
+                        ('"v":', '"from":{"lattice":0.5,"atom":0,"cell":[0,0]},"v":'), ("[0,0]", '["0x1_0",1]'), ("[0,0]", '[" 0x1",1]'), ("[0,0]", '["0x1p\u0663",1]'))}
+
+REFUSED = {
+    "no JSON numbers": in_record("hit", *[("1048576", number) for number in ("1048576.", "01048576", "+1048576", ".5", "1e", "-", "0x1", "Infinity", "-Infinity", "NaN", "1_0", "--1")]) +
+                       in_record("error", *[("[0,0]", f"[0,{number}]") for number in ("1.", ".5", "01", "+0", "0x0", "NaN", "Infinity", "-", "1e+")]),
+    "no numbers": in_record("hit", *[(old, old.split(":")[0] + ":" + value) for old in (TIME, FROM, TO) for value in (
+                      "null", "true", '"0.5"', '"nan"', '""', '"0x"', '"0x."', '"0x1p"', '"1f4p-3"', '"0x1_0p0"', '" 0x1p0"', '"0x1p0 "', '"--0x1"', '"0x1p1.5"', '"0x1.8.0"', '"0x1p\u0663"', "[0]", "{}", "1e400", '"0x1p-99999999"')]) +
+                  in_record("hit", (TIME, '"time":-0.1469403008318714'), (TO, '"to":"0x0p65537"'), (TO, '"to":"0x0p99999999999999999999"'), (TO, '"to":"inf"')),
+    "no integers": in_record("hit", *[(BASIS, f'"basis":[[{n},-1],[1,0]]') for n in ("true", "null", '"1.0"', '"+1"', '""', '"0x1"', "1.5", "[1]", '"\u0661"')],
+                             (LATTICE, '[{"lattice":false,'), (LATTICE, '[{"lattice":-1,'), (LATTICE, '[{"lattice":1e30,'), (CELL, '"cell":[1,"0 "]'), (CELL, '"cell":[1]'), (CELL, '"cell":[1,0,0]')) +
+                   [golden("hit", '"count":1', '"count":true', "header"), golden("hit", '"format":1', '"format":true', "header"), golden("hit", '"format":1', '"format":1.5', "header")],
+    "false numbers": in_record("hit", (TIME, '"time":0.14694030083187142118'), (TIME, '"time":0.14694030083187137999'), (TIME, '"time":"0x1.2ceefp-3"'), (TIME, '"time":-0.0'), (TIME, '"time":"inf"')),
+    "proofs": in_record("hit", ('"certificate"', '"other"'), ('"windows"', '"rows"'), ('"windows":', '"rows":[],"windows":'), (LATTICE, "[{"), ('"atom":0,"from"', '"from"'), ("," + BASIS, ""),
+                        (BASIS, '"basis":[[1],[1,0]]'), (BASIS, '"basis":[[1,-1,0],[1,0,0]]'), (BASIS, '"basis":[[1,-1]]'), (BASIS, '"basis":{}'), (FROM + ",", ""), ("," + TO, "")) +
+              in_record("never", ('"rows"', '"windows"')),
+    "answers": in_record("never", ('"outcome":"never"', '"outcome":"never","time":1'), ('"outcome":"never"', '"outcome":"never","cell":[1]'), ('"certificate"', '"time_decimal":"1","certificate"')) +
+               in_record("inside", ('"outcome":', '"time":1,"outcome":')) + in_record("hit", ('"outcome":', '"id":1,"outcome":'), (TIME + "}", '"other":1}'), ('"time_decimal":"', '"time_decimal":" ')) +
+               in_record("error", ('"outcome":"error"', '"outcome":"error","time":1'), ('"outcome":"error"', '"outcome":"error","lattice":"x"'), ('{"outcome"', '{"outcome":"error"},"certificate":{"windows":[]},"e":{"outcome"')),
+    "keys": in_record("hit", ('"x":', '"\\u0065xpect":{},"x":'), ('"expect"', '"\\u0065xpect"'), ('"tags"', '"Tags"'),
+                      ('"id"', '"first":1,"id"'), ('"tags"', '"between":1,"tags"'), ('"margin"', '"x":[0.5,0.5],"margin"'), ('"margin"', '"from":{"lattice":0,"atom":0,"cell":[9,9]},"margin"'),
+                      ('"margin"', '"golden":1,"margin"'), ('"v":', '"y":{"a":[1],"expect":1},"v":'), ('"x":', '"tags":[],"x":')) +
+            [golden("hit", '"scene":', f'"{key}":[],"scene":', "scene") for key in ("id", "x", "v", "from", "golden")],
+    "places": in_record("hit", ('"],"x"', '"] ,"x"'), ('"],"x"', '"], "x"'), (',"expect"', ', "expect"'), (',"expect"', ',\t"expect"'), ('"x":', ' "x":')),
+    "tags": in_record("hit", ('["radius-1e-1","crystal"]', "[]"), ('["radius-1e-1","crystal"]', '"crystal"'), ('["radius-1e-1","crystal"]', '{"crystal":1}'), ('["radius-1e-1","crystal"]', '["new"]'), ('["radius-1e-1","crystal"]', "[1]")) +
+            [golden("hit", '"tags":{"crystal":"what it means"', '"tags":{"crystal":3', "header"), golden("hit", '"name":"n"', '"name":3', "header"), golden("hit", ',"count":1', "", "header"), golden("hit", '"format":1,', "", "header")],
+    "texts": in_record("hit", ('"margin"', '"bad":"\\ud83d","margin"'), ('"margin"', '"bad":"\\ude00","margin"'), ('"margin"', '"bad":"\\ude00\\ud83d","margin"'), ('"margin"', '"\\udc00":1,"margin"'), ('"margin"', '"bad":"\\x","margin"'),
+                       ('"margin"', '"bad":"\t","margin"'), ('"margin"', b'"bad":"\xff","margin"'), ('"margin"', b'"bad":"\xed\xa0\x80","margin"'), ('"margin"', "'bad':1,\"margin\""), ('"margin"', '"bad":tru,"margin"'), ('"margin"', b'"bad":"\x00","margin"')),
+    "lines": [golden("hit").replace(b"\n", b"\n\xef\xbb\xbf", 1), golden("hit") + b"{}\n", golden("hit") + b"x\n", golden("hit") + b"[]\n", b"\n" + golden("hit"), golden("hit").split(b"\n", 1)[1], b"", golden("hit")[:-3],
+              golden("hit").replace(b"\n", b"}\n"), golden("hit").replace(b"\n", b"\x0b\n"), golden("hit") + golden("hit").split(b"\n")[0], golden("hit", "}}", "}} ", "scene", repair=False)],
+    "nested": in_record("hit", ('"margin"', '"deep":' + "[" * (DEEP + 2) + "]" * (DEEP + 2) + ',"margin"'), ('"margin"', '"deep":' + "[" * 5000 + "]" * 5000 + ',"margin"'), ('"margin"', '"deep":' + "[" * 100 + ',"margin"'))}
+
+class Forms(unittest.TestCase):
+    def hold(self, forms, accepted):
+        with tempfile.TemporaryDirectory() as folder:
+            for kind, texts in forms.items():
+                for text, (python, program, said) in zip(texts, verdicts(pathlib.Path(folder), texts)):
+                    with self.subTest(kind, text=text[-700:]):
+                        self.assertEqual((python, program), (accepted, accepted), said)
+
+    def test_accepted(self):
+        self.hold(ACCEPTED, True)
+
+    def test_refused(self):
+        self.hold(REFUSED, False)
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

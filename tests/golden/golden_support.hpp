@@ -1,0 +1,86 @@
+// What the tests of golden sets share: records in files, and read again.
+#pragma once
+
+#include <functional>
+
+#include "golden/maker.hpp"
+#include "golden/production.hpp"
+#include "golden/reader.hpp"
+#include "tests/support/command_line.hpp"
+#include "tests/support/support.hpp"
+
+namespace lorentz::test {
+
+/// One record with its scene, made like those of a set.
+struct GoldenCase {
+  Scene scene;
+  std::optional<Query> query;
+  golden::Record record;
+};
+
+inline GoldenCase golden_case(const Scene& scene, const Query& query) {
+  golden::Record record =
+      golden::Maker(scene).make(golden::question_of(query, scene.dimension), query).record;
+  record.tags = {"drawn"};
+  return {scene, query, std::move(record)};
+}
+
+/// What the check of records says about it.
+inline std::string flaw(const GoldenCase& c, bool ask_walk = false) {
+  return golden::Maker(c.scene).flaw_of(c.record, c.query, ask_walk).value_or("");
+}
+
+inline std::string record_line(const golden::Record& record, int dimension) {
+  std::string line;
+  golden::append_record_line(line, record, dimension);
+  return line;
+}
+
+/// The text of a set of these records.
+inline std::string set_of(const std::vector<GoldenCase>& cases) {
+  std::string text;
+  golden::append_header_line(text, {"drawn", "for a test", "none", "0", cases.size(), {{"drawn", "a tag"}}});
+  for (const GoldenCase& c : cases) {
+    append_scene_line(text, c.scene);
+    text += record_line(c.record, c.scene.dimension);
+  }
+  return text;
+}
+
+/// A question as it stands in a set, made into a record.
+inline GoldenCase golden_case(const golden::Set& set, std::uint64_t seed, std::uint64_t index) {
+  const golden::Question question = set.question(seed, index);
+  golden::Record record = golden::Maker(question.scene).make(question.text, question.query).record;
+  record.tags = question.tags;
+  return {question.scene, question.query, std::move(record)};
+}
+
+/// The beginning of a committed set, with the count of records that it has; in the file NAME.ndjson.
+inline std::string beginning_of_set(const Folder& folder, const std::string& name, int most_lines) {
+  std::ifstream in(LORENTZ_SOURCE_DIR "/data/golden/" + name + ".ndjson");
+  std::string header, rest;
+  std::getline(in, header);
+  int records = 0;
+  for (std::string line; most_lines > 1 && std::getline(in, line); --most_lines) {
+    rest += line + '\n';
+    records += line.starts_with("{\"id\"");
+  }
+  header.replace(header.find("\"count\":"), 11, "\"count\":" + std::to_string(records));
+  folder.write(name + ".ndjson", header + '\n' + rest);
+  return header + '\n' + rest;
+}
+
+/// The first place of `old` replaced; the text must hold it.
+inline std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
+  const auto place = text.find(old);
+  if (place == std::string::npos) throw std::logic_error("the text does not hold " + old);
+  return text.replace(place, old.size(), fresh);
+}
+
+/// What the text holds between `begin` and `end`.
+inline std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const auto first = text.find(begin) + begin.size();
+  return text.substr(first, text.find(end, first) - first);
+}
+
+}  // namespace lorentz::test

@@ -1,0 +1,378 @@
+// Golden records and sets: written and read, made and verified, and each kind of tampering named.
+#include <catch2/catch.hpp>
+
+#include <lorentz/certificate_check.hpp>
+#include "tests/golden/golden_support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using golden::Record;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 7001;
+
+// One disc of radius 1/4 a unit cell.
+const Scene kSquare = unit_scene(2, 0.25);
+
+GoldenCase hit_case() {
+  return golden_case(kSquare, {{0.5, 0.125}, {1, 0.03125}, ObstacleId{0, 0, {0, 0, 0}}});
+}
+GoldenCase long_case() {
+  return golden_case(unit_scene(3, 0x1p-10), {{0.5, 0.25, 0.125}, {0.71, 0.313, 0.877}, {}});
+}
+GoldenCase inside_case() {
+  return golden_case(kSquare, {{0.125, 0}, {1, 0.5}, {}});
+}
+GoldenCase never_case() {
+  return golden_case(kSquare, {{0.5, 0.5}, {1, 0}, {}});
+}
+
+std::vector<golden::ReadRecord> read_all(const std::string& path) {
+  golden::Reader reader(path);
+  std::vector<golden::ReadRecord> all;
+  for (golden::ReadRecord read; reader.next(read);) all.push_back(read);
+  return all;
+}
+
+// What a record of another program might hold, and ours must be able to write: sizes, ends and cells beyond
+// what a flight here meets.
+std::vector<GoldenCase> odd_cases() {
+  std::vector<GoldenCase> cases{hit_case(), inside_case(), never_case(), long_case()};
+  GoldenCase far = hit_case();
+  far.query->from.reset();
+  far.record.question = golden::question_of(*far.query, 2);
+  far.record.expect.obstacle.cell = {*Integer::from_decimal("-123456789012345678901234567890"),
+                                     Integer(std::int64_t{1} << 53), 0};
+  far.record.expect.time = INFINITY;
+  far.record.expect.time_decimal = "2.834968051720322701504158358630275386392e+319";
+  far.record.margin = 0;
+  far.record.condition = std::numeric_limits<double>::max();
+  auto& window = far.record.certificate->windows.front();
+  window.from = oracle::WindowEnd(Integer(-3), -1200);
+  window.to = oracle::WindowEnd(*Integer::from_decimal("98765432109876543210987654321"), 1100);
+  window.basis[0][1] = *Integer::from_decimal("9007199254740993");
+  window.basis[1][0] = *Integer::from_decimal("-98765432109876543210987654321");
+  cases.push_back(far);
+  window.from = -0x1.23456789abcdep-1074;
+  window.to = 0x1.fffffffffffffp1023;
+  far.record.margin = 0x1p20;
+  far.record.condition = 0x1.5p-3;
+  far.record.tags = {"drawn", "drawn \"\\\n\t, too", "no],\"end"};
+  cases.push_back(far);
+  cases.push_back(far);
+  return cases;
+}
+
+void require_same(const Record& a, const Record& b) {
+  CHECK(a.id == b.id);
+  CHECK(a.tags == b.tags);
+  CHECK(a.question == b.question);
+  CHECK(a.expect.outcome == b.expect.outcome);
+  CHECK(a.expect.obstacle == b.expect.obstacle);
+  CHECK(a.expect.time == b.expect.time);
+  CHECK(a.expect.time_decimal == b.expect.time_decimal);
+  CHECK(a.expect.message == b.expect.message);
+  CHECK(a.margin == b.margin);
+  CHECK(a.condition == b.condition);
+  REQUIRE(a.certificate.has_value() == b.certificate.has_value());
+  if (!a.certificate) return;
+  REQUIRE(a.certificate->windows.size() == b.certificate->windows.size());
+  REQUIRE(a.certificate->rows.size() == b.certificate->rows.size());
+  for (std::size_t i = 0; i < a.certificate->windows.size(); ++i) {
+    const oracle::Window &one = a.certificate->windows[i], &two = b.certificate->windows[i];
+    CHECK(std::tie(one.lattice, one.atom) == std::tie(two.lattice, two.atom));
+    CHECK(one.basis == two.basis);
+    for (const auto end : {&oracle::Window::from, &oracle::Window::to}) {
+      const auto value = oracle::binary64_of(one.*end);
+      CHECK(value == oracle::binary64_of(two.*end));
+      if (!value) CHECK(oracle::text_of(one.*end) == oracle::text_of(two.*end));
+    }
+  }
+  for (std::size_t i = 0; i < a.certificate->rows.size(); ++i) {
+    const oracle::Rows &one = a.certificate->rows[i], &two = b.certificate->rows[i];
+    CHECK(std::tie(one.lattice, one.atom) == std::tie(two.lattice, two.atom));
+    CHECK(one.basis == two.basis);
+  }
+}
+
+// Written and read again: the same record, and the same line.
+void require_read_back(const Folder& folder, const std::vector<GoldenCase>& cases) {
+  const std::string path = folder.write("set", set_of(cases));
+  golden::Reader reader(path);
+  CHECK(reader.header().count == cases.size());
+  golden::ReadRecord read;
+  std::size_t line = 1;
+  for (const GoldenCase& c : cases) {
+    REQUIRE(reader.next(read));
+    const std::string text = record_line(c.record, c.scene.dimension);
+    INFO(text);
+    CHECK(read.line == (line += 2));
+    CHECK(read.text + '\n' == text);
+    CHECK(record_line(read.record, c.scene.dimension) == text);
+    require_same(read.record, c.record);
+    REQUIRE(read.query.has_value() == c.query.has_value());
+    CHECK(read.flaw.empty() == c.query.has_value());
+    if (c.query) CHECK(stream(reader.scene(), *read.query) == stream(c.scene, *c.query));
+  }
+  CHECK_FALSE(reader.next(read));
+}
+
+}  // namespace
+
+TEST_CASE("Golden: what is written is read back, whatever the record holds", "[golden]") {
+  const Folder folder;
+  require_read_back(folder, odd_cases());
+  for (const golden::Set& set : golden::sets()) {
+    std::vector<GoldenCase> cases;
+    for (std::uint64_t index = 0; index < 40; index += 3) cases.push_back(golden_case(set, kSeed, index));
+    INFO(set.name << ", seed " << kSeed);
+    require_read_back(folder, cases);
+  }
+}
+
+TEST_CASE("Golden: of a key that comes twice the last counts", "[golden]") {
+  const Folder folder;
+  const GoldenCase c = hit_case();
+  std::string text = replaced(set_of({c}), "\"tags\":[", "\"tags\":[\"other\"],\"tags\":[");
+  text = replaced(text, ",\"margin\"", R"(,"expect":{"outcome":"never"},"margin":1,"margin")");
+  text = replaced(text, "\"windows\":", R"("windows":[],"windows":)");
+  Record expected = c.record;
+  const Record read = read_all(folder.write("set", text)).at(0).record;
+  CHECK(read.expect.outcome == Outcome::never);
+  CHECK_FALSE(read.expect.time);
+  expected.expect = read.expect;
+  expected.question = read.question;
+  require_same(read, expected);
+}
+
+TEST_CASE("Golden: the header is read back", "[golden]") {
+  const Folder folder;
+  const golden::Header header{"a name", "a \"description\"\n", "lorentz golden make",
+                              "1.2.3",  12'345'678'901,        {{"one", "first"}, {"two", "\\second"}}};
+  std::string text;
+  golden::append_header_line(text, header);
+  const golden::Header read = golden::Reader(folder.write("set", text)).header();
+  CHECK(read.name == header.name);
+  CHECK(read.description == header.description);
+  CHECK(read.generator == header.generator);
+  CHECK(read.version == header.version);
+  CHECK(read.count == header.count);
+  CHECK(read.tags == header.tags);
+}
+
+TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]") {
+  const Folder folder;
+  const std::string good = set_of({hit_case(), inside_case()});
+  const auto complaint = [&](const std::string& text) -> std::string {
+    try {
+      read_all(folder.write("set", text));
+      return "";
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      REQUIRE(what.starts_with(folder.file("set:")));
+      return what.substr(folder.file("set:").size());
+    }
+  };
+  CHECK(complaint(good) == "");
+  CHECK(complaint(replaced(good, "\n", "\n\n")) == "");  // blank lines are skipped
+  CHECK_THAT(complaint(""), Catch::Contains("is empty"));
+  CHECK(complaint(good.substr(good.find('\n') + 1)).starts_with("1: a golden set begins with its header"));
+  CHECK(complaint(replaced(good, "\"format\":1", "\"format\":2")).starts_with("1: format: only format 1"));
+  CHECK(complaint(replaced(good, "\"count\":2", "\"count\":-2")).starts_with("1: count"));
+  CHECK(complaint(replaced(good, "{\"scene\"", "{\"scenery\"")).starts_with("2: "));
+  CHECK(complaint(replaced(good, "\"expect\"", "\"expected\"")).starts_with("3: a golden record has an id"));
+  CHECK(complaint(replaced(good, "\"outcome\":\"hit\"", "\"outcome\":\"hat\"")).starts_with("3: "));
+  CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
+  CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
+  CHECK(complaint(replaced(good, "]]}", "],[0,0]]}")).starts_with("3: basis: has more than 2 vectors"));
+  CHECK(complaint(replaced(good, "]]}", ",0]]}")).starts_with("3: basis"));
+  CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is no number"));
+  CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
+  CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
+  // No index that becomes another one in fewer bits.
+  const std::string window = "\"windows\":[{\"lattice\":0,\"atom\":0";
+  CHECK(complaint(replaced(good, window, "\"windows\":[{\"lattice\":4294967296,\"atom\":0"))
+            .starts_with("3: lattice"));
+  CHECK(complaint(replaced(good, window, "\"windows\":[{\"lattice\":0,\"atom\":4294967296"))
+            .starts_with("3: atom"));
+  // A record before any scene, also one that is bad for another reason.
+  const auto scene = good.find('\n') + 1;
+  const std::string no_scene = good.substr(0, scene) + good.substr(good.find('\n', scene) + 1);
+  CHECK_THAT(complaint(no_scene), Catch::Contains("2: no scene"));
+  CHECK_THAT(complaint(replaced(no_scene, "\"x\":[0.5,0.125]", "\"x\":null")),
+             Catch::Contains("2: no scene"));
+}
+
+TEST_CASE("Golden: ids are the beginning of a SHA-256 of scene and question", "[golden]") {
+  CHECK(golden::sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(golden::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  // python3 -c 'import hashlib; print(hashlib.sha256(b"SCENE LINE\nQUESTION").hexdigest()[:16])'
+  GoldenCase c = hit_case();
+  CHECK(c.record.question == R"("x":[0.5,0.125],"v":[1,0.03125],"from":{"lattice":0,"atom":0,"cell":[0,0]})");
+  CHECK(c.record.id == "6c80ee066492e0e7");
+  CHECK(inside_case().record.id == "7b96c59001ea4c7a");
+  const std::string id = c.record.id;
+  c.record.tags = {"other", "tags"};
+  c.record.expect = Answer::never();
+  CHECK(golden::id_of(golden::Maker(c.scene).scene_line(), c.record.question) == id);
+  CHECK(golden::id_of(golden::Maker(unit_scene(2, 0.2)).scene_line(), c.record.question) != id);
+}
+
+TEST_CASE("Golden: made records are proved, and nothing is wrong with them", "[golden]") {
+  for (const golden::Set& set : golden::sets()) {
+    int walked = 0;
+    for (std::uint64_t index = 0; index < std::min<std::uint64_t>(set.most, 160); index += 3) {
+      const golden::Question question = set.question(kSeed, index);
+      const golden::Maker maker(question.scene);
+      const golden::MadeRecord made = maker.make(question.text, question.query);
+      const Record& record = made.record;
+      INFO(set.name << ", seed " << kSeed << ", index " << index << "\n"
+                    << maker.scene_line() << "\n"
+                    << record_line(record, question.scene.dimension));
+      walked += made.walked;
+      CHECK(record.id == golden::id_of(maker.scene_line(), question.text));
+      CHECK(maker.flaw_of(record, question.query, index % 8 == 0).value_or("") == "");
+      const bool hit = record.expect.outcome == Outcome::hit;
+      CHECK(record.condition.has_value() == hit);
+      CHECK(record.margin.has_value() == (hit || record.expect.outcome == Outcome::inside));
+      CHECK((!record.margin || (*record.margin >= 0 && *record.margin <= 0x1p20)));
+      CHECK(record.certificate.has_value() == question.query.has_value());
+      if (record.certificate)
+        CHECK(oracle::CertificateCheck(question.scene)
+                  .refutation(*question.query, record.expect, *record.certificate)
+                  .value_or("") == "");
+    }
+    INFO(set.name);
+    if (set.name != "tiny-radius")  // flights too long for walk, nearly all
+      CHECK((walked > 0) == (set.name != "bad-queries"));
+  }
+}
+
+TEST_CASE("Golden: a record whose numbers are computed by hand", "[golden]") {
+  // From (1/2, 1/8) along x to the disc of radius 1/4 around (1, 0): it is entered at t = 1/2 - sqrt(3)/8,
+  // where the normal is (-sqrt(3), 1) / 2. The line passes its centre at 1/8, so is 1/8 from missing it, and
+  // an ulp each in x (that of the cell, 2^-52) and r (2^-54) makes 1.25 2^-52 of that: far more than 2^20.
+  const GoldenCase c = golden_case(kSquare, {{0.5, 0.125}, {1, 0}, {}});
+  CHECK(c.record.expect.obstacle == ObstacleId{0, 0, {1, 0, 0}});
+  CHECK(c.record.expect.time_decimal == "0.2834936490538903383090692073117659541321");
+  CHECK(c.record.margin == 0x1p20);
+  // dt = dx_1 - tan dx_2 - t dv_1 + dr / cos in ulps: 2^-52 (1 + 1/sqrt(3) + t + 1/(2 sqrt(3))), ulp(t)
+  // 2^-54.
+  const double root = std::sqrt(3), time = 0.5 - root / 8;
+  CHECK(c.record.condition.value() == Approx(4 * (1 + 1 / root + time) + 2 / root).epsilon(1e-12));
+  // 4 ulps of the cell below the edge of that disc: 4 / 1.25 ulps of margin.
+  const GoldenCase edge = golden_case(kSquare, {{0.5, 0.25 - 0x1p-50}, {1, 0}, {}});
+  CHECK(edge.record.margin.value() == Approx(3.2).epsilon(1e-12));
+}
+
+namespace {
+
+using Edit = std::function<void(Record&)>;
+
+std::string flaw_after(GoldenCase c, const Edit& edit) {
+  edit(c.record);
+  return flaw(c);
+}
+
+// Each edit makes a flaw, and what is said of it holds these words.
+void require_flaws(const GoldenCase& c, const std::vector<std::pair<std::string, Edit>>& edits) {
+  REQUIRE(flaw(c) == "");
+  for (const auto& [expected, edit] : edits) {
+    INFO(record_line(c.record, c.scene.dimension));
+    const std::string said = flaw_after(c, edit);
+    CHECK(said != "");
+    CHECK_THAT(said, Catch::Contains(expected) && !Catch::Contains("\n"));
+  }
+}
+
+// The number `steps` ulps away.
+double stepped(double value, int steps) {
+  for (; steps > 0; --steps) value = std::nextafter(value, INFINITY);
+  for (; steps < 0; ++steps) value = std::nextafter(value, -INFINITY);
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("Golden: each kind of tampering with a hit is named", "[golden]") {
+  for (const GoldenCase& c : {hit_case(), long_case()}) {
+    const std::size_t digit = c.record.expect.time_decimal.size() - 1;
+    const char other = c.record.expect.time_decimal[digit] == '5' ? '6' : '5';
+    require_flaws(
+        c, {{"the id", [](Record& r) { r.id[3] = r.id[3] == '0' ? '1' : '0'; }},
+            {"the id", [](Record& r) { r.id += "0"; }},
+            {"the id", [](Record& r) { r.question += " "; }},
+            {"not met", [](Record& r) { r.expect.obstacle.cell[1] = 5; }},
+            {"", [](Record& r) { r.expect.obstacle.lattice = 1; }},
+            {"time", [](Record& r) { r.expect.time = stepped(*r.expect.time, 1); }},
+            {"time", [](Record& r) { r.expect.time = stepped(*r.expect.time, -1); }},
+            {"time", [](Record& r) { r.expect.time.reset(); }},
+            {"decimal", [&](Record& r) { r.expect.time_decimal[digit] = other; }},
+            {"no time_decimal", [](Record& r) { r.expect.time_decimal.clear(); }},
+            {"has not 40 digits", [](Record& r) { r.expect.time_decimal.pop_back(); }},
+            {"has not 40 digits", [](Record& r) { r.expect.time_decimal += "0"; }},
+            {"margin", [](Record& r) { r.margin = stepped(*r.margin, -1); }},
+            {"margin", [](Record& r) { r.margin.reset(); }},
+            {"condition", [](Record& r) { r.condition = stepped(*r.condition, 1); }},
+            {"condition", [](Record& r) { r.condition.reset(); }},
+            {"no certificate", [](Record& r) { r.certificate.reset(); }},
+            {"window", [](Record& r) { r.certificate->windows.clear(); }},
+            {"window", [](Record& r) { r.certificate->windows.erase(r.certificate->windows.begin()); }},
+            {"window", [](Record& r) { r.certificate->windows.back().to = 0.0; }},
+            {"window", [](Record& r) { r.certificate->windows.front().from = 0.0; }},
+            {"", [](Record& r) { r.certificate->windows.front().atom = 1; }},
+            {"basis",
+             [](Record& r) {
+               r.certificate->windows.front().basis[0] = {2, 2, 0};
+             }},
+            {"never", [](Record& r) { r.expect = Answer::never(); }},
+            {"", [](Record& r) { r.expect = Answer::inside(r.expect.obstacle); }},
+            {"is a query",
+             [](Record& r) { r = {r.id, r.tags, r.question, Answer::error("no query"), {}, {}, {}}; }}});
+  }
+}
+
+TEST_CASE("Golden: each kind of tampering with inside, never and an error is named", "[golden]") {
+  require_flaws(inside_case(), {{"", [](Record& r) { r.expect.obstacle.cell[0] = 1; }},
+                                {"margin", [](Record& r) { r.margin = 17; }},
+                                {"condition", [](Record& r) { r.condition = 1; }},
+                                {"hits nothing", [](Record& r) { r.expect.time_decimal = "0"; }},
+                                {"window", [](Record& r) { r.certificate->windows.clear(); }},
+                                {"", [](Record& r) { r.expect = Answer::hit(r.expect.obstacle, 0); }}});
+  require_flaws(
+      never_case(),
+      {{"margin", [](Record& r) { r.margin = 17; }},
+       {"condition", [](Record& r) { r.condition = 1; }},
+       {"hits nothing", [](Record& r) { r.expect.time_decimal = "5"; }},
+       {"", [](Record& r) { r.certificate->rows.clear(); }},
+       {"", [](Record& r) { std::swap(r.certificate->rows[0].basis[0], r.certificate->rows[0].basis[1]); }},
+       {"", [](Record& r) { r.expect = Answer::hit({}, 1); }}});
+  require_flaws(golden_case(*golden::set_named("bad-queries"), kSeed, 0),
+                {{"no margin", [](Record& r) { r.margin = 17; }},
+                 {"no margin", [](Record& r) { r.condition = 17; }},
+                 {"no margin", [](Record& r) { r.certificate.emplace(); }},
+                 {"hits nothing", [](Record& r) { r.expect.time_decimal = "5"; }},
+                 {"no query", [](Record& r) { r.expect = Answer::never(); }},
+                 {"the id", [](Record& r) { r.question += " "; }}});
+}
+
+TEST_CASE("Golden: all of a record's question is what its id is made from", "[golden]") {
+  const Folder folder;
+  const std::string good = set_of({golden_case(kSquare, {{0.5, 0.125}, {1, 0.03125}, {}})});
+  REQUIRE(read_all(folder.write("set", good)).size() == 1);
+  const auto refused = [&](const std::string& text) {
+    CHECK_THROWS_WITH(read_all(folder.write("set", text)),
+                      Catch::Contains("set:3: the keys of a record stand"));
+  };
+  const std::string from = R"("from":{"lattice":0,"atom":0,"cell":[9,9]})";
+  refused(good.substr(0, good.size() - 2) + "," + from + "}\n");
+  refused(good.substr(0, good.size() - 2) + ",\"x\":[0.5,0.25]}\n");
+  refused(good.substr(0, good.size() - 2) + ",\"v\":[1,0]}\n");
+  refused(replaced(good, "{\"id\"", "{" + from + ",\"id\""));
+  refused(replaced(good, "\"x\":[0.5,0.125],\"v\":[1,0.03125],", ""));
+  // The question ends where these words stand first: so they do not stand within it.
+  const std::string more = R"("x":[0.5,0.125],"y":{"a":[1],"expect":{"outcome":"never"}},"v":[1,0.03125])";
+  const std::string odd = replaced(good, R"("x":[0.5,0.125],"v":[1,0.03125])", more);
+  refused(odd);
+}

@@ -1,0 +1,280 @@
+// Who may see whom: one table of all rooms, from the ground up. Engine and oracle share the problem statement
+// and nothing else, so that a bug in one cannot hide in the other. The linker keeps most of this; the test
+// keeps the rest (headers that need no linking), and that the table is all there is.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kRoot = LORENTZ_SOURCE_DIR;
+using Names = std::vector<std::string>;
+
+/// A folder with sources. Besides its own headers and the standard library its files may include ..
+struct Room {
+  std::string folder;
+  Names open_doors;  ///< .. the public headers, <lorentz/..>, of these rooms,
+  Names inside;      ///< .. any header of these,
+  Names libraries;   ///< .. and headers that begin like this; with the one file that may, after a blank.
+};
+
+// A room may name those above it in the table only: there is no arrow upward.
+const std::vector<Room> kHouse{
+    {"src/problem", {}, {}, {}},
+    {"src/exchange",
+     {"src/problem"},
+     {},
+     {"simdjson.h exchange_json.hpp", "toml++/ exchange_scene_file.cpp", "fcntl.h line_reader.cpp",
+      "sys/stat.h line_reader.cpp", "unistd.h line_reader.cpp"}},
+    {"src/engines/base", {"src/problem"}, {}, {}},
+    {"src/engines/classical", {"src/problem", "src/engines/base"}, {"src/engines/base"}, {}},
+    {"src/engines/published", {"src/problem", "src/engines/base"}, {}, {"Eigen/ published_bravais.cpp"}},
+    {"src/engines/reduction", {"src/problem", "src/engines/base"}, {"src/engines/base"}, {}},
+    {"src/engines",
+     {"src/problem", "src/engines/base", "src/engines/reduction"},
+     {"src/engines/classical", "src/engines/published"},
+     {}},
+    // The oracle: of src the problem alone.
+    {"oracle/integers", {"src/problem"}, {}, {"gmpxx.h integer.hpp"}},
+    {"oracle/exact", {"src/problem"}, {"oracle/integers"}, {"boost/multiprecision/ real.hpp"}},
+    {"oracle/first_hit", {"src/problem"}, {"oracle/integers", "oracle/exact"}, {}},
+    {"oracle/contacts", {"src/problem"}, {"oracle/integers", "oracle/exact"}, {}},
+    {"oracle/horizon", {"src/problem", "oracle/contacts"}, {"oracle/integers", "oracle/exact"}, {}},
+    {"oracle/margin", {"src/problem"}, {"oracle/integers", "oracle/exact", "oracle/first_hit"}, {}},
+    {"oracle/certificate/check", {"src/problem"}, {"oracle/integers"}, {}},
+    {"oracle/certificate",
+     {"src/problem", "oracle/certificate/check"},
+     {"oracle/integers", "oracle/exact"},
+     {}},
+    {"oracle", {"src/problem"}, {"oracle/integers", "oracle/exact", "oracle/first_hit"}, {}},
+    {"oracle/walk", {"src/problem"}, {}, {"CGAL/ walk.cpp"}},
+    {"oracle/certified", {"src/problem", "src/engines/base", "src/engines/reduction", "oracle"}, {}, {}},
+    // From here on the oracle is seen by its public headers, and its libraries not at all.
+    {"cases", {"src/problem", "oracle", "oracle/certified"}, {}, {"Random123/ random.cpp"}},
+    {"cases/families", {"src/problem"}, {"cases"}, {}},
+    {"compare",
+     {"src/problem", "src/exchange", "src/engines/base", "oracle", "oracle/margin", "oracle/walk",
+      "oracle/certified"},
+     {"cases"},
+     {"fmt/", "fcntl.h process.cpp", "poll.h command_engine.cpp", "signal.h process.cpp",
+      "spawn.h process.cpp", "sys/types.h process.hpp", "sys/wait.h process.cpp", "unistd.h process.cpp"}},
+    {"golden",
+     {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",
+      "oracle/certificate/check"},
+     {"src/exchange", "cases", "cases/families"},
+     {"openssl/ record.cpp", "fcntl.h production.cpp", "sys/file.h production.cpp",
+      "unistd.h production.cpp"}},
+    {"fuzz/rewording", {"src/problem", "src/exchange"}, {"oracle/integers", "cases"}, {}},
+    {"fuzz/examine",
+     {"src/problem", "src/engines/base", "src/engines/reduction", "oracle", "oracle/contacts",
+      "oracle/margin", "oracle/walk", "oracle/certified"},
+     {"src/engines/base", "src/engines/published", "cases", "cases/families", "compare", "fuzz/rewording"},
+     {}},
+    {"fuzz/campaign",
+     {"src/problem", "src/exchange", "oracle/margin"},
+     {"cases", "cases/families", "fuzz/rewording", "fuzz/examine"},
+     {"sqlite3.h sqlite.hpp", "mpi.h ranks_mpi.cpp", "boost/mpi.hpp ranks_mpi.cpp",
+      "boost/serialization/ ranks_mpi.cpp", "fcntl.h store.cpp", "sys/file.h store.cpp",
+      "sys/stat.h store.cpp", "unistd.h store.cpp"}},
+    // No families: what a harness tries comes from its bytes alone.
+    {"fuzz/harness",
+     {"src/problem", "src/exchange", "src/engines/reduction", "oracle", "oracle/contacts", "oracle/margin",
+      "oracle/certificate", "oracle/certificate/check", "oracle/certified"},
+     {"golden"},
+     {"sys/mman.h input_file.hpp", "sys/mman.h input_file.cpp", "unistd.h input_file.cpp"}},
+    {"pictures", {"src/problem"}, {"src/problem"}, {"fmt/"}},
+    {"cli",
+     {"src/problem", "src/exchange", "oracle", "oracle/exact", "oracle/contacts", "oracle/horizon",
+      "oracle/margin", "oracle/walk"},
+     {"src/problem", "cases", "compare", "golden", "fuzz/examine", "fuzz/campaign", "pictures"},
+     {"CLI/", "fmt/", "unistd.h first_hit.cpp", "unistd.h progress.hpp"}},
+    {"bench",
+     {"src/problem", "src/exchange", "src/engines/reduction", "oracle", "oracle/certified"},
+     {"src/engines/published", "cases/families", "compare", "fuzz/campaign"},
+     {"fmt/", "benchmark/ first_hit_benchmark.cpp", "rapidjson/ json_readers.cpp",
+      "simdjson.h json_readers.cpp"}},
+};
+
+/// Whose a public header is.
+const std::map<std::string, std::string> kPublic{
+    {"problem", "src/problem"},
+    {"errors", "src/problem"},
+    {"geometry", "src/problem"},
+    {"exchange", "src/exchange"},
+    {"line_reader", "src/exchange"},
+    {"engine", "src/engines/base"},
+    {"collision", "src/engines/base"},
+    {"flight", "src/engines/reduction"},
+    {"reduction", "src/engines/reduction"},
+    {"continued_fraction", "oracle/exact"},
+    {"scene_check", "oracle/contacts"},
+    {"horizon", "oracle/horizon"},
+    {"margin", "oracle/margin"},
+    {"verdict", "oracle/margin"},
+    {"certificate", "oracle/certificate/check"},
+    {"certificate_check", "oracle/certificate/check"},
+    {"prover", "oracle/certificate"},
+    {"oracle", "oracle"},
+    {"walk", "oracle/walk"},
+    {"certified", "oracle/certified"},
+};
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Room* room_named(const std::string& folder) {
+  for (const Room& room : kHouse)
+    if (room.folder == folder) return &room;
+  return nullptr;
+}
+
+bool is_source(const fs::path& file) {
+  return file.extension() == ".cpp" || file.extension() == ".hpp";
+}
+
+std::vector<fs::path> sources(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(kRoot / folder))
+    if (is_source(entry.path())) files.push_back(entry.path());
+  return files;
+}
+
+struct Include {
+  std::string name;
+  bool quoted;
+};
+
+std::vector<Include> includes_of(const fs::path& file) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::vector<Include> names;
+  std::ifstream in(file);
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, kInclude)) names.push_back({match[2], match[1] == "\""});
+  return names;
+}
+
+// The name of a public header in <lorentz/NAME.hpp>, or nothing.
+std::string public_name(const Include& include) {
+  static const std::regex kName(R"(lorentz/([a-z_0-9]+)\.hpp)");
+  std::smatch match;
+  return !include.quoted && std::regex_match(include.name, match, kName) ? match[1].str() : "";
+}
+
+bool may_use(const Room& room, const std::string& file, const std::string& name) {
+  for (const std::string& rule : room.libraries) {
+    const std::size_t blank = rule.find(' ');
+    if (!name.starts_with(rule.substr(0, blank))) continue;
+    if (blank == std::string::npos || rule.substr(blank + 1) == file) return true;
+  }
+  return name.find_first_of("/.") == std::string::npos;  // the standard library
+}
+
+bool may_include(const Room& room, const std::string& file, const Include& include) {
+  if (const std::string name = public_name(include); !name.empty()) {
+    const auto owner = kPublic.find(name);
+    return owner != kPublic.end() &&
+           (owner->second == room.folder || contains(room.open_doors, owner->second) ||
+            contains(room.inside, owner->second));
+  }
+  if (!include.quoted) return may_use(room, file, include.name);
+  const std::string folder = fs::path(include.name).parent_path();
+  return folder == room.folder || contains(room.inside, folder);
+}
+
+}  // namespace
+
+TEST_CASE("Each room sees what the table says, and its libraries", "[house]") {
+  std::size_t files = 0;
+  for (const Room& room : kHouse) {
+    REQUIRE(fs::exists(kRoot / room.folder));
+    for (const fs::path& file : sources(room.folder))
+      for (const Include& include : includes_of(file)) {
+        INFO(file << " includes " << include.name);
+        CHECK(may_include(room, file.filename(), include));
+        ++files;
+      }
+  }
+  CHECK(files > 1000);  // 1 560 seen
+}
+
+TEST_CASE("The table names rooms above only, each once, and all that have sources", "[house]") {
+  std::set<std::string> above;
+  for (const Room& room : kHouse) {
+    for (const Names& names : {room.open_doors, room.inside})
+      for (const std::string& name : names) {
+        INFO(room.folder << " sees " << name);
+        CHECK(above.contains(name));
+      }
+    INFO(room.folder);
+    CHECK(above.insert(room.folder).second);
+  }
+  for (const char* floor :
+       {"src", "oracle", "cases", "compare", "golden", "fuzz", "pictures", "cli", "bench"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
+      if (is_source(entry.path())) {
+        INFO(entry.path());
+        CHECK(above.contains(fs::relative(entry.path().parent_path(), kRoot)));
+      }
+}
+
+TEST_CASE("Public headers show their room's open doors and the standard library", "[house]") {
+  std::size_t headers = 0;
+  for (const fs::path& file : sources("include/lorentz")) {
+    INFO(file);
+    const auto owner = kPublic.find(file.stem());
+    REQUIRE(owner != kPublic.end());
+    Room outside = *room_named(owner->second);
+    outside.inside.clear();
+    outside.libraries.clear();
+    for (const Include& include : includes_of(file)) {
+      INFO("includes " << include.name);
+      CHECK_FALSE(include.quoted);
+      CHECK(may_include(outside, file.filename(), include));
+    }
+    ++headers;
+  }
+  CHECK(headers == kPublic.size());
+}
+
+// Of `lorentz_library(NAME .. PUBLIC a b PRIVATE c)` the targets named lorentz_*, but its own.
+std::set<std::string> linked_by(const fs::path& cmake_lists) {
+  std::ifstream in(cmake_lists);
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  std::smatch match;
+  static const std::regex kCall(R"(lorentz_library\(lorentz_[a-z_]+([^()]*)\))"),
+      kTarget(R"(lorentz_[a-z_]+)");
+  std::set<std::string> targets;
+  if (!std::regex_search(all, match, kCall)) return targets;
+  const std::string arguments = match[1];
+  for (std::sregex_iterator it(arguments.begin(), arguments.end(), kTarget), end; it != end; ++it)
+    targets.insert(it->str());
+  return targets;
+}
+
+TEST_CASE("What keeps the oracle from the engines is the linker", "[house]") {
+  // The rooms whose word counts because they share nothing with those whose answers they check.
+  const std::map<std::string, std::set<std::string>> may_link{
+      {"src/engines/base", {"lorentz_problem"}},
+      {"src/engines/classical", {"lorentz_engine_base"}},
+      {"src/engines/published", {"lorentz_engine_base"}},
+      {"src/engines/reduction", {"lorentz_engine_base"}},
+      {"oracle/exact", {"lorentz_problem", "lorentz_integers"}},
+      {"oracle/first_hit", {"lorentz_exact"}},
+      {"oracle/certificate/check", {"lorentz_problem", "lorentz_integers"}},
+      {"oracle/walk", {"lorentz_problem"}}};
+  for (const auto& [folder, targets] : may_link) {
+    INFO(folder);
+    CHECK(linked_by(kRoot / folder / "CMakeLists.txt") == targets);
+  }
+}

@@ -1,0 +1,47 @@
+# cmake -DBUILD=.. -DSOURCE=.. -DSCRATCH=.. -DGENERATOR=.. -P install_test.cmake: installs this build, builds the consumer
+# project against what was installed (by CMake and by pkg-config), and the engine alone as a subproject. Fails at the
+# first thing that does not work.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    string(REPLACE ";" " " command "${ARGV}")
+    message(FATAL_ERROR "${command}: ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(prints expected)
+  if(NOT output MATCHES "${expected}")
+    message(FATAL_ERROR "expected ${expected}, got:\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+set(prefix ${SCRATCH}/installed)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/examples/consumer -B ${SCRATCH}/consumer -DCMAKE_PREFIX_PATH=${prefix}
+  "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
+run(${CMAKE_COMMAND} --build ${SCRATCH}/consumer)
+run(${SCRATCH}/consumer/library)
+prints("certified +hits the disc of cell")
+run(${SCRATCH}/consumer/engine_only)
+prints("cell \\(27, 1\\) at 26.95085432627853")
+run(${SCRATCH}/consumer/all_headers)
+run(${prefix}/bin/lorentz scene list)
+prints("cubic")
+
+# By pkg-config, the engine alone.
+set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
+run(pkg-config --define-prefix --cflags --libs lorentz-engine)
+separate_arguments(flags UNIX_COMMAND "${output}")
+run(${COMPILER} -std=c++20 ${SOURCE}/examples/engine_only.cpp -o ${SCRATCH}/by_pkg_config ${flags})
+run(${SCRATCH}/by_pkg_config)
+prints("cell \\(27, 1\\)")
+
+# As a subproject, without the headers of any library.
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/tests/house/subproject -B ${SCRATCH}/subproject
+  -DLORENTZ_SOURCE_DIR=${SOURCE} -DCMAKE_CXX_FLAGS=-O0)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/subproject)
+run(${SCRATCH}/subproject/engine_only)
+prints("cell \\(27, 1\\) at 26.95085432627853")

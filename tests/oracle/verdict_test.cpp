@@ -1,0 +1,247 @@
+#include <lorentz/verdict.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numeric>
+
+#include <lorentz/oracle.hpp>
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using oracle::Verdict;
+
+namespace {
+
+ObstacleId at(int i, int j) {
+  return {0, 0, {i, j, 0}};
+}
+
+oracle::Judgement judged(const Scene& scene, const Query& query, const Answer& given, double ulps = 4) {
+  return oracle::Judge(scene).judge(query, oracle::Oracle(scene).first_hit(query), given, ulps);
+}
+
+// One disc of radius 1/4 a unit cell. The flight along y = b passes or hits those in row 0 at b = 1/4.
+const Scene kScene = unit_scene(2, 0.25);
+Query level(double b) {
+  return {{0.5, b}, {1, 0}, {}};
+}
+
+}  // namespace
+
+TEST_CASE("Each answer gets its verdict", "[oracle][verdict]") {
+  const Query query = level(0.125);  // hits (1, 0)
+  const auto verdict = [&](const Answer& given) { return judged(kScene, query, given).verdict; };
+  const double time = *oracle::Oracle(kScene).first_hit(query).time;
+  CHECK(verdict(Answer::hit(at(1, 0), time)) == Verdict::agree);
+  CHECK(verdict(Answer::hit(at(2, 0), 1 + time)) == Verdict::wrong);
+  CHECK(verdict(Answer::hit(at(1, 1), time)) == Verdict::wrong);
+  CHECK(verdict(Answer::hit({1, 0, {}}, time)) == Verdict::wrong);
+  CHECK(verdict(Answer::never()) == Verdict::wrong);
+  CHECK(verdict(Answer::inside(at(1, 0))) == Verdict::wrong);
+  CHECK(verdict(Answer::undecided()) == Verdict::undecided);
+  CHECK(verdict(Answer::later()) == Verdict::undecided);
+  CHECK(verdict(Answer::error("no")) == Verdict::error);
+  CHECK(verdict(Answer::unsupported_because("no")) == Verdict::unsupported);
+  CHECK(judged(kScene, level(0.5), Answer::never()).verdict == Verdict::agree);
+  CHECK(judged(kScene, level(0.5), Answer::hit(at(1, 0), time)).verdict == Verdict::wrong);
+  CHECK(judged(kScene, {{0.125, 0}, {1, 0}, {}}, Answer::inside(at(0, 0))).verdict == Verdict::agree);
+  CHECK(judged(kScene, {{0.125, 0}, {1, 0}, {}}, Answer::inside(at(1, 0))).verdict == Verdict::wrong);
+}
+
+TEST_CASE("Where the query is none nobody is wrong", "[oracle][verdict]") {
+  CHECK(oracle::Judge(kScene).judge(level(0), Answer::error("v is zero"), Answer::hit(at(0, 0), 1)).verdict ==
+        Verdict::error);
+}
+
+TEST_CASE("An answer that a few ulps would make right is ill-posed, with the tolerance that it needs",
+          "[oracle][verdict]") {
+  // At b = 1/4 - m ulps of the cell the disc is hit; x and r move: m - 1 + 1/4 ulps are left between.
+  // The change of the distance is ulp(cell) + ulp(1/4) = 1.25 2^-52; T ulp(v_2) is nothing, v_2 = 0 being
+  // exact.
+  for (const int m : {1, 2, 4, 5, 6, 10}) {
+    const double b = 0.25 - m * 0x1p-52;
+    const auto judgement = judged(kScene, level(b), Answer::never());
+    INFO(m);
+    // The exact answer is a hit, and moving by m / 1.25 ulps opens the corridor.
+    CHECK(judgement.verdict == (m <= 5 ? Verdict::ill_posed : Verdict::wrong));
+    const auto missed = judged(kScene, level(0.25 + m * 0x1p-52), Answer::hit(at(1, 0), 0.5));
+    CHECK(missed.verdict == (m <= 5 ? Verdict::ill_posed : Verdict::wrong));
+    CHECK(missed.departs == Approx(m / 1.25));
+  }
+  CHECK(judged(kScene, level(0.25 + 0x1p-50), Answer::hit(at(1, 0), 0.5), 3).verdict == Verdict::wrong);
+  CHECK(judged(kScene, level(0.25 + 0x1p-50), Answer::hit(at(1, 0), 0.5), 3.3).verdict == Verdict::ill_posed);
+}
+
+TEST_CASE("A disc passed over with room to spare condemns, one that is grazed does not",
+          "[oracle][verdict]") {
+  // (1, 0) is grazed, (2, 0) too: every answer along the row is ill-posed; not one behind, nor in another
+  // row.
+  const Query query = level(0.25 - 0x1p-52);
+  REQUIRE(oracle::Oracle(kScene).first_hit(query).obstacle == at(1, 0));
+  CHECK(judged(kScene, query, Answer::hit(at(2, 0), 1.5)).verdict == Verdict::ill_posed);
+  CHECK(judged(kScene, query, Answer::hit(at(1000, 0), 999.5)).verdict == Verdict::ill_posed);
+  CHECK(judged(kScene, query, Answer::hit(at(0, 0), 0)).verdict == Verdict::wrong);
+  CHECK(judged(kScene, query, Answer::hit(at(1, 1), 0.5)).verdict == Verdict::wrong);
+  // Falling by 2^-10 a cell it soon has room to spare.
+  const Query falling{{0.5, 0.25}, {1, -0x1p-10}, {}};
+  CHECK(judged(kScene, falling, Answer::hit(at(2, 0), 1.4)).verdict == Verdict::wrong);
+}
+
+TEST_CASE("never: an open corridor within a few ulps of v is ill-posed, one beside it is wrong",
+          "[oracle][verdict]") {
+  const auto verdict = [](double slope, double b) {
+    return judged(kScene, {{0.5, b}, {1, slope}, {}}, Answer::never()).verdict;
+  };
+  // Along (1, 1) the corridors are 1/sqrt(2) - 1/2 = 0.207 wide, around y - x = 1/2: x = (1/2, 1).
+  CHECK(verdict(1, 1) == Verdict::agree);
+  for (const double sign : {1.0, -1.0}) {
+    CHECK(verdict(1 + sign * 4 * 0x1p-52, 1) == Verdict::ill_posed);
+    CHECK(verdict(1 + sign * 20 * 0x1p-52, 1) == Verdict::wrong);
+    CHECK(verdict(1 + sign * 4 * 0x1p-52, 1.2) == Verdict::wrong);  // not in the corridor
+  }
+  // A zero is exact, a component beside it is not: no corridor along the axis.
+  CHECK(verdict(0x1p-60, 0.5) == Verdict::wrong);
+  CHECK(judged(kScene, {{0.5, 0.5}, {1, 5e-324}, {}}, Answer::never()).verdict == Verdict::ill_posed);
+  // 3D: in a plane channel y = 1/2, and along (1, 0, 0) with both others drifting.
+  const Scene cubic = unit_scene(3, 0.25);
+  const auto solid = [&](const Vec& v, const Vec& x = {0.5, 0.5, 0.25}) {
+    return judged(cubic, {x, v, {}}, Answer::never()).verdict;
+  };
+  CHECK(solid({1, 0, 0.6180339887498949}) == Verdict::agree);
+  CHECK(solid({1, 1 + 0x1p-51, 0.3}, {0.5, 1, 0.25}) ==
+        Verdict::ill_posed);  // in the plane of (1, 1, 0) and (0, 0, 1)
+  CHECK(solid({1, 1 + 0x1p-46, 0.3}, {0.5, 1, 0.25}) == Verdict::wrong);
+  CHECK(solid({1, 1 + 0x1p-51, 0.3}, {0.5, 1.25, 0.25}) == Verdict::wrong);  // beside that channel
+  // r = 0.55: along (0, 0, 1) there is a cylindrical channel, and no plane channel.
+  const Scene tight = unit_scene(3, 0.55);
+  const auto drift = [&](double a, double b) {
+    return judged(tight, {{0.5, 0.5, 0.25}, {a, b, 1}, {}}, Answer::never()).verdict;
+  };
+  CHECK(drift(0, 0) == Verdict::agree);
+  CHECK(drift(0, 5e-324) == Verdict::ill_posed);
+  CHECK(drift(5e-324, 1e-322) == Verdict::wrong);  // 20 of its ulps
+}
+
+TEST_CASE("never: whatever lattice line or plane v was rounded from, its corridor is found",
+          "[oracle][verdict]") {
+  Draw draw(5101);
+  INFO("seed 5101");
+  int ill_posed = 0;
+  for (int i = 0; i < 400; ++i) {
+    // Along (p, q), in the middle of the corridor, for p t - q s = 1.
+    const auto p = 1 + static_cast<long>(draw.below(5000)), q = 1 + static_cast<long>(draw.below(5000));
+    if (std::gcd(p, q) != 1) continue;
+    long t = 0;
+    while ((q * t + 1) % p != 0) ++t;  // s of  p t' - q s = 1,  t' = (q s + 1) / p
+    const double s = static_cast<double>(t), t2 = static_cast<double>((q * t + 1) / p);
+    const double speed = std::exp2(draw.between(-3, 3)) * draw.sign();
+    const Query query{{s / 2, t2 / 2}, {speed * static_cast<double>(p), speed * static_cast<double>(q)}, {}};
+    const Scene scene = unit_scene(2, draw.between(0.1, 0.45) / std::hypot(p, q));
+    INFO(stream(scene, query));
+    const Verdict verdict = judged(scene, query, Answer::never(), 1).verdict;
+    REQUIRE((verdict == Verdict::ill_posed || verdict == Verdict::agree));
+    ill_posed += verdict == Verdict::ill_posed;
+    REQUIRE(judged(scene, query, Answer::never(), 100).verdict == verdict);
+  }
+  CHECK(ill_posed > 100);
+  ill_posed = 0;
+  for (int i = 0; i < 200; ++i) {
+    // In the plane normal to (a, b, 1), which (1, 0, -a) and (0, 1, -b) span; its channel around 1/2.
+    const auto a = static_cast<double>(draw.below(20)), b = 1 + static_cast<double>(draw.below(20));
+    const double f = draw.between(-1, 1), g = draw.between(-1, 1);
+    const Query query{{0, 0, 0.5}, {f, g, -a * f - b * g}, {}};
+    const Scene scene = unit_scene(3, draw.between(0.1, 0.45) / std::hypot(a, b, 1));
+    INFO(stream(scene, query));
+    // The last component was rounded from two that may be larger.
+    const double lost = (a * std::fabs(f) + b * std::fabs(g)) / std::fabs(query.v[2]);
+    if (lost > 4) continue;
+    const Verdict verdict = judged(scene, query, Answer::never(), 8).verdict;
+    REQUIRE((verdict == Verdict::ill_posed || verdict == Verdict::agree));
+    ill_posed += verdict == Verdict::ill_posed;
+  }
+  CHECK(ill_posed > 50);
+}
+
+TEST_CASE("never: small obstacles and a slope near a lattice vector", "[oracle][verdict]") {
+  CHECK(judged(unit_scene(2, 3e-4), {{0.5, 0}, {1, 1e-4}, {}}, Answer::never()).verdict == Verdict::wrong);
+  CHECK(judged(unit_scene(2, 3.423250686789962e-05),
+               {{-0.5, 0}, {-1.8449123588949907, 0.00025262390235451093}, {}}, Answer::never())
+            .verdict == Verdict::wrong);
+}
+
+TEST_CASE("Containing is judged by its margin, too", "[oracle][verdict]") {
+  // On the surface of (0, 0), outwards: the exact answer flies on; inside is a matter of ulps.
+  const double edge = 0.25;
+  for (const int m : {0, 1, 5, 6, 20}) {
+    INFO(m);
+    const Query outside{{edge + m * 0x1p-52, 0}, {1, 0}, {}},
+        within{{edge - (m + 1) * 0x1p-52, 0}, {1, 0}, {}};
+    CHECK(judged(kScene, outside, Answer::inside(at(0, 0))).verdict ==
+          (m <= 5 ? Verdict::ill_posed : Verdict::wrong));
+    const double time = *oracle::Oracle(kScene).first_hit(outside).time;
+    CHECK(judged(kScene, within, Answer::hit(at(1, 0), time)).verdict ==
+          (m + 1 <= 5 ? Verdict::ill_posed : Verdict::wrong));
+  }
+}
+
+TEST_CASE("An obstacle left behind is acceptable only within the ulps that would put it ahead",
+          "[oracle][verdict]") {
+  // On the surface, along the tangent, past the point nearest to the centre by e: s = -2 e, which x and v
+  // change by 2 ulps and 2 a ulps. The distance of the line is the radius, rounded.
+  const double a = 0.1875;
+  const Scene scene = unit_scene(2, a * std::sqrt(2.0));
+  for (const int steps : {2, 64}) {
+    const double e = steps * 0x1p-52;
+    const auto judgement = judged(scene, {{-a + e, a + e}, {1, 1}, {}}, Answer::hit(at(0, 0), 0));
+    CHECK(judgement.departs == Approx(steps / (1 + a)).epsilon(1e-6));
+    CHECK(judgement.verdict == (steps == 2 ? Verdict::ill_posed : Verdict::wrong));
+  }
+}
+
+TEST_CASE("Of two obstacles entered together within ulps either is acceptable", "[oracle][verdict]") {
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].atoms.push_back({{0, 0.125}, 0.25, {}});
+  const Query middle{{0.5, 0.0625}, {1, 0}, {}};  // an exact tie
+  const Answer exact = oracle::Oracle(scene).first_hit(middle);
+  REQUIRE(exact.obstacle.atom == 0);
+  CHECK(judged(scene, middle, Answer::hit({0, 1, {1, 0, 0}}, *exact.time)).verdict == Verdict::ill_posed);
+  const Query off{{0.5, 0.0625 + 0x1p-30}, {1, 0}, {}};
+  CHECK(oracle::Oracle(scene).first_hit(off).obstacle.atom == 1);
+  CHECK(judged(scene, off, Answer::hit({0, 0, {1, 0, 0}}, *exact.time)).verdict == Verdict::wrong);
+}
+
+TEST_CASE("Errors of the time are counted in ulps, and judged by the condition", "[oracle][verdict]") {
+  const Answer hit = oracle::Oracle(kScene).first_hit(level(0.125));
+  const auto with_time = [&](double time) { return Answer::hit(at(1, 0), time); };
+  const auto judgement = [&](double time) { return judged(kScene, level(0.125), with_time(time)); };
+  const double unit = 0x1p-54;  // ulp of 0.283..
+  CHECK(judgement(*hit.time).ulps == 0.0);
+  CHECK(judgement(*hit.time + unit).ulps == 1.0);
+  CHECK(judgement(*hit.time - 3 * unit).ulps == 3.0);
+  // The normal is (-cos, sin) with sin = 1/2: dt = dx_1 + tan dx_2 + t dv_1 + dr / cos, in ulps
+  // (x: 2^-52, r: 2^-54 -> 4 (1 + .577) + .283 * 4 + 1.155 = 8.6 of them.
+  const double condition = 4 * (1 + std::tan(M_PI / 6)) + 4 * *hit.time + 1 / std::cos(M_PI / 6);
+  CHECK(judgement(*hit.time + std::floor(4 * condition) * unit).verdict == Verdict::agree);
+  CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).verdict == Verdict::wrong);
+  CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).wrong_time);
+  CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).departs == Approx(4).epsilon(0.1));
+  CHECK(judged(kScene, level(0.125), with_time(*hit.time + 30 * unit), 1).verdict == Verdict::wrong);
+  Answer logged = hit;
+  logged.time.reset();
+  CHECK_FALSE(judged(kScene, level(0.125), logged).ulps.has_value());
+  CHECK(judged(kScene, level(0.125), logged).verdict == Verdict::agree);
+  CHECK(judgement(INFINITY).verdict == Verdict::wrong);
+  CHECK_FALSE(judged(kScene, level(0.125), Answer::hit(at(2, 0), 1)).ulps.has_value());
+}
+
+TEST_CASE("Times beyond the largest binary64: an infinity is right, a small number is not",
+          "[oracle][verdict]") {
+  const Query slow{{0.5, 0.125}, {1e-320, 0}, {}};
+  REQUIRE(std::isinf(*oracle::Oracle(kScene).first_hit(slow).time));
+  const auto verdict = [&](double time) { return judged(kScene, slow, Answer::hit(at(1, 0), time)).verdict; };
+  CHECK(verdict(INFINITY) == Verdict::agree);
+  CHECK(verdict(1) == Verdict::wrong);
+  CHECK(verdict(1e300) == Verdict::wrong);
+}
