@@ -60,6 +60,8 @@ if(TARGET lorentz)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/lorentz)
 endif()
 
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
+
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lorentz-config.cmake.in lorentz-config.cmake
   INSTALL_DESTINATION ${LORENTZ_CMAKE_DIR})
 # Before 1.0 each minor version may change the interface.

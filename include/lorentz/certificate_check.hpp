@@ -12,6 +12,14 @@
 
 namespace lorentz::oracle {
 
+/// Checks proofs of answers to the queries of one scene.
+///
+///  1. No false answer passes, whatever the certificate holds.
+///     held by "Another obstacle than the first is refused, whatever the proof holds",
+///             "No false answer passes with proofs tampered with at random"
+///  2. The same forms and proofs are accepted as by data/check.py, a check of plain integers in Python.
+///
+/// Cost: proportional to the rows and obstacles of the proof, some millions a second.
 class CertificateCheck {
  public:
   /// Puts the scene into integers, once. Of a scene with a flaw or with dependent vectors nothing is proved.

@@ -1,5 +1,4 @@
 // The engine `certified`: the fast engine's answer where that is certain, the oracle's where it is not.
-// Always exact, at nearly the speed of the fast one.
 #pragma once
 
 #include <optional>
@@ -10,14 +9,26 @@
 
 namespace lorentz::oracle {
 
+/// First hits, always exact, at nearly the speed of the fast engine.
+///
+///  1. What Oracle::first_hit answers, to the bit of the time; never `undecided`.
+///     held by "certified is the oracle, to the bit",
+///             "certified is exact among ellipsoids, whatever the engine says of them",
+///             "A hit is before a limit iff its exact time is, and certified says what the oracle says"
+///  2. Any number of threads may ask one, each with a tally of its own.
+///     held by "Many threads may ask one engine, oracle, walk and judge"
+///
+/// Units: as in Query: lengths are the scene's, times are such that x + t v is the particle's place.
+/// Cost: that of the fast engine and some 100 ns for the time; where it is not certain, and for scenes
+/// beyond it, that of the oracle (10 us and more). On drawn queries that is one in some thousand
+/// (docs/speed.md).
 class Certified {
  public:
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
   explicit Certified(const Scene& scene);
 
-  /// What Oracle::first_hit answers, to the bit. `digits` and `detail` are the oracle's work alone. `tally`,
-  /// if given, counts which stage decided; `undecided` are the queries that the oracle answered. Safe to call
-  /// from several threads (each with its own tally).
+  /// The exact answer; an invalid query yields `error`. `digits` and `detail` are the oracle's work alone.
+  /// `tally`, if given, counts which stage decided; `undecided` are the queries that the oracle answered.
   Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
 
   /// The same into an answer that is there already; whatever it held is replaced.

@@ -1,4 +1,5 @@
-// The common interface of the binary64 engines, and what they share: the scaling of the velocity.
+// The common interface of the binary64 engines, how to make one by its name, and what they share: the scaling
+// of the velocity.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace lorentz {
 
 /// A flight as the engines take it: the velocity scaled by a power of two so that its largest component lies
-/// in [1, 2), and nothing overflows or underflows that need not.
+/// in [1, 2), which avoids needless overflow and underflow.
 struct Ray {
   const Vec& x;
   const Vec& v;
@@ -35,12 +36,24 @@ struct ScaledVelocity {
 /// A time or a length times 2^exponent, fast where the factor is a normal number.
 double scaled_time(double time, int exponent);
 
-/// A first-hit engine for one scene. Const and without hidden state: safe to call from several threads.
+/// A first-hit engine for one scene.
+///
+///  1. Const and without hidden state: any number of threads may ask one engine.
+///     held by "Many threads may ask one engine, oracle, walk and judge"
+///  2. The velocity's length goes into the time only: v and 2 v have the same answer, at half the time.
+///     held by "The velocity's length goes into the time only"
+///  3. Throws nothing.
+///
+/// Units: lengths are the scene's, times are such that x + t v is the particle's place.
+///
+/// Which answers are to be trusted depends on the engine: `classical` and `published` are the known
+/// algorithms, errors included; what `reduction` promises is in reduction.hpp. What each costs is in
+/// docs/speed.md.
 class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an
+  /// The engine's answer, `later` if nothing is entered before `max_time`. An invalid query (flaw_of) yields
   /// `error`.
   Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const {
     Answer answer;
@@ -78,7 +91,7 @@ class Engine {
   Scene scene_;
 };
 
-/// The names that make_engine knows.
+/// The names that make_engine knows: "classical", "published", "reduction".
 std::vector<std::string> engine_names();
 
 /// The engine of this name for a scene without flaws, or null for an unknown name. A scene that the engine

@@ -20,13 +20,14 @@ struct StageTally {
   }
 };
 
+/// What the first hit of a query came to. `lattice`, `atom` and `cell` are of `hit` and `inside`.
 struct Flight {
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;
   bool time_is_rounded = false;  ///< the time is known to be correctly rounded
   int lattice = 0, atom = 0;
   std::array<std::int64_t, 3> cell{};  ///< of `hit` and `inside`
-  double time = 0;                     ///< of `hit`
+  double time = 0;                     ///< of `hit`, in units in which x + time v is the place
 };
 
 }  // namespace lorentz

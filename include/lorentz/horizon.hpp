@@ -44,6 +44,7 @@ struct CylinderFamily {
   double directions = 0;           ///< not infinite: about so many directions would have to be looked at
 };
 
+/// All ways through a scene that are free for ever.
 struct Horizon {
   int dimension = 0;
   std::vector<Channel> channels;  ///< the widest first
@@ -71,9 +72,13 @@ struct TooManyChannels : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What is open is decided exactly.
+/// held by "Horizon: square and cubic lattices by their closed forms",
+///         "Horizon: the oracle flies for ever in a channel, and nowhere else"
+///
 /// All open channels of a scene without flaws (flaw_of, dependence_in); with `min_width` above 0 the
-/// corridors and planar channels at least that wide. The search for cylinders can be left out: among small
-/// obstacles it is the longer one. Throws TooManyChannels.
+/// corridors and planar channels at least that wide. The search for cylinders can be left out: among
+/// small obstacles it is the longer one. Throws TooManyChannels.
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true);
 
 }  // namespace lorentz::oracle

@@ -7,6 +7,14 @@
 
 namespace lorentz::oracle {
 
+/// Certificates for the answers of one scene.
+///
+///  1. What it writes of an exact answer is accepted by CertificateCheck and by data/check.py; of a wrong
+///     answer, refuted.
+///     held by "Prover: the proofs of drawn answers are accepted",
+///             "Prover: whatever it writes of a wrong answer is refuted"
+///
+/// Cost: that of the oracle. Allocates. Any number of threads may ask one prover.
 class Prover {
  public:
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
@@ -15,9 +23,9 @@ class Prover {
   Prover& operator=(Prover&&) noexcept;
   ~Prover();
 
-  /// The certificate of an exact `hit`, `inside` or `never`; of an error an empty one. Of a wrong answer,
-  /// whatever it says is refuted by who checks it. Few windows of few rows, however long the flight; but
-  /// around obstacles of very many cells in radius, as many rows as these cross.
+  /// The certificate of an exact `hit`, `inside` or `never`; of an error an empty one. Of a wrong
+  /// answer, whatever it says is refuted by who checks it. Few windows of few rows, however long the flight;
+  /// but around obstacles of very many cells in radius, as many rows as these cross.
   Certificate prove(const Query& query, const Answer& exact) const;
 
  private:

@@ -10,6 +10,16 @@
 
 namespace lorentz::oracle {
 
+/// First hits cell by cell, in exact arithmetic.
+///
+///  1. An outcome other than `undecided` is exact, the time correctly rounded.
+///     held by "Oracle equals walk on generic scenes",
+///             "Walk rounds ties to even"
+///  2. Any number of threads may ask one walk.
+///     held by "Many threads may ask one engine, oracle, walk and judge"
+///
+/// Units: as in Query. Cost: microseconds a cell and an atom, so it grows with the distance, and with
+/// 1/r^(d-1).
 class Walk {
  public:
   /// The scene must have no flaw. After `max_cells` cells of one atom's lattice the walk gives up.

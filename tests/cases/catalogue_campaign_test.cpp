@@ -112,23 +112,6 @@ TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][cat
     }
 }
 
-TEST_CASE("Times of the reduction engine on drawn queries of the catalogue", "[cases][catalogue_campaign]") {
-  for (const auto& [name, scene] : all_scenes()) {
-    if (Reduction::beyond(scene)) continue;
-    CAPTURE(name);
-    const Reduction engine(scene);
-    const oracle::Oracle exact(scene);
-    double worst = 0;
-    for (const Query& query : queries_of(scene, Difficulty::drawn, 6, 400)) {
-      const Flight flight = engine.fly(query);
-      if (flight.outcome != Outcome::hit) continue;
-      const double time = *exact.first_hit(query).time;
-      worst = std::max(worst, std::fabs(flight.time - time) / (std::nextafter(time, 1e300) - time));
-    }
-    CHECK(worst <= 6);
-  }
-}
-
 TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[cases][catalogue_campaign]") {
   int scenes = 0;
   for (const auto& [name, scene] : all_scenes()) {

@@ -278,3 +278,31 @@ TEST_CASE("What keeps the oracle from the engines is the linker", "[house]") {
     CHECK(linked_by(kRoot / folder / "CMakeLists.txt") == targets);
   }
 }
+
+TEST_CASE("The tests that public headers name are there", "[house]") {
+  const auto text_of = [](const fs::path& file) {
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  };
+  std::string tests;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+    if (entry.path().extension() == ".cpp") tests += text_of(entry.path());
+  static const std::regex kBreak(R"("\s*\n\s*")"), kComment(R"(\n\s*///\s*)"), kQuoted("\"([^\"]+)\"");
+  tests = std::regex_replace(tests, kBreak, "");  // a long name, in pieces
+  std::size_t named = 0;
+  for (const fs::path& file : sources("include/lorentz")) {
+    const std::string header = std::regex_replace(text_of(file), kComment, " ");
+    // From `held by` on, as long as one quoted name follows another.
+    static const std::regex kHeld("held by ((\"[^\"]+\",? ?)+)");
+    for (std::sregex_iterator held(header.begin(), header.end(), kHeld), end; held != end; ++held) {
+      const std::string names = (*held)[1];
+      for (std::sregex_iterator name(names.begin(), names.end(), kQuoted); name != end; ++name, ++named) {
+        INFO(file << " names the test " << (*name)[1]);
+        CHECK(tests.find("TEST_CASE(\"" + (*name)[1].str() + '"') != std::string::npos);
+      }
+    }
+  }
+  CHECK(named > 30);
+}
