@@ -26,11 +26,11 @@ class CertifiedSubject final : public fuzz::Subject {
 };
 
 class NoJournal final : public fuzz::Journal {
-  void record(const fuzz::Target&, const fuzz::Account&, const std::vector<fuzz::Finding>&) override {}
+  void record(const cases::Target&, const fuzz::Account&, const std::vector<fuzz::Finding>&) override {}
   void tick() override {}
 };
 
-double rate(const fuzz::Target& target, fuzz::Truth truth, std::uint64_t mutate, double seconds) {
+double rate(const cases::Target& target, fuzz::Truth truth, std::uint64_t mutate, double seconds) {
   fuzz::Plan plan;
   plan.targets = {&target};
   plan.truth = truth;
@@ -54,7 +54,7 @@ int main(int count, char** arguments) {
       "cases and mutants a second of one core\ntarget       judged by oracle  with mutants  judged by "
       "certified\n");
   for (const char* name : {"generic-2d", "generic-3d"}) {
-    const fuzz::Target& target = *fuzz::target_named(name);
+    const cases::Target& target = *cases::target_named(name);
     fmt::print("{:<12} {:16.0f} {:13.0f} {:20.0f}\n", name, rate(target, fuzz::Truth::oracle, 0, seconds),
                rate(target, fuzz::Truth::oracle, 32, seconds),
                rate(target, fuzz::Truth::certified, 0, seconds));

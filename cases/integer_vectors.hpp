@@ -9,7 +9,7 @@
 
 #include "cases/random.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 using IntVec = std::array<std::int64_t, 3>;
 
@@ -75,4 +75,4 @@ std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h);
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,7 +9,7 @@
 #include <lorentz/certified.hpp>
 #include <lorentz/geometry.hpp>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // Binary64 values in order, as integers: -0 and +0 both 0.
@@ -172,4 +172,4 @@ ObstacleId obstacle(std::int64_t a, std::int64_t b, std::int64_t c, int atom) {
   return {0, atom, {Integer(a), Integer(b), Integer(c)}};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -10,7 +10,7 @@
 #include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 /// x moved by so many ulps, through 0 and the subnormals too; an infinity is not passed.
 double moved(double x, std::int64_t ulps);
@@ -72,4 +72,4 @@ class Symmetry {
 /// The obstacle of lattice 0 and this atom in a small cell.
 ObstacleId obstacle(std::int64_t a, std::int64_t b, std::int64_t c = 0, int atom = 0);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

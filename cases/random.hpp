@@ -7,7 +7,7 @@
 
 #include <lorentz/problem.hpp>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 /// What numbers are drawn for: each has its own, whatever the others take.
 enum class Use : std::uint64_t { cases, scenes, mutants, rewordings, reworded_scenes };
@@ -39,4 +39,4 @@ class Random {
   std::size_t taken_ = 4;  ///< of the block
 };
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

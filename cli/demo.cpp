@@ -12,6 +12,9 @@
 #include "compare/sampling.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 // The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions of 1 to 89 degrees.

@@ -18,6 +18,9 @@
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 struct Options {

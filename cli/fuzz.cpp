@@ -19,6 +19,9 @@
 #include "fuzz/examine/engine_subject.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 using fuzz::Kind;
@@ -37,12 +40,12 @@ struct Options {
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
-std::vector<const fuzz::Target*> targets_of(const Options& options) {
+std::vector<const cases::Target*> targets_of(const Options& options) {
   std::vector<std::string> names;
-  for (const fuzz::Target& target : fuzz::targets()) names.emplace_back(target.name());
-  std::vector<const fuzz::Target*> targets;
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
+  std::vector<const cases::Target*> targets;
   for (const std::string& name : names_in(options.targets)) {
-    const fuzz::Target* target = fuzz::target_named(name);
+    const cases::Target* target = cases::target_named(name);
     if (!target)
       throw InputError(fmt::format("--target: no target is called {}; there are {}", json_quoted(name),
                                    fmt::join(names, ", ")));
@@ -51,7 +54,7 @@ std::vector<const fuzz::Target*> targets_of(const Options& options) {
     targets.push_back(target);
   }
   if (targets.empty())
-    for (const fuzz::Target& target : fuzz::targets()) targets.push_back(&target);
+    for (const cases::Target& target : cases::targets()) targets.push_back(&target);
   return targets;
 }
 
@@ -110,7 +113,7 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
   fuzz::Manifest manifest;
   manifest.version = LORENTZ_VERSION;
   manifest.engine = engine;
-  for (const fuzz::Target* target : plan.targets)
+  for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
@@ -132,7 +135,7 @@ class JournalWithProgress final : public fuzz::Journal {
         progress_(by_time_ ? "seconds" : "cases",
                   by_time_ ? static_cast<std::size_t>(bounds.seconds) : bounds.count * targets, 1) {}
 
-  void record(const fuzz::Target& target, const fuzz::Account& account,
+  void record(const cases::Target& target, const fuzz::Account& account,
               const std::vector<fuzz::Finding>& kept) override {
     done_[target.name()] = account.next;
     journal_.record(target, account, kept);
@@ -168,7 +171,7 @@ int run_campaign(const Options& options, const fuzz::Plan& plan, const fuzz::Mak
   Store store(options.store.value_or(":memory:"), Store::Access::write);
   const std::int64_t campaign = store.open_campaign(report.manifest);
   bool resumed = false;
-  for (const fuzz::Target* target : plan.targets) {
+  for (const cases::Target* target : plan.targets) {
     report.targets.emplace_back(target->name());
     report.accounts.push_back(store.account(campaign, target->name()));
     resumed |= report.accounts.back().next > 0;
@@ -205,7 +208,7 @@ int act(const Options& options) {
 
 void add_options(CLI::App* command, Options& options) {
   std::vector<std::string> names;
-  for (const fuzz::Target& target : fuzz::targets()) names.emplace_back(target.name());
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
   command
       ->add_option("-t,--target", options.targets,
                    fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")))

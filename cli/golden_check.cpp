@@ -19,6 +19,9 @@
 #include "golden/reader.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 struct Options {

@@ -13,6 +13,9 @@
 #include "golden/production.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 namespace fs = std::filesystem;

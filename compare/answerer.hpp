@@ -11,7 +11,7 @@
 #include <lorentz/problem.hpp>
 #include "compare/listener.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// What every answer of an answerer is to have, and how long one waits for it.
 struct AnswererOptions {
@@ -70,4 +70,4 @@ class Answerer {
   OnAnswer on_answer_ = [](Answer&) {};
 };
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

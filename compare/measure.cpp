@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 void Tally::count(const oracle::Judgement& judgement) {
   ++queries;
@@ -194,4 +194,4 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
   return tallies;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -11,7 +11,7 @@
 #include <lorentz/verdict.hpp>
 #include "compare/registry.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 struct Case {
   Id id = "null";
@@ -66,4 +66,4 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options = {});
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

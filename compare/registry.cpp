@@ -15,7 +15,7 @@
 #include <lorentz/walk.hpp>
 #include "compare/command_engine.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   if (answer.outcome != Outcome::hit || !answer.time) return;
@@ -133,4 +133,4 @@ std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererO
   return std::make_unique<EngineAnswerer>(name, options.request);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

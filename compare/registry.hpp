@@ -10,7 +10,7 @@
 #include <lorentz/problem.hpp>
 #include "compare/answerer.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a
 /// detail that binary64 cannot compute is left out.
@@ -41,4 +41,4 @@ std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererO
 /// Adds the detail to a hit with a time, where binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

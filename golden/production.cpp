@@ -20,7 +20,7 @@
 namespace lorentz::golden {
 namespace {
 
-constexpr std::uint64_t kBatch = fuzz::kCasesPerScene;
+constexpr std::uint64_t kBatch = cases::kCasesPerScene;
 
 struct Made {
   std::string scene_line;
@@ -262,7 +262,7 @@ Header header_of(const Order& order) {
   Header header{order.set->name, order.set->description, {}, LORENTZ_VERSION, order.count, {}};
   header.generator = "lorentz golden make --set " + order.set->name + " --count " +
                      std::to_string(order.count) + " --seed " + std::to_string(order.seed);
-  for (const fuzz::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
+  for (const cases::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
   return header;
 }
 

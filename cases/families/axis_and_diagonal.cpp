@@ -10,7 +10,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 void set_direction(Random& random, int dimension, Case& made) {
@@ -88,4 +88,4 @@ Family axis_and_diagonal() {
       make_axis};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -12,7 +12,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // An integer point of the circle of radius w, found upwards from a drawn one; (w, 0) ends the search.
@@ -156,4 +156,4 @@ Family boundary_starts() {
           [](Source& source) { return source.scene.one_in(3) ? make_rounded(source) : make_exact(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

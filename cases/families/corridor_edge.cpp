@@ -12,7 +12,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kGrid = 40;  // exact starts and radii are multiples of 2^-40
@@ -144,4 +144,4 @@ Family corridor_edge() {
           }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,7 +9,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Case make_dense_rows(Source& source) {
@@ -39,4 +39,4 @@ Family dense_rows() {
           make_dense_rows};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

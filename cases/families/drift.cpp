@@ -13,7 +13,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -94,4 +94,4 @@ Family drift() {
           make_drift};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

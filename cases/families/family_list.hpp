@@ -3,7 +3,7 @@
 
 #include "cases/families/family.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 Family generic_2d();
 Family generic_3d();
@@ -41,4 +41,4 @@ Family dense_rows();
 Family far_starts();
 Family specks();
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -13,7 +13,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A row of cubes or boxes, or a crystal, of any size.
@@ -87,4 +87,4 @@ Family far_starts() {
           make_far_start};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

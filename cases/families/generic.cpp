@@ -8,7 +8,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr const char* kDecades[] = {"radius-1e-1", "radius-1e-2", "radius-1e-3",
@@ -51,4 +51,4 @@ Family generic_3d() {
           [](Source& source) { return make_generic(source, 3); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

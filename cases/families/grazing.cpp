@@ -21,7 +21,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kGrid = 40;
@@ -119,4 +119,4 @@ Family grazing() {
           [](Source& source) { return source.scene.one_in(3) ? make_pell(source) : make_squares(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

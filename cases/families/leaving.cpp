@@ -10,7 +10,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A direction off the surface with the outward unit normal n: its cosine has the density 2 c (3D), c (2D).
@@ -78,4 +78,4 @@ Family leaving() {
           make_leaving};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -10,7 +10,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 double drift(Random& random) {
@@ -85,4 +85,4 @@ Family long_flight() {
           make_long};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

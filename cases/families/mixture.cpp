@@ -8,7 +8,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // Semiaxes along a drawn frame in the plane of the first two axes, the third upright.
@@ -78,4 +78,4 @@ Family mixture() {
           make_mixture};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -12,7 +12,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A radius beside the half width at which the corridors close.
@@ -144,4 +144,4 @@ Family near_rational() {
           [](Source& source) { return source.scene.one_in(3) ? make_solid(source) : make_flat(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

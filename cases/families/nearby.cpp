@@ -8,7 +8,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Case make_nearby(Source& source) {
@@ -38,4 +38,4 @@ Family nearby() {
           make_nearby};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -12,7 +12,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -62,4 +62,4 @@ Family nearly_parallel() {
           make_nearly_parallel};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -11,7 +11,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 double sixty_fourths(Random& random, std::int64_t low, std::int64_t high) {
@@ -134,4 +134,4 @@ Family never() {
           make_never};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

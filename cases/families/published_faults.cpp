@@ -10,7 +10,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 struct Example {
@@ -146,4 +146,4 @@ Family published_faults() {
       make_published};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -11,7 +11,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A start about the hole between obstacles, `room` away from it at most, or anywhere in the cell.
@@ -115,4 +115,4 @@ Family tiny_radius() {
           make_tiny};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

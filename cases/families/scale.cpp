@@ -9,7 +9,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
@@ -109,4 +109,4 @@ Family scale() {
           make_scale};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -13,7 +13,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // Drawn, near-rational in coordinates of the first lattice, or grazing.
@@ -208,4 +208,4 @@ Family ellipsoids() {
           make_ellipsoid};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

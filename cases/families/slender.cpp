@@ -7,7 +7,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A frame at random angles; or with a long axis of small integers.
@@ -90,4 +90,4 @@ Family slender() {
           make_slender};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

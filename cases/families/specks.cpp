@@ -11,7 +11,7 @@
 #include "cases/integer_vectors.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kLeast = -1074;
@@ -83,4 +83,4 @@ Family specks() {
           make_specks};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -11,7 +11,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Atom ball(const Vec& position, double radius) {
@@ -165,4 +165,4 @@ Family ties() {
       make_tie};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

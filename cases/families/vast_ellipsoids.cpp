@@ -7,7 +7,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Atom drawn_vast(Random& drawn, int dimension) {
@@ -47,4 +47,4 @@ Family vast_ellipsoids() {
           make_vast};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -14,6 +14,9 @@
 #include "fuzz/rewording/rewording.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 // Work (in the subject's own count) that shrinking one case may cost: some seconds of `published`.
@@ -163,7 +166,7 @@ void StintWorker::pose(const Stint& stint, Desk& desk) {
   const Target& target = *plan_.targets[stint.target];
   for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
-    const fuzz::Case base = target.make(plan_.seed, index);
+    const cases::Case base = target.make(plan_.seed, index);
     if (!desk.here || !same(desk.here->examiner.scene(), base.scene))
       desk.here = &desk.add_room(*subject_, base.scene, plan_);
     Room& room = *desk.here;

@@ -46,8 +46,8 @@ class StintWorker {
   struct Room;
   struct Desk;
   void pose(const Stint& stint, Desk& desk);
-  void pose_in_other_words(Random& random, Desk& desk, std::size_t first);
-  static std::optional<Case> in_other_digits(Random& random, const Case& one);
+  void pose_in_other_words(cases::Random& random, Desk& desk, std::size_t first);
+  static std::optional<Case> in_other_digits(cases::Random& random, const Case& one);
   void ask(Desk& desk);
   void take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result);
   Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);

@@ -8,6 +8,9 @@
 #include "fuzz/campaign/ranks.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -21,7 +21,7 @@ namespace lorentz::fuzz {
 
 /// All that findings depend on, but for the subject.
 struct Plan {
-  std::vector<const Target*> targets;
+  std::vector<const cases::Target*> targets;
   std::uint64_t seed = 0;
   std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
   Counts counts;
@@ -53,7 +53,7 @@ class Journal {
   virtual ~Journal() = default;
 
   /// The account of a target after some more of its work, and the findings kept of this.
-  virtual void record(const Target& target, const Account& account, const std::vector<Finding>& kept) = 0;
+  virtual void record(const cases::Target& target, const Account& account, const std::vector<Finding>& kept) = 0;
 
   /// Called several times a second, also when nothing was done.
   virtual void tick() = 0;

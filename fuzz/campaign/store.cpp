@@ -14,6 +14,9 @@
 #include "fuzz/campaign/sqlite.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases

@@ -77,7 +77,7 @@ class StoreJournal final : public Journal {
  public:
   StoreJournal(Store& store, std::int64_t campaign);
   ~StoreJournal() override;
-  void record(const Target& target, const Account& account, const std::vector<Finding>& kept) override;
+  void record(const cases::Target& target, const Account& account, const std::vector<Finding>& kept) override;
   void tick() override;
 
  private:

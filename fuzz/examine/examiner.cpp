@@ -10,6 +10,8 @@
 
 namespace lorentz::fuzz {
 
+using namespace cases;
+
 std::string_view name_of(Kind kind) {
   constexpr std::string_view kNames[] = {"fine",      "unsupported", "wrong", "wrong time",
                                          "undecided", "slow",        "error"};

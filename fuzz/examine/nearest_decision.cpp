@@ -15,6 +15,9 @@
 #include "src/engines/base/double_double.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 using oracle::DecisionKind;

@@ -15,7 +15,7 @@ namespace lorentz::fuzz {
 /// are entered at the same time, to the last bit that one component of x has, and some bits further if that
 /// component can be near zero. Of the decisions it takes the hardest so far, or draws one about the obstacle
 /// that is hit. Nothing if no obstacle is hit, or the place is out of reach; the result may have any answer.
-std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query& query, const Answer& exact,
+std::optional<Query> aimed_query(cases::Random& random, const Scene& scene, const Query& query, const Answer& exact,
                                  const std::optional<oracle::Decision>& hardest, const Examiner& examiner);
 
 }  // namespace lorentz::fuzz

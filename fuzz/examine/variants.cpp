@@ -8,6 +8,9 @@
 #include "fuzz/examine/nearest_decision.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

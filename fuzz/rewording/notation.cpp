@@ -10,6 +10,9 @@
 #include "cases/parts.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 enum class Digits { shortest, general, fixed, scientific, hexadecimal, mixed };

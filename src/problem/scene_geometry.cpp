@@ -7,7 +7,7 @@
 
 #include <lorentz/geometry.hpp>
 
-namespace lorentz::cli {
+namespace lorentz {
 
 using std::numbers::pi;
 
@@ -152,4 +152,4 @@ std::optional<Filling> filling_of(const Scene& given) {
   return filling;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz

@@ -7,7 +7,7 @@
 
 #include <lorentz/problem.hpp>
 
-namespace lorentz::cli {
+namespace lorentz {
 
 Vec cross(const Vec& a, const Vec& b);
 
@@ -33,4 +33,4 @@ struct Filling {
 /// Nothing if it is beyond the range of binary64.
 std::optional<Filling> filling_of(const Scene& scene);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz

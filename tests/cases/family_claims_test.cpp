@@ -15,7 +15,7 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Case;
+using cases::Case;
 
 namespace {
 
@@ -42,7 +42,7 @@ bool only(const Case& one, const char* tag) {
 
 void each(const char* family, std::uint64_t count, const std::function<void(const Case&)>& check) {
   for (std::uint64_t index = 0; index < count; ++index) {
-    const Case one = fuzz::family_named(family)->make(kSeed, index);
+    const Case one = cases::family_named(family)->make(kSeed, index);
     INFO(family << " " << index << " " << one.tags.front() << "\n" << stream(one.scene, one.query));
     check(one);
   }

@@ -58,7 +58,7 @@ inline std::string text_of(const fuzz::Store& store) {
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const fuzz::Manifest& m = campaign.manifest;
     out += m.engine + ' ' + m.targets + ' ' + std::to_string(m.seed) + ' ' + m.options + ' ' + m.shard + '\n';
-    for (const fuzz::Target& target : fuzz::targets())
+    for (const cases::Target& target : cases::targets())
       if (m.targets.find(target.name()) != std::string::npos)
         out += std::string(target.name()) + ' ' + text_of(store.account(campaign.id, target.name()));
   }

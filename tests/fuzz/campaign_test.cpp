@@ -26,7 +26,7 @@ constexpr std::uint64_t kSeed = 5;
 
 Plan plan_of(std::initializer_list<const char*> names) {
   Plan plan;
-  for (const char* name : names) plan.targets.push_back(fuzz::target_named(name));
+  for (const char* name : names) plan.targets.push_back(cases::target_named(name));
   plan.seed = kSeed;
   plan.mutate = 8;
   return plan;
@@ -42,11 +42,11 @@ void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned 
                           "",
                           plan.keep,
                           std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
-  for (const fuzz::Target* target : plan.targets)
+  for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   const std::int64_t id = store.open_campaign(manifest);
   std::vector<Account> accounts;
-  for (const fuzz::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
+  for (const cases::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
   fuzz::StoreJournal journal(store, id);
   fuzz::Bounds bounds;
   bounds.count = count;
@@ -116,7 +116,7 @@ class ParochialSubject final : public fuzz::Subject {
 
  private:
   void change_scene(const Scene& scene) override {
-    const double size = fuzz::length(scene.lattices[0].vectors[0]);
+    const double size = cases::length(scene.lattices[0].vectors[0]);
     knows_ = size > 0x1p-60 && size < 0x1p60;
     oracle_.emplace(scene);
   }
@@ -133,7 +133,7 @@ std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account&
   plan.reword = reword;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 128, 2, [] { return std::make_unique<ParochialSubject>(); });
-  for (const fuzz::Target* target : plan.targets) all.add(store.account(1, target->name()));
+  for (const cases::Target* target : plan.targets) all.add(store.account(1, target->name()));
   return store.findings();
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]"
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 300, 1);
   std::uint64_t mutants = 0;
-  for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
+  for (const cases::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
   CHECK(mutants > 900 / 16 * 12);  // one case in 8 has up to 24
   CHECK(mutants < 900 / 4 * 24);
   for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 300, jobs) == once);
@@ -339,7 +339,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   // Wrong in two ways, and about hits, starts inside, and flights without end.
   const auto subjects = [] {
     return std::make_unique<ToldSubject>([](const Query& query) {
-      return query.v[0] > 0 ? Answer::never() : Answer::inside(fuzz::obstacle(7, 7));
+      return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
     });
   };
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
@@ -363,33 +363,33 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
 TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
-  for (const fuzz::Target& target : fuzz::targets()) {
+  for (const cases::Target& target : cases::targets()) {
     INFO(target.name());
-    CHECK(fuzz::target_named(target.name()) == &target);
+    CHECK(cases::target_named(target.name()) == &target);
     std::string again;
     const std::string first = stream(target.make(kSeed, 77).scene, target.make(kSeed, 77).query);
     std::thread([&] {
       target.make(kSeed, 3);
-      const fuzz::Case one = target.make(kSeed, 77);
+      const cases::Case one = target.make(kSeed, 77);
       again = stream(one.scene, one.query);
     }).join();
     CHECK(again == first);
   }
-  CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
-  CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
-  for (const fuzz::Family& family :
-       {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(), fuzz::early(),
-        fuzz::nearly_parallel(), fuzz::ellipsoid_edges(), fuzz::drift(), fuzz::vast_ellipsoids(),
-        fuzz::nearby(), fuzz::unequal_radii(), fuzz::dense_rows(), fuzz::dense_layers(), fuzz::slender(),
-        fuzz::far_starts(), fuzz::specks()}) {
+  CHECK(cases::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
+  CHECK(cases::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
+  for (const cases::Family& family :
+       {cases::leaving(), cases::scale(), cases::mixture(), cases::rounding(), cases::early(),
+        cases::nearly_parallel(), cases::ellipsoid_edges(), cases::drift(), cases::vast_ellipsoids(),
+        cases::nearby(), cases::unequal_radii(), cases::dense_rows(), cases::dense_layers(), cases::slender(),
+        cases::far_starts(), cases::specks()}) {
     std::map<std::string, int> met;
-    for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
+    for (const cases::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();
     for (std::uint64_t index = 0; index < 2000; ++index) {
-      const fuzz::Case one = family.make(kSeed, index);
+      const cases::Case one = family.make(kSeed, index);
       INFO(family.name() << ' ' << index << ' ' << stream(one.scene, one.query));
       if (index % 32 == 0) REQUIRE_FALSE((flaw_of(one.scene) || oracle::dependence_in(one.scene)));
-      REQUIRE(fuzz::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
+      REQUIRE(cases::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
       REQUIRE_FALSE(flaw_of(one.query, one.scene));
       if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
       for (const std::string& tag : one.tags) ++met[tag];
@@ -407,7 +407,7 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
   INFO("seed " << kSeed);
   int on_surface = 0;
   for (std::uint64_t index = 0; index < 500; ++index) {
-    const fuzz::Case one = fuzz::target_named("leaving")->make(kSeed, index);
+    const cases::Case one = cases::target_named("leaving")->make(kSeed, index);
     REQUIRE(one.query.from);
     const Vec centre = centre_of(one.scene, *one.query.from);
     Vec arm{};
@@ -425,13 +425,13 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
   INFO("seed " << kSeed);
   int improved = 0, at_the_edge = 0;
   for (std::uint64_t index = 0; index < 60; ++index) {
-    const fuzz::Case base = fuzz::target_named("generic")->make(kSeed, index);
+    const cases::Case base = cases::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
     const oracle::Scrutiny scrutiny(base.scene);
     const auto nobody = skewed_subjects()();
     const fuzz::Examiner examiner(*nobody, base.scene, oracle::kDefaultUlps);
-    const auto mutants = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
-    const auto again = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
+    const auto mutants = fuzz::climb(cases::Random(1, "climb", index), base, examiner, scrutiny);
+    const auto again = fuzz::climb(cases::Random(1, "climb", index), base, examiner, scrutiny);
     REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
     REQUIRE(mutants.size() == again.size());
     double least = 1e300;
@@ -442,7 +442,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are q
       least = std::min(least, mutants[i].margin());
     }
     // Each round goes on from the best before it.
-    fuzz::Random random(1, "climb", index);
+    cases::Random random(1, "climb", index);
     fuzz::Mutant best = fuzz::seen(examiner, scrutiny, base.query);
     REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
     improved += least < best.margin();

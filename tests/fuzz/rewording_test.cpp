@@ -13,7 +13,7 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Random;
+using cases::Random;
 using fuzz::Reworded;
 using fuzz::Rewording;
 
@@ -58,16 +58,16 @@ std::deque<Room> rooms_of(Random& random, const Scene& scene, int count) {
 }
 
 // The cases of a target, each in two of four other words for its scene.
-void require_same_in_other_words(const fuzz::Target& target, std::uint64_t seed, std::uint64_t count, Who who,
+void require_same_in_other_words(const cases::Target& target, std::uint64_t seed, std::uint64_t count, Who who,
                                  Tally& tally) {
   std::deque<Room> rooms;
   std::optional<oracle::Oracle> oracle;
   std::optional<Scene> scene;
   for (std::uint64_t index = 0; index < count; ++index) {
-    const fuzz::Case one = target.make(seed, index);
-    Random random(seed, target.name(), index, fuzz::Use::rewordings);
+    const cases::Case one = target.make(seed, index);
+    Random random(seed, target.name(), index, cases::Use::rewordings);
     INFO(target.name() << ' ' << index << ", seed " << seed << '\n' << stream(one.scene, one.query));
-    if (!scene || !fuzz::same(*scene, one.scene)) {
+    if (!scene || !cases::same(*scene, one.scene)) {
       scene = one.scene;
       oracle.emplace(*scene);
       rooms = rooms_of(random, *scene, 4);
@@ -87,7 +87,7 @@ void require_same_in_other_words(const std::string& path, Tally& tally) {
   std::size_t scene_number = ~std::size_t{0};
   for (std::uint64_t index = 0; reader.next(read); ++index) {
     if (!read.query) continue;
-    Random random(kSeed, reader.header().name, index, fuzz::Use::rewordings);
+    Random random(kSeed, reader.header().name, index, cases::Use::rewordings);
     if (scene_number != reader.scene_number()) rooms = rooms_of(random, reader.scene(), 3);
     scene_number = reader.scene_number();
     INFO(path << ':' << read.line << ", seed " << kSeed);
@@ -108,7 +108,7 @@ Tally in_golden_sets() {
 
 TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewording]") {
   Tally tally;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     require_same_in_other_words(target, kSeed, 512, Who::oracle, tally);
   tally.print("the oracle in other words, all targets, 512 cases each, seed " + std::to_string(kSeed));
   // A generator that rots is seen.
@@ -131,10 +131,10 @@ TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewordin
 TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {
   std::map<std::string, int> misread;
   int questions = 0;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 320; ++index, ++questions) {
-      const fuzz::Case one = target.make(kSeed, index);
-      Random random(kSeed, target.name(), index, fuzz::Use::rewordings);
+      const cases::Case one = target.make(kSeed, index);
+      Random random(kSeed, target.name(), index, cases::Use::rewordings);
       const auto misreading = fuzz::misreading(random, one.scene, one.query);
       if (misreading && ++misread[misreading->notation] == 1)
         UNSCOPED_INFO(target.name() << ' ' << index << ", " << misreading->notation << ": "
@@ -148,12 +148,12 @@ TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the
           "[fuzz][rewording]") {
   constexpr std::uint64_t kOther = 1303;
   std::map<fuzz::LimitAt, int> met, later;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 64; ++index) {
-      const fuzz::Case one = target.make(kOther, index);
-      const oracle::Oracle& oracle = fuzz::oracle_of(one.scene);
+      const cases::Case one = target.make(kOther, index);
+      const oracle::Oracle& oracle = cases::oracle_of(one.scene);
       const Answer exact = oracle.first_hit(one.query);
-      Random random(kOther, target.name(), index, fuzz::Use::rewordings);
+      Random random(kOther, target.name(), index, cases::Use::rewordings);
       const fuzz::LimitAt at = fuzz::drawn_limit(random, fuzz::Subject::Limits::exact, exact);
       if (at == fuzz::LimitAt::none) continue;
       oracle::Request request;
@@ -184,8 +184,8 @@ TEST_CASE("Rewording: a million questions in other words to certified and reduct
           "[fuzz][rewording][long]") {
   constexpr std::uint64_t kOther = 1302;
   Tally tally;
-  for (const fuzz::Target& target : fuzz::targets())
-    require_same_in_other_words(target, kOther, 1'250'000 / 2 / fuzz::targets().size(), Who::engines, tally);
+  for (const cases::Target& target : cases::targets())
+    require_same_in_other_words(target, kOther, 1'250'000 / 2 / cases::targets().size(), Who::engines, tally);
   tally.print("certified and reduction in other words, seed " + std::to_string(kOther));
   CHECK(tally.met["(reduction: decided)"] + tally.met["(reduction: undecided)"] > 1'000'000);
 }
