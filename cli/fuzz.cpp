@@ -135,10 +135,10 @@ class JournalWithProgress final : public fuzz::Journal {
         progress_(by_time_ ? "seconds" : "cases",
                   by_time_ ? static_cast<std::size_t>(bounds.seconds) : bounds.count * targets, 1) {}
 
-  void record(const cases::Target& target, const fuzz::Account& account,
+  void record(const cases::Target& target, const fuzz::TargetTally& tally,
               const std::vector<fuzz::Finding>& kept) override {
-    done_[target.name()] = account.next;
-    journal_.record(target, account, kept);
+    done_[target.name()] = tally.next;
+    journal_.record(target, tally, kept);
   }
   void tick() override {
     journal_.tick();
@@ -173,14 +173,14 @@ int run_campaign(const Options& options, const fuzz::Plan& plan, const fuzz::Mak
   bool resumed = false;
   for (const cases::Target* target : plan.targets) {
     report.targets.emplace_back(target->name());
-    report.accounts.push_back(store.account(campaign, target->name()));
-    resumed |= report.accounts.back().next > 0;
+    report.tallies.push_back(store.tally(campaign, target->name()));
+    resumed |= report.tallies.back().next > 0;
   }
   if (resumed) say("{}: goes on with campaign {}", store.path(), campaign);
   bool failed = false;
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size());
-    failed = fuzz::run(plan, bounds, make_subject, report.accounts, journal, ranks);
+    failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks);
   }
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign) report.findings.push_back(std::move(one));
@@ -218,7 +218,7 @@ void add_options(CLI::App* command, Options& options) {
       ->type_name("SECONDS");
   command
       ->add_option("--count", options.count,
-                   "until each target has had so many cases, its mutants not counted")
+                   "until each target has had so many cases, its variants not counted")
       ->type_name("N");
   command->add_option("--seed", options.seed, "of the cases")->capture_default_str()->type_name("N");
   command
@@ -241,7 +241,7 @@ void add_options(CLI::App* command, Options& options) {
       ->type_name("N");
   command
       ->add_option("--reword", options.reword,
-                   "ask one in so many cases, and its mutants, in other words, too; 0: none")
+                   "ask one in so many cases, and its variants, in other words, too; 0: none")
       ->capture_default_str()
       ->type_name("N");
   command
@@ -269,12 +269,12 @@ void add_fuzz(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "fuzz",
-      "Campaigns: hard cases and mutants of them until an engine fails, and what is found made readable.");
+      "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.");
   add_options(command, *options);
   add_fuzz_store(*command, action);
   command->require_subcommand(0, 1);
   command->footer(
-      "docs/campaigns.md: targets, mutants, what is a finding, how it is shrunk, the store.\n"
+      "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store.\n"
       "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
       "  lorentz fuzz list --store published.campaign");
   command->callback([options, command, &action] {

@@ -123,11 +123,11 @@ Round run_round(const CaseSet& set, const std::string& name, Answerer& program, 
 }
 
 // One of the names, ready for every scene of the set.
-struct Contestant {
+struct Entrant {
   std::vector<FirstHit> first_hit;    // by scene
   std::unique_ptr<Answerer> program;  // or this
 
-  Contestant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
+  Entrant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
     if (is_command(name))
       program = make_answerer(name, {{}, options.timeout, options.listener});
     else
@@ -149,20 +149,20 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options) {
   std::vector<Tally> tallies(names.size());
-  std::vector<Contestant> contestants;
+  std::vector<Entrant> entrants;
   std::vector<std::vector<Round>> rounds(names.size());
   for (std::size_t e = 0; e < names.size(); ++e) {
     tallies[e].name = names[e];
-    contestants.emplace_back(set, names[e], options);
+    entrants.emplace_back(set, names[e], options);
   }
   std::vector<oracle::Judge> judges;
   for (const Scene& scene : set.scenes) judges.emplace_back(scene);
   const auto start = Clock::now();
   for (int r = 0; r < options.rounds; ++r) {
     for (std::size_t e = 0; e < names.size(); ++e) {
-      if (contestants[e].failed()) continue;
+      if (entrants[e].failed()) continue;
       rounds[e].push_back(
-          contestants[e].run(set, names[e], options.listener, [&](std::size_t i, const Answer& given) {
+          entrants[e].run(set, names[e], options.listener, [&](std::size_t i, const Answer& given) {
             if (r > 0) return;
             if (exact.empty()) {
               ++tallies[e].queries;
@@ -179,8 +179,8 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
   for (std::size_t e = 0; e < names.size(); ++e) {
-    if (contestants[e].program) contestants[e].program->finish();
-    tallies[e].failed = contestants[e].failed();
+    if (entrants[e].program) entrants[e].program->finish();
+    tallies[e].failed = entrants[e].failed();
     auto& of_engine = rounds[e];
     std::sort(of_engine.begin(), of_engine.end(),
               [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });

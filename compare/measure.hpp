@@ -24,7 +24,7 @@ struct CaseSet {
   std::vector<Case> cases;
 };
 
-/// One answerer's account over a set of cases.
+/// What one answerer did over a set of cases.
 struct Tally {
   std::string name;
   std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,

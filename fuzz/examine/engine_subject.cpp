@@ -30,7 +30,7 @@ class AnswererSubject final : public Subject {
     answerer_->drain();
     return std::exchange(replies_, {});
   }
-  std::uint64_t batch() const override { return is_command_ ? 256 : Subject::batch(); }
+  std::uint64_t batch_size() const override { return is_command_ ? 256 : Subject::batch_size(); }
   bool failed() const override { return answerer_->failed(); }
 
  private:

@@ -14,6 +14,8 @@
 #include "cases/parts.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
 namespace {
 
 // ---- numbers

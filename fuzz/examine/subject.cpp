@@ -5,7 +5,7 @@
 namespace lorentz::fuzz {
 
 void Subject::set_scene(const Scene& scene) {
-  if (scene_ && same(*scene_, scene)) return;
+  if (scene_ && cases::same(*scene_, scene)) return;
   change_scene(scene);
   scene_ = scene;
 }

@@ -72,7 +72,7 @@ TEST_CASE("Flights of the family nearly-parallel end, farther than double-double
 TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz][campaign_families]") {
   int close = 0, inside = 0, surface = 0;
   visit_cases(cases::ellipsoid_edges(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
-    const auto hardest = oracle::Scrutiny(one.scene).hardest_decision(one.query, exact, 0);
+    const auto hardest = oracle::Margins(one.scene).hardest_decision(one.query, exact, 0);
     close += hardest && hardest->margin < 64;
     surface += has(one, "surface");
     inside += exact.outcome == Outcome::inside;

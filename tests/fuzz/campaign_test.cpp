@@ -1,4 +1,4 @@
-// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, mutants, kinds.
+// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, variants, kinds.
 #include "fuzz/campaign/campaign.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,9 +16,9 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Account;
 using fuzz::Kind;
 using fuzz::Plan;
+using fuzz::TargetTally;
 
 namespace {
 
@@ -45,13 +45,13 @@ void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned 
   for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   const std::int64_t id = store.open_campaign(manifest);
-  std::vector<Account> accounts;
-  for (const cases::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
+  std::vector<TargetTally> tallies;
+  for (const cases::Target* target : plan.targets) tallies.push_back(store.tally(id, target->name()));
   fuzz::StoreJournal journal(store, id);
   fuzz::Bounds bounds;
   bounds.count = count;
   bounds.jobs = jobs;
-  fuzz::run(plan, bounds, subjects, accounts, journal);
+  fuzz::run(plan, bounds, subjects, tallies, journal);
 }
 
 std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
@@ -127,13 +127,13 @@ class ParochialSubject final : public fuzz::Subject {
 };
 
 // What a campaign of a few targets finds in a subject that errs in other words alone.
-std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account& all) {
+std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, TargetTally& all) {
   Plan plan = plan_of({"generic", "grazing", "superpositions"});
   plan.counts.ulps = 0;
   plan.reword = reword;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 128, 2, [] { return std::make_unique<ParochialSubject>(); });
-  for (const cases::Target* target : plan.targets) all.add(store.account(1, target->name()));
+  for (const cases::Target* target : plan.targets) all.add(store.tally(1, target->name()));
   return store.findings();
 }
 
@@ -141,7 +141,7 @@ std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account&
 
 TEST_CASE("What goes wrong in other words alone is found, and keeps its words", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
-  Account without, with;
+  TargetTally without, with;
   CHECK(findings_in_other_words(0, without).empty());
   CHECK(without.reworded == 0);
   int lengths = 0, limits = 0;
@@ -161,8 +161,8 @@ TEST_CASE("What goes wrong in other words alone is found, and keeps its words", 
   }
   CHECK(lengths > 2);
   CHECK(limits > 2);
-  CHECK(with.reworded > (with.cases + with.mutants) / 2);
-  CHECK(with.reworded <= with.cases + with.mutants);
+  CHECK(with.reworded > (with.cases + with.variants) / 2);
+  CHECK(with.reworded <= with.cases + with.variants);
 }
 
 TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]") {
@@ -173,10 +173,10 @@ TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]"
   CHECK(once.find("boundary/") != std::string::npos);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 300, 1);
-  std::uint64_t mutants = 0;
-  for (const cases::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
-  CHECK(mutants > 900 / 16 * 12);  // one case in 8 has up to 24
-  CHECK(mutants < 900 / 4 * 24);
+  std::uint64_t variants = 0;
+  for (const cases::Target* target : plan.targets) variants += store.tally(1, target->name()).variants;
+  CHECK(variants > 900 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(variants < 900 / 4 * 24);
   for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 300, jobs) == once);
 }
 
@@ -192,19 +192,19 @@ TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on fro
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   const Plan plan = plan_of({"leaving", "boundary"});
-  std::vector<Account> accounts(2);
+  std::vector<TargetTally> tallies(2);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   fuzz::StoreJournal journal(store, 1);
   fuzz::Bounds bounds;
   bounds.seconds = 0.2;
   bounds.jobs = 2;
-  fuzz::run(plan, bounds, skewed_subjects(), accounts, journal);
-  for (const Account& account : accounts) {
-    CHECK(account.next > 0);
-    CHECK(account.cases == account.next);
+  fuzz::run(plan, bounds, skewed_subjects(), tallies, journal);
+  for (const TargetTally& tally : tallies) {
+    CHECK(tally.next > 0);
+    CHECK(tally.cases == tally.next);
     std::uint64_t judged = 0;
-    for (const std::uint64_t number : account.kinds) judged += number;
-    CHECK(judged == account.cases + account.mutants + account.reworded);
+    for (const std::uint64_t number : tally.kinds) judged += number;
+    CHECK(judged == tally.cases + tally.variants + tally.reworded);
   }
 }
 
@@ -233,8 +233,8 @@ TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
     fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
     fuzz::merge(paths, uneven);
     CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::Manifest::kMerged);
-    CHECK(uneven.account(1, "leaving").next == 150);
-    CHECK(uneven.account(1, "leaving").cases == 153);
+    CHECK(uneven.tally(1, "leaving").next == 150);
+    CHECK(uneven.tally(1, "leaving").cases == 153);
   }
 }
 
@@ -245,21 +245,21 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all", 
   plan.mutate = 0;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 200, 3);
-  const Account account = store.account(1, "leaving");
+  const TargetTally tally = store.tally(1, "leaving");
   std::map<std::string, std::vector<std::uint64_t>> kept;
   for (const fuzz::Stored& one : store.findings()) kept[one.finding.sort].push_back(one.finding.index);
   std::uint64_t all = 0;
-  REQUIRE(account.sorts.size() > 1);
-  for (const auto& [sort, number] : account.sorts) {
+  REQUIRE(tally.sorts.size() > 1);
+  for (const auto& [sort, number] : tally.sorts) {
     INFO(sort);
     CHECK(kept[sort].size() == std::min<std::uint64_t>(number, 2));
     all += number;
   }
-  CHECK(all == account.kinds[static_cast<std::size_t>(Kind::wrong)] +
-                   account.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
+  CHECK(all == tally.kinds[static_cast<std::size_t>(Kind::wrong)] +
+                   tally.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
   CHECK(all > 20);
 
-  plan.mutate = 1;  // a case and its mutants, which mostly fail alike, are one finding
+  plan.mutate = 1;  // a case and its variants, which mostly fail alike, are one finding
   fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
   run_in(mutated, plan, 40, 2);
   std::set<std::pair<std::string, std::uint64_t>> seen;
@@ -273,18 +273,18 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
   INFO("seed " << kSeed);
   Plan plan = plan_of({"corner"});
   plan.mutate = 0;
-  std::vector<Account> accounts(1);
+  std::vector<TargetTally> tallies(1);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   fuzz::Bounds bounds;
   bounds.count = 100;
   for (const bool undecided : {true, false}) {
-    accounts = {{}};
+    tallies = {{}};
     plan.counts.undecided = undecided;
     fuzz::StoreJournal journal(store, undecided);
     fuzz::run(
-        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, accounts, journal);
+        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, tallies, journal);
   }
-  const auto number = [&](Kind kind) { return accounts[0].kinds[static_cast<std::size_t>(kind)]; };
+  const auto number = [&](Kind kind) { return tallies[0].kinds[static_cast<std::size_t>(kind)]; };
   CHECK(number(Kind::undecided) > 10);
   CHECK(number(Kind::error) > 10);
   CHECK(number(Kind::slow) > 3);
@@ -420,39 +420,39 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
   CHECK(on_surface > 300);
 }
 
-TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are queries with their answers",
+TEST_CASE("A climb is repeatable and comes to smaller margins; its variants are queries with their answers",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   int improved = 0, at_the_edge = 0;
   for (std::uint64_t index = 0; index < 60; ++index) {
     const cases::Case base = cases::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
-    const oracle::Scrutiny scrutiny(base.scene);
+    const oracle::Margins margins(base.scene);
     const auto nobody = skewed_subjects()();
     const fuzz::Examiner examiner(*nobody, base.scene, oracle::kDefaultUlps);
-    const auto mutants = fuzz::climb(cases::Random(1, "climb", index), base, examiner, scrutiny);
-    const auto again = fuzz::climb(cases::Random(1, "climb", index), base, examiner, scrutiny);
-    REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
-    REQUIRE(mutants.size() == again.size());
+    const auto variants = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
+    const auto again = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
+    REQUIRE(variants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
+    REQUIRE(variants.size() == again.size());
     double least = 1e300;
-    for (std::size_t i = 0; i < mutants.size(); ++i) {
-      REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, again[i].question.query));
-      REQUIRE_FALSE(flaw_of(mutants[i].question.query, base.scene));
-      REQUIRE(same(mutants[i].question.exact, oracle.first_hit(mutants[i].question.query)));
-      least = std::min(least, mutants[i].margin());
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, again[i].question.query));
+      REQUIRE_FALSE(flaw_of(variants[i].question.query, base.scene));
+      REQUIRE(same(variants[i].question.exact, oracle.first_hit(variants[i].question.query)));
+      least = std::min(least, variants[i].margin());
     }
     // Each round goes on from the best before it.
     cases::Random random(1, "climb", index);
-    fuzz::Mutant best = fuzz::seen(examiner, scrutiny, base.query);
+    fuzz::Variant best = fuzz::seen(examiner, margins, base.query);
     REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
     improved += least < best.margin();
     at_the_edge += least < 4;
-    for (std::size_t i = 0; i < mutants.size();) {
-      const fuzz::Mutant here = best;
+    for (std::size_t i = 0; i < variants.size();) {
+      const fuzz::Variant here = best;
       for (int move = 0; move < fuzz::kMovesPerRound; ++move, ++i) {
         const Query query = fuzz::next_query(random, base.scene, examiner, here, move);
-        REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, query));
-        if (mutants[i].margin() < best.margin()) best = mutants[i];
+        REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, query));
+        if (variants[i].margin() < best.margin()) best = variants[i];
       }
     }
     CHECK(best.margin() <= least);

@@ -90,7 +90,7 @@ bool is_curved(const Problem& problem, const Answer& exact, double margin) {
 
 void hold(Draw& draw, const Problem& problem, int corners, Tally& tally) {
   const Answer exact = truth(problem);
-  const auto decision = oracle::Scrutiny(problem.scene).hardest_decision(problem.query, exact);
+  const auto decision = oracle::Margins(problem.scene).hardest_decision(problem.query, exact);
   REQUIRE(decision.has_value() == (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside));
   if (!decision) return;
   ++tally.cases;
