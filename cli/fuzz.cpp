@@ -27,8 +27,6 @@ namespace {
 using fuzz::Kind;
 using fuzz::Store;
 
-// `undecided` is a cap that was hit, but for this engine: there it is a filter that did its work.
-constexpr const char* kSaysWhatItDoesNotKnow = "reduction";
 constexpr double kDefaultSeconds = 60;
 constexpr std::uint64_t kMostCases = 1'000'000'000'000;
 
@@ -72,7 +70,7 @@ fuzz::Truth truth_of(const Options& options) {
   if (options.judge != "certified")
     throw InputError(
         fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(options.judge)));
-  if (options.engine == "certified" || options.engine == "reduction")
+  if (traits_of(options.engine).uses_reduction)
     throw InputError("--judge: certified rests on reduction, and is no judge of either; use oracle");
   return fuzz::Truth::certified;
 }
@@ -88,7 +86,7 @@ fuzz::Plan plan_of(const Options& options) {
   plan.truth = truth_of(options);
   plan.counts.times = options.times;
   plan.counts.undecided =
-      options.undecided || (!options.no_undecided && options.engine != kSaysWhatItDoesNotKnow);
+      options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
   if (options.ulps != "0")  // which allows for nothing
     plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
   else

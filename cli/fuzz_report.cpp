@@ -7,6 +7,7 @@
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
+#include "compare/registry.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -62,8 +63,9 @@ std::string layers(const FuzzReport& report) {
     return fmt::format("{} ({:.3g} %)", all.stages[stage],
                        100 * static_cast<double>(all.stages[stage]) / static_cast<double>(sum));
   };
-  return fmt::format("decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
-                     report.manifest.engine == "certified" ? "by exact arithmetic" : "not decided", share(2));
+  return fmt::format(
+      "decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
+      compare::traits_of(report.manifest.engine).is_exact ? "by exact arithmetic" : "not decided", share(2));
 }
 
 // Of each kind of failure that was not met, what that says.

@@ -155,19 +155,26 @@ class CertifiedSubject final : public TellingSubject<oracle::Certified> {
 };
 
 template <class S>
-MakeSubject maker_of() {
-  return [] { return std::make_unique<S>(); };
+std::unique_ptr<Subject> make() {
+  return std::make_unique<S>();
 }
+
+// The engines that are asked in a way of their own.
+constexpr struct {
+  std::string_view engine;
+  std::unique_ptr<Subject> (*make)();
+} kSubjects[] = {
+    {"classical", make<ClassicalSubject>}, {"published", make<PublishedSubject>},
+    {"reduction", make<ReductionSubject>}, {"certified", make<CertifiedSubject>},
+    {"walk", make<WalkSubject>},
+};
 
 }  // namespace
 
 MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
   check_name(engine);
-  if (engine == "published") return maker_of<PublishedSubject>();
-  if (engine == "reduction") return maker_of<ReductionSubject>();
-  if (engine == "classical") return maker_of<ClassicalSubject>();
-  if (engine == "walk") return maker_of<WalkSubject>();
-  if (engine == "certified") return maker_of<CertifiedSubject>();
+  for (const auto& subject : kSubjects)
+    if (subject.engine == engine) return subject.make;
   return [engine, options] { return std::make_unique<AnswererSubject>(engine, options); };
 }
 
