@@ -1,4 +1,4 @@
-// Questions that are none: what a reader of the exchange format must refuse.
+// Invalid queries: what a reader of the exchange format must refuse.
 #pragma once
 
 #include <string>

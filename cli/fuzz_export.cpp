@@ -32,7 +32,7 @@ StreamItem parsed(ExchangeReader& reader, const std::string& line, const Scene* 
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
   reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
-  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds a line that is none: " + line);
+  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds an invalid line: " + line);
   return item;
 }
 

@@ -48,7 +48,7 @@ struct SetTally {
   bool failed = false;  // the program broke
 };
 
-// What an engine says to a question that is none is right if it is `error`.
+// The right answer to an invalid query is `error`.
 oracle::Judgement judge_error(const Answer& given) {
   if (given.outcome == Outcome::undecided) return {oracle::Verdict::undecided};
   if (given.outcome == Outcome::error)

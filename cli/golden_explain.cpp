@@ -64,7 +64,7 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
     for (const std::string& own : record.tags)
       if (own == tag) print(fmt::format("{}: {}\n", tag, note));
   if (!read.query) {
-    print(fmt::format("\nIt is no query: {}. The answer is `error`.\n", read.flaw));
+    print(fmt::format("\nIt is not a valid query: {}. The answer is `error`.\n", read.flaw));
     return;
   }
   const oracle::Margins margins(reader.scene());

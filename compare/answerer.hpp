@@ -42,7 +42,7 @@ class Answerer {
   /// A query without flaws. The id is what messages call it; it need not be unique.
   virtual void ask(const Id& id, const Query& query) = 0;
 
-  /// A question that is none, as a line without its braces and id: another program gets it as it is; for an
+  /// An invalid query, as a line without its braces and id: another program gets it as it is; for an
   /// engine of ours the reader answers, `error`.
   virtual void ask_text(const Id&, const std::string&) {
     Answer answer = Answer::error("no query");
