@@ -7,11 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/geometry.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {
 
 using IntVec = std::array<std::int64_t, 3>;
+
+using lorentz::cross;  // of Vec, beside those of IntVec
+using lorentz::dot;
 
 inline std::int64_t dot(const IntVec& a, const IntVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -6,9 +6,12 @@
 // arguments.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,9 +8,13 @@
 // outside. `from` takes one obstacle out of the question, wherever x lies: on it, in it, or far from it.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,9 +8,14 @@
 // place. Elsewhere the nearest binary64 start stands for the edge.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
 namespace lorentz::cases {
 namespace {

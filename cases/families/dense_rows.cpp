@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/symmetry.hpp"
 
 namespace lorentz::cases {
 namespace {

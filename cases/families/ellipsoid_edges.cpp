@@ -7,8 +7,9 @@
 // touches the ellipsoid { p + A y : |y| < 1 }.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -9,9 +9,11 @@
 // those of a row of centres.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -6,7 +6,8 @@
 
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/scene_edit.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -18,8 +18,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,7 +8,8 @@
 #include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -7,8 +7,10 @@
 // that has cancelled.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
 namespace lorentz::cases {
 namespace {

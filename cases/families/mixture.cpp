@@ -4,9 +4,11 @@
 // asked for.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,9 +8,14 @@
 #include <cmath>
 #include <utility>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -5,8 +5,8 @@
 // less than an ulp.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -9,8 +9,11 @@
 // and `never` is wrong.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,8 +8,12 @@
 // the edge are the business of corridor-edge.)
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -8,8 +8,12 @@
 // coordinates' last bits.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

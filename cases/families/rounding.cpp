@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/symmetry.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -9,9 +9,14 @@
 // met within 2^-10 to 2^-50 of its size of its edge.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -7,9 +7,10 @@
 // zeros, flights along rows and across.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/parts.hpp"
+#include "cases/scene_edit.hpp"
 
 namespace lorentz::cases {
 namespace {

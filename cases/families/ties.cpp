@@ -8,8 +8,12 @@
 // few ulps.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

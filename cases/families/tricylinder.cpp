@@ -9,8 +9,8 @@
 // v.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
 namespace lorentz::cases {
 namespace {

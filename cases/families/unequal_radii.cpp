@@ -6,7 +6,7 @@
 
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 namespace {

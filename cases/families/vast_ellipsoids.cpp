@@ -3,9 +3,10 @@
 // walks rows of the lattice in order, and has to see lattice and start in the same coordinates.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 namespace {

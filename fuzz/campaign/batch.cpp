@@ -6,8 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
-#include "cases/parts.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "fuzz/rewording/notation.hpp"
@@ -51,7 +51,7 @@ class SameFailure {
 
   bool operator()(const Scene& scene, const Query& query) {
     if (stop_ || work_ > kShrinkWork || subject_.failed()) return false;
-    if (!examiner_ || !same(examiner_->scene(), scene)) {
+    if (!examiner_ || examiner_->scene() != scene) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
       examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
     }
@@ -168,7 +168,7 @@ void BatchRunner::pose(const Batch& batch, Questions& questions) {
   for (std::uint64_t index = batch.begin; index < batch.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index);
-    if (!questions.as_made || !same(questions.as_made->examiner.scene(), base.scene))
+    if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
       questions.as_made = &questions.add_context(*subject_, base.scene, plan_);
     SceneContext& context = *questions.as_made;
     const std::size_t first = questions.cases.size();

@@ -5,7 +5,7 @@
 #include <lorentz/certified.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "fuzz/examine/tie.hpp"
 
 namespace lorentz::fuzz {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cases/parts.hpp"
+#include <lorentz/geometry.hpp>
+#include "cases/ulps.hpp"
 #include "fuzz/examine/nearest_decision.hpp"
 
 namespace lorentz::fuzz {
@@ -19,7 +20,7 @@ double with_bit_flipped(Random& random, double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
 }
 
-// One move; the result may be no query.
+// One move; the result may be an invalid query.
 Query one_move(Random& random, const Scene& scene, Query query) {
   const auto dimension = static_cast<std::uint64_t>(scene.dimension);
   Vec& a = random.one_in(2) ? query.x : query.v;

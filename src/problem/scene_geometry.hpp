@@ -9,8 +9,6 @@
 
 namespace lorentz {
 
-Vec cross(const Vec& a, const Vec& b);
-
 /// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
 /// values of its matrix.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);

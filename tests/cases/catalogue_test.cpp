@@ -49,8 +49,7 @@ Neighbours neighbours(const Scene& scene, int atom, bool like = false) {
 }
 
 Scene with_radius(Scene scene, double radius) {
-  for (Lattice& lattice : scene.lattices)
-    for (Atom& atom : lattice.atoms) atom.radius = radius;
+  for_each_atom(scene, [&](Atom& atom) { atom.radius = radius; });
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
 #include "cases/families/target.hpp"
@@ -20,10 +21,6 @@ constexpr std::uint64_t kSeed = 7;
 
 bool has(const Case& one, const char* tag) {
   return std::find(one.tags.begin(), one.tags.end(), tag) != one.tags.end();
-}
-
-double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
 }
 
 template <class Check>

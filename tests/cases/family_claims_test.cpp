@@ -55,8 +55,7 @@ double flight(const Case& one, const Answer& answer) {
 }
 
 Scene with_radius(Scene scene, double radius) {
-  for (Lattice& lattice : scene.lattices)
-    for (Atom& atom : lattice.atoms) atom.radius = radius;
+  for_each_atom(scene, [&](Atom& atom) { atom.radius = radius; });
   return scene;
 }
 
@@ -111,12 +110,11 @@ bool on_edge_of_plane(const Case& one) {
 bool radius_matters(const Case& one) {
   const auto scaled = [&](double factor) {
     Scene scene = one.scene;
-    for (Lattice& lattice : scene.lattices)
-      for (Atom& atom : lattice.atoms) {
-        atom.radius *= factor;
-        for (Vec& axis : atom.semiaxes)
-          for (double& component : axis) component *= factor;
-      }
+    for_each_atom(scene, [&](Atom& atom) {
+      atom.radius *= factor;
+      for (Vec& axis : atom.semiaxes)
+        for (double& component : axis) component *= factor;
+    });
     return answer_to(scene, one.query);
   };
   return !(scaled(1 - 0x1p-9).obstacle == scaled(1 + 0x1p-9).obstacle);

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -62,7 +63,7 @@ TEST_CASE("Flights of the family nearly-parallel end, farther than double-double
       return;
     }
     REQUIRE(exact.outcome == Outcome::hit);
-    far += *exact.time * cases::length(one.query.v) > 0x1p90;
+    far += *exact.time * length(one.query.v) > 0x1p90;
     not_known += Reduction(one.scene).fly(one.query).outcome == Outcome::undecided;
   });
   CHECK(far > 200);
@@ -112,7 +113,7 @@ TEST_CASE("Starts of the family nearby are nearer to the obstacle that they ente
           "[fuzz][campaign_families]") {
   visit_cases(cases::nearby(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     REQUIRE(exact.outcome == Outcome::hit);
-    REQUIRE(*exact.time * cases::length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
+    REQUIRE(*exact.time * length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
   });
 }
 

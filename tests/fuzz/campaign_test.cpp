@@ -6,9 +6,10 @@
 #include <set>
 #include <thread>
 
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
@@ -116,7 +117,7 @@ class ParochialSubject final : public fuzz::Subject {
 
  private:
   void change_scene(const Scene& scene) override {
-    const double size = cases::length(scene.lattices[0].vectors[0]);
+    const double size = length(scene.lattices[0].vectors[0]);
     knows_ = size > 0x1p-60 && size < 0x1p60;
     oracle_.emplace(scene);
   }
@@ -389,7 +390,7 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
       const cases::Case one = family.make(kSeed, index);
       INFO(family.name() << ' ' << index << ' ' << stream(one.scene, one.query));
       if (index % 32 == 0) REQUIRE_FALSE((flaw_of(one.scene) || oracle::dependence_in(one.scene)));
-      REQUIRE(cases::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
+      REQUIRE(one.scene == family.make(kSeed, index / 32 * 32).scene);
       REQUIRE_FALSE(flaw_of(one.query, one.scene));
       if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
       for (const std::string& tag : one.tags) ++met[tag];

@@ -4,9 +4,10 @@
 #include <deque>
 #include <filesystem>
 
+#include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/target.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "fuzz/examine/time_limit.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "golden/reader.hpp"
@@ -58,8 +59,8 @@ std::deque<Room> rooms_of(Random& random, const Scene& scene, int count) {
 }
 
 // The cases of a target, each in two of four other words for its scene.
-void require_same_in_other_words(const cases::Target& target, std::uint64_t seed, std::uint64_t count, Who who,
-                                 Tally& tally) {
+void require_same_in_other_words(const cases::Target& target, std::uint64_t seed, std::uint64_t count,
+                                 Who who, Tally& tally) {
   std::deque<Room> rooms;
   std::optional<oracle::Oracle> oracle;
   std::optional<Scene> scene;
@@ -67,7 +68,7 @@ void require_same_in_other_words(const cases::Target& target, std::uint64_t seed
     const cases::Case one = target.make(seed, index);
     Random random(seed, target.name(), index, cases::Use::rewordings);
     INFO(target.name() << ' ' << index << ", seed " << seed << '\n' << stream(one.scene, one.query));
-    if (!scene || !cases::same(*scene, one.scene)) {
+    if (!scene || *scene != one.scene) {
       scene = one.scene;
       oracle.emplace(*scene);
       rooms = rooms_of(random, *scene, 4);

@@ -82,9 +82,9 @@ bool is_curved(const Problem& problem, const Answer& exact, double margin) {
   const Vec& v = problem.query.v;
   const double moved = margin * 0x1p-51 * (1 + exact.time.value_or(0) * std::hypot(v[0], v[1], v[2]));
   double least = INFINITY;
-  for (const Lattice& lattice : problem.scene.lattices)
-    for (const Atom& atom : lattice.atoms)
-      if (atom.is_ball()) least = std::min(least, atom.radius);
+  for_each_atom(problem.scene, [&](const Atom& atom) {
+    if (atom.is_ball()) least = std::min(least, atom.radius);
+  });
   return problem.scene.dimension == 3 && moved > 0.01 * std::min(least, 0.1);
 }
 
