@@ -1,5 +1,5 @@
 // The lattices that families draw on: those of the catalogue (data/scenes/), restated, so that a case needs
-// no file. Private to fuzz/.
+// no file.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Small integer vectors, and what exact constructions are made of: Bezout's identity, squares, Pell's
-// equation. A 2D vector has a third component 0. Private to fuzz/.
+// equation. A 2D vector has a third component 0.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The families, each defined in a file of its own or with its kin. Private to fuzz/.
+// The families, each defined in a file of its own or with its kin.
 #pragma once
 
 #include "cases/families/family.hpp"

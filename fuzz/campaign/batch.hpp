@@ -1,4 +1,4 @@
-// A batch: consecutive cases of a target, worked through by one thread. Private to fuzz/.
+// A batch: consecutive cases of a target, worked through by one thread.
 #pragma once
 
 #include <atomic>

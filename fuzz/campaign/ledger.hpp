@@ -1,5 +1,5 @@
 // Who does which indices of a campaign, and what came of them: hands out batches, and records their results
-// in the order of the indices, so that it does not matter who did them, or when. Private to fuzz/.
+// in the order of the indices, so that it does not matter who did them, or when.
 #pragma once
 
 #include <condition_variable>

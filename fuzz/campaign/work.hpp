@@ -1,5 +1,4 @@
-// What the threads of a campaign take and give back, wherever the campaign's ledger is kept. Private to
-// fuzz/.
+// What the threads of a campaign take and give back, wherever the campaign's ledger is kept.
 #pragma once
 
 #include <atomic>

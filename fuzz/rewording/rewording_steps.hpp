@@ -1,4 +1,4 @@
-// The steps that rewordings are chains of. Private to fuzz/.
+// The steps that rewordings are chains of.
 #pragma once
 
 #include <memory>

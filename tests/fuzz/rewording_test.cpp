@@ -24,44 +24,44 @@ constexpr std::uint64_t kSeed = 1301;
 
 enum class Who { oracle, engines };
 
-// One question in the words of one of some rooms.
-void require_same_in(Room& room, Random& random, const Query& query, const Answer& exact, Who who,
-                     Tally& tally) {
-  const auto reworded = room.rewording.reword(random, query);
+// One question in the words of one of some reworded scenes.
+void require_same_in(RewordedScene& in_words, Random& random, const Query& query, const Answer& exact,
+                     Who who, Tally& tally) {
+  const auto reworded = in_words.rewording.reword(random, query);
   if (!reworded) {
     ++tally.met["(no binary64)"];
     return;
   }
-  const Scene& other = room.rewording.scene();
-  INFO("in other words: " << room.rewording.words(*reworded) << '\n' << stream(other, reworded->query));
+  const Scene& other = in_words.rewording.scene();
+  INFO("in other words: " << in_words.rewording.words(*reworded) << '\n' << stream(other, reworded->query));
   REQUIRE_FALSE(flaw_of(reworded->query, other));
-  tally.see(room.rewording.words(*reworded));
+  tally.see(in_words.rewording.words(*reworded));
   if (query.from) {
     ++tally.met["(from)"];
-    REQUIRE(room.rewording.back(*reworded->query.from, *reworded) == *query.from);
+    REQUIRE(in_words.rewording.back(*reworded->query.from, *reworded) == *query.from);
   }
-  const Answer there = room.oracle.first_hit(reworded->query);
-  require_carried(room, *reworded, exact, there, tally);
-  if (who == Who::engines) require_exact_engines(room, reworded->query, there, tally);
+  const Answer there = in_words.oracle.first_hit(reworded->query);
+  require_carried(in_words, *reworded, exact, there, tally);
+  if (who == Who::engines) require_exact_engines(in_words, reworded->query, there, tally);
 }
 
 // A scene in some other words.
-std::deque<Room> rooms_of(Random& random, const Scene& scene, int count) {
-  std::deque<Room> rooms;
+std::deque<RewordedScene> reworded_scenes(Random& random, const Scene& scene, int count) {
+  std::deque<RewordedScene> scenes;
   for (int i = 0; i < count; ++i) {
     Rewording rewording(random, scene);
     INFO(rewording.words({}) << '\n' << stream(rewording.scene(), {}));
     REQUIRE_FALSE(flaw_of(rewording.scene()));
     REQUIRE_FALSE(oracle::dependence_in(rewording.scene()));
-    rooms.emplace_back(std::move(rewording));
+    scenes.emplace_back(std::move(rewording));
   }
-  return rooms;
+  return scenes;
 }
 
 // The cases of a target, each in two of four other words for its scene.
 void require_same_in_other_words(const cases::Target& target, std::uint64_t seed, std::uint64_t count,
                                  Who who, Tally& tally) {
-  std::deque<Room> rooms;
+  std::deque<RewordedScene> scenes;
   std::optional<oracle::Oracle> oracle;
   std::optional<Scene> scene;
   for (std::uint64_t index = 0; index < count; ++index) {
@@ -71,12 +71,12 @@ void require_same_in_other_words(const cases::Target& target, std::uint64_t seed
     if (!scene || *scene != one.scene) {
       scene = one.scene;
       oracle.emplace(*scene);
-      rooms = rooms_of(random, *scene, 4);
+      scenes = reworded_scenes(random, *scene, 4);
     }
     const Answer exact = oracle->first_hit(one.query);
     INFO("exact: " << line(exact, one.scene.dimension));
     for (const std::uint64_t i : {index % 4, (index + 1) % 4})
-      require_same_in(rooms[i], random, one.query, exact, who, tally);
+      require_same_in(scenes[i], random, one.query, exact, who, tally);
   }
 }
 
@@ -84,17 +84,17 @@ void require_same_in_other_words(const cases::Target& target, std::uint64_t seed
 void require_same_in_other_words(const std::string& path, Tally& tally) {
   golden::Reader reader(path);
   golden::ReadRecord read;
-  std::deque<Room> rooms;
+  std::deque<RewordedScene> scenes;
   std::size_t scene_number = ~std::size_t{0};
   for (std::uint64_t index = 0; reader.next(read); ++index) {
     if (!read.query) continue;
     Random random(kSeed, reader.header().name, index, cases::Use::rewordings);
-    if (scene_number != reader.scene_number()) rooms = rooms_of(random, reader.scene(), 3);
+    if (scene_number != reader.scene_number()) scenes = reworded_scenes(random, reader.scene(), 3);
     scene_number = reader.scene_number();
     INFO(path << ':' << read.line << ", seed " << kSeed);
     ++tally.met["(records)"];
     for (const std::uint64_t i : {index % 3, (index + 1) % 3})
-      require_same_in(rooms[i], random, *read.query, read.record.expect, Who::engines, tally);
+      require_same_in(scenes[i], random, *read.query, read.record.expect, Who::engines, tally);
   }
 }
 
