@@ -5,6 +5,7 @@
 #include <array>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
 #include "cases/families/target.hpp"
@@ -12,7 +13,7 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Case;
+using cases::Case;
 
 namespace {
 
@@ -22,15 +23,11 @@ bool has(const Case& one, const char* tag) {
   return std::find(one.tags.begin(), one.tags.end(), tag) != one.tags.end();
 }
 
-double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
-}
-
 template <class Check>
 void each(const char* target, std::uint64_t count, const Check& check) {
   INFO("seed " << kSeed);
   for (std::uint64_t index = 0; index < count; ++index) {
-    const Case one = fuzz::target_named(target)->make(kSeed, index);
+    const Case one = cases::target_named(target)->make(kSeed, index);
     INFO(target << ' ' << index << '\n' << stream(one.scene, one.query));
     check(one);
   }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include "src/engines/base/double_double.hpp"
 #include "tests/engines/reduction_support.hpp"
 
@@ -36,10 +37,6 @@ Lattice cell(Draw& draw, int dimension) {
     for (int i = 0; i < dimension; ++i) lattice.vectors[i][i] = spacing;
   }
   return lattice;
-}
-
-double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
 }
 
 Vec shortest_of(const Lattice& lattice, int dimension) {

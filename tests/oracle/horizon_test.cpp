@@ -1,5 +1,6 @@
 // The channels that a scene leaves open: against closed forms, brute force, affine images, and the oracle,
 // which must answer `never` in a channel and only there.
+#include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 
 #include <catch2/catch.hpp>
@@ -25,10 +26,6 @@ Scene scene_with(int dimension, std::array<Vec, 3> vectors, std::vector<Atom> at
   scene.dimension = dimension;
   scene.lattices.push_back({vectors, std::move(atoms)});
   return scene;
-}
-
-double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
 }
 
 std::string key_of(const std::array<Integer, 3>& indices) {
