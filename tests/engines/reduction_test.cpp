@@ -5,6 +5,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include <lorentz/certified.hpp>
@@ -239,9 +240,9 @@ TEST_CASE("Directions a few ulps from rational ones", "[engines][reduction]") {
   for (int i = 0; i < 4000; ++i) {
     const int dimension = draw.one_in(2) ? 2 : 3;
     Query query{draw.vec(dimension, 0, 1), {}, {}};
+    const double speed = draw.one_in(2) ? 1 : draw.between(0.5, 1);  // rounds each component by itself
     for (int k = 0; k < dimension; ++k) {
-      query.v[k] = draw.fraction(1, 4) * draw.between(0.5, 1);
-      query.v[k] = draw.fraction(1, 4);
+      query.v[k] = draw.fraction(1, 4) * speed;
       for (auto ulps = draw.below(4); ulps > 0; --ulps)
         query.v[k] = std::nextafter(query.v[k], draw.sign() * 10);
     }
@@ -251,13 +252,36 @@ TEST_CASE("Directions a few ulps from rational ones", "[engines][reduction]") {
   CHECK(count.stages.binary64 + count.stages.double_double > 2'500);
 }
 
-TEST_CASE("Several atoms: the earliest hit, also where two come together", "[engines][reduction]") {
-  Scene scene = square(0.1);
-  scene.lattices[0].atoms.push_back(Atom{{0.5, 0.5, 0}, 0.1, {}});
-  scene.lattices.push_back(square(0.25).lattices[0]);
-  scene.lattices[1].vectors = {Vec{3, 0, 0}, Vec{0, 3, 0}, Vec{}};
-  scene.lattices[1].atoms[0].position = {0.5, 0, 0};
-  // Mirror images are entered at the same time: exact arithmetic's business.
+TEST_CASE("Several atoms: the earliest of their hits, whichever atom has it", "[engines][reduction]") {
+  // On one line, from the left: the balls of three atoms, the last of another lattice. Each is ahead of a
+  // start with the others behind it; and in each order of the atoms it is the earliest all the same.
+  constexpr double kRadii[] = {0.1, 0.2, 0.3};
+  std::array<int, 3> order{0, 1, 2};
+  Count count;
+  do {
+    Scene scene = unit_scene(2, 1);
+    scene.lattices[0].vectors = {Vec{3, 0, 0}, Vec{0, 3, 0}, Vec{}};
+    scene.lattices.push_back(scene.lattices[0]);
+    std::array<std::pair<int, int>, 3> place;  // lattice and atom of the ball at this third of the period
+    for (int i = 0; i < 3; ++i) {
+      scene.lattices[i / 2].atoms.resize(i % 2 + 1);
+      scene.lattices[i / 2].atoms[i % 2] = Atom{{double(order[i]), 0, 0}, kRadii[order[i]], {}};
+      place[order[i]] = {i / 2, i % 2};
+    }
+    for (int third = 0; third < 3; ++third) {
+      const Query query{{third - 0.5, 0.05, 0}, {1, 0, 0}, {}};
+      const Flight flight = Reduction(scene).fly(query);
+      INFO(stream(scene, query));
+      CHECK(std::pair(flight.lattice, flight.atom) == place[third]);
+      CHECK(flight.time < 0.5);
+      check(scene, query, count);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  CHECK(count.hit == 18);
+}
+
+TEST_CASE("Several atoms: two hits that come together are left to exact arithmetic", "[engines][reduction]") {
+  // Mirror images are entered at the same time.
   Scene tie = square(0.1);
   tie.lattices[0].vectors = {Vec{4, 0, 0}, Vec{0, 4, 0}, Vec{}};
   tie.lattices[0].atoms[0].position = {1, 0.05, 0};
