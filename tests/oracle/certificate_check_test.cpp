@@ -18,10 +18,10 @@ TEST_CASE("Proofs of drawn answers are accepted", "[oracle][certificate_check]")
     ellipsoids += !c.scene.lattices[0].atoms[0].is_ball();
     several += c.scene.lattices.size() + c.scene.lattices[0].atoms.size() > 2;
   }
-  CHECK(outcomes[Outcome::hit] > 1000);
-  CHECK(outcomes[Outcome::inside] > 500);
-  CHECK(outcomes[Outcome::never] > 30);
-  CHECK(std::min({with_from, ellipsoids, several}) > 300);
+  CHECK(outcomes[Outcome::hit] > 1000);                     // 1 164 seen
+  CHECK(outcomes[Outcome::inside] > 1400);                  // 1 794 seen
+  CHECK(outcomes[Outcome::never] > 30);                     // 42 seen
+  CHECK(std::min({with_from, ellipsoids, several}) > 300);  // 483 seen
 }
 
 TEST_CASE("Proofs of long flights among small obstacles are accepted", "[oracle][certificate_check]") {
@@ -60,7 +60,7 @@ TEST_CASE("Any basis and any cutting of the windows proves the same", "[oracle][
     REQUIRE((said.empty() || said.find("right angles") != std::string::npos));
     accepted += said.empty();
   }
-  CHECK(accepted > 500);
+  CHECK(accepted > 500);  // 588 seen
 }
 
 TEST_CASE("Another obstacle than the first is refused, whatever the proof holds",
@@ -95,8 +95,8 @@ TEST_CASE("Another obstacle than the first is refused, whatever the proof holds"
     INFO(text(c));
     if (!(c.answer.obstacle == truth.answer.obstacle)) REQUIRE(refutation(c) != "");
   }
-  CHECK(later > 500);
-  CHECK(neighbours > 300);
+  CHECK(later > 500);       // 796 seen
+  CHECK(neighbours > 300);  // 502 seen
 }
 
 TEST_CASE("No false answer passes with proofs tampered with at random", "[oracle][certificate_check]") {

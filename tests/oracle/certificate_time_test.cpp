@@ -18,7 +18,7 @@ TEST_CASE("The sign of a + sqrt(c) - sqrt(b), also where it is 0", "[oracle][cer
         REQUIRE(oracle::certificate::sign_of(a, c, b) == expected);
         zeros += expected == 0;
       }
-  CHECK(zeros > 50);
+  CHECK(zeros > 50);  // 83 seen
 }
 
 TEST_CASE("A time one ulp off is refused, and so are other numbers", "[oracle][certificate_time]") {
@@ -59,8 +59,8 @@ TEST_CASE("A time one ulp off is refused, and so are other numbers", "[oracle][c
       hold(c);
       infinite += std::isinf(*c.answer.time);
     }
-  CHECK(infinite > 10);
-  CHECK(infinite < 110);
+  CHECK(infinite > 10);   // 15 seen
+  CHECK(infinite < 110);  // 15 seen
 }
 
 TEST_CASE("Times at the ends of binary64's range", "[oracle][certificate_time]") {
