@@ -1,5 +1,5 @@
 // What a campaign costs: cases a second of processor time, by target, by whose answers are the truth, with
-// and without mutants. The subject costs next to nothing: it is the engine `certified`.
+// and without variants. The subject costs next to nothing: it is the engine `certified`.
 // campaign_rate [SECONDS]
 #include <fmt/format.h>
 
@@ -26,23 +26,23 @@ class CertifiedSubject final : public fuzz::Subject {
 };
 
 class NoJournal final : public fuzz::Journal {
-  void record(const fuzz::Target&, const fuzz::Account&, const std::vector<fuzz::Finding>&) override {}
+  void record(const cases::Target&, const fuzz::TargetTally&, const std::vector<fuzz::Finding>&) override {}
   void tick() override {}
 };
 
-double rate(const fuzz::Target& target, fuzz::Truth truth, std::uint64_t mutate, double seconds) {
+double rate(const cases::Target& target, fuzz::Truth truth, std::uint64_t mutate, double seconds) {
   fuzz::Plan plan;
   plan.targets = {&target};
   plan.truth = truth;
   plan.mutate = mutate;
   fuzz::Bounds bounds;
   bounds.seconds = seconds;
-  std::vector<fuzz::Account> accounts(1);
+  std::vector<fuzz::TargetTally> tallies(1);
   NoJournal journal;
   const std::clock_t start = std::clock();
   fuzz::run(
-      plan, bounds, [] { return std::make_unique<CertifiedSubject>(); }, accounts, journal);
-  return static_cast<double>(accounts[0].cases + accounts[0].mutants) * CLOCKS_PER_SEC /
+      plan, bounds, [] { return std::make_unique<CertifiedSubject>(); }, tallies, journal);
+  return static_cast<double>(tallies[0].cases + tallies[0].variants) * CLOCKS_PER_SEC /
          static_cast<double>(std::clock() - start);
 }
 
@@ -51,10 +51,10 @@ double rate(const fuzz::Target& target, fuzz::Truth truth, std::uint64_t mutate,
 int main(int count, char** arguments) {
   const double seconds = count > 1 ? std::atof(arguments[1]) : 5;
   fmt::print(
-      "cases and mutants a second of one core\ntarget       judged by oracle  with mutants  judged by "
+      "cases and variants a second of one core\ntarget       judged by oracle  with variants  judged by "
       "certified\n");
   for (const char* name : {"generic-2d", "generic-3d"}) {
-    const fuzz::Target& target = *fuzz::target_named(name);
+    const cases::Target& target = *cases::target_named(name);
     fmt::print("{:<12} {:16.0f} {:13.0f} {:20.0f}\n", name, rate(target, fuzz::Truth::oracle, 0, seconds),
                rate(target, fuzz::Truth::oracle, 32, seconds),
                rate(target, fuzz::Truth::certified, 0, seconds));

@@ -21,7 +21,7 @@ struct Counts {
 };
 
 // In units of cells of about 1: the time times |v|.
-void count(const fuzz::Case& one, const Answer& answer, Counts& counts) {
+void count(const cases::Case& one, const Answer& answer, Counts& counts) {
   counts.hit += answer.outcome == Outcome::hit;
   counts.never += answer.outcome == Outcome::never;
   counts.inside += answer.outcome == Outcome::inside;
@@ -31,13 +31,13 @@ void count(const fuzz::Case& one, const Answer& answer, Counts& counts) {
     counts.longest = std::max(counts.longest, *answer.time * std::hypot(v[0], v[1], v[2]));
 }
 
-void row(const fuzz::Family& family, std::uint64_t number) {
+void row(const cases::Family& family, std::uint64_t number) {
   Counts counts;
   std::set<std::tuple<double, Vec, Vec, bool>> seen;
   double making = 0, asking = 0;
   for (std::uint64_t index = 0; index < number; ++index) {
     const auto start = std::chrono::steady_clock::now();
-    const fuzz::Case one = family.make(20161115, index);
+    const cases::Case one = family.make(20161115, index);
     const auto made = std::chrono::steady_clock::now();
     const Answer answer = oracle::Oracle(one.scene).first_hit(one.query);
     const auto asked = std::chrono::steady_clock::now();
@@ -62,6 +62,6 @@ int main(int count, char** arguments) {
   const std::uint64_t number = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 4000;
   fmt::print(
       "family             hit % never % inside % errors duplicates us to make us to answer longest flight\n");
-  for (const fuzz::Family& family : fuzz::families())
+  for (const cases::Family& family : cases::families())
     if (count < 3 || family.name() == arguments[2]) row(family, number);
 }

@@ -50,7 +50,7 @@ void fly(benchmark::State& state, const Scene& scene, const std::vector<Query>& 
 }
 
 std::vector<Query> drawn(const Scene& scene) {
-  return cli::draw_queries(scene, oracle::Oracle(scene), cli::kDefaultSeed, kQueries);
+  return compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, kQueries);
 }
 
 void reduction(benchmark::State& state, const Scene& scene) {
@@ -58,7 +58,7 @@ void reduction(benchmark::State& state, const Scene& scene) {
 }
 
 void engine(benchmark::State& state, const char* name, const Scene& scene, std::size_t count) {
-  const auto queries = cli::draw_queries(scene, oracle::Oracle(scene), cli::kDefaultSeed, count);
+  const auto queries = compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, count);
   const auto engine = make_engine(name, scene);
   Answer answer;
   std::size_t i = 0;
@@ -119,7 +119,7 @@ void channel(benchmark::State& state, const Scene& scene, Query query) {
 
 void near_rational(benchmark::State& state, const Scene& scene) {
   fly(state, scene,
-      cli::hard_queries(cli::Difficulty::near_rational, scene, oracle::Oracle(scene), cli::kDefaultSeed,
+      compare::hard_queries(compare::Difficulty::near_rational, scene, oracle::Oracle(scene), compare::kDefaultSeed,
                         kQueries));
 }
 

@@ -106,22 +106,22 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
   const std::string head =
       fmt::format("| {} | {} | {:.2f} |", family.name, relative_radius, stretch_of(family));
   if (const auto why = Published::beyond(scene)) return head + " unsupported | | | | | | |\n";
-  cli::CaseSet set;
+  compare::CaseSet set;
   set.scenes.push_back(scene);
-  for (const Query& query : cli::draw_queries(scene, oracle::Oracle(scene), cli::kDefaultSeed, count))
+  for (const Query& query : compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, count))
     set.cases.push_back({std::to_string(set.cases.size()), 0, query});
-  const auto tallies = cli::measure(set, cli::exact_answers(set), {"published", "reduction"}, {});
+  const auto tallies = compare::measure(set, compare::exact_answers(set), {"published", "reduction"}, {});
   Proposals proposals;
   const Published published(scene);
   std::size_t hits = 0;
-  for (const cli::Case& one : set.cases)
+  for (const compare::Case& one : set.cases)
     hits +=
         published.first_hit_counted(one.query, std::numeric_limits<double>::infinity(), proposals).outcome ==
         Outcome::hit;
   const double per_hit = 1 / static_cast<double>(std::max<std::size_t>(hits, 1));
-  const cli::Tally &known = tallies[0], &ours = tallies[1];
+  const compare::Tally &known = tallies[0], &ours = tallies[1];
   if (plain == 0) plain = known.ns_median;
-  const auto time = [](const cli::Tally& t) {
+  const auto time = [](const compare::Tally& t) {
     return fmt::format("{:.0f} ({:.0f} to {:.0f})", t.ns_median, t.ns_low, t.ns_high);
   };
   const std::string tricylinder =

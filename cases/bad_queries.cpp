@@ -1,6 +1,6 @@
 #include "cases/bad_queries.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr const char* kGood = "[0.25,0.5]";
@@ -102,4 +102,4 @@ const Scene& bad_query_scene() {
   return scene;
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -1,4 +1,4 @@
-// Questions that are none: what a reader of the exchange format must refuse.
+// Invalid queries: what a reader of the exchange format must refuse.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "cases/case.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 /// A query as JSON text, without the braces and the id: `"x":[0,0],"v":[0,0]`. It is well-formed JSON (only
 /// what it says is wrong), and begins with "x" unless x is what is missing.
@@ -22,4 +22,4 @@ const std::vector<Tag>& bad_query_tags();
 /// The scene that they are asked in: the square lattice with two discs a cell.
 const Scene& bad_query_scene();
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

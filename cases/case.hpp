@@ -9,7 +9,7 @@
 #include <lorentz/problem.hpp>
 #include "cases/random.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 struct Case {
   Scene scene;
@@ -33,4 +33,4 @@ struct Source {
   Random random;  ///< the case's own
 };
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

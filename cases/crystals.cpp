@@ -1,6 +1,6 @@
 #include "cases/crystals.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Scene scene(int dimension, const std::array<Vec, 3>& vectors, std::vector<Atom> atoms) {
@@ -71,4 +71,4 @@ const Crystal& drawn_crystal(Random& random, int dimension) {
   return crystals()[first + random.below(number)];
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -1,5 +1,5 @@
 // The lattices that families draw on: those of the catalogue (data/scenes/), restated, so that a case needs
-// no file. Private to fuzz/.
+// no file.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 #include <lorentz/problem.hpp>
 #include "cases/random.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 struct Crystal {
   std::string_view name;
@@ -19,4 +19,4 @@ const std::vector<Crystal>& crystals();
 /// One of them, of this dimension.
 const Crystal& drawn_crystal(Random& random, int dimension);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

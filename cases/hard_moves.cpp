@@ -5,7 +5,7 @@
 
 #include <lorentz/geometry.hpp>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 Vec near_integer_direction(Random& random, int dimension) {
   Vec v{};
@@ -37,4 +37,4 @@ bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& orac
   return std::isfinite(query.x[0] + query.x[1] + query.x[2]) && oracle.is_free(query.x);
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,7 +7,7 @@
 #include <lorentz/oracle.hpp>
 #include "cases/random.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 /// A direction of integers from -4 to 4, each nonzero component moved by up to 3 ulps.
 Vec near_integer_direction(Random& random, int dimension);
@@ -16,4 +16,4 @@ Vec near_integer_direction(Random& random, int dimension);
 /// 2^-50 of its size of its edge. False: the start is then in an obstacle, or nothing was hit.
 bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -167,4 +167,4 @@ std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int6
   return x;
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

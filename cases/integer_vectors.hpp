@@ -1,5 +1,5 @@
 // Small integer vectors, and what exact constructions are made of: Bezout's identity, squares, Pell's
-// equation. A 2D vector has a third component 0. Private to fuzz/.
+// equation. A 2D vector has a third component 0.
 #pragma once
 
 #include <array>
@@ -7,11 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/geometry.hpp>
 #include "cases/random.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 using IntVec = std::array<std::int64_t, 3>;
+
+using lorentz::cross;  // of Vec, beside those of IntVec
+using lorentz::dot;
 
 inline std::int64_t dot(const IntVec& a, const IntVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -75,4 +79,4 @@ std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h);
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

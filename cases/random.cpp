@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr std::size_t kBlock = 2;  // the word of the counter that counts blocks
@@ -70,4 +70,4 @@ double Random::octave(int low, int high) {
   return std::ldexp(1 + uniform(), exponent);
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,10 +7,10 @@
 
 #include <lorentz/problem.hpp>
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 /// What numbers are drawn for: each has its own, whatever the others take.
-enum class Use : std::uint64_t { cases, scenes, mutants, rewordings, reworded_scenes };
+enum class Use : std::uint64_t { cases, scenes, variants, rewordings, reworded_scenes };
 
 /// Random numbers by Philox4x64-10, a bijection of 256-bit counters under a 128-bit key (Salmon, Moraes,
 /// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is (seed,
@@ -39,4 +39,4 @@ class Random {
   std::size_t taken_ = 4;  ///< of the block
 };
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

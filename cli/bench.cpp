@@ -15,6 +15,9 @@
 #include "compare/measure.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 struct Options {

@@ -16,6 +16,9 @@
 #include "compare/sampling.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 constexpr int kRounds = 5;

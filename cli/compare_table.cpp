@@ -8,6 +8,8 @@
 
 namespace lorentz::cli {
 
+using namespace compare;
+
 double tolerance(const std::optional<std::string>& text) {
   const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
   if (ulps > oracle::kLargestMargin)

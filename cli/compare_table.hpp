@@ -13,6 +13,6 @@ namespace lorentz::cli {
 double tolerance(const std::optional<std::string>& ulps);
 
 /// A table for people, one row a tally.
-std::string table_of(const std::vector<Tally>& tallies, bool judged);
+std::string table_of(const std::vector<compare::Tally>& tallies, bool judged);
 
 }  // namespace lorentz::cli

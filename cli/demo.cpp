@@ -12,6 +12,9 @@
 #include "compare/sampling.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 // The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions of 1 to 89 degrees.
@@ -58,13 +61,15 @@ class Report {
     options.listener = terminal();
     const auto tallies =
         measure(set, exact_answers(set, terminal()), {"classical", "published", "oracle"}, on_wrong, options);
-    for (const Tally& t : tallies)
-      table_.add({t.name == "classical" ? what : "", t.name == "classical" ? std::to_string(t.queries) : "",
-                  t.name, std::to_string(t.agree + t.wrong_time), std::to_string(t.ill_posed),
+    for (const Tally& t : tallies) {
+      const bool is_first = &t == &tallies.front();
+      table_.add({is_first ? what : "", is_first ? std::to_string(t.queries) : "", t.name,
+                  std::to_string(t.agree + t.wrong_time), std::to_string(t.ill_posed),
                   std::to_string(wrong(t)), std::to_string(t.undecided),
                   t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-",
                   t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
                   fmt::format("{:.2f}", t.ns_per_query / 1000)});
+    }
     wrong_by_published_ += wrong(tallies[1]);
     answered_by_published_ += tallies[1].agree + tallies[1].ill_posed + tallies[1].wrong;
   }

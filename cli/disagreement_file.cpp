@@ -7,6 +7,8 @@
 
 namespace lorentz::cli {
 
+using namespace compare;
+
 DisagreementFile::DisagreementFile(const std::optional<std::string>& path) {
   if (!path) return;
   path_ = *path;

@@ -20,8 +20,8 @@ class DisagreementFile {
 
   /// The cases that follow are of this set. Writes its first scene, so that the file is a stream even if
   /// nothing disagrees.
-  void begin(const CaseSet& set);
-  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given,
+  void begin(const compare::CaseSet& set);
+  void add(const compare::Case& one, const Answer& exact, const std::string& name, const Answer& given,
            const oracle::Judgement& judgement);
 
   /// Throws FileError if something was not written.
@@ -31,7 +31,7 @@ class DisagreementFile {
   void write_scene(std::size_t scene);
 
   std::string path_;
-  const CaseSet* set_ = nullptr;
+  const compare::CaseSet* set_ = nullptr;
   std::FILE* file_ = nullptr;
   std::size_t scene_ = 0;
 };

@@ -18,6 +18,9 @@
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 struct Options {
@@ -107,7 +110,7 @@ constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query 
 oracle::Request request_of(const Options& options) {
   oracle::Request request;
   if (options.digits) {
-    if (options.engine != "oracle")
+    if (!traits_of(options.engine).knows_digits)
       throw InputError("--digits: only the oracle knows more digits than a binary64 has");
     request.digits = static_cast<int>(whole_number(*options.digits, "--digits", 1, 100'000));
   }

@@ -19,13 +19,14 @@
 #include "fuzz/examine/engine_subject.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 using fuzz::Kind;
 using fuzz::Store;
 
-// `undecided` is a cap that was hit, but for this engine: there it is a filter that did its work.
-constexpr const char* kSaysWhatItDoesNotKnow = "reduction";
 constexpr double kDefaultSeconds = 60;
 constexpr std::uint64_t kMostCases = 1'000'000'000'000;
 
@@ -37,12 +38,12 @@ struct Options {
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
-std::vector<const fuzz::Target*> targets_of(const Options& options) {
+std::vector<const cases::Target*> targets_of(const Options& options) {
   std::vector<std::string> names;
-  for (const fuzz::Target& target : fuzz::targets()) names.emplace_back(target.name());
-  std::vector<const fuzz::Target*> targets;
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
+  std::vector<const cases::Target*> targets;
   for (const std::string& name : names_in(options.targets)) {
-    const fuzz::Target* target = fuzz::target_named(name);
+    const cases::Target* target = cases::target_named(name);
     if (!target)
       throw InputError(fmt::format("--target: no target is called {}; there are {}", json_quoted(name),
                                    fmt::join(names, ", ")));
@@ -51,7 +52,7 @@ std::vector<const fuzz::Target*> targets_of(const Options& options) {
     targets.push_back(target);
   }
   if (targets.empty())
-    for (const fuzz::Target& target : fuzz::targets()) targets.push_back(&target);
+    for (const cases::Target& target : cases::targets()) targets.push_back(&target);
   return targets;
 }
 
@@ -69,7 +70,7 @@ fuzz::Truth truth_of(const Options& options) {
   if (options.judge != "certified")
     throw InputError(
         fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(options.judge)));
-  if (options.engine == "certified" || options.engine == "reduction")
+  if (traits_of(options.engine).uses_reduction)
     throw InputError("--judge: certified rests on reduction, and is no judge of either; use oracle");
   return fuzz::Truth::certified;
 }
@@ -85,7 +86,7 @@ fuzz::Plan plan_of(const Options& options) {
   plan.truth = truth_of(options);
   plan.counts.times = options.times;
   plan.counts.undecided =
-      options.undecided || (!options.no_undecided && options.engine != kSaysWhatItDoesNotKnow);
+      options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
   if (options.ulps != "0")  // which allows for nothing
     plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
   else
@@ -110,7 +111,7 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
   fuzz::Manifest manifest;
   manifest.version = LORENTZ_VERSION;
   manifest.engine = engine;
-  for (const fuzz::Target* target : plan.targets)
+  for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
@@ -132,10 +133,10 @@ class JournalWithProgress final : public fuzz::Journal {
         progress_(by_time_ ? "seconds" : "cases",
                   by_time_ ? static_cast<std::size_t>(bounds.seconds) : bounds.count * targets, 1) {}
 
-  void record(const fuzz::Target& target, const fuzz::Account& account,
+  void record(const cases::Target& target, const fuzz::TargetTally& tally,
               const std::vector<fuzz::Finding>& kept) override {
-    done_[target.name()] = account.next;
-    journal_.record(target, account, kept);
+    done_[target.name()] = tally.next;
+    journal_.record(target, tally, kept);
   }
   void tick() override {
     journal_.tick();
@@ -168,16 +169,16 @@ int run_campaign(const Options& options, const fuzz::Plan& plan, const fuzz::Mak
   Store store(options.store.value_or(":memory:"), Store::Access::write);
   const std::int64_t campaign = store.open_campaign(report.manifest);
   bool resumed = false;
-  for (const fuzz::Target* target : plan.targets) {
+  for (const cases::Target* target : plan.targets) {
     report.targets.emplace_back(target->name());
-    report.accounts.push_back(store.account(campaign, target->name()));
-    resumed |= report.accounts.back().next > 0;
+    report.tallies.push_back(store.tally(campaign, target->name()));
+    resumed |= report.tallies.back().next > 0;
   }
   if (resumed) say("{}: goes on with campaign {}", store.path(), campaign);
   bool failed = false;
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size());
-    failed = fuzz::run(plan, bounds, make_subject, report.accounts, journal, ranks);
+    failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks);
   }
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign) report.findings.push_back(std::move(one));
@@ -205,7 +206,7 @@ int act(const Options& options) {
 
 void add_options(CLI::App* command, Options& options) {
   std::vector<std::string> names;
-  for (const fuzz::Target& target : fuzz::targets()) names.emplace_back(target.name());
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
   command
       ->add_option("-t,--target", options.targets,
                    fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")))
@@ -215,7 +216,7 @@ void add_options(CLI::App* command, Options& options) {
       ->type_name("SECONDS");
   command
       ->add_option("--count", options.count,
-                   "until each target has had so many cases, its mutants not counted")
+                   "until each target has had so many cases, its variants not counted")
       ->type_name("N");
   command->add_option("--seed", options.seed, "of the cases")->capture_default_str()->type_name("N");
   command
@@ -238,7 +239,7 @@ void add_options(CLI::App* command, Options& options) {
       ->type_name("N");
   command
       ->add_option("--reword", options.reword,
-                   "ask one in so many cases, and its mutants, in other words, too; 0: none")
+                   "ask one in so many cases, and its variants, in other words, too; 0: none")
       ->capture_default_str()
       ->type_name("N");
   command
@@ -266,12 +267,12 @@ void add_fuzz(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "fuzz",
-      "Campaigns: hard cases and mutants of them until an engine fails, and what is found made readable.");
+      "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.");
   add_options(command, *options);
   add_fuzz_store(*command, action);
   command->require_subcommand(0, 1);
   command->footer(
-      "docs/campaigns.md: targets, mutants, what is a finding, how it is shrunk, the store.\n"
+      "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store.\n"
       "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
       "  lorentz fuzz list --store published.campaign");
   command->callback([options, command, &action] {

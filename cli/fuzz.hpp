@@ -19,8 +19,8 @@ void add_fuzz_export(CLI::App& fuzz, Action& action);
 struct FuzzReport {
   fuzz::Manifest manifest;
   std::vector<std::string> targets;
-  std::vector<fuzz::Account> accounts;  ///< one for each target
-  std::vector<fuzz::Stored> findings;   ///< of this campaign
+  std::vector<fuzz::TargetTally> tallies;  ///< one for each target
+  std::vector<fuzz::Stored> findings;      ///< of this campaign
 
   std::uint64_t total(fuzz::Kind kind) const;
   std::string text() const;

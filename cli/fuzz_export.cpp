@@ -32,7 +32,7 @@ StreamItem parsed(ExchangeReader& reader, const std::string& line, const Scene* 
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
   reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
-  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds a line that is none: " + line);
+  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds an invalid line: " + line);
   return item;
 }
 
@@ -99,7 +99,7 @@ void print_golden_set(const std::vector<Example>& examples, golden::Header heade
         maker->make(golden::question_of(one.query, one.scene.dimension), one.query).record;
     if (!ids.insert(record.id).second) continue;
     record.tags = {finding.target, tag_of(finding.kind)};
-    if (const fuzz::Target* target = fuzz::target_named(finding.target))
+    if (const cases::Target* target = cases::target_named(finding.target))
       tags.emplace(finding.target, target->description());
     tags.emplace(record.tags[1], "what was found: an answer of the kind `" + finding.kind + "`");
     if (finding.shrunk.scene != scene_line) lines += finding.shrunk.scene + '\n';

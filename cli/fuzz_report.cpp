@@ -7,24 +7,25 @@
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
+#include "compare/registry.hpp"
 
 namespace lorentz::cli {
 namespace {
 
-using fuzz::Account;
 using fuzz::Kind;
+using fuzz::TargetTally;
 
-std::uint64_t number_of(const Account& account, Kind kind) {
-  return account.kinds[static_cast<std::size_t>(kind)];
+std::uint64_t number_of(const TargetTally& tally, Kind kind) {
+  return tally.kinds[static_cast<std::size_t>(kind)];
 }
 
 constexpr Kind kCounted[] = {Kind::wrong, Kind::wrong_time, Kind::undecided,
                              Kind::slow,  Kind::error,      Kind::unsupported};
 
-// Cases, without mutants, that it answered in some way: the ones of which a rate can be said.
-std::uint64_t answered(const Account& account) {
-  const std::uint64_t unsupported = number_of(account, Kind::unsupported);
-  return account.cases > unsupported ? account.cases - unsupported : 0;
+// Cases, without variants, that it answered in some way: the ones of which a rate can be said.
+std::uint64_t answered(const TargetTally& tally) {
+  const std::uint64_t unsupported = number_of(tally, Kind::unsupported);
+  return tally.cases > unsupported ? tally.cases - unsupported : 0;
 }
 
 std::string number(double value) {
@@ -34,46 +35,47 @@ std::string number(double value) {
 }
 
 std::string target_table(const FuzzReport& report) {
-  Table table({"target", "cases", "mutants", "reworded", "wrong", "times", "undecided", "slow", "error",
+  Table table({"target", "cases", "variants", "reworded", "wrong", "times", "undecided", "slow", "error",
                "unsupported", "smallest margin"});
-  Account all;
-  const auto add = [&](const std::string& name, const Account& account) {
-    std::vector<std::string> row{name, std::to_string(account.cases), std::to_string(account.mutants),
-                                 std::to_string(account.reworded)};
-    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(account, kind)));
-    row.push_back(std::isfinite(account.margin) ? fmt::format("{:.2g}", account.margin) : "-");
+  TargetTally all;
+  const auto add = [&](const std::string& name, const TargetTally& tally) {
+    std::vector<std::string> row{name, std::to_string(tally.cases), std::to_string(tally.variants),
+                                 std::to_string(tally.reworded)};
+    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(tally, kind)));
+    row.push_back(std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-");
     table.add(std::move(row));
   };
   for (std::size_t t = 0; t < report.targets.size(); ++t) {
-    add(report.targets[t], report.accounts[t]);
-    all.add(report.accounts[t]);
+    add(report.targets[t], report.tallies[t]);
+    all.add(report.tallies[t]);
   }
   if (report.targets.size() > 1) add("all", all);
   return table.text();
 }
 
-// Which layers of the engine's ladder decided, where it tells: cases and mutants.
+// Which layers of the engine's ladder decided, where it tells: cases and variants.
 std::string layers(const FuzzReport& report) {
-  Account all;
-  for (const Account& account : report.accounts) all.add(account);
+  TargetTally all;
+  for (const TargetTally& tally : report.tallies) all.add(tally);
   const std::uint64_t sum = all.stages[0] + all.stages[1] + all.stages[2];
   if (sum == 0) return {};
   const auto share = [&](std::size_t stage) {
     return fmt::format("{} ({:.3g} %)", all.stages[stage],
                        100 * static_cast<double>(all.stages[stage]) / static_cast<double>(sum));
   };
-  return fmt::format("decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
-                     report.manifest.engine == "certified" ? "by exact arithmetic" : "not decided", share(2));
+  return fmt::format(
+      "decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
+      compare::traits_of(report.manifest.engine).is_exact ? "by exact arithmetic" : "not decided", share(2));
 }
 
 // Of each kind of failure that was not met, what that says.
 std::string bounds(const FuzzReport& report) {
   std::uint64_t n = 0;
-  for (const Account& account : report.accounts) n += answered(account);
+  for (const TargetTally& tally : report.tallies) n += answered(tally);
   if (n == 0) return "no case was answered\n";
   if (report.total(Kind::wrong) > 0) return {};
   return fmt::format(
-      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); mutants and other words not "
+      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); variants and other words not "
       "counted\n",
       n, 3.0 / static_cast<double>(n), n);
 }
@@ -82,13 +84,13 @@ std::string bounds(const FuzzReport& report) {
 
 std::uint64_t FuzzReport::total(Kind kind) const {
   std::uint64_t sum = 0;
-  for (const Account& account : accounts) sum += number_of(account, kind);
+  for (const TargetTally& tally : tallies) sum += number_of(tally, kind);
   return sum;
 }
 
 std::string FuzzReport::text() const {
   std::string out =
-      fmt::format("{}, seed {}{}: cases, and mutants of some, judged by {}\n\n{}\n{}{}", manifest.engine,
+      fmt::format("{}, seed {}{}: cases, and variants of some, judged by {}\n\n{}\n{}{}", manifest.engine,
                   manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
                   manifest.options.ends_with("judged by certified") ? "certified" : "the oracle",
                   target_table(*this), layers(*this), bounds(*this));
@@ -105,11 +107,12 @@ std::string FuzzReport::json() const {
                   json_quoted(manifest.version), json_quoted(manifest.engine), seed(manifest.seed),
                   json_quoted(manifest.shard), json_quoted(manifest.options));
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    const Account& a = accounts[t];
+    const TargetTally& a = tallies[t];
     const std::uint64_t n = answered(a);
-    out += fmt::format(
-        "{}{{\"target\":{},\"next\":{},\"cases\":{},\"mutants\":{},\"reworded\":{},\"fine\":{}", t ? "," : "",
-        json_quoted(targets[t]), a.next, a.cases, a.mutants, a.reworded, number_of(a, Kind::fine));
+    out +=
+        fmt::format("{}{{\"target\":{},\"next\":{},\"cases\":{},\"variants\":{},\"reworded\":{},\"fine\":{}",
+                    t ? "," : "", json_quoted(targets[t]), a.next, a.cases, a.variants, a.reworded,
+                    number_of(a, Kind::fine));
     for (const Kind kind : kCounted) {
       std::string key(name_of(kind));
       std::replace(key.begin(), key.end(), ' ', '_');

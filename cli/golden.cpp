@@ -32,7 +32,7 @@ int list(bool json) {
     out +=
         fmt::format("{}{{\"name\":{},\"committed\":{},\"description\":{},\"tags\":{{",
                     out.back() == '[' ? "" : ",", json_quoted(set.name), count, json_quoted(set.description));
-    for (const fuzz::Tag& tag : set.tags)
+    for (const cases::Tag& tag : set.tags)
       out += (&tag == &set.tags.front() ? "" : ",") + json_quoted(tag.name) + ':' + json_quoted(tag.note);
     out += "}}";
   }

@@ -19,6 +19,9 @@
 #include "golden/reader.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 struct Options {
@@ -36,8 +39,8 @@ struct Failure {
   int dimension;
 };
 
-// One engine's account of a set, and of each of its tags.
-struct Account {
+// One engine's tally of a set, and of each of its tags.
+struct SetTally {
   std::string description;
   std::vector<std::pair<std::string, std::string>> notes;  // on the tags
   Tally all;
@@ -45,7 +48,7 @@ struct Account {
   bool failed = false;  // the program broke
 };
 
-// What an engine says to a question that is none is right if it is `error`.
+// The right answer to an invalid query is `error`.
 oracle::Judgement judge_error(const Answer& given) {
   if (given.outcome == Outcome::undecided) return {oracle::Verdict::undecided};
   if (given.outcome == Outcome::error)
@@ -64,13 +67,13 @@ class Examination {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
   }
 
-  Account run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
-    account_ = {};
+  SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
+    tally_ = {};
     golden::Reader reader(path);
     set_ = path;
-    account_.all.name = reader.header().name;
-    account_.description = reader.header().description;
-    account_.notes = reader.header().tags;
+    tally_.all.name = reader.header().name;
+    tally_.description = reader.header().description;
+    tally_.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
     std::size_t scene = 0;
     std::uint64_t records = 0;
@@ -90,8 +93,8 @@ class Examination {
         answerer_->ask_text(json_quoted(record.id), record.question);
     }
     answerer_->drain();
-    account_.failed = answerer_->failed();
-    return std::move(account_);
+    tally_.failed = answerer_->failed();
+    return std::move(tally_);
   }
 
   void finish() { answerer_->finish(); }
@@ -111,8 +114,8 @@ class Examination {
     const golden::Record& record = open.record;
     const oracle::Judgement judgement =
         open.query ? open.judge->judge(*open.query, record.expect, given, ulps_) : judge_error(given);
-    account_.all.count(judgement);
-    for (const std::string& tag : record.tags) account_.by_tag[tag].count(judgement);
+    tally_.all.count(judgement);
+    for (const std::string& tag : record.tags) tally_.by_tag[tag].count(judgement);
     const bool failed =
         judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::error;
     if (failed && failures_.size() < most_failures_)
@@ -127,7 +130,7 @@ class Examination {
   std::shared_ptr<const oracle::Judge> judge_;
   std::deque<Open> open_;
   std::string set_;
-  Account account_;
+  SetTally tally_;
   std::vector<Failure> failures_;
 };
 
@@ -174,7 +177,7 @@ std::string describe(const Failure& failure) {
                             shell_quoted(failure.engine), failure.id, shell_quoted(failure.set));
 }
 
-std::string json_of(const std::string& engine, const std::vector<Account>& accounts) {
+std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies) {
   std::string out = fmt::format("{{\"engine\":{},\"sets\":[", json_quoted(engine));
   const auto counts = [](const Tally& t) {
     return fmt::format(
@@ -183,11 +186,11 @@ std::string json_of(const std::string& engine, const std::vector<Account>& accou
         "\"error\":{}",
         t.queries, t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error);
   };
-  for (const Account& account : accounts) {
-    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &account == &accounts.front() ? "" : ",",
-                       json_quoted(account.all.name), counts(account.all));
+  for (const SetTally& tally : tallies) {
+    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &tally == &tallies.front() ? "" : ",",
+                       json_quoted(tally.all.name), counts(tally.all));
     bool first = true;
-    for (const auto& [tag, tally] : account.by_tag) {
+    for (const auto& [tag, tally] : tally.by_tag) {
       out += fmt::format("{}{}:{{{}}}", first ? "" : ",", json_quoted(tag), counts(tally));
       first = false;
     }
@@ -196,12 +199,12 @@ std::string json_of(const std::string& engine, const std::vector<Account>& accou
   return out + "]}\n";
 }
 
-void show(const std::string& engine, const std::vector<Account>& accounts,
+void show(const std::string& engine, const std::vector<SetTally>& tallies,
           const std::vector<Failure>& failures) {
   Table table(kColumns);
-  for (const Account& account : accounts) {
-    table.add(cells_of(account.all.name, "all", account.all));
-    for (const auto& [tag, tally] : account.by_tag) table.add(cells_of("", tag, tally));
+  for (const SetTally& tally : tallies) {
+    table.add(cells_of(tally.all.name, "all", tally.all));
+    for (const auto& [tag, tally] : tally.by_tag) table.add(cells_of("", tag, tally));
   }
   print(fmt::format("{}\n\n{}\n", engine, table.text()));
   if (failures.empty()) return;
@@ -228,14 +231,14 @@ std::string troubles(const Tally& t) {
 }
 
 std::string summary_page(const std::vector<std::string>& engines,
-                         const std::vector<std::vector<Account>>& accounts) {
+                         const std::vector<std::vector<SetTally>>& tallies) {
   std::string page = "| set | records |";
   for (const std::string& engine : engines) page += fmt::format(" {} |", engine);
   page += "\n|---|---|" + fmt::format("{}", fmt::join(std::vector<std::string>(engines.size(), "---|"), "")) +
           '\n';
-  for (std::size_t s = 0; s < accounts.front().size(); ++s) {
-    page += fmt::format("| {} | {} |", accounts.front()[s].all.name, accounts.front()[s].all.queries);
-    for (const auto& of_engine : accounts) {
+  for (std::size_t s = 0; s < tallies.front().size(); ++s) {
+    page += fmt::format("| {} | {} |", tallies.front()[s].all.name, tallies.front()[s].all.queries);
+    for (const auto& of_engine : tallies) {
       const std::string text = s < of_engine.size() ? troubles(of_engine[s].all) : "not run";
       page += fmt::format(" {} |", text.empty() ? "all agree" : text);
     }
@@ -245,14 +248,14 @@ std::string summary_page(const std::vector<std::string>& engines,
 }
 
 // The tags on which an engine is wrong, with what they are out to break.
-std::string faults_page(const std::string& engine, const std::vector<Account>& accounts,
+std::string faults_page(const std::string& engine, const std::vector<SetTally>& tallies,
                         const std::vector<Failure>& failures) {
   std::string rows;
-  for (const Account& account : accounts)
-    for (const auto& [tag, note] : account.notes) {
-      const auto found = account.by_tag.find(tag);
-      if (found == account.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
-      rows += fmt::format("| {} | {} | {} | {} | {} |\n", account.all.name, tag, found->second.queries,
+  for (const SetTally& tally : tallies)
+    for (const auto& [tag, note] : tally.notes) {
+      const auto found = tally.by_tag.find(tag);
+      if (found == tally.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n", tally.all.name, tag, found->second.queries,
                           troubles(found->second), note);
     }
   std::string page = fmt::format("\n## {}\n\n", engine);
@@ -264,11 +267,11 @@ std::string faults_page(const std::string& engine, const std::vector<Account>& a
   return page + "```\n";
 }
 
-int status_of(const std::vector<Account>& accounts, bool strict) {
+int status_of(const std::vector<SetTally>& tallies, bool strict) {
   int status = kDone;
-  for (const Account& account : accounts) {
-    const Tally& t = account.all;
-    if (account.failed) return kFailed;
+  for (const SetTally& tally : tallies) {
+    const Tally& t = tally.all;
+    if (tally.failed) return kFailed;
     if (t.wrong > 0 || t.error > 0 || (strict && t.ill_posed + t.undecided > 0)) status = kDisagreement;
   }
   return status;
@@ -287,30 +290,30 @@ int act(const Options& options) {
   const std::vector<std::string> files = find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
-  std::vector<std::vector<Account>> all_accounts;
+  std::vector<std::vector<SetTally>> all_tallies;
   std::string pages;
   for (const std::string& engine : engines) {
     Examination examination(engine, ulps, timeout, most);
-    std::vector<Account> accounts;
+    std::vector<SetTally> tallies;
     for (const std::string& file : files) {
-      accounts.push_back(examination.run(file, options.id, first));
-      records += accounts.back().all.queries;
-      if (!accounts.back().failed) continue;
-      if (accounts.size() < files.size())
-        say("{}: it broke; {} sets were not asked", engine, files.size() - accounts.size());
+      tallies.push_back(examination.run(file, options.id, first));
+      records += tallies.back().all.queries;
+      if (!tallies.back().failed) continue;
+      if (tallies.size() < files.size())
+        say("{}: it broke; {} sets were not asked", engine, files.size() - tallies.size());
       break;
     }
     examination.finish();
-    status = std::max(status, status_of(accounts, options.strict));
+    status = std::max(status, status_of(tallies, options.strict));
     if (options.json)
-      print(json_of(engine, accounts));
+      print(json_of(engine, tallies));
     else if (!options.markdown)
-      show(engine, accounts, examination.failures());
+      show(engine, tallies, examination.failures());
     else
-      pages += faults_page(engine, accounts, examination.failures());
-    all_accounts.push_back(std::move(accounts));
+      pages += faults_page(engine, tallies, examination.failures());
+    all_tallies.push_back(std::move(tallies));
   }
-  if (options.markdown) print(summary_page(engines, all_accounts) + pages);
+  if (options.markdown) print(summary_page(engines, all_tallies) + pages);
   if (options.id && records == 0) throw InputError("--id: no record has the id " + json_quoted(*options.id));
   return status;
 }

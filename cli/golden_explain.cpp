@@ -27,7 +27,7 @@ std::string margin_text(double margin) {
 }
 
 // The decision that is hardest, in words.
-std::string decision_text(const oracle::Decision& decision, int dimension) {
+std::string decision_text(const oracle::HardestDecision& decision, int dimension) {
   const std::string name = name_of(decision.obstacle, dimension);
   if (decision.margin >= oracle::kLargestMargin)
     return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
@@ -45,9 +45,10 @@ std::string decision_text(const oracle::Decision& decision, int dimension) {
   return "";
 }
 
-std::string passed_table(const std::vector<oracle::Passed>& passed, const ObstacleId& hit, int dimension) {
+std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, const ObstacleId& hit,
+                         int dimension) {
   Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
-  for (const oracle::Passed& one : passed)
+  for (const oracle::PassedObstacle& one : passed)
     table.add({name_of(one.obstacle, dimension), fmt::format("{:.10g}", one.time),
                fmt::format("{:.6g}", one.gap), fmt::format("{:.6g}", one.margin),
                one.obstacle == hit ? "hit" : ""});
@@ -63,10 +64,10 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
     for (const std::string& own : record.tags)
       if (own == tag) print(fmt::format("{}: {}\n", tag, note));
   if (!read.query) {
-    print(fmt::format("\nIt is no query: {}. The answer is `error`.\n", read.flaw));
+    print(fmt::format("\nIt is not a valid query: {}. The answer is `error`.\n", read.flaw));
     return;
   }
-  const oracle::Scrutiny scrutiny(reader.scene());
+  const oracle::Margins margins(reader.scene());
   const Answer& expect = record.expect;
   if (expect.outcome == Outcome::never) {
     print(
@@ -79,11 +80,11 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
                     hit ? " at t = " + expect.time_decimal : ""));
   if (hit)
     print(fmt::format("An ulp in each input moves that time by up to {:.4g} of its ulps (its condition).\n",
-                      scrutiny.condition(*read.query, expect)));
-  print(decision_text(*scrutiny.hardest_decision(*read.query, expect), dimension) + '\n');
+                      margins.condition(*read.query, expect)));
+  print(decision_text(*margins.hardest_decision(*read.query, expect), dimension) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
-          passed_table(scrutiny.passed(*read.query, expect, most), expect.obstacle, dimension));
+          passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
 }
 
 int act(const Options& options) {

@@ -13,6 +13,9 @@
 #include "golden/production.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,16 +33,16 @@ const golden::Set& set_named(const std::string& name) {
       fmt::format("--set: no set is called {}; there are {}", json_quoted(name), fmt::join(names, ", ")));
 }
 
-void report(const golden::Order& order, const golden::Account& account) {
-  say("{}: {} records (seed {}): {} hit, {} inside, {} never, {} error", order.set->name, account.records,
-      order.seed, account.hits, account.insides, account.nevers, account.errors);
-  const std::uint64_t answered = account.records - account.errors;
+void report(const golden::Order& order, const golden::RecordCounts& counts) {
+  say("{}: {} records (seed {}): {} hit, {} inside, {} never, {} error", order.set->name, counts.records,
+      order.seed, counts.hits, counts.insides, counts.nevers, counts.errors);
+  const std::uint64_t answered = counts.records - counts.errors;
   if (answered > 0)
     say("{}: all {} answers agreed by their checked certificates, {} of them by walk, too", order.set->name,
-        answered, account.walked);
+        answered, counts.walked);
 }
 
-golden::Account make_file(const golden::Order& order, const std::string& path) {
+golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
   Progress progress(order.set->name.c_str(), order.count, 1);
   return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
 }

@@ -18,6 +18,10 @@
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cli {
+
+using namespace compare;
+using namespace pictures;
+
 namespace {
 
 struct Options {

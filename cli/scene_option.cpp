@@ -47,14 +47,12 @@ std::string find_scene(const std::string& name_or_file) {
 
 Scene read_scene(const std::string& name_or_file, std::optional<double> radius) {
   Scene scene = read_scene_file(find_scene(name_or_file));
-  if (radius) {
-    for (Lattice& lattice : scene.lattices)
-      for (Atom& atom : lattice.atoms) {
-        if (!atom.is_ball())
-          throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
-        atom.radius = *radius;
-      }
-  }
+  if (radius)
+    for_each_atom(scene, [&](Atom& atom) {
+      if (!atom.is_ball())
+        throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
+      atom.radius = *radius;
+    });
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
   return scene;
 }

@@ -10,8 +10,8 @@
 namespace lorentz::cli {
 
 /// Messages on stderr; progress bars, one after the other, if that is a terminal.
-inline Listener terminal() {
-  Listener listener;
+inline compare::Listener terminal() {
+  compare::Listener listener;
   listener.message = [](const std::string& text) { say("{}", text); };
   if (isatty(STDERR_FILENO) == 1)
     listener.progress = [bar = std::shared_ptr<Progress>()](const std::string& what, std::size_t done,

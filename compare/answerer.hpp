@@ -11,7 +11,7 @@
 #include <lorentz/problem.hpp>
 #include "compare/listener.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// What every answer of an answerer is to have, and how long one waits for it.
 struct AnswererOptions {
@@ -42,7 +42,7 @@ class Answerer {
   /// A query without flaws. The id is what messages call it; it need not be unique.
   virtual void ask(const Id& id, const Query& query) = 0;
 
-  /// A question that is none, as a line without its braces and id: another program gets it as it is; for an
+  /// An invalid query, as a line without its braces and id: another program gets it as it is; for an
   /// engine of ours the reader answers, `error`.
   virtual void ask_text(const Id&, const std::string&) {
     Answer answer = Answer::error("no query");
@@ -70,4 +70,4 @@ class Answerer {
   OnAnswer on_answer_ = [](Answer&) {};
 };
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

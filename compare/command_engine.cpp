@@ -11,7 +11,7 @@
 
 #include "compare/registry.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;  // queries are written out in pieces of this size
@@ -446,4 +446,4 @@ void CommandEngine::complain(const std::string& what, const Asked* asked) {
   tell(fmt::format("{}{}{}", what, asked ? ":\n" : "", stream));
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -13,7 +13,7 @@
 #include "compare/answerer.hpp"
 #include "compare/process.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// Keeps many queries on their way to the program and takes its answers as they come, writing and reading by
 /// turns, as the pipes allow. The program's ids are running numbers, whatever the user's are. Every query
@@ -123,4 +123,4 @@ class CommandEngine final : public Answerer {
   std::shared_ptr<const Scene> complained_scene_;  // printed with an earlier complaint
 };
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

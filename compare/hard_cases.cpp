@@ -3,7 +3,7 @@
 #include "cases/hard_moves.hpp"
 #include "cases/random.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 const char* name_of(Difficulty difficulty) {
   switch (difficulty) {
@@ -22,14 +22,14 @@ std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const
   std::vector<Query> queries = draw_queries(scene, oracle, seed, count, listener);
   if (difficulty == Difficulty::drawn) return queries;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    fuzz::Random random(seed, "hard queries", i);
+    cases::Random random(seed, "hard queries", i);
     if (difficulty == Difficulty::near_rational) {
-      queries[i].v = fuzz::near_integer_direction(random, scene.dimension);
+      queries[i].v = cases::near_integer_direction(random, scene.dimension);
       continue;
     }
     for (int tries = 0; tries < 100; ++tries) {
       Query moved = queries[i];
-      if (!fuzz::move_to_edge(random, scene, oracle, moved)) continue;
+      if (!cases::move_to_edge(random, scene, oracle, moved)) continue;
       queries[i] = moved;
       break;
     }
@@ -37,4 +37,4 @@ std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const
   return queries;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -3,7 +3,7 @@
 
 #include "compare/sampling.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// How the queries of a measurement are made.
 enum class Difficulty {
@@ -20,4 +20,4 @@ const char* name_of(Difficulty difficulty);
 std::vector<Query> hard_queries(Difficulty difficulty, const Scene& scene, const oracle::Oracle& oracle,
                                 std::uint64_t seed, std::size_t count, const Listener& listener = {});
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// Each may be empty: then nobody is told.
 struct Listener {
@@ -20,4 +20,4 @@ inline void report(const Listener& listener, const std::string& what, std::size_
   if (listener.progress) listener.progress(what, done, total);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

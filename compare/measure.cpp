@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 void Tally::count(const oracle::Judgement& judgement) {
   ++queries;
@@ -122,12 +122,15 @@ Round run_round(const CaseSet& set, const std::string& name, Answerer& program, 
   return {ns, {ns / static_cast<double>(std::max<std::size_t>(answers.size(), 1))}};
 }
 
-// One of the names, ready for every scene of the set.
-struct Contestant {
+// One of the names, ready for every scene of the set, and what it did in each round.
+struct Entrant {
+  Tally tally;
   std::vector<FirstHit> first_hit;    // by scene
   std::unique_ptr<Answerer> program;  // or this
+  std::vector<Round> rounds;
 
-  Contestant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
+  Entrant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
+    tally.name = name;
     if (is_command(name))
       program = make_answerer(name, {{}, options.timeout, options.listener});
     else
@@ -135,63 +138,85 @@ struct Contestant {
   }
 
   template <class Look>
-  Round run(const CaseSet& set, const std::string& name, const Listener& listener, Look look) {
-    return program ? run_round(set, name, *program, listener, look)
-                   : run_round(set, name, first_hit, listener, look);
+  void run(const CaseSet& set, const Listener& listener, Look look) {
+    rounds.push_back(program ? run_round(set, tally.name, *program, listener, look)
+                             : run_round(set, tally.name, first_hit, listener, look));
   }
 
   bool failed() const { return program && program->failed(); }
+
+  // Ends the program, and takes the times from the median round.
+  void finish(std::size_t cases) {
+    if (program) program->finish();
+    tally.failed = failed();
+    if (cases == 0 || rounds.empty()) return;
+    std::sort(rounds.begin(), rounds.end(),
+              [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
+    const Round& middle = rounds[rounds.size() / 2];
+    tally.ns_per_query = middle.total_ns / static_cast<double>(cases);
+    tally.ns_median = quantile(middle.block_means, 0.5);
+    tally.ns_low = quantile(middle.block_means, 0.25);
+    tally.ns_high = quantile(middle.block_means, 0.75);
+  }
 };
+
+// The answers of a set, each held against the exact one.
+class Examination {
+ public:
+  Examination(const CaseSet& set, const std::vector<Answer>& exact, const OnWrong& on_wrong, double ulps)
+      : set_(set), exact_(exact), on_wrong_(on_wrong), ulps_(ulps) {
+    for (const Scene& scene : set.scenes) judges_.emplace_back(scene);
+  }
+
+  void judge(std::size_t i, const Answer& given, Tally& tally) const {
+    if (exact_.empty()) {
+      ++tally.queries;
+      return;
+    }
+    const Case& one = set_.cases[i];
+    const oracle::Judgement judgement = judges_[one.scene].judge(one.query, exact_[i], given, ulps_);
+    tally.count(judgement);
+    if (on_wrong_ &&
+        (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed))
+      on_wrong_(one, exact_[i], tally.name, given, judgement);
+  }
+
+ private:
+  const CaseSet& set_;
+  const std::vector<Answer>& exact_;
+  const OnWrong& on_wrong_;
+  const double ulps_;
+  std::vector<oracle::Judge> judges_;
+};
+
+// In turn, so that what slows the machine down for a while slows all of them. Answers are judged once.
+void run_rounds(const CaseSet& set, std::vector<Entrant>& entrants, const Examination& examination,
+                const MeasureOptions& options) {
+  const auto start = Clock::now();
+  for (int r = 0; r < options.rounds; ++r) {
+    for (Entrant& entrant : entrants)
+      if (!entrant.failed())
+        entrant.run(set, options.listener, [&](std::size_t i, const Answer& given) {
+          if (r == 0) examination.judge(i, given, entrant.tally);
+        });
+    if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
+  }
+}
 
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options) {
-  std::vector<Tally> tallies(names.size());
-  std::vector<Contestant> contestants;
-  std::vector<std::vector<Round>> rounds(names.size());
-  for (std::size_t e = 0; e < names.size(); ++e) {
-    tallies[e].name = names[e];
-    contestants.emplace_back(set, names[e], options);
-  }
-  std::vector<oracle::Judge> judges;
-  for (const Scene& scene : set.scenes) judges.emplace_back(scene);
-  const auto start = Clock::now();
-  for (int r = 0; r < options.rounds; ++r) {
-    for (std::size_t e = 0; e < names.size(); ++e) {
-      if (contestants[e].failed()) continue;
-      rounds[e].push_back(
-          contestants[e].run(set, names[e], options.listener, [&](std::size_t i, const Answer& given) {
-            if (r > 0) return;
-            if (exact.empty()) {
-              ++tallies[e].queries;
-              return;
-            }
-            const oracle::Judgement judgement =
-                judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], given, options.ulps);
-            tallies[e].count(judgement);
-            if (on_wrong && (judgement.verdict == oracle::Verdict::wrong ||
-                             judgement.verdict == oracle::Verdict::ill_posed))
-              on_wrong(set.cases[i], exact[i], names[e], given, judgement);
-          }));
-    }
-    if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
-  }
-  for (std::size_t e = 0; e < names.size(); ++e) {
-    if (contestants[e].program) contestants[e].program->finish();
-    tallies[e].failed = contestants[e].failed();
-    auto& of_engine = rounds[e];
-    std::sort(of_engine.begin(), of_engine.end(),
-              [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
-    const Round& middle = of_engine[of_engine.size() / 2];
-    if (set.cases.empty()) continue;
-    tallies[e].ns_per_query = middle.total_ns / static_cast<double>(set.cases.size());
-    tallies[e].ns_median = quantile(middle.block_means, 0.5);
-    tallies[e].ns_low = quantile(middle.block_means, 0.25);
-    tallies[e].ns_high = quantile(middle.block_means, 0.75);
+  std::vector<Entrant> entrants;
+  for (const std::string& name : names) entrants.emplace_back(set, name, options);
+  run_rounds(set, entrants, Examination(set, exact, on_wrong, options.ulps), options);
+  std::vector<Tally> tallies;
+  for (Entrant& entrant : entrants) {
+    entrant.finish(set.cases.size());
+    tallies.push_back(std::move(entrant.tally));
   }
   return tallies;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

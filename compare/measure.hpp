@@ -11,7 +11,7 @@
 #include <lorentz/verdict.hpp>
 #include "compare/registry.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 struct Case {
   Id id = "null";
@@ -24,7 +24,7 @@ struct CaseSet {
   std::vector<Case> cases;
 };
 
-/// One answerer's account over a set of cases.
+/// What one answerer did over a set of cases.
 struct Tally {
   std::string name;
   std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
@@ -66,4 +66,4 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options = {});
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 LineBuffer::Read LineBuffer::read_from(int descriptor) {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
@@ -214,4 +214,4 @@ Ending Process::end(std::chrono::milliseconds grace) {
   return {Ending::How::signalled, WTERMSIG(status)};
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -11,7 +11,7 @@
 
 #include <lorentz/line_reader.hpp>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// Lines out of what a descriptor gives bit by bit. Memory stays bounded: of a line beyond kMaxLine the rest
 /// is passed over.
@@ -72,4 +72,4 @@ class Process {
   int input_ = -1, output_ = -1;
 };
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -15,7 +15,7 @@
 #include <lorentz/walk.hpp>
 #include "compare/command_engine.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   if (answer.outcome != Outcome::hit || !answer.time) return;
@@ -33,13 +33,68 @@ double limit_of(const oracle::Request& request) {
   return request.max_time.value_or(std::numeric_limits<double>::infinity());
 }
 
+FirstHit ask_engine(std::string_view name, const Scene& scene) {
+  std::shared_ptr<Engine> engine = make_engine(name, scene);
+  return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+    engine->first_hit(query, limit_of(request), answer);
+    if (request.detail) add_detail(query, scene, answer);
+  };
+}
+
+FirstHit ask_certified(std::string_view, const Scene& scene) {
+  auto certified = std::make_shared<oracle::Certified>(scene);
+  return [certified](const Query& query, const oracle::Request& request, Answer& answer) {
+    certified->first_hit(query, request, answer);
+  };
+}
+
+FirstHit ask_oracle(std::string_view, const Scene& scene) {
+  auto truth = std::make_shared<oracle::Oracle>(scene);
+  return [truth](const Query& query, const oracle::Request& request, Answer& answer) {
+    answer = truth->first_hit(query, request);
+  };
+}
+
+FirstHit ask_walk(std::string_view, const Scene& scene) {
+  auto walk = std::make_shared<oracle::Walk>(scene);
+  return [walk, scene](const Query& query, const oracle::Request& request, Answer& answer) {
+    answer = walk->first_hit(query, limit_of(request));
+    if (request.detail) add_detail(query, scene, answer);
+  };
+}
+
+// All that this program answers with itself: name, what it is like, how it is asked in a scene.
+struct Entry {
+  std::string_view name;
+  Traits traits;
+  FirstHit (*ask)(std::string_view name, const Scene& scene);
+};
+
+constexpr Entry kAnswerers[] = {
+    {"classical", {}, ask_engine},
+    {"published", {}, ask_engine},
+    {"reduction", {.leaves_undecided = true, .uses_reduction = true}, ask_engine},
+    {"certified", {.is_exact = true, .uses_reduction = true}, ask_certified},
+    {"oracle", {.is_exact = true, .knows_digits = true}, ask_oracle},
+    {"walk", {.is_exact = true}, ask_walk},
+};
+
+const Entry* entry_of(std::string_view name) {
+  for (const Entry& entry : kAnswerers)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
 }  // namespace
 
+Traits traits_of(std::string_view name) {
+  const Entry* entry = entry_of(name);
+  return entry ? entry->traits : Traits{};
+}
+
 std::vector<std::string> answerer_names() {
-  std::vector<std::string> names = engine_names();
-  names.push_back("certified");
-  names.push_back("oracle");
-  names.push_back("walk");
+  std::vector<std::string> names;
+  for (const Entry& entry : kAnswerers) names.emplace_back(entry.name);
   return names;
 }
 
@@ -58,10 +113,9 @@ void check_name(const std::string& name) {
       throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
     return;
   }
-  const auto names = answerer_names();
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  if (!entry_of(name))
     throw InputError(fmt::format("no engine is called {}; there are {}, and cmd:COMMAND for another program",
-                                 json_quoted(name), fmt::join(names, ", ")));
+                                 json_quoted(name), fmt::join(answerer_names(), ", ")));
 }
 
 std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
@@ -79,30 +133,7 @@ std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
 FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   check_name(name);
   if (is_command(name)) throw std::logic_error(name + ": answers in bulk only");
-  if (name == "oracle") {
-    auto truth = std::make_shared<oracle::Oracle>(scene);
-    return [truth](const Query& query, const oracle::Request& request, Answer& answer) {
-      answer = truth->first_hit(query, request);
-    };
-  }
-  if (name == "certified") {
-    auto certified = std::make_shared<oracle::Certified>(scene);
-    return [certified](const Query& query, const oracle::Request& request, Answer& answer) {
-      certified->first_hit(query, request, answer);
-    };
-  }
-  if (name == "walk") {
-    auto walk = std::make_shared<oracle::Walk>(scene);
-    return [walk, scene](const Query& query, const oracle::Request& request, Answer& answer) {
-      answer = walk->first_hit(query, limit_of(request));
-      if (request.detail) add_detail(query, scene, answer);
-    };
-  }
-  std::shared_ptr<Engine> engine = make_engine(name, scene);
-  return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
-    engine->first_hit(query, limit_of(request), answer);
-    if (request.detail) add_detail(query, scene, answer);
-  };
+  return entry_of(name)->ask(name, scene);
 }
 
 namespace {
@@ -133,4 +164,4 @@ std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererO
   return std::make_unique<EngineAnswerer>(name, options.request);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -4,17 +4,29 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lorentz/oracle.hpp>
 #include <lorentz/problem.hpp>
 #include "compare/answerer.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a
 /// detail that binary64 cannot compute is left out.
 using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
+
+/// What an answerer is like, for those who treat its answers accordingly.
+struct Traits {
+  bool is_exact = false;          ///< its answers rest on exact arithmetic
+  bool knows_digits = false;      ///< of times, beyond those of a binary64
+  bool leaves_undecided = false;  ///< on purpose: `undecided` is what it says of hard queries, no failure
+  bool uses_reduction = false;    ///< so that `certified`, which rests on `reduction`, cannot judge it
+};
+
+/// Of any other name, as of another program, nothing is known.
+Traits traits_of(std::string_view name);
 
 /// The names of all that this program answers with itself.
 std::vector<std::string> answerer_names();
@@ -41,4 +53,4 @@ std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererO
 /// Adds the detail to a hit with a time, where binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -5,9 +5,9 @@
 #include <lorentz/exchange.hpp>
 #include "cases/random.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
-using fuzz::Random;
+using cases::Random;
 
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count, const Listener& listener) {
@@ -51,4 +51,4 @@ std::vector<Query> draw_leaving_queries(int dimension, double radius, std::uint6
   return queries;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -8,7 +8,7 @@
 #include <lorentz/problem.hpp>
 #include "compare/listener.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 inline constexpr std::uint64_t kDefaultSeed = 20161115;
 
@@ -21,4 +21,4 @@ std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle
 /// directions by the cosine law (which is the flux of a gas in equilibrium), `from` that ball.
 std::vector<Query> draw_leaving_queries(int dimension, double radius, std::uint64_t seed, std::size_t count);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -48,7 +48,7 @@ struct Maker::Impl {
   std::string scene_line;
   oracle::Oracle oracle;
   oracle::Walk walk;
-  oracle::Scrutiny scrutiny;
+  oracle::Margins margins;
   oracle::Prover prover;
   oracle::CertificateCheck check;
 
@@ -57,14 +57,14 @@ struct Maker::Impl {
         scene_line(std::move(line)),
         oracle(scene),
         walk(scene, kWalkCells),
-        scrutiny(scene),
+        margins(scene),
         prover(scene),
         check(scene) {}
 
   void measure(const Query& query, Record& record) const {
-    if (const auto decision = scrutiny.hardest_decision(query, record.expect))
+    if (const auto decision = margins.hardest_decision(query, record.expect))
       record.margin = decision->margin;
-    if (record.expect.outcome == Outcome::hit) record.condition = scrutiny.condition(query, record.expect);
+    if (record.expect.outcome == Outcome::hit) record.condition = margins.condition(query, record.expect);
   }
 };
 

@@ -20,7 +20,7 @@
 namespace lorentz::golden {
 namespace {
 
-constexpr std::uint64_t kBatch = fuzz::kCasesPerScene;
+constexpr std::uint64_t kBatch = cases::kCasesPerScene;
 
 struct Made {
   std::string scene_line;
@@ -49,12 +49,12 @@ Batch make_batch(const Order& order, std::uint64_t number) {
 }
 
 // Batches made by several threads, handed out in order. No more than a few are waiting at any time.
-class Workshop {
+class BatchQueue {
  public:
-  Workshop(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
+  BatchQueue(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
     for (std::uint64_t i = 0; i < order.jobs; ++i) threads_.emplace_back([this] { work(); });
   }
-  ~Workshop() {
+  ~BatchQueue() {
     {
       const std::lock_guard lock(mutex_);
       closed_ = true;
@@ -62,8 +62,8 @@ class Workshop {
     changed_.notify_all();
     for (std::thread& thread : threads_) thread.join();
   }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
+  BatchQueue(const BatchQueue&) = delete;
+  BatchQueue& operator=(const BatchQueue&) = delete;
 
   Batch next() {
     std::unique_lock lock(mutex_);
@@ -108,7 +108,7 @@ class Workshop {
 // How far a production is. What a resumed one needs to go on as if nothing had happened.
 struct State {
   std::uint64_t next_batch = 0;
-  Account account;
+  RecordCounts counts;
   std::string scene_line;  // the last one written
   std::unordered_set<std::uint64_t> ids;
 };
@@ -117,43 +117,43 @@ std::uint64_t number_of(const std::string& id) {
   return std::stoull(id, nullptr, 16);
 }
 
-void count(Account& account, const MadeRecord& made) {
-  ++account.records;
-  account.walked += made.walked;
+void count(RecordCounts& counts, const MadeRecord& made) {
+  ++counts.records;
+  counts.walked += made.walked;
   switch (made.record.expect.outcome) {
     case Outcome::hit:
-      ++account.hits;
+      ++counts.hits;
       break;
     case Outcome::inside:
-      ++account.insides;
+      ++counts.insides;
       break;
     case Outcome::never:
-      ++account.nevers;
+      ++counts.nevers;
       break;
     default:
-      ++account.errors;
+      ++counts.errors;
   }
 }
 
 // Makes what is missing; `write` gets the text of one batch at a time, and `state` says what is made with it.
 void produce_rest(const Order& order, State& state, const std::function<void(std::string_view)>& write,
                   const OnProgress& progress) {
-  Workshop workshop(order, state.next_batch);
-  while (state.account.records < order.count) {
+  BatchQueue queue(order, state.next_batch);
+  while (state.counts.records < order.count) {
     std::string text;
-    for (const Made& made : workshop.next()) {
+    for (const Made& made : queue.next()) {
       const Record& record = made.record.record;
-      if (state.account.records == order.count || !state.ids.insert(number_of(record.id)).second) continue;
+      if (state.counts.records == order.count || !state.ids.insert(number_of(record.id)).second) continue;
       if (made.scene_line != state.scene_line) {
         state.scene_line = made.scene_line;
         text += state.scene_line + '\n';
       }
       append_record_line(text, record, made.dimension);
-      count(state.account, made.record);
+      count(state.counts, made.record);
     }
     ++state.next_batch;
     write(text);
-    if (progress) progress(state.account.records);
+    if (progress) progress(state.counts.records);
   }
 }
 
@@ -199,7 +199,7 @@ class PartFile {
     if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
       fail(part_);
     bytes_ += text.size();
-    const Account& a = state.account;
+    const RecordCounts& a = state.counts;
     const std::string fresh = note_ + ".new";
     std::ofstream note(fresh);
     note << bytes_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked << ' ' << a.hits << ' '
@@ -218,7 +218,7 @@ class PartFile {
  private:
   bool read_note(State& state) {
     std::ifstream note(note_);
-    Account& a = state.account;
+    RecordCounts& a = state.counts;
     std::string end;
     if (!(note >> bytes_ >> state.next_batch >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >>
           a.errors >> end) ||
@@ -247,7 +247,7 @@ class PartFile {
       else
         state.scene_line = line;
     }
-    return read == bytes_ && state.ids.size() == state.account.records;
+    return read == bytes_ && state.ids.size() == state.counts.records;
   }
 
   std::string path_, part_, note_, header_;
@@ -262,27 +262,27 @@ Header header_of(const Order& order) {
   Header header{order.set->name, order.set->description, {}, LORENTZ_VERSION, order.count, {}};
   header.generator = "lorentz golden make --set " + order.set->name + " --count " +
                      std::to_string(order.count) + " --seed " + std::to_string(order.seed);
-  for (const fuzz::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
+  for (const cases::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
   return header;
 }
 
-Account produce(const Order& order, const std::function<void(std::string_view)>& write,
-                const OnProgress& progress) {
+RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
+                     const OnProgress& progress) {
   std::string header;
   append_header_line(header, header_of(order));
   write(header);
   State state;
   produce_rest(order, state, write, progress);
-  return state.account;
+  return state.counts;
 }
 
-Account produce_file(const Order& order, const std::string& path, const OnProgress& progress) {
+RecordCounts produce_file(const Order& order, const std::string& path, const OnProgress& progress) {
   PartFile part(order, path);
   State state = part.open();
   produce_rest(
       order, state, [&](std::string_view text) { part.write(text, state); }, progress);
   part.finish();
-  return state.account;
+  return state.counts;
 }
 
 }  // namespace lorentz::golden

@@ -18,7 +18,7 @@ struct Order {
 };
 
 /// What was made of an order.
-struct Account {
+struct RecordCounts {
   std::uint64_t records = 0, walked = 0, hits = 0, insides = 0, nevers = 0, errors = 0;
 };
 
@@ -30,12 +30,12 @@ Header header_of(const Order& order);
 
 /// Makes the set and hands its text to `write`, line by line, from the header on. Constant memory, but for 8
 /// bytes a record (no id comes twice). Throws std::logic_error if the opinions about an answer differ.
-Account produce(const Order& order, const std::function<void(std::string_view)>& write,
-                const OnProgress& progress);
+RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
+                     const OnProgress& progress);
 
 /// Makes the set in a file. It grows as PATH.part beside a note of how far it is, and gets its name when it
 /// is complete; a part of the same order that is there already, from a run that was killed, is gone on with.
 /// Throws FileError.
-Account produce_file(const Order& order, const std::string& path, const OnProgress& progress);
+RecordCounts produce_file(const Order& order, const std::string& path, const OnProgress& progress);
 
 }  // namespace lorentz::golden

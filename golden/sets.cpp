@@ -12,12 +12,12 @@ constexpr std::uint64_t kCommitted = 640;  // 20 scenes of each family
 
 std::vector<Set> make_sets() {
   std::vector<Set> all;
-  for (const fuzz::Family& family : fuzz::families())
+  for (const cases::Family& family : cases::families())
     all.push_back({std::string(family.name()), std::string(family.description()), family.tags(), kCommitted,
                    std::numeric_limits<std::uint64_t>::max()});
-  const std::uint64_t bad = fuzz::bad_queries().size();
+  const std::uint64_t bad = cases::bad_queries().size();
   all.push_back({std::string(kBadQueries), "Questions that are none: the answer is `error`.",
-                 fuzz::bad_query_tags(), bad, bad});
+                 cases::bad_query_tags(), bad, bad});
   return all;
 }
 
@@ -25,10 +25,10 @@ std::vector<Set> make_sets() {
 
 Question Set::question(std::uint64_t seed, std::uint64_t index) const {
   if (name == kBadQueries) {
-    const fuzz::BadQuery& bad = fuzz::bad_queries()[index];
-    return {fuzz::bad_query_scene(), bad.text, {}, {bad.tag}};
+    const cases::BadQuery& bad = cases::bad_queries()[index];
+    return {cases::bad_query_scene(), bad.text, {}, {bad.tag}};
   }
-  fuzz::Case one = fuzz::family_named(name)->make(seed, index);
+  cases::Case one = cases::family_named(name)->make(seed, index);
   std::string text = question_of(one.query, one.scene.dimension);
   return {std::move(one.scene), std::move(text), std::move(one.query), std::move(one.tags)};
 }

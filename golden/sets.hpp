@@ -20,7 +20,7 @@ struct Question {
 
 struct Set {
   std::string name, description;
-  std::vector<fuzz::Tag> tags;
+  std::vector<cases::Tag> tags;
   std::uint64_t committed;  ///< how many records of it data/golden holds
   std::uint64_t most;       ///< how many there are
 

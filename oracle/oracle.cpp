@@ -34,7 +34,7 @@ void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) 
 // along adj(A)^T adj(A) w for an ellipsoid.
 template <std::size_t D>
 Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const Entry<D>& entry) {
-  const ZVec<D>& v = query.flight.v;
+  const ZVec<D>& v = query.velocity.v;
   const ZVec<D> c = centre_of(scene, entry.lattice, entry.atom, entry.n, query.x, query.length_exponent);
   const ExactAtom<D>& atom = scene.lattices[entry.lattice].atoms[entry.atom];
   Detail detail;
@@ -50,7 +50,7 @@ Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const E
     q = transposed(to_ball) * (to_ball * q);
   }
   set_unit_vector(p, q, entry.d, detail.normal);
-  const Z& v2 = query.flight.v2;
+  const Z& v2 = query.velocity.v2;
   const Z along = dot(v, c), across2 = v2 * dot(c, c) - along * along;  // (impact parameter)^2 v^2
   detail.impact_parameter = round_to_binary64(Quadratic{0, +1, across2 * v2, v2, query.length_exponent});
   return detail;
@@ -69,9 +69,9 @@ class Problem {
     auto view = views.begin();
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a, ++view) {
-        const Z rho2 = view->radius2 * view->flight.v2;
+        const Z rho2 = view->radius2 * view->velocity.v2;
         search_first_hit(
-            Search<D>{*view, view->flight, l, a, exact.from_in(l, a), rho2, root_below(rho2), earliest});
+            Search<D>{*view, view->velocity, l, a, exact.from_in(l, a), rho2, root_below(rho2), earliest});
       }
     return answer_to(exact, earliest, request);
   }

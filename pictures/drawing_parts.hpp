@@ -11,7 +11,7 @@
 #include "pictures/svg.hpp"
 #include "src/problem/scene_geometry.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 
 inline constexpr std::size_t kMostDrawn = 5000;  ///< obstacles in one picture
 inline constexpr double kLongestFlight = 40;     ///< in lengths of a cell; the rest is an arrow
@@ -83,4 +83,4 @@ inline constexpr double kPictureWidth = 800, kMargin = 24, kTitleHeight = 40;
 Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights);
 Drawing draw_scene_3d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

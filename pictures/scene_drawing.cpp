@@ -12,7 +12,7 @@
 #include <lorentz/geometry.hpp>
 #include "pictures/drawing_parts.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 namespace {
 
 // A short basis of the lattice, so that few cells are looked at: pairs are reduced until none gets shorter.
@@ -292,4 +292,4 @@ Drawing draw_scene(const Scene& scene, const std::string& title, const std::vect
   return scene.dimension == 2 ? draw_scene_2d(scene, title, flights) : draw_scene_3d(scene, title, flights);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

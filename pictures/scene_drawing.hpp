@@ -6,7 +6,7 @@
 
 #include <lorentz/problem.hpp>
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 
 struct Flight {
   Query query;
@@ -22,4 +22,4 @@ struct Drawing {
 /// orthographic projection.
 Drawing draw_scene(const Scene& scene, const std::string& title, const std::vector<Flight>& flights);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

@@ -5,7 +5,7 @@
 #include <lorentz/geometry.hpp>
 #include "pictures/drawing_parts.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 namespace {
 
 constexpr double kTallest = 1000;
@@ -171,4 +171,4 @@ Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::v
   return drawing;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

@@ -6,7 +6,7 @@
 #include <lorentz/geometry.hpp>
 #include "pictures/drawing_parts.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 namespace {
 
 constexpr double kTallest = 900;
@@ -253,4 +253,4 @@ Drawing draw_scene_3d(const Scene& scene, const std::string& title, const std::v
   return Picture(scene, flights).draw(title);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

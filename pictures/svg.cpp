@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 namespace {
 
 // Two decimals are a hundredth of a pixel.
@@ -92,4 +92,4 @@ std::string Svg::document(double width, double height, const std::string& title)
       width, height, xml_escaped(title), body_);
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lorentz::cli {
+namespace lorentz::pictures {
 
 struct Point {
   double x = 0, y = 0;
@@ -45,4 +45,4 @@ class Svg {
   std::string body_;
 };
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::pictures

@@ -6,11 +6,14 @@
 // arguments.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 void set_direction(Random& random, int dimension, Case& made) {
@@ -88,4 +91,4 @@ Family axis_and_diagonal() {
       make_axis};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -8,11 +8,15 @@
 // outside. `from` takes one obstacle out of the question, wherever x lies: on it, in it, or far from it.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // An integer point of the circle of radius w, found upwards from a drawn one; (w, 0) ends the search.
@@ -156,4 +160,4 @@ Family boundary_starts() {
           [](Source& source) { return source.scene.one_in(3) ? make_rounded(source) : make_exact(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -8,11 +8,16 @@
 // place. Elsewhere the nearest binary64 start stands for the edge.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kGrid = 40;  // exact starts and radii are multiples of 2^-40
@@ -144,4 +149,4 @@ Family corridor_edge() {
           }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A wall at z = 0 of thickness 2 (its largest obstacle) and period `period`, spacings s and `other`.
@@ -161,4 +161,4 @@ Family dense_layers() {
           make_dense};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

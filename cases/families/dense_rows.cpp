@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Case make_dense_rows(Source& source) {
@@ -39,4 +40,4 @@ Family dense_rows() {
           make_dense_rows};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,11 +9,14 @@
 // slope, and the first of many obstacles is asked for in an ellipse as slender as the slope is small.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -94,4 +97,4 @@ Family drift() {
           make_drift};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/symmetry.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kGrid = 55;  // places are whole multiples of 2^-55
@@ -46,4 +46,4 @@ Family early() {
           make_early};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,10 +7,11 @@
 // touches the ellipsoid { p + A y : |y| < 1 }.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // At right angles, the first one the longest and at most 0.3 long, so that a start beyond its end is near.
@@ -77,4 +78,4 @@ Family ellipsoid_edges() {
           make_edge};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -2,7 +2,7 @@
 
 #include "cases/families/family_list.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 Case Family::make(std::uint64_t seed, std::uint64_t index) const {
   Source source{index, Random(seed, name_, index / kCasesPerScene, Use::scenes), Random(seed, name_, index)};
@@ -24,4 +24,4 @@ const Family* family_named(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

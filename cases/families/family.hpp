@@ -7,7 +7,7 @@
 
 #include "cases/case.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 class Family {
  public:
@@ -34,4 +34,4 @@ const std::vector<Family>& families();
 /// Null if there is none of that name.
 const Family* family_named(std::string_view name);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -1,9 +1,9 @@
-// The families, each defined in a file of its own or with its kin. Private to fuzz/.
+// The families, each defined in a file of its own or with its kin.
 #pragma once
 
 #include "cases/families/family.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 Family generic_2d();
 Family generic_3d();
@@ -41,4 +41,4 @@ Family dense_rows();
 Family far_starts();
 Family specks();
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,11 +9,13 @@
 // those of a row of centres.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A row of cubes or boxes, or a crystal, of any size.
@@ -87,4 +89,4 @@ Family far_starts() {
           make_far_start};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -6,9 +6,10 @@
 
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr const char* kDecades[] = {"radius-1e-1", "radius-1e-2", "radius-1e-3",
@@ -51,4 +52,4 @@ Family generic_3d() {
           [](Source& source) { return make_generic(source, 3); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

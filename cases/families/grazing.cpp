@@ -18,10 +18,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kGrid = 40;
@@ -119,4 +122,4 @@ Family grazing() {
           [](Source& source) { return source.scene.one_in(3) ? make_pell(source) : make_squares(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -8,9 +8,10 @@
 #include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A direction off the surface with the outward unit normal n: its cosine has the density 2 c (3D), c (2D).
@@ -78,4 +79,4 @@ Family leaving() {
           make_leaving};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,10 +7,12 @@
 // that has cancelled.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 double drift(Random& random) {
@@ -85,4 +87,4 @@ Family long_flight() {
           make_long};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -4,11 +4,13 @@
 // asked for.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // Semiaxes along a drawn frame in the plane of the first two axes, the third upright.
@@ -78,4 +80,4 @@ Family mixture() {
           make_mixture};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

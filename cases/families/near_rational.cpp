@@ -8,11 +8,16 @@
 #include <cmath>
 #include <utility>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A radius beside the half width at which the corridors close.
@@ -144,4 +149,4 @@ Family near_rational() {
           [](Source& source) { return source.scene.one_in(3) ? make_solid(source) : make_flat(source); }};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

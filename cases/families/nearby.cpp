@@ -5,10 +5,10 @@
 // less than an ulp.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Case make_nearby(Source& source) {
@@ -38,4 +38,4 @@ Family nearby() {
           make_nearby};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,10 +9,13 @@
 // and `never` is wrong.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/symmetry.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -62,4 +65,4 @@ Family nearly_parallel() {
           make_nearly_parallel};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -8,10 +8,14 @@
 // the edge are the business of corridor-edge.)
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+#include "cases/corridor.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 double sixty_fourths(Random& random, std::int64_t low, std::int64_t high) {
@@ -134,4 +138,4 @@ Family never() {
           make_never};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,10 +7,14 @@
 // between the two.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 struct Example {
@@ -146,4 +150,4 @@ Family published_faults() {
       make_published};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

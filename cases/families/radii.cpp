@@ -8,10 +8,14 @@
 // coordinates' last bits.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A start about the hole between obstacles, `room` away from it at most, or anywhere in the cell.
@@ -115,4 +119,4 @@ Family tiny_radius() {
           make_tiny};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

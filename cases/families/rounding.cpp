@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/symmetry.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // On a grid of 2^-55, as whole numbers.
@@ -51,4 +51,4 @@ Family rounding() {
           make_rounding};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

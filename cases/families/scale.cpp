@@ -5,11 +5,15 @@
 // starts up to 2^52 cells away, where the last bits are the place in the cell.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
@@ -109,4 +113,4 @@ Family scale() {
           make_scale};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

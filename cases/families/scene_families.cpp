@@ -9,11 +9,16 @@
 // met within 2^-10 to 2^-50 of its size of its edge.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // Drawn, near-rational in coordinates of the first lattice, or grazing.
@@ -208,4 +213,4 @@ Family ellipsoids() {
           make_ellipsoid};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -4,10 +4,12 @@
 // condition. The line passes the obstacle's end, or its flank from which it leans away by 2^-40 to 2^-4.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 // A frame at random angles; or with a long axis of small integers.
@@ -90,4 +92,4 @@ Family slender() {
           make_slender};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -7,11 +7,12 @@
 // zeros, flights along rows and across.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/parts.hpp"
+#include "cases/scene_edit.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr int kLeast = -1074;
@@ -83,4 +84,4 @@ Family specks() {
           make_specks};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -2,7 +2,7 @@
 
 #include "cases/families/family_list.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 Case Target::make(std::uint64_t seed, std::uint64_t index) const {
   const std::uint64_t row = index / kCasesPerScene, count = families_.size();
@@ -53,4 +53,4 @@ const Target* target_named(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

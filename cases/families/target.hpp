@@ -7,7 +7,7 @@
 
 #include "cases/families/family.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 
 class Target {
  public:
@@ -28,4 +28,4 @@ const std::vector<Target>& targets();
 /// One of targets(), or generic-2d or generic-3d alone. Null if there is none of that name.
 const Target* target_named(std::string_view name);
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

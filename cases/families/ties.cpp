@@ -8,10 +8,14 @@
 // few ulps.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Atom ball(const Vec& position, double radius) {
@@ -165,4 +169,4 @@ Family ties() {
       make_tie};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -9,10 +9,10 @@
 // v.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 constexpr const char* kMisses[] = {"miss-1e-2",  "miss-1e-4",  "miss-1e-6", "miss-1e-8",
@@ -91,4 +91,4 @@ Family tricylinder() {
           make_tricylinder};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

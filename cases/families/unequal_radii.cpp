@@ -6,9 +6,9 @@
 
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Case make_unequal(Source& source) {
@@ -35,4 +35,4 @@ Family unequal_radii() {
           make_unequal};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

@@ -3,11 +3,12 @@
 // walks rows of the lattice in order, and has to see lattice and start in the same coordinates.
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::cases {
 namespace {
 
 Atom drawn_vast(Random& drawn, int dimension) {
@@ -47,4 +48,4 @@ Family vast_ellipsoids() {
           make_vast};
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::cases

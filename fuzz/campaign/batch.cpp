@@ -6,14 +6,17 @@
 #include <set>
 #include <tuple>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
-#include "cases/parts.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "fuzz/rewording/rewording.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 // Work (in the subject's own count) that shrinking one case may cost: some seconds of `published`.
@@ -48,7 +51,7 @@ class SameFailure {
 
   bool operator()(const Scene& scene, const Query& query) {
     if (stop_ || work_ > kShrinkWork || subject_.failed()) return false;
-    if (!examiner_ || !same(examiner_->scene(), scene)) {
+    if (!examiner_ || examiner_->scene() != scene) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
       examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
     }
@@ -80,76 +83,77 @@ class SameFailure {
 
 }  // namespace
 
-// A case or a mutant that was asked about, as it was made or in other words.
-struct StintWorker::Case {
+// A case or a variant that was asked about, as it was made or in other words.
+struct BatchRunner::Case {
   const Target* target;
   std::uint64_t index;
   int step;
   Question question;
-  Room* room;
+  SceneContext* context;
   std::string words = {};                // if in other words: which
   std::optional<Examined> misread = {};  // nobody needs to be asked
 };
 
-// A scene.
-struct StintWorker::Room {
-  Room(Subject& subject, const Scene& scene, const Plan& plan, std::size_t number)
+// A scene, with all that is needed to ask and to judge in it.
+struct BatchRunner::SceneContext {
+  SceneContext(Subject& subject, const Scene& scene, const Plan& plan, std::size_t number)
       : number(number), examiner(subject, scene, plan.counts.ulps, plan.truth) {}
-  const oracle::Scrutiny& scrutiny() {
-    if (!scrutiny_) scrutiny_.emplace(examiner.scene());
-    return *scrutiny_;
+  const oracle::Margins& margins() {
+    if (!margins_) margins_.emplace(examiner.scene());
+    return *margins_;
   }
   const std::size_t number;  // in the order in which they were needed
   Examiner examiner;
 
-  // The scene in other words, and the room for these.
-  struct Elsewhere {
+  // The scene in other words, and the context of that.
+  struct OtherWords {
     Rewording rewording;
-    Room* room;
+    SceneContext* context;
   };
-  std::map<std::uint64_t, Elsewhere> elsewhere;
+  std::map<std::uint64_t, OtherWords> other_words;
 
  private:
-  std::optional<oracle::Scrutiny> scrutiny_;
+  std::optional<oracle::Margins> margins_;
 };
 
-// All that is asked about in one stint, and the margins met in its climbs.
-struct StintWorker::Desk {
-  std::deque<Room> rooms;
+// All that is asked about in one batch, and the margins met in its climbs.
+struct BatchRunner::Questions {
+  std::deque<SceneContext> contexts;
   std::vector<Case> cases;
   std::vector<std::size_t> asked;  // of the cases, in the order in which they were asked
-  Account met;
-  Room* here = nullptr;  // of the scene as it is made
+  TargetTally met;
+  SceneContext* as_made = nullptr;  // of the scene of the cases that are being made
 
-  Room& add_room(Subject& subject, const Scene& scene, const Plan& plan) {
-    return rooms.emplace_back(subject, scene, plan, rooms.size());
+  SceneContext& add_context(Subject& subject, const Scene& scene, const Plan& plan) {
+    return contexts.emplace_back(subject, scene, plan, contexts.size());
   }
 
   // The case's scene in the words of this number. They follow from the scene and where it is, so that they
-  // are the same in whichever stint.
-  Room::Elsewhere& elsewhere(const Plan& plan, Subject& subject, const Case& one, std::uint64_t number) {
-    auto& known = one.room->elsewhere;
+  // are the same in whichever batch.
+  SceneContext::OtherWords& other_words(const Plan& plan, Subject& subject, const Case& one,
+                                        std::uint64_t number) {
+    auto& known = one.context->other_words;
     if (const auto found = known.find(number); found != known.end()) return found->second;
     Random random(plan.seed, one.target->name(), one.index / kCasesPerScene * kWordings + number,
                   Use::reworded_scenes);
-    Rewording rewording(random, one.room->examiner.scene());
-    Room& room = add_room(subject, rewording.scene(), plan);
-    return known.emplace(number, Room::Elsewhere{std::move(rewording), &room}).first->second;
+    Rewording rewording(random, one.context->examiner.scene());
+    SceneContext& context = add_context(subject, rewording.scene(), plan);
+    return known.emplace(number, SceneContext::OtherWords{std::move(rewording), &context}).first->second;
   }
 };
 
-StintWorker::StintWorker(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop)
+BatchRunner::BatchRunner(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop)
     : plan_(plan), make_subject_(make_subject), stop_(stop), subject_(make_subject()) {}
-StintWorker::~StintWorker() = default;
+BatchRunner::~BatchRunner() = default;
 
-std::optional<StintResult> StintWorker::work(const Stint& stint,
-                                             const std::map<std::string, std::uint64_t>& known) {
-  Desk desk;
-  pose(stint, desk);
+std::optional<BatchResult> BatchRunner::run(const Batch& batch,
+                                            const std::map<std::string, std::uint64_t>& known) {
+  Questions questions;
+  pose(batch, questions);
   if (stop_) return std::nullopt;
-  StintResult result;
-  result.met = desk.met;
-  take(desk, known, result);
+  BatchResult result;
+  result.met = questions.met;
+  take(questions, known, result);
   if (subject_->failed()) {
     subject_failed_ = true;
     subject_ = make_subject_();
@@ -158,51 +162,52 @@ std::optional<StintResult> StintWorker::work(const Stint& stint,
   return result;
 }
 
-// Makes the cases and mutants, with their exact answers, and asks the subject.
-void StintWorker::pose(const Stint& stint, Desk& desk) {
-  const Target& target = *plan_.targets[stint.target];
-  for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
+// Makes the cases and variants, with their exact answers, and asks the subject.
+void BatchRunner::pose(const Batch& batch, Questions& questions) {
+  const Target& target = *plan_.targets[batch.target];
+  for (std::uint64_t index = batch.begin; index < batch.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
-    const fuzz::Case base = target.make(plan_.seed, index);
-    if (!desk.here || !same(desk.here->examiner.scene(), base.scene))
-      desk.here = &desk.add_room(*subject_, base.scene, plan_);
-    Room& room = *desk.here;
-    const std::size_t first = desk.cases.size();
-    desk.cases.push_back({&target, index, 0, {base.query, room.examiner.exact(base.query)}, &room});
-    ++desk.met.cases;
-    if (Random random(plan_.seed, target.name(), index, Use::mutants);
+    const cases::Case base = target.make(plan_.seed, index);
+    if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
+      questions.as_made = &questions.add_context(*subject_, base.scene, plan_);
+    SceneContext& context = *questions.as_made;
+    const std::size_t first = questions.cases.size();
+    questions.cases.push_back(
+        {&target, index, 0, {base.query, context.examiner.exact(base.query)}, &context});
+    ++questions.met.cases;
+    if (Random random(plan_.seed, target.name(), index, Use::variants);
         plan_.mutate > 0 && random.one_in(plan_.mutate)) {
       int step = 0;
-      for (Mutant& mutant : climb(random, base, room.examiner, room.scrutiny())) {
-        if (mutant.margin() > 0 && mutant.margin() < desk.met.margin)
-          desk.met.margin = mutant.margin(), desk.met.margin_index = index;
-        desk.cases.push_back({&target, index, ++step, std::move(mutant.question), &room});
+      for (Variant& variant : climb(random, base, context.examiner, context.margins())) {
+        if (variant.margin() > 0 && variant.margin() < questions.met.margin)
+          questions.met.margin = variant.margin(), questions.met.margin_index = index;
+        questions.cases.push_back({&target, index, ++step, std::move(variant.question), &context});
       }
-      desk.met.mutants += static_cast<std::uint64_t>(step);
+      questions.met.variants += static_cast<std::uint64_t>(step);
     }
     if (Random random(plan_.seed, target.name(), index, Use::rewordings);
         plan_.reword > 0 && random.one_in(plan_.reword))
-      pose_in_other_words(random, desk, first);
+      pose_in_other_words(random, questions, first);
   }
-  ask(desk);
+  ask(questions);
 }
 
 // The cases from `first` on, each in other words: one of a few for the scene, in turn, and its own. The
 // answer comes with it, where it can.
-void StintWorker::pose_in_other_words(Random& random, Desk& desk, std::size_t first) {
-  for (std::size_t i = first, last = desk.cases.size(); i < last && !stop_; ++i) {
-    const Case& one = desk.cases[i];
+void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
+  for (std::size_t i = first, last = questions.cases.size(); i < last && !stop_; ++i) {
+    const Case& one = questions.cases[i];
     if (random.one_in(kCasesPerNotation)) {
-      if (auto other = in_other_digits(random, one)) desk.cases.push_back(std::move(*other));
+      if (auto other = in_other_digits(random, one)) questions.cases.push_back(std::move(*other));
       continue;
     }
     const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
-    auto& [rewording, room] = desk.elsewhere(plan_, *subject_, one, number);
+    auto& [rewording, context] = questions.other_words(plan_, *subject_, one, number);
     auto reworded = rewording.reword(random, one.question.query);
     if (!reworded) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
     Question question{std::move(reworded->query), {}, carried.has_value()};
-    question.exact = carried ? std::move(*carried) : room->examiner.exact(question.query);
+    question.exact = carried ? std::move(*carried) : context->examiner.exact(question.query);
     std::string words = rewording.words(*reworded);
     if (random.one_in(kCasesPerLimit)) {
       question.limit = drawn_limit(random, subject_->limits(), question.exact);
@@ -210,45 +215,47 @@ void StintWorker::pose_in_other_words(Random& random, Desk& desk, std::size_t fi
         words += (words.empty() ? "" : ", ") + std::string(words_of(question.limit));
     }
     if (words.empty()) continue;
-    desk.cases.push_back({one.target, one.index, one.step, std::move(question), room, std::move(words)});
+    questions.cases.push_back(
+        {one.target, one.index, one.step, std::move(question), context, std::move(words)});
   }
 }
 
 // The same words in other digits, if they are read otherwise; by the subject they are not seen.
-std::optional<StintWorker::Case> StintWorker::in_other_digits(Random& random, const Case& one) {
-  auto misread = misreading(random, one.room->examiner.scene(), one.question.query);
+std::optional<BatchRunner::Case> BatchRunner::in_other_digits(Random& random, const Case& one) {
+  auto misread = misreading(random, one.context->examiner.scene(), one.question.query);
   if (!misread) return std::nullopt;
   Examined examined;
   examined.kind = Kind::error;
   examined.given = Answer::error("read back otherwise: " + misread->line);
   examined.exact = one.question.exact;
-  return Case{one.target, one.index, one.step, one.question, one.room, misread->notation, examined};
+  return Case{one.target, one.index, one.step, one.question, one.context, misread->notation, examined};
 }
 
-// Room by room, so that a subject is prepared once for each scene.
-void StintWorker::ask(Desk& desk) {
-  for (std::size_t i = 0; i < desk.cases.size(); ++i)
-    if (!desk.cases[i].misread) desk.asked.push_back(i);
-  const auto place = [&](std::size_t i) { return desk.cases[i].room->number; };
-  std::stable_sort(desk.asked.begin(), desk.asked.end(),
+// Scene by scene, so that a subject is prepared once for each scene.
+void BatchRunner::ask(Questions& questions) {
+  for (std::size_t i = 0; i < questions.cases.size(); ++i)
+    if (!questions.cases[i].misread) questions.asked.push_back(i);
+  const auto place = [&](std::size_t i) { return questions.cases[i].context->number; };
+  std::stable_sort(questions.asked.begin(), questions.asked.end(),
                    [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  for (const std::size_t i : desk.asked) {
+  for (const std::size_t i : questions.asked) {
     if (stop_) break;
-    desk.cases[i].room->examiner.ask(desk.cases[i].question);
+    questions.cases[i].context->examiner.ask(questions.cases[i].question);
   }
 }
 
-// Judges the replies. Of a case and its mutants one finding of a sort is enough.
-void StintWorker::take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result) {
+// Judges the replies. Of a case and its variants one finding of a sort is enough.
+void BatchRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
+                       BatchResult& result) {
   std::vector<Reply> replies = subject_->replies();
-  std::vector<Reply*> reply_to(desk.cases.size(), nullptr);
-  for (std::size_t i = 0; i < replies.size(); ++i) reply_to[desk.asked[i]] = &replies[i];
+  std::vector<Reply*> reply_to(questions.cases.size(), nullptr);
+  for (std::size_t i = 0; i < replies.size(); ++i) reply_to[questions.asked[i]] = &replies[i];
   std::set<std::tuple<std::uint64_t, std::string>> kept;
-  for (std::size_t i = 0; i < desk.cases.size() && !stop_; ++i) {
-    const Case& one = desk.cases[i];
+  for (std::size_t i = 0; i < questions.cases.size() && !stop_; ++i) {
+    const Case& one = questions.cases[i];
     if (!one.misread && !reply_to[i]) continue;
     const Examined examined =
-        one.misread ? *one.misread : one.room->examiner.judge(one.question, *reply_to[i]);
+        one.misread ? *one.misread : one.context->examiner.judge(one.question, *reply_to[i]);
     const bool in_other_words = !one.words.empty();
     // What it does not do in other words says nothing.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
@@ -256,7 +263,7 @@ void StintWorker::take(Desk& desk, const std::map<std::string, std::uint64_t>& k
     ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
     if (examined.stage) ++result.met.stages[static_cast<std::size_t>(*examined.stage)];
     if (!plan_.counts.is_finding(examined.kind)) continue;
-    const std::string sort = sort_of(one.room->examiner.scene(), one.question.query, examined) +
+    const std::string sort = sort_of(one.context->examiner.scene(), one.question.query, examined) +
                              (in_other_words ? ", in other words" : "");
     std::uint64_t& number = result.met.sorts[sort];
     if (!kept.emplace(one.index, sort).second) continue;
@@ -267,8 +274,8 @@ void StintWorker::take(Desk& desk, const std::map<std::string, std::uint64_t>& k
   }
 }
 
-Finding StintWorker::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
-  const Scene& scene = one.room->examiner.scene();
+Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
+  const Scene& scene = one.context->examiner.scene();
   Finding finding;
   finding.target = one.target->name();
   finding.index = one.index;
@@ -278,14 +285,14 @@ Finding StintWorker::finding_of(const Case& one, const std::string& sort, const 
   finding.sort = sort;
   finding.text = text_of(label_of(finding), scene, one.question.query, examined);
   finding.departs = examined.departs;
-  if (const auto decision = one.room->scrutiny().hardest_decision(one.question.query, examined.exact))
+  if (const auto decision = one.context->margins().hardest_decision(one.question.query, examined.exact))
     finding.margin = decision->margin;
   shrink_into(finding, one, examined);
   return finding;
 }
 
-void StintWorker::shrink_into(Finding& finding, const Case& one, const Examined& examined) {
-  Shrunk shrunk{one.room->examiner.scene(), one.question.query};
+void BatchRunner::shrink_into(Finding& finding, const Case& one, const Examined& examined) {
+  Shrunk shrunk{one.context->examiner.scene(), one.question.query};
   Examined after = examined;
   if (!subject_->failed() && !one.misread) {
     SameFailure fails(*subject_, plan_, stop_, examined, one.question.limit);

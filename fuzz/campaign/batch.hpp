@@ -1,4 +1,4 @@
-// A stretch of a target's cases, worked through by one thread. Private to fuzz/.
+// A batch: consecutive cases of a target, worked through by one thread.
 #pragma once
 
 #include <atomic>
@@ -12,44 +12,44 @@
 
 namespace lorentz::fuzz {
 
-struct Stint {
+struct Batch {
   std::size_t target;        ///< of the plan's
   std::uint64_t begin, end;  ///< indices
 };
 
-struct StintResult {
-  Account met;  ///< of this stretch alone
+struct BatchResult {
+  TargetTally met;  ///< of this batch alone
   struct Kept {
     Finding finding;
-    std::uint64_t ordinal;  ///< among the stretch's findings of its sort, from 1
+    std::uint64_t ordinal;  ///< among the batch's findings of its sort, from 1
   };
   std::vector<Kept> kept;
 };
 
-class StintWorker {
+class BatchRunner {
  public:
-  StintWorker(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop);
-  ~StintWorker();
+  BatchRunner(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop);
+  ~BatchRunner();
 
   /// Nothing if it was stopped. `known` is how many findings of each sort the target has for certain from
   /// earlier indices: those beyond the plan's `keep` are counted only.
-  std::optional<StintResult> work(const Stint& stint, const std::map<std::string, std::uint64_t>& known);
+  std::optional<BatchResult> run(const Batch& batch, const std::map<std::string, std::uint64_t>& known);
 
   /// The subject broke at least once. (It was made anew.)
   bool subject_failed() const { return subject_failed_; }
 
-  /// How many cases a stint should have.
-  std::uint64_t batch() const { return subject_->batch(); }
+  /// How many cases a batch should have.
+  std::uint64_t batch_size() const { return subject_->batch_size(); }
 
  private:
   struct Case;
-  struct Room;
-  struct Desk;
-  void pose(const Stint& stint, Desk& desk);
-  void pose_in_other_words(Random& random, Desk& desk, std::size_t first);
-  static std::optional<Case> in_other_digits(Random& random, const Case& one);
-  void ask(Desk& desk);
-  void take(Desk& desk, const std::map<std::string, std::uint64_t>& known, StintResult& result);
+  struct SceneContext;
+  struct Questions;
+  void pose(const Batch& batch, Questions& questions);
+  void pose_in_other_words(cases::Random& random, Questions& questions, std::size_t first);
+  static std::optional<Case> in_other_digits(cases::Random& random, const Case& one);
+  void ask(Questions& questions);
+  void take(Questions& questions, const std::map<std::string, std::uint64_t>& known, BatchResult& result);
   Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
   void shrink_into(Finding& finding, const Case& one, const Examined& examined);
 
@@ -60,7 +60,7 @@ class StintWorker {
   bool subject_failed_ = false;
 };
 
-/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a mutant; with an `r` behind
+/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a variant; with an `r` behind
 /// it if it was found in other words.
 std::string label_of(const Finding& finding);
 

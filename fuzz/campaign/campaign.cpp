@@ -8,6 +8,9 @@
 #include "fuzz/campaign/ranks.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -29,9 +32,9 @@ void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) 
 
 }  // namespace
 
-void Account::add(const Account& other) {
+void TargetTally::add(const TargetTally& other) {
   cases += other.cases;
-  mutants += other.mutants;
+  variants += other.variants;
   reworded += other.reworded;
   for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] += other.kinds[k];
   for (std::size_t s = 0; s < stages.size(); ++s) stages[s] += other.stages[s];
@@ -41,9 +44,9 @@ void Account::add(const Account& other) {
 }
 
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
-         std::vector<Account>& accounts, Journal& journal, Ranks* ranks) {
+         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks) {
   const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
-  Ledger ledger(plan, bounds, processes * bounds.jobs, accounts, journal);
+  Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal);
   Workers workers(plan, make_subject, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);

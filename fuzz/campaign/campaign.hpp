@@ -1,6 +1,6 @@
-// A campaign: cases of several targets and mutants of some of them, asked of a subject, judged by the oracle,
-// what goes wrong shrunk. What is found depends on the plan and on how far each target went; not on the
-// number of threads, nor on how often it was stopped and gone on with.
+// A campaign: cases of several targets and variants of some of them, asked of a subject, judged by the
+// oracle, what goes wrong shrunk. What is found depends on the plan and on how far each target went; not on
+// the number of threads, nor on how often it was stopped and gone on with.
 #pragma once
 
 #include <array>
@@ -21,21 +21,21 @@ namespace lorentz::fuzz {
 
 /// All that findings depend on, but for the subject.
 struct Plan {
-  std::vector<const Target*> targets;
+  std::vector<const cases::Target*> targets;
   std::uint64_t seed = 0;
   std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
   Counts counts;
   std::uint64_t keep = 3;     ///< findings kept and shrunk of each sort, of each target; all are counted
   std::uint64_t mutate = 32;  ///< one in so many cases is climbed from; 0: none
   std::uint64_t reword =
-      1;  ///< one in so many cases, with its mutants, is asked in other words, too; 0: none
+      1;  ///< one in so many cases, with its variants, is asked in other words, too; 0: none
   Truth truth = Truth::oracle;
 };
 
 /// How far a target is, and what was met on the way.
-struct Account {
+struct TargetTally {
   std::uint64_t next = 0;  ///< the first index that is not done
-  std::uint64_t cases = 0, mutants = 0;
+  std::uint64_t cases = 0, variants = 0;
   std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
   std::array<std::uint64_t, kKinds> kinds{};                ///< of all of these, by Kind
   std::array<std::uint64_t, 3> stages{};                    ///< of the same, by Stage, where it is told
@@ -44,7 +44,7 @@ struct Account {
   std::uint64_t margin_index = 0;                           ///< from this case
 
   /// Adds what another stretch of indices met. `next` is the caller's to set.
-  void add(const Account& other);
+  void add(const TargetTally& other);
 };
 
 /// Where a campaign's work goes. Called by one thread.
@@ -52,8 +52,9 @@ class Journal {
  public:
   virtual ~Journal() = default;
 
-  /// The account of a target after some more of its work, and the findings kept of this.
-  virtual void record(const Target& target, const Account& account, const std::vector<Finding>& kept) = 0;
+  /// The tally of a target after some more of its work, and the findings kept of this.
+  virtual void record(const cases::Target& target, const TargetTally& tally,
+                      const std::vector<Finding>& kept) = 0;
 
   /// Called several times a second, also when nothing was done.
   virtual void tick() = 0;
@@ -70,10 +71,10 @@ struct Bounds {
 
 class Ranks;
 
-/// Goes on from the accounts (one for each target of the plan), which it brings up to date. Threads get equal
+/// Goes on from the tallies (one for each target of the plan), which it brings up to date. Threads get equal
 /// times for each target. Work that is unfinished when the time is up is dropped: at most the few cases that
 /// each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
-         std::vector<Account>& accounts, Journal& journal, Ranks* ranks = nullptr);
+         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr);
 
 }  // namespace lorentz::fuzz

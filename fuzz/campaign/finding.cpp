@@ -39,8 +39,7 @@ std::string dimension_of(const Scene& scene) {
 
 std::string model_of(const Scene& scene) {
   bool ellipsoids = false;
-  for (const Lattice& lattice : scene.lattices)
-    for (const Atom& atom : lattice.atoms) ellipsoids |= !atom.is_ball();
+  for_each_atom(scene, [&](const Atom& atom) { ellipsoids |= !atom.is_ball(); });
   std::string model = scene.lattices.size() > 1            ? ", several lattices"
                       : scene.lattices[0].atoms.size() > 1 ? ", several atoms"
                       : is_unit_scene(scene)               ? ", unit lattice"

@@ -18,7 +18,7 @@ struct CaseText {
 struct Finding {
   std::string target;
   std::uint64_t index = 0;
-  int step = 0;       ///< 0: the case itself; else its mutant of this number
+  int step = 0;       ///< 0: the case itself; else its variant of this number
   std::string words;  ///< of a case asked in other words, and found there: which; else empty
   std::string kind;   ///< name_of(Kind)
   std::string sort;   ///< what of each target only the first few are kept of (sort_of)

@@ -1,5 +1,5 @@
-// Who does which indices of a campaign, and what came of them: hands out stints, and records their results in
-// the order of the indices, so that it does not matter who did them, or when. Private to fuzz/.
+// Who does which indices of a campaign, and what came of them: hands out batches, and records their results
+// in the order of the indices, so that it does not matter who did them, or when.
 #pragma once
 
 #include <condition_variable>
@@ -13,17 +13,17 @@ namespace lorentz::fuzz {
 class Ledger final : public WorkSource {
  public:
   /// `threads`: of all processes together.
-  Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<Account>& accounts,
+  Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
          Journal& journal);
 
-  std::optional<Assignment> take(std::uint64_t batch) override;
+  std::optional<Assignment> take(std::uint64_t batch_size) override;
   void hand_in(Done done) override;
   void subject_failed() override;
   void fail(std::exception_ptr failure) override;
   const std::atomic<bool>& stop() const override { return stop_; }
 
-  /// Up to `most` stints that are there without waiting: for somebody far away.
-  std::vector<Assignment> take_some(std::size_t most, std::uint64_t batch);
+  /// Up to `most` batches that are there without waiting: for somebody far away.
+  std::vector<Assignment> take_some(std::size_t most, std::uint64_t batch_size);
 
   /// Records what is ready. Returns whether there may be more. Throws what somebody failed with.
   bool record();
@@ -34,25 +34,25 @@ class Ledger final : public WorkSource {
  private:
   // A target in a running campaign.
   struct Track {
-    Account account;                                               // of what is recorded
+    TargetTally tally;                                             // of what is recorded
     std::uint64_t handed_out = 0;                                  // the first index that nobody has
-    std::size_t in_work = 0;                                       // stints handed out and not recorded
+    std::size_t in_work = 0;                                       // batches handed out and not recorded
     double seconds = 0;                                            // of all threads,
     std::uint64_t cases = 0;                                       // for so many indices
     std::uint64_t pending = 0;                                     // indices handed out and not handed in
-    std::map<std::uint64_t, std::pair<Stint, StintResult>> ready;  // by first index: done, not recorded
+    std::map<std::uint64_t, std::pair<Batch, BatchResult>> ready;  // by first index: done, not recorded
   };
 
   Track* next_track();
-  Assignment assign(Track& track, std::uint64_t batch, double seconds);
-  void record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept);
+  Assignment assign(Track& track, std::uint64_t batch_size, double seconds);
+  void record(Track& track, const Batch& batch, BatchResult& result, std::vector<Finding>& kept);
   bool all_handed_out() const;
 
   const Plan& plan_;
   const std::uint64_t count_;
   const bool first_;
   const std::size_t most_ahead_;
-  std::vector<Account>& accounts_;
+  std::vector<TargetTally>& tallies_;
   Journal& journal_;
   std::vector<Track> tracks_;
   std::atomic<bool> stop_ = false, subject_failed_ = false;

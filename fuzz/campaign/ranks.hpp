@@ -1,6 +1,6 @@
 // The processes of one campaign, where mpirun started several. Rank 0 keeps the ledger (and the store); the
-// others ask it for stints and send it what came of them. Nobody but ranks_mpi.cpp knows MPI; a program built
-// without it has ranks_none.cpp in its place.
+// others ask it for batches and send it what came of them. Nobody but ranks_mpi.cpp knows MPI; a program
+// built without it has ranks_none.cpp in its place.
 #pragma once
 
 #include <memory>

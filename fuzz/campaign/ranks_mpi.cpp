@@ -28,8 +28,8 @@ enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
-// A rank's threads always have a few stints before them.
-constexpr std::size_t kStintsAhead = 4;
+// A rank's threads always have a few batches before them.
+constexpr std::size_t kBatchesAhead = 4;
 
 }  // namespace
 
@@ -45,12 +45,12 @@ void transfer(Archive& archive, std::optional<T>& value) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Stint& s, unsigned) {
+void serialize(Archive& archive, Batch& s, unsigned) {
   archive& s.target& s.begin& s.end;
 }
 template <class Archive>
-void serialize(Archive& archive, Account& a, unsigned) {
-  archive& a.next& a.cases& a.mutants& a.reworded& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
+void serialize(Archive& archive, TargetTally& a, unsigned) {
+  archive& a.next& a.cases& a.variants& a.reworded& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
 }
 template <class Archive>
 void serialize(Archive& archive, CaseText& t, unsigned) {
@@ -63,33 +63,33 @@ void serialize(Archive& archive, Finding& f, unsigned) {
   archive& f.bits& f.complexity& f.tries;
 }
 template <class Archive>
-void serialize(Archive& archive, StintResult::Kept& k, unsigned) {
+void serialize(Archive& archive, BatchResult::Kept& k, unsigned) {
   archive& k.finding& k.ordinal;
 }
 template <class Archive>
-void serialize(Archive& archive, StintResult& r, unsigned) {
+void serialize(Archive& archive, BatchResult& r, unsigned) {
   archive& r.met& r.kept;
 }
 template <class Archive>
 void serialize(Archive& archive, Done& d, unsigned) {
-  archive& d.stint& d.seconds;
+  archive& d.batch& d.seconds;
   transfer(archive, d.result);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& a, unsigned) {
-  archive& a.stint& a.known;
+  archive& a.batch& a.known;
 }
 namespace {
 
 struct Report {
   std::vector<Done> done;
-  std::uint64_t wants = 0, batch = 1;
+  std::uint64_t wants = 0, batch_size = 1;
   bool subject_failed = false, last = false;
   std::string failure;
 
   template <class Archive>
   void serialize(Archive& archive, unsigned) {
-    archive& done& wants& batch& subject_failed& last& failure;
+    archive& done& wants& batch_size& subject_failed& last& failure;
   }
 };
 
@@ -105,13 +105,13 @@ struct Orders {
 
 // ---- another rank's threads take from here
 
-class Outpost final : public WorkSource {
+class RemoteWork final : public WorkSource {
  public:
-  explicit Outpost(unsigned jobs) : jobs_(jobs) {}
+  explicit RemoteWork(unsigned jobs) : jobs_(jobs) {}
 
-  std::optional<Assignment> take(std::uint64_t batch) override {
+  std::optional<Assignment> take(std::uint64_t batch_size) override {
     std::unique_lock lock(mutex_);
-    report_.batch = batch;
+    report_.batch_size = batch_size;
     changed_.wait(lock, [&] { return stop_ || !waiting_.empty(); });
     if (stop_) return std::nullopt;
     Assignment next = std::move(waiting_.front());
@@ -142,10 +142,10 @@ class Outpost final : public WorkSource {
   }
   Report report() {
     const std::lock_guard lock(mutex_);
-    const std::size_t most = kStintsAhead * jobs_;
+    const std::size_t most = kBatchesAhead * jobs_;
     report_.wants = most - std::min(most, waiting_.size());
     Report report = std::exchange(report_, {});
-    report_.batch = report.batch;
+    report_.batch_size = report.batch_size;
     return report;
   }
   void obey(Orders orders) {
@@ -207,7 +207,7 @@ void Ranks::serve(Ledger& ledger) {
     Report report = impl_->receive(status->source());
     impl_->take_in(ledger, report);
     if (report.last) continue;
-    Orders orders{ledger.take_some(report.wants, report.batch), ledger.stop()};
+    Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};
     impl_->world.send(status->source(), kOrders, orders);
   }
 }
@@ -220,21 +220,21 @@ void Ranks::dismiss(Ledger& ledger) {
 }
 
 void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subject) {
-  Outpost outpost(jobs);
-  Workers workers(plan, make_subject, outpost, jobs);
+  RemoteWork work(jobs);
+  Workers workers(plan, make_subject, work, jobs);
   auto last_sent = Clock::now() - kLongestSilence;
-  while (!outpost.stop()) {
+  while (!work.stop()) {
     std::this_thread::sleep_for(kLook);
-    if (!outpost.has_news() && Clock::now() - last_sent < kLongestSilence) continue;
+    if (!work.has_news() && Clock::now() - last_sent < kLongestSilence) continue;
     last_sent = Clock::now();
-    impl_->world.send(0, kReport, outpost.report());
+    impl_->world.send(0, kReport, work.report());
     while (!impl_->world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
     Orders orders;
     impl_->world.recv(0, kOrders, orders);
-    outpost.obey(std::move(orders));
+    work.obey(std::move(orders));
   }
   workers.join();
-  Report report = outpost.report();
+  Report report = work.report();
   report.last = true;
   impl_->world.send(0, kReport, report);
 }

@@ -1,4 +1,4 @@
-// SQLite with exceptions: a connection, and statements that are prepared once. Private to fuzz/store*.cpp.
+// SQLite with exceptions: a connection, and statements that are prepared once. Private to store*.cpp.
 #pragma once
 
 #include <sqlite3.h>

@@ -14,6 +14,9 @@
 #include "fuzz/campaign/sqlite.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
@@ -179,29 +182,29 @@ std::int64_t Store::open_campaign(const Manifest& manifest) {
   return id;
 }
 
-Account Store::account(std::int64_t campaign, std::string_view target) const {
-  Account account;
+TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
+  TargetTally tally;
   Statement row(
       impl_->connection,
       "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
       "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
-  if (!row.step()) return account;
-  account.next = row.count();
-  account.cases = row.count();
-  account.mutants = row.count();
-  account.reworded = row.count();
-  for (std::uint64_t& number : account.kinds) number = row.count();
-  for (std::uint64_t& number : account.stages) number = row.count();
-  account.margin = row.real_or_null().value_or(account.margin);
-  account.margin_index = row.count();
+  if (!row.step()) return tally;
+  tally.next = row.count();
+  tally.cases = row.count();
+  tally.variants = row.count();
+  tally.reworded = row.count();
+  for (std::uint64_t& number : tally.kinds) number = row.count();
+  for (std::uint64_t& number : tally.stages) number = row.count();
+  tally.margin = row.real_or_null().value_or(tally.margin);
+  tally.margin_index = row.count();
   Statement sorts(impl_->connection, "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
   sorts.bind(campaign).bind(target);
   while (sorts.step()) {
     std::string sort = sorts.text();
-    account.sorts.emplace(std::move(sort), sorts.count());
+    tally.sorts.emplace(std::move(sort), sorts.count());
   }
-  return account;
+  return tally;
 }
 
 std::vector<Stored> Store::findings() const {
@@ -228,24 +231,24 @@ std::vector<Stored> Store::findings() const {
   return all;
 }
 
-void Store::put(std::int64_t campaign, std::string_view target, const Account& account) {
+void Store::put(std::int64_t campaign, std::string_view target, const TargetTally& tally) {
   impl_->begin();
   Statement row(
       impl_->connection,
       "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign)
       .bind(target)
-      .bind(account.next)
-      .bind(account.cases)
-      .bind(account.mutants)
-      .bind(account.reworded);
-  for (const std::uint64_t number : account.kinds) row.bind(number);
-  for (const std::uint64_t number : account.stages) row.bind(number);
-  row.bind(std::isfinite(account.margin) ? std::optional(account.margin) : std::nullopt)
-      .bind(account.margin_index)
+      .bind(tally.next)
+      .bind(tally.cases)
+      .bind(tally.variants)
+      .bind(tally.reworded);
+  for (const std::uint64_t number : tally.kinds) row.bind(number);
+  for (const std::uint64_t number : tally.stages) row.bind(number);
+  row.bind(std::isfinite(tally.margin) ? std::optional(tally.margin) : std::nullopt)
+      .bind(tally.margin_index)
       .done();
   Statement sort(impl_->connection, "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
-  for (const auto& [name, number] : account.sorts)
+  for (const auto& [name, number] : tally.sorts)
     sort.bind(campaign).bind(target).bind(name).bind(number).done();
 }
 
@@ -281,12 +284,13 @@ struct StoreJournal::Impl {
 
   Store& store;
   std::int64_t campaign;
-  std::map<std::string_view, Account> unwritten;  // rows are written once a commit, however often they change
+  std::map<std::string_view, TargetTally>
+      unwritten;  // rows are written once a commit, however often they change
   std::vector<Finding> findings;
   Clock::time_point last_commit = Clock::now();
 
   void write() {
-    for (const auto& [target, account] : unwritten) store.put(campaign, target, account);
+    for (const auto& [target, tally] : unwritten) store.put(campaign, target, tally);
     for (const Finding& finding : findings) store.put(campaign, finding);
     unwritten.clear();
     findings.clear();
@@ -305,8 +309,8 @@ StoreJournal::~StoreJournal() {
   }
 }
 
-void StoreJournal::record(const Target& target, const Account& account, const std::vector<Finding>& kept) {
-  impl_->unwritten[target.name()] = account;
+void StoreJournal::record(const Target& target, const TargetTally& tally, const std::vector<Finding>& kept) {
+  impl_->unwritten[target.name()] = tally;
   impl_->findings.insert(impl_->findings.end(), kept.begin(), kept.end());
 }
 

@@ -58,12 +58,12 @@ class Store {
   /// The id of the campaign with this manifest, which is added if there is none.
   std::int64_t open_campaign(const Manifest& manifest);
 
-  /// An account that was never put is empty.
-  Account account(std::int64_t campaign, std::string_view target) const;
+  /// A tally that was never put is empty.
+  TargetTally tally(std::int64_t campaign, std::string_view target) const;
   std::vector<Stored> findings() const;
 
   /// Writes become durable together, by commit().
-  void put(std::int64_t campaign, std::string_view target, const Account& account);
+  void put(std::int64_t campaign, std::string_view target, const TargetTally& tally);
   void put(std::int64_t campaign, const Finding& finding);
   void commit();
 
@@ -77,7 +77,8 @@ class StoreJournal final : public Journal {
  public:
   StoreJournal(Store& store, std::int64_t campaign);
   ~StoreJournal() override;
-  void record(const Target& target, const Account& account, const std::vector<Finding>& kept) override;
+  void record(const cases::Target& target, const TargetTally& tally,
+              const std::vector<Finding>& kept) override;
   void tick() override;
 
  private:

@@ -1,4 +1,4 @@
-// Shards put together: accounts add up, and of the findings of each sort the first are kept, as one run would
+// Shards put together: tallies add up, and of the findings of each sort the first are kept, as one run would
 // have kept them.
 #include <algorithm>
 #include <map>
@@ -97,11 +97,11 @@ void merge(const std::vector<std::string>& paths, Store& into) {
   for (std::size_t c = 0; c < shards.front().campaigns.size(); ++c) {
     Manifest manifest = shards.front().campaigns[c].manifest;
     bool even = std::to_string(shards.size()) == number_of_shards(manifest.shard);
-    std::map<std::string, Account> sums;
+    std::map<std::string, TargetTally> sums;
     for (const std::string& target : names_in(manifest.targets)) {
-      Account& sum = sums[target];
+      TargetTally& sum = sums[target];
       for (std::size_t s = 0; s < shards.size(); ++s) {
-        const Account one = stores[s]->account(shards[s].campaigns[c].id, target);
+        const TargetTally one = stores[s]->tally(shards[s].campaigns[c].id, target);
         if (s > 0) even &= one.next == sum.next;
         sum.next = s == 0 ? one.next : std::min(sum.next, one.next);
         sum.add(one);

@@ -17,14 +17,14 @@ void Workers::join() {
 void Workers::work() {
   using Clock = std::chrono::steady_clock;
   try {
-    StintWorker worker(plan_, make_subject_, source_.stop());
-    while (const auto assignment = source_.take(worker.batch())) {
+    BatchRunner runner(plan_, make_subject_, source_.stop());
+    while (const auto assignment = source_.take(runner.batch_size())) {
       const auto start = Clock::now();
-      Done done{assignment->stint, worker.work(assignment->stint, assignment->known), 0};
+      Done done{assignment->batch, runner.run(assignment->batch, assignment->known), 0};
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
       source_.hand_in(std::move(done));
     }
-    if (worker.subject_failed()) source_.subject_failed();
+    if (runner.subject_failed()) source_.subject_failed();
   } catch (...) {
     source_.fail(std::current_exception());
   }

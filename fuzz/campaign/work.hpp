@@ -1,5 +1,4 @@
-// What the threads of a campaign take and give back, wherever the campaign's ledger is kept. Private to
-// fuzz/.
+// What the threads of a campaign take and give back, wherever the campaign's ledger is kept.
 #pragma once
 
 #include <atomic>
@@ -14,16 +13,16 @@
 
 namespace lorentz::fuzz {
 
-/// A stint for somebody, and how many findings of each sort its target has for certain from earlier indices.
+/// A batch for somebody, and how many findings of each sort its target has for certain from earlier indices.
 struct Assignment {
-  Stint stint;
+  Batch batch;
   std::map<std::string, std::uint64_t> known;
 };
 
-/// A stint that was done; without a result if it was stopped in between.
+/// A batch that was done; without a result if it was stopped in between.
 struct Done {
-  Stint stint;
-  std::optional<StintResult> result;
+  Batch batch;
+  std::optional<BatchResult> result;
   double seconds = 0;
 };
 
@@ -32,9 +31,9 @@ class WorkSource {
  public:
   virtual ~WorkSource() = default;
 
-  /// The next stint for somebody who likes to be asked at least `batch` cases at once; waits for one if there
-  /// may be some later. Nothing: there is no more.
-  virtual std::optional<Assignment> take(std::uint64_t batch) = 0;
+  /// The next batch for somebody who likes to be asked at least `batch_size` cases at once; waits for one if
+  /// there may be some later. Nothing: there is no more.
+  virtual std::optional<Assignment> take(std::uint64_t batch_size) = 0;
   virtual void hand_in(Done done) = 0;
 
   /// A subject broke, and was made anew.

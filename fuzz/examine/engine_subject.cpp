@@ -11,13 +11,14 @@
 #include "fuzz/examine/engine_subject.hpp"
 #include "src/engines/published/published.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::fuzz {
+
+using namespace compare;
+
 namespace {
 
-using fuzz::Reply;
-
 // Whoever answers. Another program gets many queries before its answers are waited for.
-class AnswererSubject final : public fuzz::Subject {
+class AnswererSubject final : public Subject {
  public:
   AnswererSubject(const std::string& engine, const AnswererOptions& options)
       : answerer_(make_answerer(engine, options)), is_command_(is_command(engine)) {
@@ -29,7 +30,7 @@ class AnswererSubject final : public fuzz::Subject {
     answerer_->drain();
     return std::exchange(replies_, {});
   }
-  std::uint64_t batch() const override { return is_command_ ? 256 : Subject::batch(); }
+  std::uint64_t batch_size() const override { return is_command_ ? 256 : Subject::batch_size(); }
   bool failed() const override { return answerer_->failed(); }
 
  private:
@@ -42,7 +43,7 @@ class AnswererSubject final : public fuzz::Subject {
 
 // The second oracle, cell by cell. What takes it more cells than this it leaves undecided: a flight of its
 // usual 10^5 takes seconds, in which it could answer thousands of others.
-class WalkSubject final : public fuzz::Subject {
+class WalkSubject final : public Subject {
  public:
   void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
   Limits limits() const override { return Limits::exact; }
@@ -60,7 +61,7 @@ class WalkSubject final : public fuzz::Subject {
 };
 
 // Cell to cell, too: up to a time in which the flight passes about this many cells, for the same reason.
-class ClassicalSubject final : public fuzz::Subject {
+class ClassicalSubject final : public Subject {
  public:
   void ask(const Query& query) override {
     const Vec &u = scene_->lattices[0].vectors[0], &v = query.v;
@@ -84,7 +85,7 @@ class ClassicalSubject final : public fuzz::Subject {
 // An engine that says more about an answer than the answer. Engines of this kind are made from a scene, and
 // know why a scene is beyond them.
 template <class E>
-class TellingSubject : public fuzz::Subject {
+class TellingSubject : public Subject {
  public:
   void ask(const Query& query) final { ask_until(query, std::numeric_limits<double>::infinity()); }
   void ask_until(const Query& query, double max_time) final {
@@ -154,20 +155,27 @@ class CertifiedSubject final : public TellingSubject<oracle::Certified> {
 };
 
 template <class S>
-fuzz::MakeSubject maker_of() {
-  return [] { return std::make_unique<S>(); };
+std::unique_ptr<Subject> make() {
+  return std::make_unique<S>();
 }
+
+// The engines that are asked in a way of their own.
+constexpr struct {
+  std::string_view engine;
+  std::unique_ptr<Subject> (*make)();
+} kSubjects[] = {
+    {"classical", make<ClassicalSubject>}, {"published", make<PublishedSubject>},
+    {"reduction", make<ReductionSubject>}, {"certified", make<CertifiedSubject>},
+    {"walk", make<WalkSubject>},
+};
 
 }  // namespace
 
-fuzz::MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
+MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
   check_name(engine);
-  if (engine == "published") return maker_of<PublishedSubject>();
-  if (engine == "reduction") return maker_of<ReductionSubject>();
-  if (engine == "classical") return maker_of<ClassicalSubject>();
-  if (engine == "walk") return maker_of<WalkSubject>();
-  if (engine == "certified") return maker_of<CertifiedSubject>();
+  for (const auto& subject : kSubjects)
+    if (subject.engine == engine) return subject.make;
   return [engine, options] { return std::make_unique<AnswererSubject>(engine, options); };
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::fuzz

@@ -6,10 +6,10 @@
 #include "compare/answerer.hpp"
 #include "fuzz/examine/subject.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::fuzz {
 
 /// Makes what a campaign examines: any engine by its name, another program among them. Throws InputError for
 /// an unknown name.
-fuzz::MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options = {});
+MakeSubject subject_maker(const std::string& engine, const compare::AnswererOptions& options = {});
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::fuzz

@@ -5,10 +5,12 @@
 #include <lorentz/certified.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "fuzz/examine/tie.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
 
 std::string_view name_of(Kind kind) {
   constexpr std::string_view kNames[] = {"fine",      "unsupported", "wrong", "wrong time",

@@ -1,4 +1,4 @@
-// How it aims. A decision hangs on the sign of a number f(x): of the distance of the line, or of x, from the
+// A decision hangs on the sign of a number f(x): of the distance of the line, or of x, from the
 // centre, less the radius; or of the difference of two times of entry. Newton's steps along one component of
 // x lead to a zero of f, up to the last bit of that component. If another component is set to zero before, it
 // then takes up what is left: near zero binary64 is as fine as one likes, and so f comes to about 2^-100, the
@@ -11,10 +11,13 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/parts.hpp"
+#include "cases/ulps.hpp"
 #include "src/engines/base/double_double.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 using oracle::DecisionKind;
@@ -44,9 +47,9 @@ struct Slope {
 };
 
 // One obstacle and the line, in coordinates in which the obstacle is a ball.
-class Target {
+class ObstacleAndLine {
  public:
-  Target(const Scene& scene, const ObstacleId& id, const Vec& v) {
+  ObstacleAndLine(const Scene& scene, const ObstacleId& id, const Vec& v) {
     const Lattice& lattice = scene.lattices[id.lattice];
     const Atom& atom = lattice.atoms[id.atom];
     centre_ = wide(atom.position);
@@ -172,14 +175,14 @@ bool has_small_cell(const ObstacleId& id) {
 }
 
 // What is decided about which obstacle, or about this one and the one that is hit.
-struct Aim {
+struct NearDecision {
   DecisionKind kind;
   ObstacleId obstacle;
 };
 
 // The hardest decision, or one about the obstacle that is hit: for a tie with the one that would be hit next.
-Aim drawn_aim(Random& random, const Query& query, const Answer& exact,
-              const std::optional<oracle::Decision>& hardest, const Examiner& examiner) {
+NearDecision drawn_decision(Random& random, const Query& query, const Answer& exact,
+                            const std::optional<oracle::HardestDecision>& hardest, const Examiner& examiner) {
   const std::uint64_t kind = random.below(8);
   if (kind < 4 && hardest && hardest->margin < oracle::kLargestMargin)
     return {hardest->kind, hardest->obstacle};
@@ -192,26 +195,28 @@ Aim drawn_aim(Random& random, const Query& query, const Answer& exact,
 
 }  // namespace
 
-std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query& query, const Answer& exact,
-                                 const std::optional<oracle::Decision>& hardest, const Examiner& examiner) {
+std::optional<Query> query_near_decision(Random& random, const Scene& scene, const Query& query,
+                                         const Answer& exact,
+                                         const std::optional<oracle::HardestDecision>& hardest,
+                                         const Examiner& examiner) {
   if (exact.outcome != Outcome::hit) return std::nullopt;
-  const Aim aim = drawn_aim(random, query, exact, hardest, examiner);
-  if (!has_small_cell(aim.obstacle) || !has_small_cell(exact.obstacle)) return std::nullopt;
-  const Target target(scene, aim.obstacle, query.v), hit(scene, exact.obstacle, query.v);
+  const NearDecision decision = drawn_decision(random, query, exact, hardest, examiner);
+  if (!has_small_cell(decision.obstacle) || !has_small_cell(exact.obstacle)) return std::nullopt;
+  const ObstacleAndLine target(scene, decision.obstacle, query.v), hit(scene, exact.obstacle, query.v);
   const auto off = [&](const Vec& x) {
-    if (aim.kind == DecisionKind::containing) return target.containing(x);
-    if (aim.kind == DecisionKind::meeting) return target.meeting(x);
+    if (decision.kind == DecisionKind::containing) return target.containing(x);
+    if (decision.kind == DecisionKind::meeting) return target.meeting(x);
     Slope difference = target.entry(x);
     const Slope other = hit.entry(x);
     difference.value = difference.value - other.value;
     for (int k = 0; k < 3; ++k) difference.along[k] -= other.along[k];
     return difference;
   };
-  Query aimed = query;
-  const auto last = approach(random, scene.dimension, off, aimed.x);
-  if (!last || flaw_of(aimed, scene)) return std::nullopt;
-  if (random.one_in(4)) bisect(examiner, scene, aimed, *last);
-  return aimed;
+  Query near = query;
+  const auto last = approach(random, scene.dimension, off, near.x);
+  if (!last || flaw_of(near, scene)) return std::nullopt;
+  if (random.one_in(4)) bisect(examiner, scene, near, *last);
+  return near;
 }
 
 }  // namespace lorentz::fuzz

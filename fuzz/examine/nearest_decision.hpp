@@ -1,4 +1,4 @@
-// Aiming: a start moved so that a decision about an obstacle, or about two, is as close as it can be. Small
+// A start moved so that a decision about an obstacle, or about two, is as close as it can be. Small
 // blind moves do not come there: of an ordinary query the margin is some 2^50 ulps, and the decisions whose
 // error bounds a fast engine lives by are those within a few.
 #pragma once
@@ -15,7 +15,9 @@ namespace lorentz::fuzz {
 /// are entered at the same time, to the last bit that one component of x has, and some bits further if that
 /// component can be near zero. Of the decisions it takes the hardest so far, or draws one about the obstacle
 /// that is hit. Nothing if no obstacle is hit, or the place is out of reach; the result may have any answer.
-std::optional<Query> aimed_query(Random& random, const Scene& scene, const Query& query, const Answer& exact,
-                                 const std::optional<oracle::Decision>& hardest, const Examiner& examiner);
+std::optional<Query> query_near_decision(cases::Random& random, const Scene& scene, const Query& query,
+                                         const Answer& exact,
+                                         const std::optional<oracle::HardestDecision>& hardest,
+                                         const Examiner& examiner);
 
 }  // namespace lorentz::fuzz

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <lorentz/geometry.hpp>
-#include "cases/parts.hpp"
 
 namespace lorentz::fuzz {
+
 namespace {
 
 // ---- numbers
@@ -311,7 +311,7 @@ class Shrinker {
   void shorten() {
     if (!length_ || flight_ < 0) return;
     const Query query = best_.query;
-    const double speed = fuzz::length(query.v);
+    const double speed = length(query.v);
     for (const double share : {0.875, 0.75, 0.5, 0.25})
       for (const int places : {1, 2, 4, 8}) {
         const double time = share * flight_ / speed;

@@ -1,11 +1,9 @@
 #include "fuzz/examine/subject.hpp"
 
-#include "cases/parts.hpp"
-
 namespace lorentz::fuzz {
 
 void Subject::set_scene(const Scene& scene) {
-  if (scene_ && same(*scene_, scene)) return;
+  if (scene_ && *scene_ == scene) return;
   change_scene(scene);
   scene_ = scene;
 }

@@ -37,7 +37,7 @@ class Subject {
   virtual void ask_until(const Query& query, double /*max_time*/) { ask(query); }
 
   /// How many cases it likes to be asked at least before the replies are waited for.
-  virtual std::uint64_t batch() const { return 1; }
+  virtual std::uint64_t batch_size() const { return 1; }
 
   /// The replies to all that was asked since the last call, in order.
   virtual std::vector<Reply> replies() = 0;

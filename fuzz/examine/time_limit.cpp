@@ -4,6 +4,9 @@
 #include <limits>
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ enum class LimitAt { none, time, below, above, half, twice };
 std::string_view words_of(LimitAt limit);
 
 /// One that the subject can be asked with at this exact answer; where its time is not finite, none.
-LimitAt drawn_limit(Random& random, Subject::Limits limits, const Answer& exact);
+LimitAt drawn_limit(cases::Random& random, Subject::Limits limits, const Answer& exact);
 
 /// The limit of a question with this exact answer. `never` and `inside` have no time: any limit will do.
 double limit_of(LimitAt limit, const Answer& exact);

@@ -4,10 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "cases/parts.hpp"
+#include <lorentz/geometry.hpp>
+#include "cases/ulps.hpp"
 #include "fuzz/examine/nearest_decision.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -16,7 +20,7 @@ double with_bit_flipped(Random& random, double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
 }
 
-// One move; the result may be no query.
+// One move; the result may be an invalid query.
 Query one_move(Random& random, const Scene& scene, Query query) {
   const auto dimension = static_cast<std::uint64_t>(scene.dimension);
   Vec& a = random.one_in(2) ? query.x : query.v;
@@ -63,11 +67,11 @@ Query moved_query(Random& random, const Scene& scene, const Query& query) {
   return query;
 }
 
-double Mutant::margin() const {
+double Variant::margin() const {
   return hardest ? hardest->margin : kInfinity;
 }
 
-std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Mutant& here) {
+std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Variant& here) {
   const Answer& exact = here.question.exact;
   if (exact.outcome != Outcome::hit) return std::nullopt;
   const Lattice& lattice = scene.lattices[exact.obstacle.lattice];
@@ -85,11 +89,12 @@ std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Mu
   return query;
 }
 
-Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move) {
+Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Variant& here,
+                 int move) {
   if (move == 0)
-    if (auto aimed =
-            aimed_query(random, scene, here.question.query, here.question.exact, here.hardest, examiner))
-      return *aimed;
+    if (auto near = query_near_decision(random, scene, here.question.query, here.question.exact, here.hardest,
+                                        examiner))
+      return *near;
   Query query = here.question.query;
   const Answer& exact = here.question.exact;
   if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
@@ -99,22 +104,22 @@ Query next_query(Random& random, const Scene& scene, const Examiner& examiner, c
   return moved_query(random, scene, query);
 }
 
-Mutant seen(const Examiner& examiner, const oracle::Scrutiny& scrutiny, const Query& query) {
-  Mutant mutant{{query, examiner.exact(query)}, {}};
-  mutant.hardest = scrutiny.hardest_decision(query, mutant.question.exact, 0);
-  return mutant;
+Variant seen(const Examiner& examiner, const oracle::Margins& margins, const Query& query) {
+  Variant variant{{query, examiner.exact(query)}, {}};
+  variant.hardest = margins.hardest_decision(query, variant.question.exact, 0);
+  return variant;
 }
 
-std::vector<Mutant> climb(Random random, const Case& base, const Examiner& examiner,
-                          const oracle::Scrutiny& scrutiny) {
-  std::vector<Mutant> tried;
-  Mutant best = seen(examiner, scrutiny, base.query);
+std::vector<Variant> climb(Random random, const Case& base, const Examiner& examiner,
+                           const oracle::Margins& margins) {
+  std::vector<Variant> tried;
+  Variant best = seen(examiner, margins, base.query);
   if (const auto along = along_semiaxis(random, base.scene, best))
-    tried.push_back(best = seen(examiner, scrutiny, *along));
+    tried.push_back(best = seen(examiner, margins, *along));
   for (int round = 0; round < kRounds; ++round) {
-    const Mutant here = best;
+    const Variant here = best;
     for (int move = 0; move < kMovesPerRound; ++move) {
-      tried.push_back(seen(examiner, scrutiny, next_query(random, base.scene, examiner, here, move)));
+      tried.push_back(seen(examiner, margins, next_query(random, base.scene, examiner, here, move)));
       if (tried.back().margin() < best.margin()) best = tried.back();
     }
     if (best.margin() == 0) break;

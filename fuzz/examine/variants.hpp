@@ -12,35 +12,38 @@ namespace lorentz::fuzz {
 
 /// A query changed by one small move: a component by ulps or by one bit, components exchanged or copied, a
 /// sign, a zero, the velocity in another length, the start one lattice vector or a part of the flight on.
-Query moved_query(Random& random, const Scene& scene, const Query& query);
+Query moved_query(cases::Random& random, const Scene& scene, const Query& query);
 
-struct Mutant {
+struct Variant {
   Question question;
-  std::optional<oracle::Decision> hardest;  ///< of those that a narrow search sees; nothing for `never`
+  std::optional<oracle::HardestDecision>
+      hardest;  ///< of those that a narrow search sees; nothing for `never`
 
   double margin() const;  ///< an upper bound; infinite for `never`
 };
 
 /// A query with its answer and its margin.
-Mutant seen(const Examiner& examiner, const oracle::Scrutiny& scrutiny, const Query& query);
+Variant seen(const Examiner& examiner, const oracle::Margins& margins, const Query& query);
 
 /// Where an ellipsoid is hit, in every second case: the flight nearly along one of its semiaxes, or such a
 /// flight beside it. In the metric in which it is a ball the terms of such a velocity nearly cancel. No
 /// margin would lead a climb there, so it is where the climb begins.
-std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Mutant& here);
+std::optional<Query> along_semiaxis(cases::Random& random, const Scene& scene, const Variant& here);
 
-/// What is tried as move number `move` of a round: first an aimed query (aim.hpp), then small moves, or the
+/// What is tried as move number `move` of a round: first a start near a decision (nearest_decision.hpp),
+/// then small moves, or the
 /// obstacle that was the answer taken out of the question.
-Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Mutant& here, int move);
+Query next_query(cases::Random& random, const Scene& scene, const Examiner& examiner, const Variant& here,
+                 int move);
 
 /// A climb's rounds, and the moves tried in each.
 inline constexpr int kRounds = 6, kMovesPerRound = 4;
 
-/// In each round an aim and some moves of the best query so far are tried; the one with the smallest margin
-/// is the next to be moved. Returns all that was tried, in order. Costs kRounds * kMovesPerRound exact
-/// answers and narrow searches for a margin, and some hundred answers where an aim is bisected: about 2 ms in
-/// 2D and 10 ms in 3D. Ends early at a margin of 0.
-std::vector<Mutant> climb(Random random, const Case& base, const Examiner& examiner,
-                          const oracle::Scrutiny& scrutiny);
+/// In each round a start near a decision and some moves of the best query so far are tried; the one with the
+/// smallest margin is the next to be moved. Returns all that was tried, in order. Costs kRounds *
+/// kMovesPerRound exact answers and narrow searches for a margin, and some hundred answers where a decision
+/// is bisected: about 2 ms in 2D and 10 ms in 3D. Ends early at a margin of 0.
+std::vector<Variant> climb(cases::Random random, const cases::Case& base, const Examiner& examiner,
+                           const oracle::Margins& margins);
 
 }  // namespace lorentz::fuzz

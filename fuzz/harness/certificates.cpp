@@ -58,12 +58,12 @@ void hold_against_oracle(const Scene& scene, const Query& query, const Answer& c
 }
 
 /// The scene that holds, with its checker.
-class Court {
+class ProofCheck {
  public:
-  explicit Court(const Scene& scene)
+  explicit ProofCheck(const Scene& scene)
       : scene_(scene), checker_(scene, kMostWork), is_ordinary_(harness::is_ordinary(scene)) {}
 
-  void hear(const golden::ReadRecord& read, const std::string& text) const {
+  void check(const golden::ReadRecord& read, const std::string& text) const {
     const Answer& claim = read.record.expect;
     const auto refutation = checker_.refutation(*read.query, claim, *read.record.certificate);
     if (!refutation) hold_against_oracle(scene_, *read.query, claim, text);
@@ -91,13 +91,13 @@ class Court {
 
 void check(const std::string& path) {
   golden::Reader reader(path);
-  std::optional<Court> court;
+  std::optional<ProofCheck> proofs;
   std::size_t scenes = 0;
   for (golden::ReadRecord read; reader.next(read);) {
     if (!read.query || !read.record.certificate) continue;
-    if (scenes != reader.scene_number()) court.emplace(reader.scene());
+    if (scenes != reader.scene_number()) proofs.emplace(reader.scene());
     scenes = reader.scene_number();
-    court->hear(read, reader.scene_line() + '\n' + read.text);
+    proofs->check(read, reader.scene_line() + '\n' + read.text);
   }
 }
 

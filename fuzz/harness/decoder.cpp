@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/scene_check.hpp>
 
 namespace lorentz::harness {
@@ -12,13 +13,7 @@ namespace {
 // Of the first vectors, in plain binary64: what is told from it only bounds costs.
 double volume(const std::array<Vec, 3>& a, int dimension) {
   if (dimension == 2) return std::fabs(a[0][0] * a[1][1] - a[0][1] * a[1][0]);
-  const Vec cross{a[1][1] * a[2][2] - a[1][2] * a[2][1], a[1][2] * a[2][0] - a[1][0] * a[2][2],
-                  a[1][0] * a[2][1] - a[1][1] * a[2][0]};
-  return std::fabs(a[0][0] * cross[0] + a[0][1] * cross[1] + a[0][2] * cross[2]);
-}
-
-double length(const Vec& a) {
-  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  return std::fabs(dot(a[0], cross(a[1], a[2])));
 }
 
 // Into the range of sizes, whatever the number is: the digits stay.

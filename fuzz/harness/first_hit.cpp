@@ -33,9 +33,9 @@ bool same_bits(const Flight& a, const Flight& b) {
 }
 
 /// A scene with everyone who answers in it.
-class Court {
+class EngineCheck {
  public:
-  explicit Court(const Scene& scene)
+  explicit EngineCheck(const Scene& scene)
       : scene_(scene), oracle_(scene), certified_(scene), judge_(scene), prover_(scene), check_(scene) {
     if (Reduction::beyond(scene)) return;
     fused_.emplace(scene);
@@ -43,21 +43,21 @@ class Court {
   }
 
   /// The exact answer, when all others have been held against it.
-  Answer hear(const Query& query) const {
+  Answer check(const Query& query) const {
     oracle::Request digits;
     digits.digits = 40;
     const Answer exact = oracle_.first_hit(query, digits);
     require(exact.outcome != Outcome::error && exact.outcome != Outcome::undecided,
             "the oracle answers a query without flaws", stream(query, exact, exact));
-    hear_certified(query, exact);
-    if (fused_) hear_reduction(query, exact);
+    check_certified(query, exact);
+    if (fused_) check_reduction(query, exact);
     if (const auto why = check_.refutation(query, exact, prover_.prove(query, exact)))
       fail("the check accepts the proof of the exact answer", stream(query, exact, exact) + *why);
     return exact;
   }
 
  private:
-  void hear_certified(const Query& query, const Answer& exact) const {
+  void check_certified(const Query& query, const Answer& exact) const {
     const Answer given = certified_.first_hit(query);
     require(same(given, exact), "certified answers as the oracle does", stream(query, exact, given));
     if (exact.outcome != Outcome::hit || !(*exact.time > 0)) return;
@@ -70,7 +70,7 @@ class Court {
     }
   }
 
-  void hear_reduction(const Query& query, const Answer& exact) const {
+  void check_reduction(const Query& query, const Answer& exact) const {
     const Flight flight = fused_->fly(query),
                  rounded = fused_->fly(query, kNoLimit, Reduction::Time::rounded);
     const ObstacleId* from = query.from ? &*query.from : nullptr;
@@ -129,10 +129,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz::harness;
   Decoder decoder(data, size);
   const Scene scene = decoder.scene();
-  const Court court(scene);
+  const EngineCheck engines(scene);
   std::optional<Query> query = decoder.query(scene);
   for (int i = 0; query && i < kFlights; ++i) {
-    const Answer exact = court.hear(*query);
+    const Answer exact = engines.check(*query);
     if (!decoder.flag()) break;
     query = flight_after(*query, exact, decoder.velocity(scene));
   }

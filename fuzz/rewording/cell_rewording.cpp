@@ -14,6 +14,9 @@
 #include "fuzz/rewording/rewording_steps.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr int kMostBits = 40, kLargestIndex = 8;

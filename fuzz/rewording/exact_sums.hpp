@@ -1,4 +1,4 @@
-// Sums of integer multiples of binary64 values, where they are binary64 values again. Private to fuzz/.
+// Sums of integer multiples of binary64 values, where they are binary64 values again.
 #pragma once
 
 #include <array>

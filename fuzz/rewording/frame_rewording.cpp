@@ -7,6 +7,9 @@
 #include "fuzz/rewording/rewording_steps.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 template <class TheScene, class F>
@@ -137,8 +140,7 @@ void scale_scene(Scene& scene, int exponent) {
     for (double& component : a) component = std::ldexp(component, exponent);
   };
   for_each_vector(scene, scale, scale);
-  for (Lattice& lattice : scene.lattices)
-    for (Atom& atom : lattice.atoms) atom.radius = std::ldexp(atom.radius, exponent);
+  for_each_atom(scene, [&](Atom& atom) { atom.radius = std::ldexp(atom.radius, exponent); });
 }
 
 // ---- other names

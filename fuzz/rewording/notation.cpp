@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <lorentz/exchange.hpp>
-#include "cases/parts.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 enum class Digits { shortest, general, fixed, scientific, hexadecimal, mixed };
@@ -152,7 +154,7 @@ std::optional<Misreading> misreading(Random& random, const Scene& scene, const Q
   const std::string scene_line = writer.scene_line(scene),
                     query_line = writer.query_line(query, scene.dimension);
   const StreamItem first = read(scene_line, nullptr);
-  if (first.kind != StreamItem::Kind::scene || !same(first.scene, scene))
+  if (first.kind != StreamItem::Kind::scene || first.scene != scene)
     return Misreading{writer.notation(), scene_line};
   const StreamItem second = read(query_line, &scene);
   if (second.kind != StreamItem::Kind::query || second.query.x != query.x || second.query.v != query.v ||

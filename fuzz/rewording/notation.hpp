@@ -17,6 +17,6 @@ struct Misreading {
 
 /// Writes the scene and the query as lines of a query stream, in a notation that is drawn: digits, order and
 /// escapes of keys, blanks, line ends. Nothing if both are read back as they are.
-std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query);
+std::optional<Misreading> misreading(cases::Random& random, const Scene& scene, const Query& query);
 
 }  // namespace lorentz::fuzz

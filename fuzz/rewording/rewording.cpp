@@ -7,6 +7,9 @@
 #include "fuzz/rewording/rewording_steps.hpp"
 
 namespace lorentz::fuzz {
+
+using namespace cases;
+
 namespace {
 
 constexpr DrawStep kSteps[] = {draw_basis,          draw_basis,       draw_superlattice,

@@ -27,7 +27,7 @@ struct Reworded {
 class Rewording {
  public:
   /// The scene must be without flaws, its vectors independent.
-  Rewording(Random& random, const Scene& scene);
+  Rewording(cases::Random& random, const Scene& scene);
   Rewording(Rewording&&) noexcept;
   Rewording& operator=(Rewording&&) noexcept;
   ~Rewording();
@@ -40,7 +40,7 @@ class Rewording {
 
   /// A query without flaws in the new words, its start often moved by periods of the scene and its velocity
   /// in other units; nothing if its numbers are no binary64 values there.
-  std::optional<Reworded> reword(Random& random, const Query& query) const;
+  std::optional<Reworded> reword(cases::Random& random, const Query& query) const;
 
   /// The obstacle of the old words in the new ones, and of the new ones in the old.
   ObstacleId there(ObstacleId id, const Reworded& reworded) const;

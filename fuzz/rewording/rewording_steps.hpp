@@ -1,4 +1,4 @@
-// The steps that rewordings are chains of. Private to fuzz/.
+// The steps that rewordings are chains of.
 #pragma once
 
 #include <memory>
@@ -29,18 +29,18 @@ class RewordingStep {
 
 /// Draws a step and rewords the scene; null, with the scene as it was, where it does not go or would change
 /// nothing. How hard it goes is drawn, too: small and extreme steps are as frequent as all between.
-using DrawStep = std::unique_ptr<RewordingStep> (*)(Random&, Scene&);
+using DrawStep = std::unique_ptr<RewordingStep> (*)(cases::Random&, Scene&);
 
 // cell_rewording.cpp
-std::unique_ptr<RewordingStep> draw_basis(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_superlattice(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_basis(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_superlattice(cases::Random&, Scene&);
 
 // frame_rewording.cpp
-std::unique_ptr<RewordingStep> draw_axes(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_moved_scene(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_scaled(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_order(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_plane_in_space(Random&, Scene&);
-std::unique_ptr<RewordingStep> draw_ellipsoids(Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_axes(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_moved_scene(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_scaled(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_order(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_plane_in_space(cases::Random&, Scene&);
+std::unique_ptr<RewordingStep> draw_ellipsoids(cases::Random&, Scene&);
 
 }  // namespace lorentz::fuzz

@@ -13,7 +13,7 @@
 namespace lorentz {
 
 /// A flight as the engines take it: the velocity scaled by a power of two so that its largest component lies
-/// in [1, 2), and nothing overflows or underflows that need not.
+/// in [1, 2), which avoids needless overflow and underflow.
 struct Ray {
   const Vec& x;
   const Vec& v;
@@ -40,8 +40,7 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// The engine's answer, `later` if nothing is entered before `max_time`. A query that is none is an
-  /// `error`.
+  /// The engine's answer, `later` if nothing is entered before `max_time`. An invalid query yields `error`.
   Answer first_hit(const Query& query, double max_time = std::numeric_limits<double>::infinity()) const {
     Answer answer;
     first_hit(query, max_time, answer);

@@ -13,6 +13,23 @@ inline double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline Vec sum(const Vec& a, const Vec& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+inline Vec scaled(const Vec& a, double factor) {
+  return {a[0] * factor, a[1] * factor, a[2] * factor};
+}
+
+/// The square root of a.a, which may overflow or underflow where the length itself does not.
+inline double length(const Vec& a) {
+  return std::sqrt(dot(a, a));
+}
+
 /// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
 /// quadratic t = -B - sqrt(B^2 - C), B = x.v / v^2, C = (x^2 - r^2) / v^2; may be negative; nothing if B^2 <
 /// C.
@@ -36,10 +53,7 @@ inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
     for (double& component : vectors[i]) component = std::scalbn(component, -exponent);
   for (int i = dimension; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
   std::array<Vec, 3> dual;
-  for (int i = 0; i < 3; ++i) {
-    const Vec &a = vectors[(i + 1) % 3], &b = vectors[(i + 2) % 3];
-    dual[i] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
+  for (int i = 0; i < 3; ++i) dual[i] = cross(vectors[(i + 1) % 3], vectors[(i + 2) % 3]);
   const double volume = dot(vectors[0], dual[0]);
   for (int i = 0; i < dimension; ++i)
     for (double& component : dual[i]) component = std::scalbn(component / volume, -exponent);

@@ -23,7 +23,7 @@ enum class DecisionKind {
 /// margin of those.
 inline constexpr long kMarginBudget = 10'000;
 
-struct Decision {
+struct HardestDecision {
   DecisionKind kind = DecisionKind::meeting;
   ObstacleId obstacle;
   bool yes = false;  ///< what was decided
@@ -32,7 +32,7 @@ struct Decision {
 };
 
 /// An obstacle that a flight came near, on its way to the answer.
-struct Passed {
+struct PassedObstacle {
   ObstacleId obstacle;
   double time = 0;  ///< at which the line is nearest to its centre, in the coordinates in which it is a ball
   double gap = 0;   ///< distance of the line from it, in units of its radius there; below 0: it is met
@@ -40,24 +40,24 @@ struct Passed {
 };
 
 /// Answers of one scene, looked at closely.
-class Scrutiny {
+class Margins {
  public:
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
-  explicit Scrutiny(const Scene& scene);
-  Scrutiny(Scrutiny&&) noexcept;
-  Scrutiny& operator=(Scrutiny&&) noexcept;
-  ~Scrutiny();
+  explicit Margins(const Scene& scene);
+  Margins(Margins&&) noexcept;
+  Margins& operator=(Margins&&) noexcept;
+  ~Margins();
 
   /// The decision with the smallest margin of all that the exact answer `hit` or `inside` rests on; of
   /// `never` and of errors nothing. The margin is at most kLargestMargin (then the decision means nothing).
   /// With a smaller budget (of which each width of the search has its own) the margin is an upper bound more
   /// often; 0: one narrow search, some 500 obstacles.
-  std::optional<Decision> hardest_decision(const Query& query, const Answer& exact,
-                                           long budget = kMarginBudget) const;
+  std::optional<HardestDecision> hardest_decision(const Query& query, const Answer& exact,
+                                                  long budget = kMarginBudget) const;
 
   /// The obstacles that the flight of an exact `hit` passed at the smallest distances in units of their
   /// radii, up to and with the one that it hit; in order of time, `most` of them at most.
-  std::vector<Passed> passed(const Query& query, const Answer& exact, std::size_t most) const;
+  std::vector<PassedObstacle> passed(const Query& query, const Answer& exact, std::size_t most) const;
 
   /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
   /// make. Requires an exact `hit`.

@@ -26,7 +26,7 @@ class Oracle {
   ~Oracle();
 
   /// The exact answer: `hit` (time correctly rounded to binary64), `inside`, `never`, or `later` if asked
-  /// for; `error` for a query that is none. Never `undecided`.
+  /// for; an invalid query yields `error`. Never `undecided`.
   /// Costs grow with the logarithms of 1/r, of the distance and of the numbers' range. The exception: which
   /// of very many obstacles around x is the smallest (10^10 of them, in a lattice both dense and skewed) can
   /// take long. Safe to call from several threads.

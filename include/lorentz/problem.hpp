@@ -26,6 +26,9 @@ struct Atom {
   std::vector<Vec> semiaxes;  ///< empty for a ball, else `dimension` linearly independent vectors
 
   bool is_ball() const { return semiaxes.empty(); }
+
+  /// The same numbers (-0 is 0), in the same order.
+  friend bool operator==(const Atom&, const Atom&) = default;
 };
 
 /// Primitive vectors u_1..u_d (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_d
@@ -33,13 +36,30 @@ struct Atom {
 struct Lattice {
   std::array<Vec, 3> vectors{};
   std::vector<Atom> atoms;
+
+  friend bool operator==(const Lattice&, const Lattice&) = default;
 };
 
 /// One or several lattices of obstacles in 2 or 3 dimensions; obstacles may overlap.
 struct Scene {
   int dimension = 0;
   std::vector<Lattice> lattices;
+
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+/// Calls visit(atom) for each atom of the scene, lattice by lattice.
+template <class Visit>
+void for_each_atom(Scene& scene, const Visit& visit) {
+  for (Lattice& lattice : scene.lattices)
+    for (Atom& atom : lattice.atoms) visit(atom);
+}
+
+template <class Visit>
+void for_each_atom(const Scene& scene, const Visit& visit) {
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms) visit(atom);
+}
 
 /// 128 bits, for what must not overflow where 64 do.
 __extension__ using WideInteger = __int128;

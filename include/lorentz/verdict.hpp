@@ -14,7 +14,7 @@ enum class Verdict {
   wrong,        ///< another one, and not so; or a time off by more than k times its condition
   undecided,    ///< it said that it does not know
   unsupported,  ///< it said that it does not do this kind of query
-  error,        ///< it said that the query is none, or broke
+  error,        ///< it said that the query is invalid, or it broke
   missing       ///< there is no answer
 };
 

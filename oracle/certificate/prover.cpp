@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <variant>
 
-#include "oracle/exact/cylinder.hpp"
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/short_basis.hpp"
+#include "oracle/exact/stretches.hpp"
 
 namespace lorentz::oracle {
 namespace {
@@ -81,17 +81,17 @@ std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
 // The product of two vectors' parts across v, times v^2.
 template <std::size_t D>
 struct AcrossForm {
-  const Flight<D>& flight;
+  const Velocity<D>& velocity;
   Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
-    return flight.v2 * dot(a.p, b.p) - dot(flight.v, a.p) * dot(flight.v, b.p);
+    return velocity.v2 * dot(a.p, b.p) - dot(velocity.v, a.p) * dot(velocity.v, b.p);
   }
 };
 
-void shorten_across(Basis<2>&, const Flight<2>&) {}
+void shorten_across(Basis<2>&, const Velocity<2>&) {}
 
-void shorten_across(Basis<3>& basis, const Flight<3>& flight) {
+void shorten_across(Basis<3>& basis, const Velocity<3>& velocity) {
   std::array<LatticePoint<3>, 2> pair{basis[1], basis[2]};
-  reduce(pair, AcrossForm<3>{flight});
+  reduce(pair, AcrossForm<3>{velocity});
   basis[1] = std::move(pair[0]);
   basis[2] = std::move(pair[1]);
 }
@@ -116,7 +116,7 @@ class Writer {
       return {};
     for_each_atom(scene_, [&](int l, int a) {
       const View<D> view = query_.view(scene_, l, a);
-      const Z rho_above = root_below(view.radius2 * view.flight.v2) + 1;
+      const Z rho_above = root_below(view.radius2 * view.velocity.v2) + 1;
       if (exact.outcome == Outcome::never)
         add_rows(view, l, a);
       else if (exact.outcome == Outcome::hit)
@@ -134,16 +134,16 @@ class Writer {
     ZVec<D> c =
         centre_of<D>(scene_, hit.lattice, hit.atom, to_zvec<D>(hit.cell), query_.x, query_.length_exponent);
     if (const auto& frame = scene_.lattices[hit.lattice].atoms[hit.atom].frame) c = frame->to_ball * c;
-    const Z s = dot(own.flight.v, c), d = (own.radius2 - dot(c, c)) * own.flight.v2 + s * s;
+    const Z s = dot(own.velocity.v, c), d = (own.radius2 - dot(c, c)) * own.velocity.v2 + s * s;
     if (d <= 0) throw std::invalid_argument("the obstacle is not hit: there is nothing to prove");
-    return ceil_div((s - floor_sqrt(d)) * view.flight.v2, own.flight.v2);
+    return ceil_div((s - floor_sqrt(d)) * view.velocity.v2, own.velocity.v2);
   }
 
   void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
                    const Z& high) {
     const long exponent = query_.length_exponent - query_.velocity_exponent;
-    Cylinder<D>(view, view.radius2 * view.flight.v2).cut(low, high, [&](const Stretch<D>& stretch) {
-      const Ends ends(stretch.low, stretch.high, rho_above, view.flight.v2, exponent);
+    Stretches<D>(view, view.radius2 * view.velocity.v2).cut(low, high, [&](const Stretch<D>& stretch) {
+      const Ends ends(stretch.low, stretch.high, rho_above, view.velocity.v2, exponent);
       certificate_.windows.push_back(
           {lattice, atom, ends.from, ends.to, certificate_basis<D>(stretch.basis)});
       return false;
@@ -151,12 +151,12 @@ class Writer {
   }
 
   void add_rows(const View<D>& view, int lattice, int atom) {
-    const auto n = completed(primitive_vector<D>(cramer(view.basis, view.flight.v)));
+    const auto n = completed(primitive_vector<D>(cramer(view.basis, view.velocity.v)));
     Basis<D> basis;
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
-    shorten_across(basis, view.flight);
-    for (std::size_t i = 1; i < D; ++i) shorten_along(basis[0], view.flight.v, basis[i]);
+    shorten_across(basis, view.velocity);
+    for (std::size_t i = 1; i < D; ++i) shorten_along(basis[0], view.velocity.v, basis[i]);
     certificate_.rows.push_back({lattice, atom, certificate_basis<D>(basis)});
   }
 

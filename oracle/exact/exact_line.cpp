@@ -28,7 +28,7 @@ std::optional<Z> index_near_first(const Search<D>& search, const Row<D>& row) {
   const Z inside = row.cg * row.cg - row.gg * (row.cc - search.view.radius2);
   if (inside > 0) return floor_div(-row.cg, row.gg);
   // dt/dk = 0: A k + B = -sign(sg) sqrt(sg^2 strip / M), M = v^2 gg.
-  const Z M = search.flight.v2 * row.gg;
+  const Z M = search.velocity.v2 * row.gg;
   return floor_surd(-row.B * M, -sgn(row.sg), row.sg * row.sg * strip * M, row.A * M);
 }
 
@@ -36,7 +36,7 @@ std::optional<Z> index_near_first(const Search<D>& search, const Row<D>& row) {
 
 template <std::size_t D>
 void offer_first_on_row(const Search<D>& search, const LatticePoint<D>& start, const LatticePoint<D>& step) {
-  const Row<D> row(search.flight, start, step);
+  const Row<D> row(search.velocity, start, step);
   const std::optional<Z> near = index_near_first(search, row);
   if (!near) return;
   for (int i = -1; i <= 2; ++i) {
@@ -46,11 +46,11 @@ void offer_first_on_row(const Search<D>& search, const LatticePoint<D>& start, c
     const Z d = search.rho2 - (row.C + k * (2 * row.B + k * row.A));
     if (d <= 0) continue;
     if (row.cc + k * (2 * row.cg + k * row.gg) < search.view.radius2) continue;
-    if (search.earliest.beats(s, d, search.flight.v2)) continue;
+    if (search.earliest.beats(s, d, search.velocity.v2)) continue;
     LatticePoint<D> centre = start;
     centre.add_multiple(k, step);
     if (search.from && centre.n == *search.from) continue;
-    search.earliest.offer({s, d, search.flight.v2, std::move(centre.n), search.lattice, search.atom});
+    search.earliest.offer({s, d, search.velocity.v2, std::move(centre.n), search.lattice, search.atom});
   }
 }
 

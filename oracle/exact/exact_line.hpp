@@ -58,7 +58,7 @@ class Earliest {
 template <std::size_t D>
 struct Search {
   const View<D>& view;
-  const Flight<D>& flight;  ///< the view's
+  const Velocity<D>& velocity;  ///< the view's
   int lattice, atom;
   const ZVec<D>* from;  ///< coordinates of the obstacle to ignore, or null
   Z rho2;               ///< r^2 v^2
@@ -72,15 +72,15 @@ template <std::size_t D>
 struct Row {
   Z cc, cg, gg, s0, sg, A, B, C;
 
-  Row(const Flight<D>& flight, const LatticePoint<D>& start, const LatticePoint<D>& step)
+  Row(const Velocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step)
       : cc(dot(start.p, start.p)),
         cg(dot(start.p, step.p)),
         gg(dot(step.p, step.p)),
-        s0(dot(flight.v, start.p)),
-        sg(dot(flight.v, step.p)),
-        A(flight.v2 * gg - sg * sg),
-        B(flight.v2 * cg - s0 * sg),
-        C(flight.v2 * cc - s0 * s0) {}
+        s0(dot(velocity.v, start.p)),
+        sg(dot(velocity.v, step.p)),
+        A(velocity.v2 * gg - sg * sg),
+        B(velocity.v2 * cg - s0 * sg),
+        C(velocity.v2 * cc - s0 * s0) {}
 };
 
 /// Offers the earliest entry at t >= 0 among the obstacles at start + k step, k any integer. x must lie in

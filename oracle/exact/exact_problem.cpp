@@ -107,8 +107,8 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
 }  // namespace
 
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, const Flight<D>& flight,
-                long exponent) {
+View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
+                const Velocity<D>& velocity, long exponent) {
   const auto& exact = scene.lattices[lattice];
   const auto& obstacle = exact.atoms[atom];
   const long shift = scene.exponent - exponent;
@@ -120,11 +120,11 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
     const ZMatrix<D>& to_ball = obstacle.frame->to_ball;
     view.basis = scaled_basis<D>(obstacle.frame->reduced, shift);
     view.offset.p = to_ball * view.offset.p;
-    view.flight.v = to_ball * flight.v;
-    view.flight.v2 = dot(view.flight.v, view.flight.v);
+    view.velocity.v = to_ball * velocity.v;
+    view.velocity.v2 = dot(view.velocity.v, view.velocity.v);
   } else {
     view.basis = scaled_basis<D>(exact.reduced, shift);
-    view.flight = flight;
+    view.velocity = velocity;
   }
   // Bring the offset home: subtract the lattice vector nearest to it (by rounding; any near one will do).
   const Z det = determinant<D>(view.basis);
@@ -158,8 +158,8 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 
 template struct ExactScene<2>;
 template struct ExactScene<3>;
-template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const Flight<2>&, long);
-template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const Flight<3>&, long);
+template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const Velocity<2>&, long);
+template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const Velocity<3>&, long);
 template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, long);
 template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, long);
 template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);

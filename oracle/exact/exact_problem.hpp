@@ -94,9 +94,9 @@ struct ExactScene {
   explicit ExactScene(const Scene& scene);
 };
 
-/// The flight: velocity v scaled to integers, and v^2.
+/// The velocity v scaled to integers, and v^2.
 template <std::size_t D>
-struct Flight {
+struct Velocity {
   ZVec<D> v;
   Z v2;
 };
@@ -105,7 +105,7 @@ struct Flight {
 /// the lattice, relative to x.
 template <std::size_t D>
 struct View {
-  Flight<D> flight;
+  Velocity<D> velocity;
   Basis<D> basis;          ///< reduced
   LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
   Z radius;
@@ -114,8 +114,8 @@ struct View {
 
 /// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x, const Flight<D>& flight,
-                long exponent);
+View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
+                const Velocity<D>& velocity, long exponent);
 
 /// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
 template <std::size_t D>

@@ -26,22 +26,22 @@ template <std::size_t D>
 struct ExactQuery {
   long length_exponent, velocity_exponent;
   ZVec<D> x;
-  Flight<D> flight;
+  Velocity<D> velocity;
   std::optional<ObstacleId> from;
   ZVec<D> from_cell;
 
   /// Lengths in units 2^-finer of what the numbers need.
   ExactQuery(const ExactScene<D>& scene, const Query& query, long finer = 0) : from(query.from) {
-    CommonExponent length, velocity;
+    CommonExponent of_x, of_v;
     for (std::size_t i = 0; i < D; ++i) {
-      length.see(query.x[i]);
-      velocity.see(query.v[i]);
+      of_x.see(query.x[i]);
+      of_v.see(query.v[i]);
     }
-    length_exponent = (query.x == Vec{} ? scene.exponent : std::min(scene.exponent, length.get())) - finer;
-    velocity_exponent = velocity.get();
+    length_exponent = (query.x == Vec{} ? scene.exponent : std::min(scene.exponent, of_x.get())) - finer;
+    velocity_exponent = of_v.get();
     x = scaled_vector<D>(query.x, length_exponent);
-    flight.v = scaled_vector<D>(query.v, velocity_exponent);
-    flight.v2 = dot(flight.v, flight.v);
+    velocity.v = scaled_vector<D>(query.v, velocity_exponent);
+    velocity.v2 = dot(velocity.v, velocity.v);
     if (from) from_cell = to_zvec<D>(from->cell);
   }
 
@@ -51,7 +51,7 @@ struct ExactQuery {
   }
 
   View<D> view(const ExactScene<D>& scene, int lattice, int atom) const {
-    return view_of<D>(scene, lattice, atom, x, flight, length_exponent);
+    return view_of<D>(scene, lattice, atom, x, velocity, length_exponent);
   }
 
   /// t = (s - sqrt(d)) / v^2 in the query's own units.

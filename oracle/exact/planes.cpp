@@ -7,39 +7,39 @@ PlaneForm PlaneSection::form() const {
   return {std::max(scale, 0L), std::max(-scale, 0L)};
 }
 
-Planes::Planes(const Flight<3>& flight, const Z& rho2, const LatticePoint<3>& b1, const LatticePoint<3>& b2,
-               const LatticePoint<3>& b3)
-    : flight(flight), next(b3) {
+Planes::Planes(const Velocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
+               const LatticePoint<3>& b2, const LatticePoint<3>& b3)
+    : velocity(velocity), next(b3) {
   normal = cross(b1.p, b2.p);
-  a = dot(normal, flight.v);
+  a = dot(normal, velocity.v);
   gap = dot(normal, b3.p);
-  e = cross(flight.v, normal);
+  e = cross(velocity.v, normal);
   reach2 = rho2 * dot(e, e);
   reach = floor_sqrt(reach2);
   head_on = reach2 == 0;
   if (head_on) {
     e = b1.p;
-    f = cross(flight.v, e);
+    f = cross(velocity.v, e);
   }
   across2 = rho2 * dot(e, e);
   across = floor_sqrt(across2);
 }
 
 Range Planes::levels(const LatticePoint<3>& offset, const Z& low, const Z& high) const {
-  const Z home = flight.v2 * dot(normal, offset.p);
+  const Z home = velocity.v2 * dot(normal, offset.p);
   const auto [least, most] = ordered(a * low, a * high);
-  return multiples_between(least - reach - home, most + reach - home, gap * flight.v2);
+  return multiples_between(least - reach - home, most + reach - home, gap * velocity.v2);
 }
 
 PlanePoint Planes::in_plane(const LatticePoint<3>& b) const {
-  return {b, dot(e, b.p), head_on ? dot(f, b.p) : dot(flight.v, b.p)};
+  return {b, dot(e, b.p), head_on ? dot(f, b.p) : dot(velocity.v, b.p)};
 }
 
 PlaneSection Planes::section(const LatticePoint<3>& offset, const Z& k3, const Z& low, const Z& high) const {
   PlaneSection section;
   section.origin = offset;
   section.origin.add_multiple(k3, next);
-  const Z level = flight.v2 * dot(normal, section.origin.p);
+  const Z level = velocity.v2 * dot(normal, section.origin.p);
   section.low = low;
   section.high = high;
   // Where along the flight |a s - level| <= reach, and the section's half-width there: `room` is
@@ -63,7 +63,7 @@ PlaneSection Planes::section(const LatticePoint<3>& offset, const Z& k3, const Z
     }
   }
   if (room <= 0) return section;
-  section.half_width = floor_sqrt(floor_div(room, flight.v2));
+  section.half_width = floor_sqrt(floor_div(room, velocity.v2));
   section.empty = false;
   return section;
 }

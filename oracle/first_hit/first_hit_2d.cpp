@@ -29,7 +29,7 @@ struct Rows {
 };
 
 Rows choose_rows(const Search<2>& search) {
-  const auto across = [&](const LatticePoint<2>& b) { return Across{b, cross(search.flight.v, b.p)}; };
+  const auto across = [&](const LatticePoint<2>& b) { return Across{b, cross(search.velocity.v, b.p)}; };
   const Z width2 = 4 * search.rho2;
   const auto resolved = [&](const Z& h) { return h * h < width2; };
   Across w = across(search.view.basis[0]), u = across(search.view.basis[1]);
@@ -51,7 +51,7 @@ Rows choose_rows(const Search<2>& search) {
 void search_first_hit(const Search<2>& search) {
   auto [u, w] = choose_rows(search);
   const Z rho_above = search.rho + 1;
-  const ZVec<2>& v = search.flight.v;
+  const ZVec<2>& v = search.velocity.v;
   const LatticePoint<2>& offset = search.view.offset;
 
   // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is that of
@@ -86,7 +86,7 @@ void search_first_hit(const Search<2>& search) {
   row.add_multiple(first, u.vector);
   for (Z a = first;; ++a) {
     if (search.earliest.found()) {
-      const Z reach = search.earliest.reach(rho_above, search.flight.v2);
+      const Z reach = search.earliest.reach(rho_above, search.velocity.v2);
       if (a * det > spread + reach * D_w - home) return;
     }
     offer_first_on_row(search, row, w.vector);

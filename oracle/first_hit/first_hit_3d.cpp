@@ -51,7 +51,7 @@ class Solver {
   void solve_many_rows(const Planes& planes, const Section& section);
   Z jump_beyond(const Planes& planes, const Z& high) const;
   Z limited(const Z& high) const {
-    return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_, search_.flight.v2))
+    return search_.earliest.found() ? std::min(high, search_.earliest.reach(rho_above_, search_.velocity.v2))
                                     : high;
   }
 
@@ -93,16 +93,16 @@ struct RealEntry {
 
 std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& start,
                                     const LatticePoint<3>& step) {
-  const Row<3> row(search.flight, start, step);
+  const Row<3> row(search.velocity, start, step);
   const Z strip = row.B * row.B - row.A * (row.C - search.rho2);
   if (row.A == 0 || strip <= 0) return std::nullopt;
-  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.flight.v2 * row.gg, row.A};
+  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.velocity.v2 * row.gg, row.A};
 }
 
 // An entry as this view times it: another atom's may be in other coordinates, with another v^2.
-RealEntry as_timed_in(const Flight<3>& flight, const Entry<3>& entry) {
-  if (entry.v2 == flight.v2) return {entry.s, entry.d, 1};
-  return {entry.s * flight.v2, entry.d * flight.v2 * flight.v2, entry.v2};
+RealEntry as_timed_in(const Velocity<3>& velocity, const Entry<3>& entry) {
+  if (entry.v2 == velocity.v2) return {entry.s, entry.d, 1};
+  return {entry.s * velocity.v2, entry.d * velocity.v2 * velocity.v2, entry.v2};
 }
 
 int compare(const RealEntry& a, const RealEntry& b) {
@@ -113,7 +113,7 @@ int compare(const RealEntry& a, const RealEntry& b) {
 // The real entry is convex in the row number, so start where the ball touches the plane and go both ways,
 // until it comes after the earliest entry found and grows.
 void Solver::solve_many_rows(const Planes& planes, const Section& section) {
-  const Flight<3>& flight = search_.flight;
+  const Velocity<3>& velocity = search_.velocity;
   // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding here
   // costs time only; but the right row is one of many, and |N| can be a small integer, so its root gets bits
   // behind the point.
@@ -121,9 +121,9 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   if (!planes.head_on) {
     const long bits = 64 + bit_length(section.rows.count());
     const Z root = floor_sqrt(shifted_left(dot(planes.normal, planes.normal), 2 * bits)) + 1;
-    const Z level = flight.v2 * dot(planes.normal, section.start.p);
+    const Z level = velocity.v2 * dot(planes.normal, section.start.p);
     const Z r = search_.view.radius;
-    z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * flight.v2,
+    z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * velocity.v2,
                   shifted_left(planes.a, bits)) +
         shifted_left(r * abs(planes.a), bits) / root;
   }
@@ -140,7 +140,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
       row.add_multiple(k, section.next.point);
       const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);
       if (entry && search_.earliest.found()) {
-        const bool after_best = compare(*entry, as_timed_in(flight, search_.earliest.entry())) > 0;
+        const bool after_best = compare(*entry, as_timed_in(velocity, search_.earliest.entry())) > 0;
         if (after_best && previous && compare(*entry, *previous) >= 0) break;
       }
       previous = entry;
@@ -178,19 +178,19 @@ bool Solver::solve_plane(const Planes& planes, const std::array<WindowVector, 3>
 
 // The first s beyond the window at which a plane comes within reach, for a != 0.
 Z Solver::jump_beyond(const Planes& planes, const Z& high) const {
-  const Z home = search_.flight.v2 * dot(planes.normal, search_.view.offset.p);
+  const Z home = search_.velocity.v2 * dot(planes.normal, search_.view.offset.p);
   const int sign = sgn(planes.a);
-  const Z a = abs(planes.a), start = sign * home, gap = abs(planes.gap) * search_.flight.v2;
+  const Z a = abs(planes.a), start = sign * home, gap = abs(planes.gap) * search_.velocity.v2;
   // Planes stand at the levels start + k gap, and level k comes within reach at a s + reach >= level.
   const Z k = ceil_div(a * high + planes.reach + 1 - start, gap);
   return std::max(Z(high + 1), ceil_div(start + k * gap - planes.reach, a));
 }
 
 void Solver::run() {
-  const Flight<3>& flight = search_.flight;
+  const Velocity<3>& velocity = search_.velocity;
   const View<3>& view = search_.view;
   std::array<WindowVector, 3> basis;
-  for (int i = 0; i < 3; ++i) basis[i] = {view.basis[i], dot(flight.v, view.basis[i].p)};
+  for (int i = 0; i < 3; ++i) basis[i] = {view.basis[i], dot(velocity.v, view.basis[i].p)};
   // A window of about one free path, volume / (pi r^2).
   long j = std::max(0L, bit_length(determinant<3>(view.basis)) - 3 * bit_length(view.radius) - 1);
   Z low = 1;
@@ -200,8 +200,8 @@ void Solver::run() {
   for (;;) {
     const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);
     if (high < low) return;
-    reduce(basis, WindowForm(flight, j));
-    const Planes planes(flight, search_.rho2, basis[0].point, basis[1].point, basis[2].point);
+    reduce(basis, WindowForm(velocity, j));
+    const Planes planes(velocity, search_.rho2, basis[0].point, basis[1].point, basis[2].point);
     const Range levels = planes.levels(view.offset, low, high);
     if (levels.count() > kMany && j > 0) {
       j = std::max(0L, j - cut_for(levels.count(), 3));

@@ -19,10 +19,10 @@ struct Box {
   ZVec<D> v, ulp;
   double k;
 
-  Box(const Situation<D>& situation, double ulps) : k(ulps) {
+  Box(const PerturbedQuery<D>& perturbed, double ulps) : k(ulps) {
     for (std::size_t i = 0; i < D; ++i) {
-      v[i] = shifted_left(situation.query().flight.v[i], kFiner);
-      ulp[i] = ceiling(times_power_of_two(situation.ulps().v[i], kFiner));
+      v[i] = shifted_left(perturbed.query().velocity.v[i], kFiner);
+      ulp[i] = ceiling(times_power_of_two(perturbed.ulps().v[i], kFiner));
     }
   }
 
@@ -103,11 +103,11 @@ ZVec<3> mapped_normal(const ZMatrix<3>& map, const ZVec<3>& G) {
 template <std::size_t D>
 class CorridorSearch {
  public:
-  CorridorSearch(const Situation<D>& situation, double ulps)
-      : situation_(situation), box_(situation, ulps), ulps_(ulps) {}
+  CorridorSearch(const PerturbedQuery<D>& perturbed, double ulps)
+      : query_(perturbed), box_(perturbed, ulps), ulps_(ulps) {}
 
   bool found() const {
-    for (const ExactLattice<D>& lattice : situation_.scene().lattices) {
+    for (const ExactLattice<D>& lattice : query_.scene().lattices) {
       if (along_planes(lattice.reduced)) return true;
       if (D == 3 && along_vectors(lattice.reduced)) return true;
     }
@@ -118,20 +118,20 @@ class CorridorSearch {
   // Nothing is ever hit in this direction, obstacles being smaller by what `ulps` ulps make across the
   // corridor (2D) or the plane channel (3D) with the normal G.
   bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
-    const ExactQuery<D>& query = situation_.query();
-    const Flight<D> flight{direction, dot(direction, direction)};
-    for (const Uncertain<D>& atom : situation_.atoms()) {
-      const ExactScene<D>& scene = situation_.scene();
-      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, flight, query.length_exponent);
+    const ExactQuery<D>& query = query_.query();
+    const Velocity<D> velocity{direction, dot(direction, direction)};
+    for (const Uncertain<D>& atom : query_.atoms()) {
+      const ExactScene<D>& scene = query_.scene();
+      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
       if (G != ZVec<D>{}) {
         const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
         view.radius -= ceiling(Real(ulps_ * atom.change_along(frame ? mapped_normal(frame->to_ball, G) : G)));
       }
       if (view.radius <= 0) continue;
       view.radius2 = view.radius * view.radius;
-      const Z rho2 = view.radius2 * view.flight.v2;
+      const Z rho2 = view.radius2 * view.velocity.v2;
       Earliest<D> earliest;
-      search_first_hit(Search<D>{view, view.flight, atom.lattice(), atom.atom(), nullptr, rho2,
+      search_first_hit(Search<D>{view, view.velocity, atom.lattice(), atom.atom(), nullptr, rho2,
                                  root_below(rho2), earliest});
       if (earliest.found()) return false;
     }
@@ -169,7 +169,7 @@ class CorridorSearch {
 
   static constexpr long kSharp = 50;  // an angle of 2^-50 counts as much as the length
 
-  const Situation<D>& situation_;
+  const PerturbedQuery<D>& query_;
   const Box<D> box_;
   const double ulps_;
 };
@@ -177,11 +177,11 @@ class CorridorSearch {
 }  // namespace
 
 template <std::size_t D>
-bool open_near(const Situation<D>& situation, double ulps) {
-  return CorridorSearch<D>(situation, ulps).found();
+bool open_near(const PerturbedQuery<D>& perturbed, double ulps) {
+  return CorridorSearch<D>(perturbed, ulps).found();
 }
 
-template bool open_near(const Situation<2>&, double);
-template bool open_near(const Situation<3>&, double);
+template bool open_near(const PerturbedQuery<2>&, double);
+template bool open_near(const PerturbedQuery<3>&, double);
 
 }  // namespace lorentz::oracle

@@ -1,7 +1,7 @@
 // Is there a direction near v in which nothing is ever hit? Private to oracle/.
 #pragma once
 
-#include "oracle/margin/situation.hpp"
+#include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
 
@@ -10,6 +10,6 @@ namespace lorentz::oracle {
 /// at are those of lattice vectors and (3D) of lattice planes, the shortest few near v, and each is decided
 /// exactly. x must lie in no obstacle by more than `ulps` ulps.
 template <std::size_t D>
-bool open_near(const Situation<D>& situation, double ulps);
+bool open_near(const PerturbedQuery<D>& perturbed, double ulps);
 
 }  // namespace lorentz::oracle

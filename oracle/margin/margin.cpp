@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracle/exact/cylinder.hpp"
-#include "oracle/margin/situation.hpp"
+#include "oracle/exact/stretches.hpp"
+#include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
 namespace {
@@ -23,18 +23,18 @@ constexpr double kHuge = 1e300;  // reported for what is more
 template <std::size_t D>
 class MarginSearch {
  public:
-  MarginSearch(const Situation<D>& situation, const Answer& exact, long budget)
-      : situation_(situation),
+  MarginSearch(const PerturbedQuery<D>& perturbed, const Answer& exact, long budget)
+      : query_(perturbed),
         exact_(exact),
         full_budget_(budget),
         is_hit_(exact.outcome == Outcome::hit),
-        target_(situation.atom_of(exact.obstacle)),
-        target_centre_(situation.centre_of(exact.obstacle)),
+        target_(perturbed.atom_of(exact.obstacle)),
+        target_centre_(perturbed.centre_of(exact.obstacle)),
         target_time_(is_hit_ ? target_.time_of(target_centre_) : Real(0)),
         smallest_(kLargestMargin) {}
 
-  Decision run() {
-    for (const Uncertain<D>& atom : situation_.atoms())
+  HardestDecision run() {
+    for (const Uncertain<D>& atom : query_.atoms())
       if (concerns(atom)) search(atom);
     decision_.margin = to_double(smallest_, kLargestMargin);
     return decision_;
@@ -48,7 +48,7 @@ class MarginSearch {
 
   // The latest T at which an obstacle of this atom, of radius up to twice its own, counts.
   Real latest(const Uncertain<D>& atom) const {
-    return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().flight.v2));
+    return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().velocity.v2));
   }
 
   // Until nothing of this atom with a margin below the smallest can have been missed: at once, or (where that
@@ -78,7 +78,7 @@ class MarginSearch {
 
   // Widens as the changes grow along the flight. Returns whether that was not too much.
   bool search_in_windows(const Uncertain<D>& atom, const Real& k, long budget) {
-    const Real radius = real(atom.view().radius), v2 = real(atom.view().flight.v2);
+    const Real radius = real(atom.view().radius), v2 = real(atom.view().velocity.v2);
     const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
     Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
     budget_ = budget;
@@ -94,37 +94,38 @@ class MarginSearch {
   Real turning_point() const {
     Real x = 0, v = 0;
     for (std::size_t i = 0; i < D; ++i) {
-      x += situation_.ulps().x[i];
-      v += situation_.ulps().v[i];
+      x += query_.ulps().x[i];
+      v += query_.ulps().v[i];
     }
     return x / v;
   }
 
   Z first_s(const Uncertain<D>& atom, const Real& wide) const {
-    return -ceiling(wide * sqrt(real(atom.view().flight.v2)));
+    return -ceiling(wide * sqrt(real(atom.view().velocity.v2)));
   }
   Z last_s(const Uncertain<D>& atom, const Real& wide) const {
-    return ceiling(target_time_ * real(atom.view().flight.v2)) - first_s(atom, wide);
+    return ceiling(target_time_ * real(atom.view().velocity.v2)) - first_s(atom, wide);
   }
 
   void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
     const View<D>& view = atom.view();
-    const Cylinder<D> cylinder(view, ceiling(wide * wide * real(view.flight.v2)));
+    const Stretches<D> stretches(view, ceiling(wide * wide * real(view.velocity.v2)));
     const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
                                     const Z& last) {
-      visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
         --budget_;
-        weigh(atom, Centre<D>(view.flight, point));
+        weigh(atom, Centre<D>(view.velocity, point));
       });
       return budget_ < 0;
     };
-    cylinder.cut(low, high,
-                 [&](const Stretch<D>& stretch) { return --budget_ < 0 || cylinder.visit(stretch, visit); });
+    stretches.cut(low, high, [&](const Stretch<D>& stretch) {
+      return --budget_ < 0 || stretches.visit(stretch, visit);
+    });
   }
 
   // The decisions about one obstacle.
   void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
-    if (situation_.is_from(atom, centre.point.n)) return;
+    if (query_.is_from(atom, centre.point.n)) return;
     const bool is_target = &atom == &target_ && centre.point.n == target_centre_.point.n;
     const bool contains = centre.c2 < atom.view().radius2;
     if (!is_hit_) {
@@ -140,23 +141,23 @@ class MarginSearch {
       consider(DecisionKind::meeting, atom, centre, meets, atom.margin_of_meeting(centre));
     else if (meets && centre.s > 0)
       consider(DecisionKind::order, atom, centre, false,
-               margin_of_order(situation_.ulps(), target_, target_centre_, atom, centre));
+               margin_of_order(query_.ulps(), target_, target_centre_, atom, centre));
   }
 
   // Would an obstacle that was missed be entered before the one that was hit, were it just met?
   bool nearest_before_target(const Uncertain<D>& atom, const Centre<D>& centre) const {
-    return compare_entries(centre.s, 0, atom.view().flight.v2, target_centre_.s,
-                           target_.rho2() - target_centre_.h2, target_.view().flight.v2) < 0;
+    return compare_entries(centre.s, 0, atom.view().velocity.v2, target_centre_.s,
+                           target_.rho2() - target_centre_.h2, target_.view().velocity.v2) < 0;
   }
 
   void consider(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, bool yes,
                 const Real& margin) {
     if (margin >= smallest_) return;
     smallest_ = margin;
-    decision_ = {kind, situation_.id_of(atom, centre.point.n), yes, 0};
+    decision_ = {kind, query_.id_of(atom, centre.point.n), yes, 0};
   }
 
-  const Situation<D>& situation_;
+  const PerturbedQuery<D>& query_;
   const Answer& exact_;
   const long full_budget_;
   const bool is_hit_;
@@ -164,82 +165,85 @@ class MarginSearch {
   const Centre<D> target_centre_;
   const Real target_time_;
   Real smallest_;
-  Decision decision_;
+  HardestDecision decision_;
   long budget_ = 0;
 };
 
 // Widens the cylinder until enough obstacles are in it, or it is three times as wide.
 template <std::size_t D>
-std::vector<Passed> passed_obstacles(const Situation<D>& situation, const Answer& exact, std::size_t most) {
-  const Uncertain<D>& target = situation.atom_of(exact.obstacle);
-  const Centre<D> hit = situation.centre_of(exact.obstacle);
+std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed, const Answer& exact,
+                                             std::size_t most) {
+  const Uncertain<D>& target = perturbed.atom_of(exact.obstacle);
+  const Centre<D> hit = perturbed.centre_of(exact.obstacle);
   const Real target_time = target.time_of(hit);
-  const long own_units = situation.query().length_exponent - situation.query().velocity_exponent;
-  std::vector<Passed> all;
+  const long own_units = perturbed.query().length_exponent - perturbed.query().velocity_exponent;
+  std::vector<PassedObstacle> all;
   for (double wide = 1 + 0x1p-20; wide < 4 && all.size() < most; wide = 1 + (wide - 1) * 8) {
     all.clear();
-    for (const Uncertain<D>& atom : situation.atoms()) {
+    for (const Uncertain<D>& atom : perturbed.atoms()) {
       const View<D>& view = atom.view();
-      const Real rho = sqrt(real(atom.rho2())), v2 = real(view.flight.v2);
-      const Cylinder<D> cylinder(view, ceiling(Real(wide * wide * real(atom.rho2()))));
+      const Real rho = sqrt(real(atom.rho2())), v2 = real(view.velocity.v2);
+      const Stretches<D> stretches(view, ceiling(Real(wide * wide * real(atom.rho2()))));
       long budget = kMarginBudget;
       const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
                                       const Z& last) {
-        visit_extremes<D>(view.flight, first, step, last, [&](const LatticePoint<D>& point) {
+        visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
           --budget;
-          const Centre<D> centre(view.flight, point);
+          const Centre<D> centre(view.velocity, point);
           const Real nearest = real(centre.s) / v2;
           const bool is_target = &atom == &target && point.n == hit.point.n;
-          if (!is_target && (centre.s <= 0 || nearest > target_time || situation.is_from(atom, point.n)))
+          if (!is_target && (centre.s <= 0 || nearest > target_time || perturbed.is_from(atom, point.n)))
             return;
-          all.push_back({situation.id_of(atom, point.n),
+          all.push_back({perturbed.id_of(atom, point.n),
                          to_double(times_power_of_two(nearest, own_units), kHuge),
                          to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
                          to_double(atom.margin_of_meeting(centre), kHuge)});
         });
         return budget < 0;
       };
-      cylinder.cut(1, ceiling(target_time * v2) + ceiling(rho),
-                   [&](const Stretch<D>& stretch) { return --budget < 0 || cylinder.visit(stretch, visit); });
+      stretches.cut(1, ceiling(target_time * v2) + ceiling(rho), [&](const Stretch<D>& stretch) {
+        return --budget < 0 || stretches.visit(stretch, visit);
+      });
     }
   }
-  std::sort(all.begin(), all.end(), [&](const Passed& a, const Passed& b) {
+  std::sort(all.begin(), all.end(), [&](const PassedObstacle& a, const PassedObstacle& b) {
     const bool a_hit = a.obstacle == exact.obstacle, b_hit = b.obstacle == exact.obstacle;
     return a_hit != b_hit ? a_hit : a.gap < b.gap;
   });
   if (all.size() > most) all.resize(most);
-  std::sort(all.begin(), all.end(), [](const Passed& a, const Passed& b) { return a.time < b.time; });
+  std::sort(all.begin(), all.end(),
+            [](const PassedObstacle& a, const PassedObstacle& b) { return a.time < b.time; });
   return all;
 }
 
 }  // namespace
 
-struct Scrutiny::Impl {
-  Situations situations;
+struct Margins::Impl {
+  PerturbedScene scene;
 };
 
-Scrutiny::Scrutiny(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{Situations(scene)})) {}
-Scrutiny::Scrutiny(Scrutiny&&) noexcept = default;
-Scrutiny& Scrutiny::operator=(Scrutiny&&) noexcept = default;
-Scrutiny::~Scrutiny() = default;
+Margins::Margins(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{PerturbedScene(scene)})) {}
+Margins::Margins(Margins&&) noexcept = default;
+Margins& Margins::operator=(Margins&&) noexcept = default;
+Margins::~Margins() = default;
 
-std::optional<Decision> Scrutiny::hardest_decision(const Query& query, const Answer& exact,
-                                                   long budget) const {
+std::optional<HardestDecision> Margins::hardest_decision(const Query& query, const Answer& exact,
+                                                         long budget) const {
   if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
-  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-    return std::optional(MarginSearch<D>(situation, exact, budget).run());
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+    return std::optional(MarginSearch<D>(perturbed, exact, budget).run());
   });
 }
 
-std::vector<Passed> Scrutiny::passed(const Query& query, const Answer& exact, std::size_t most) const {
-  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-    return passed_obstacles<D>(situation, exact, most);
+std::vector<PassedObstacle> Margins::passed(const Query& query, const Answer& exact, std::size_t most) const {
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+    return passed_obstacles<D>(perturbed, exact, most);
   });
 }
 
-double Scrutiny::condition(const Query& query, const Answer& exact) const {
-  return impl_->situations.with(query, [&]<std::size_t D>(const Situation<D>& situation) {
-    return to_double(change_of_time(situation, exact.obstacle) / Real(ulp(*exact.time)),
+double Margins::condition(const Query& query, const Answer& exact) const {
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+    return to_double(change_of_time(perturbed, exact.obstacle) / Real(ulp(*exact.time)),
                      std::numeric_limits<double>::max());
   });
 }

@@ -30,7 +30,7 @@ Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, co
       lattice_(lattice),
       atom_(atom),
       view_(exact.view(exact_scene, lattice, atom)),
-      rho2_(view_.radius2 * view_.flight.v2) {
+      rho2_(view_.radius2 * view_.velocity.v2) {
   if (const auto& frame = exact_scene.lattices[lattice].atoms[atom].frame) {
     to_ball_transposed_ = transposed(frame->to_ball);
     radius_ulp_ = times_power_of_two(real(view_.radius), -52);
@@ -61,9 +61,9 @@ Real Uncertain<D>::longest_corner(const std::array<Real, D>& ulp, bool across) c
       for (std::size_t k = 0; k < D; ++k)
         component += real(to_ball[i][k]) * (signs >> k & 1 ? Real(-ulp[k]) : ulp[k]);
       length2 += component * component;
-      along += component * real(view_.flight.v[i]);
+      along += component * real(view_.velocity.v[i]);
     }
-    if (across) length2 -= along * along / real(view_.flight.v2);
+    if (across) length2 -= along * along / real(view_.velocity.v2);
     if (length2 > longest) longest = length2;
   }
   return sqrt(longest);
@@ -91,41 +91,41 @@ Real Uncertain<D>::margin_of_containing(const Centre<D>& centre) const {
 
 template <std::size_t D>
 Real Uncertain<D>::margin_of_meeting(const Centre<D>& centre) const {
-  const Flight<D>& flight = view_.flight;
-  const std::array<Real, D> ulp = ulps_at(real(centre.s) / real(flight.v2));
+  const Velocity<D>& velocity = view_.velocity;
+  const std::array<Real, D> ulp = ulps_at(real(centre.s) / real(velocity.v2));
   // From the centre to the nearest point of the line: (s v - v^2 c) / v^2, of length |h| / |v|.
   ZVec<D> nearest;
-  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * flight.v[i] - flight.v2 * centre.point.p[i];
-  const Real speed = sqrt(real(flight.v2)), h = sqrt(real(centre.h2));
+  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * velocity.v[i] - velocity.v2 * centre.point.p[i];
+  const Real speed = sqrt(real(velocity.v2)), h = sqrt(real(centre.h2));
   const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : Real(weighted(nearest, ulp) / (speed * h));
   return real(Z(abs(centre.h2 - rho2_))) / ((h + sqrt(real(rho2_))) * speed) / (change + radius_ulp_);
 }
 
 template <std::size_t D>
 Real Uncertain<D>::margin_of_ahead(const Centre<D>& centre) const {
-  return real(Z(abs(centre.s))) / (weighted(view_.flight.v, ulps_.x) + weighted(centre.point.p, ulps_.v));
+  return real(Z(abs(centre.s))) / (weighted(view_.velocity.v, ulps_.x) + weighted(centre.point.p, ulps_.v));
 }
 
 // (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): where s > 0 nothing cancels there.
 template <std::size_t D>
 Real Uncertain<D>::time_of(const Centre<D>& centre) const {
   const Z d = rho2_ - centre.h2;
-  if (d <= 0) return real(centre.s) / real(view_.flight.v2);
+  if (d <= 0) return real(centre.s) / real(view_.velocity.v2);
   const Real chord = sqrt(real(d));
   if (centre.s > 0) return real(Z(centre.c2 - view_.radius2)) / (real(centre.s) + chord);
-  return (real(centre.s) - chord) / real(view_.flight.v2);
+  return (real(centre.s) - chord) / real(view_.velocity.v2);
 }
 
 // t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
 template <std::size_t D>
 Arrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
-  const Flight<D>& flight = view_.flight;
+  const Velocity<D>& velocity = view_.velocity;
   Arrival<D> arrival;
   arrival.t = time_of(centre);
-  const Real chord = sqrt(real(Z(rho2_ - centre.h2))), v2 = real(flight.v2);
+  const Real chord = sqrt(real(Z(rho2_ - centre.h2))), v2 = real(velocity.v2);
   ZVec<D> nearest;
-  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * flight.v[i] - flight.v2 * centre.point.p[i];
-  const ZVec<D> v = to_ball_transposed_ * flight.v, n = to_ball_transposed_ * nearest;
+  for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * velocity.v[i] - velocity.v2 * centre.point.p[i];
+  const ZVec<D> v = to_ball_transposed_ * velocity.v, n = to_ball_transposed_ * nearest;
   for (std::size_t i = 0; i < D; ++i) arrival.by_x[i] = (real(n[i]) / chord - real(v[i])) / v2;
   arrival.by_radius = real(view_.radius) / chord;
   return arrival;
@@ -143,8 +143,8 @@ Real Uncertain<D>::largest_change(const Real& latest) const {
 template <std::size_t D>
 Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
                      const Uncertain<D>& atom2, const Centre<D>& centre2) {
-  const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().flight.v2, centre2.s,
-                                    atom2.rho2() - centre2.h2, atom2.view().flight.v2);
+  const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().velocity.v2, centre2.s,
+                                    atom2.rho2() - centre2.h2, atom2.view().velocity.v2);
   if (order == 0) return Real(0);
   const Arrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
   const bool same_radius = atom1.lattice() == atom2.lattice() && atom1.atom() == atom2.atom();

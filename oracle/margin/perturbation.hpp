@@ -25,11 +25,11 @@ struct Centre {
   LatticePoint<D> point;
   Z s, c2, h2;  ///< v.c, |c|^2, |h|^2 = v^2 c^2 - s^2
 
-  Centre(const Flight<D>& flight, LatticePoint<D> centre)
+  Centre(const Velocity<D>& velocity, LatticePoint<D> centre)
       : point(std::move(centre)),
-        s(dot(flight.v, point.p)),
+        s(dot(velocity.v, point.p)),
         c2(dot(point.p, point.p)),
-        h2(flight.v2 * c2 - s * s) {}
+        h2(velocity.v2 * c2 - s * s) {}
 };
 
 /// What an ulp of each input is, in the units of an exact query.

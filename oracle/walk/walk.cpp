@@ -97,7 +97,7 @@ class AtomWalk {
     return found;
   }
 
-  // What is entered from `limit` on, if there is one, need not be found.
+  // Obstacles entered from `limit` on, if there is one, may be ignored.
   End walk(std::int64_t max_cells, const std::optional<Ratio>& limit, std::optional<Hit>& best) const {
     Index n = home_;
     around(n, -1, 0, [&](const Index& m) { test(m, best); });

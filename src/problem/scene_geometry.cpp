@@ -7,13 +7,9 @@
 
 #include <lorentz/geometry.hpp>
 
-namespace lorentz::cli {
+namespace lorentz {
 
 using std::numbers::pi;
-
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // One-sided Jacobi (Hestenes 1958): columns are turned in pairs until all are perpendicular; their lengths
 // are the singular values then.
@@ -152,4 +148,4 @@ std::optional<Filling> filling_of(const Scene& given) {
   return filling;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz

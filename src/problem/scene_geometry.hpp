@@ -7,9 +7,7 @@
 
 #include <lorentz/problem.hpp>
 
-namespace lorentz::cli {
-
-Vec cross(const Vec& a, const Vec& b);
+namespace lorentz {
 
 /// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
 /// values of its matrix.
@@ -33,4 +31,4 @@ struct Filling {
 /// Nothing if it is beyond the range of binary64.
 std::optional<Filling> filling_of(const Scene& scene);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz

@@ -19,7 +19,7 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using cli::Difficulty;
+using compare::Difficulty;
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr Difficulty kDifficulties[] = {Difficulty::drawn, Difficulty::near_rati
 
 std::vector<Query> queries_of(const Scene& scene, Difficulty difficulty, std::uint64_t seed,
                               std::size_t count) {
-  return cli::hard_queries(difficulty, scene, oracle::Oracle(scene), seed, count);
+  return compare::hard_queries(difficulty, scene, oracle::Oracle(scene), seed, count);
 }
 
 // `certified` against the oracle; how many queries the fast engine decided, in `tally`.
@@ -56,7 +56,7 @@ Query leaving_query(Draw& draw, const Scene& scene) {
   for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
     for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
       atoms.push_back({l, a, {}});
-      all += cli::surface_of(scene.lattices[l].atoms[a], d);
+      all += surface_of(scene.lattices[l].atoms[a], d);
       surfaces.push_back(all);
     }
   const double which = all * draw.uniform();
@@ -67,7 +67,7 @@ Query leaving_query(Draw& draw, const Scene& scene) {
   double most = 0;
   for (int k = 0; k < d; ++k) most += dot(dual[k], dual[k]);
   for (;;) {
-    fuzz::Random random(draw.below(~0ull), "surface", 0);
+    cases::Random random(draw.below(~0ull), "surface", 0);
     const Vec y = random.direction(d), v = random.direction(d);
     Vec normal{};
     for (int k = 0; k < d; ++k)
@@ -86,7 +86,7 @@ Query leaving_query(Draw& draw, const Scene& scene) {
 TEST_CASE("certified equals the oracle on every scene of the catalogue", "[cases][catalogue_campaign]") {
   for (const auto& [name, scene] : all_scenes())
     for (const Difficulty difficulty : kDifficulties) {
-      CAPTURE(name, cli::name_of(difficulty));
+      CAPTURE(name, compare::name_of(difficulty));
       StageTally tally;
       hold_certified(scene, difficulty, 300, tally);
       // Drawn queries are the fast engine's, unless obstacles overlap their own translates.
@@ -97,7 +97,7 @@ TEST_CASE("certified equals the oracle on every scene of the catalogue", "[cases
 TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][catalogue_campaign]") {
   for (const auto& [name, scene] : all_scenes())
     for (const Difficulty difficulty : kDifficulties) {
-      CAPTURE(name, cli::name_of(difficulty));
+      CAPTURE(name, compare::name_of(difficulty));
       const oracle::Oracle exact(scene);
       const oracle::Walk walk(scene, 300);
       long judged = 0;
@@ -136,7 +136,7 @@ TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[c
     if (overlaps(scene)) continue;
     CAPTURE(name);
     ++scenes;
-    const double expected = cli::filling_of(scene)->mean_free_path;
+    const double expected = filling_of(scene)->mean_free_path;
     constexpr int kFlights = 20'000;
     const oracle::Certified certified(scene);
     Draw draw(7);

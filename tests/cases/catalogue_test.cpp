@@ -116,7 +116,7 @@ TEST_CASE("Crystals: nearest neighbours, their number, and the filling at which 
       CHECK(neighbours(here, a).count == crystal.neighbours);
     }
     const double touching = crystal.distance / 2;
-    CHECK(cli::filling_of(with_radius(here, touching))->fraction == Approx(crystal.filling).epsilon(1e-14));
+    CHECK(filling_of(with_radius(here, touching))->fraction == Approx(crystal.filling).epsilon(1e-14));
     // Exactly, a little to either side of touching (whether at it depends on how sqrt(3) was rounded).
     CHECK(oracle::contacts_in(with_radius(here, touching * (1 - 1e-14)), 100).found.empty());
     CHECK(oracle::contacts_in(with_radius(here, touching * (1 + 1e-14)), 100).found.size() ==

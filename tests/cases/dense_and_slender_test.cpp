@@ -5,15 +5,15 @@
 #include <array>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
 #include "cases/families/target.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Case;
+using cases::Case;
 
 namespace {
 
@@ -27,7 +27,7 @@ template <class Check>
 void each(const char* target, std::uint64_t count, const Check& check) {
   INFO("seed " << kSeed);
   for (std::uint64_t index = 0; index < count; ++index) {
-    const Case one = fuzz::target_named(target)->make(kSeed, index);
+    const Case one = cases::target_named(target)->make(kSeed, index);
     INFO(target << ' ' << index << '\n' << stream(one.scene, one.query));
     check(one);
   }

@@ -16,7 +16,7 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Case;
+using cases::Case;
 
 namespace {
 
@@ -43,7 +43,7 @@ bool only(const Case& one, const char* tag) {
 
 void each(const char* family, std::uint64_t count, const std::function<void(const Case&)>& check) {
   for (std::uint64_t index = 0; index < count; ++index) {
-    const Case one = fuzz::family_named(family)->make(kSeed, index);
+    const Case one = cases::family_named(family)->make(kSeed, index);
     INFO(family << " " << index << " " << one.tags.front() << "\n" << stream(one.scene, one.query));
     check(one);
   }
@@ -106,12 +106,11 @@ bool on_edge_of_plane(const Case& one) {
 bool radius_matters(const Case& one) {
   const auto scaled = [&](double factor) {
     Scene scene = one.scene;
-    for (Lattice& lattice : scene.lattices)
-      for (Atom& atom : lattice.atoms) {
-        atom.radius *= factor;
-        for (Vec& axis : atom.semiaxes)
-          for (double& component : axis) component *= factor;
-      }
+    for_each_atom(scene, [&](Atom& atom) {
+      atom.radius *= factor;
+      for (Vec& axis : atom.semiaxes)
+        for (double& component : axis) component *= factor;
+    });
     return answer_to(scene, one.query);
   };
   return !(scaled(1 - 0x1p-9).obstacle == scaled(1 + 0x1p-9).obstacle);

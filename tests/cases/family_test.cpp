@@ -16,8 +16,8 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Case;
-using fuzz::Family;
+using cases::Case;
+using cases::Family;
 
 namespace {
 
@@ -56,12 +56,12 @@ TEST_CASE("Random numbers are Philox4x64-10 of (seed, name), (index, use, block)
   CHECK(philox({}, {}) == std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc,
                                                        0xd7e772cee186176b, 0x7e68b68aec7ba23b});
   constexpr std::uint64_t kNameA = 0xaf63dc4c8601ec8c;  // FNV-1a of "a"
-  fuzz::Random random(20161115, "a", 7), scenes(20161115, "a", 7, fuzz::Use::scenes);
+  cases::Random random(20161115, "a", 7), scenes(20161115, "a", 7, cases::Use::scenes);
   for (const std::uint64_t block : {0, 1, 2})
     for (const std::uint64_t word : philox({7, 0, block, 0}, {20161115, kNameA}))
       CHECK(random.bits() == word);
   CHECK(scenes.bits() == philox({7, 1, 0, 0}, {20161115, kNameA})[0]);
-  fuzz::Random once_more(20161115, "a", 7);
+  cases::Random once_more(20161115, "a", 7);
   CHECK(once_more.uniform() == std::ldexp(philox({7, 0, 0, 0}, {20161115, kNameA})[0] >> 11, -53));
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("A case depends on seed, family and index: not on the order, the threa
   INFO("seed 4");
   std::vector<std::pair<const Family*, std::uint64_t>> order;
   std::map<std::pair<const Family*, std::uint64_t>, std::string> first, again;
-  for (const Family& family : fuzz::families())
+  for (const Family& family : cases::families())
     for (std::uint64_t index = 0; index < 160; ++index) {
       order.emplace_back(&family, index);
       first[order.back()] = text_of(family.make(kSeed, index));
@@ -85,7 +85,7 @@ TEST_CASE("A case depends on seed, family and index: not on the order, the threa
     CHECK(again[key] == text);
     different_seed += text_of(key.first->make(kSeed + 1, key.second)) != text;
   }
-  const Family &flat = *fuzz::family_named("grazing"), &other = *fuzz::family_named("ties");
+  const Family &flat = *cases::family_named("grazing"), &other = *cases::family_named("ties");
   for (std::uint64_t index = 0; index < 100; ++index)
     different_family += text_of(flat.make(kSeed, index)) != text_of(other.make(kSeed, index));
   CHECK(different_seed >= static_cast<long>(first.size()) - 20);  // the published examples are what they are
@@ -96,13 +96,13 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
           "[cases][family]") {
   INFO("seed 4");
   std::set<std::string_view> names;
-  for (const Family& family : fuzz::families()) {
+  for (const Family& family : cases::families()) {
     INFO(family.name());
     CHECK(names.insert(family.name()).second);
-    CHECK(fuzz::family_named(family.name()) == &family);
+    CHECK(cases::family_named(family.name()) == &family);
     CHECK_FALSE(family.description().empty());
     std::map<std::string_view, long> met;
-    for (const fuzz::Tag& tag : family.tags()) {
+    for (const cases::Tag& tag : family.tags()) {
       CHECK(met.emplace(tag.name, 0).second);
       CHECK(tag.note.size() > 10);  // 17 seen at least
     }
@@ -131,43 +131,43 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
     }
   }
   CHECK(names.size() == 17);
-  CHECK(fuzz::family_named("no such family") == nullptr);
+  CHECK(cases::family_named("no such family") == nullptr);
 }
 
 TEST_CASE("Cases share a scene in rows of 32, and no query comes twice", "[cases][family]") {
   INFO("seed 4");
-  for (const Family& family : fuzz::families()) {
+  for (const Family& family : cases::families()) {
     INFO(family.name());
     std::set<std::string> scenes, cases;
     for (std::uint64_t index = 0; index < kCount; ++index) {
       const Case one = family.make(kSeed, index);
-      if (family.name() == "published-faults" && index < fuzz::kCasesPerScene) continue;
-      if (index % fuzz::kCasesPerScene == 0) {
-        const Case last = family.make(kSeed, index + fuzz::kCasesPerScene - 1);
+      if (family.name() == "published-faults" && index < cases::kCasesPerScene) continue;
+      if (index % cases::kCasesPerScene == 0) {
+        const Case last = family.make(kSeed, index + cases::kCasesPerScene - 1);
         CHECK(scene_line(one.scene) == scene_line(last.scene));
         scenes.insert(scene_line(one.scene));
       }
       cases.insert(stream(one.scene, one.query));
     }
     CHECK(scenes.size() > 20);  // 29 seen at least
-    CHECK(cases.size() >= kCount - fuzz::kCasesPerScene - 2);
+    CHECK(cases.size() >= kCount - cases::kCasesPerScene - 2);
   }
 }
 
 TEST_CASE("Bad queries are well-formed, each different, and refused by the reader", "[cases][family]") {
   std::set<std::string> texts, used, explained;
-  for (const fuzz::Tag& tag : fuzz::bad_query_tags()) explained.insert(std::string(tag.name));
-  REQUIRE_FALSE(flaw_of(fuzz::bad_query_scene()));
+  for (const cases::Tag& tag : cases::bad_query_tags()) explained.insert(std::string(tag.name));
+  REQUIRE_FALSE(flaw_of(cases::bad_query_scene()));
   ExchangeReader reader;
   const auto read = [&](const std::string& text) {
     LineReader::Line line;
     const std::string padded = "{\"id\":\"a\"," + text + "}" + std::string(LineReader::kPadding, ' ');
     line.text = std::string_view(padded).substr(0, padded.size() - LineReader::kPadding);
     StreamItem item;
-    reader.read_query_line(line, &fuzz::bad_query_scene(), item);
+    reader.read_query_line(line, &cases::bad_query_scene(), item);
     return item;
   };
-  for (const fuzz::BadQuery& bad : fuzz::bad_queries()) {
+  for (const cases::BadQuery& bad : cases::bad_queries()) {
     INFO(bad.tag << ": " << bad.text);
     CHECK(texts.insert(bad.text).second);
     CHECK(explained.contains(bad.tag));

@@ -6,7 +6,7 @@
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using namespace lorentz::cli;
+using namespace lorentz::compare;
 
 TEST_CASE("Hard queries depend on the seed only, and are free starts", "[compare][hard_cases]") {
   for (const int dimension : {2, 3}) {

@@ -10,7 +10,7 @@
 #include "cases/random.hpp"
 
 using namespace lorentz;
-using namespace lorentz::cli;
+using namespace lorentz::compare;
 
 TEST_CASE("Drawn queries depend on seed and index only", "[compare][sampling]") {
   const Scene scene = unit_scene(3, 0.3);
@@ -55,7 +55,7 @@ TEST_CASE("No direction is preferred: 16 sectors of the circle hold as many each
   constexpr int kCount = 32000, kSectors = 16;
   int sectors[kSectors] = {};
   for (int index = 0; index < kCount; ++index) {
-    const Vec v = fuzz::Random(kDefaultSeed, "sectors", static_cast<std::uint64_t>(index)).direction(2);
+    const Vec v = cases::Random(kDefaultSeed, "sectors", static_cast<std::uint64_t>(index)).direction(2);
     const double turn = std::atan2(v[1], v[0]) / (2 * std::numbers::pi);
     ++sectors[static_cast<int>(kSectors * (turn + 1)) % kSectors];
   }

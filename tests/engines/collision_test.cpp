@@ -19,10 +19,6 @@ Vec minus(const Vec& a, const Vec& b) {
   return moved(a, b, -1);
 }
 
-double length(const Vec& a) {
-  return std::sqrt(dot(a, a));
-}
-
 double distance(const Vec& a, const Vec& b) {
   return length(minus(a, b));
 }

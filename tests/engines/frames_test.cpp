@@ -4,12 +4,13 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include "src/engines/base/double_double.hpp"
 #include "tests/engines/reduction_support.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace lorentz;
-using test::Draw, test::length, test::one_atom;
+using test::Draw, test::one_atom;
 
 namespace {
 

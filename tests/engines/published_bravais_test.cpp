@@ -46,12 +46,12 @@ Count hold_against_oracle(const Scene& scene, const std::vector<Query>& queries)
 }
 
 Count drawn(const Scene& scene, std::uint64_t seed, std::size_t number) {
-  return hold_against_oracle(scene, cli::draw_queries(scene, oracle::Oracle(scene), seed, number));
+  return hold_against_oracle(scene, compare::draw_queries(scene, oracle::Oracle(scene), seed, number));
 }
 
 // Flights that leave the ball at the origin, `from` that ball.
 std::vector<Query> leaving(int dimension, double r, std::uint64_t seed, std::size_t number) {
-  return cli::draw_leaving_queries(dimension, r, seed, number);
+  return compare::draw_leaving_queries(dimension, r, seed, number);
 }
 
 }  // namespace

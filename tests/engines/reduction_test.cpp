@@ -31,8 +31,7 @@ Scene supported_scene(Draw& draw, Style style, int dimension) {
     const double shrink = draw.one_in(2)   ? 1
                           : draw.one_in(2) ? 0.3
                                            : std::exp2(draw.between(dimension == 2 ? -38 : -21, -1));
-    for (Lattice& lattice : scene.lattices)
-      for (Atom& atom : lattice.atoms) atom.radius *= shrink;
+    for_each_atom(scene, [&](Atom& atom) { atom.radius *= shrink; });
     if (!too_flat(scene) && !Reduction::beyond(scene)) return scene;
   }
 }

@@ -46,7 +46,7 @@ void each(std::uint64_t count, const Check& check) {
   INFO("seed " << kSeed);
   for (const char* target : {"generic", "rounding", "tie", "boundary", "never", "mixture", "slender"})
     for (std::uint64_t index = 0; index < count; ++index) {
-      const fuzz::Case one = fuzz::target_named(target)->make(kSeed, index);
+      const cases::Case one = cases::target_named(target)->make(kSeed, index);
       INFO(target << ' ' << index << '\n' << stream(one.scene, one.query));
       check(one.scene, one.query);
     }

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -19,17 +20,17 @@ namespace {
 
 constexpr std::uint64_t kSeed = 5;
 
-bool has(const fuzz::Case& one, const char* tag) {
+bool has(const cases::Case& one, const char* tag) {
   return std::find(one.tags.begin(), one.tags.end(), tag) != one.tags.end();
 }
 
 // Calls visit(case, exact answer, the scene's oracle) for the first cases of a family.
 template <class Visit>
-void visit_cases(const fuzz::Family& family, std::uint64_t count, Visit visit) {
+void visit_cases(const cases::Family& family, std::uint64_t count, Visit visit) {
   for (std::uint64_t index = 0; index < count; ++index) {
-    const fuzz::Case one = family.make(kSeed, index);
+    const cases::Case one = family.make(kSeed, index);
     INFO(family.name() << ' ' << index << ", seed " << kSeed);
-    const Oracle& oracle = fuzz::oracle_of(one.scene);
+    const Oracle& oracle = cases::oracle_of(one.scene);
     visit(one, oracle.first_hit(one.query), oracle);
   }
 }
@@ -39,7 +40,7 @@ void visit_cases(const fuzz::Family& family, std::uint64_t count, Visit visit) {
 TEST_CASE("Times of the family early lie beside midway, and are rounded to where they are",
           "[fuzz][campaign_families]") {
   int odd = 0;
-  visit_cases(fuzz::early(), 600, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases(cases::early(), 600, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     REQUIRE(exact.outcome == Outcome::hit);
     const Vec &x = one.query.x, &v = one.query.v;
     const int k = v[0] != 0 ? 0 : v[1] != 0 ? 1 : 2;
@@ -56,13 +57,13 @@ TEST_CASE("Times of the family early lie beside midway, and are rounded to where
 TEST_CASE("Flights of the family nearly-parallel end, farther than double-double can tell",
           "[fuzz][campaign_families]") {
   int far = 0, not_known = 0;
-  visit_cases(fuzz::nearly_parallel(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases(cases::nearly_parallel(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     if (has(one, "parallel")) {
       REQUIRE(exact.outcome == Outcome::never);
       return;
     }
     REQUIRE(exact.outcome == Outcome::hit);
-    far += *exact.time * fuzz::length(one.query.v) > 0x1p90;
+    far += *exact.time * length(one.query.v) > 0x1p90;
     not_known += Reduction(one.scene).fly(one.query).outcome == Outcome::undecided;
   });
   CHECK(far > 200);        // 348 seen
@@ -71,8 +72,8 @@ TEST_CASE("Flights of the family nearly-parallel end, farther than double-double
 
 TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz][campaign_families]") {
   int close = 0, inside = 0, surface = 0;
-  visit_cases(fuzz::ellipsoid_edges(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
-    const auto hardest = oracle::Scrutiny(one.scene).hardest_decision(one.query, exact, 0);
+  visit_cases(cases::ellipsoid_edges(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+    const auto hardest = oracle::Margins(one.scene).hardest_decision(one.query, exact, 0);
     close += hardest && hardest->margin < 64;
     surface += has(one, "surface");
     inside += exact.outcome == Outcome::inside;
@@ -84,7 +85,7 @@ TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz
 
 TEST_CASE("Flights of the family drift last long before they meet a plane", "[fuzz][campaign_families]") {
   int long_flights = 0, by_bits = 0;
-  visit_cases(fuzz::drift(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases(cases::drift(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     if (!has(one, "by-bits")) return;
     ++by_bits;
     REQUIRE(exact.outcome == Outcome::hit);
@@ -96,11 +97,11 @@ TEST_CASE("Flights of the family drift last long before they meet a plane", "[fu
 
 TEST_CASE("Starts of the family vast-ellipsoids lie in many obstacles", "[fuzz][campaign_families]") {
   int inside = 0;
-  visit_cases(fuzz::vast_ellipsoids(), 96,
-              [&](const fuzz::Case& one, const Answer& exact, const Oracle& oracle) {
+  visit_cases(cases::vast_ellipsoids(), 96,
+              [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
                 inside += exact.outcome == Outcome::inside;
                 if (exact.outcome != Outcome::inside) return;
-                fuzz::Case next = one;
+                cases::Case next = one;
                 next.query.from = exact.obstacle;
                 const Answer second = oracle.first_hit(next.query);
                 REQUIRE(second.outcome == Outcome::inside);
@@ -110,16 +111,16 @@ TEST_CASE("Starts of the family vast-ellipsoids lie in many obstacles", "[fuzz][
 
 TEST_CASE("Starts of the family nearby are nearer to the obstacle that they enter than its radius",
           "[fuzz][campaign_families]") {
-  visit_cases(fuzz::nearby(), 400, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases(cases::nearby(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     REQUIRE(exact.outcome == Outcome::hit);
-    REQUIRE(*exact.time * fuzz::length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
+    REQUIRE(*exact.time * length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
   });
 }
 
 TEST_CASE("In the family unequal-radii both obstacles are met, and reduction knows most of it",
           "[fuzz][campaign_families]") {
   int known = 0, first = 0;
-  visit_cases(fuzz::unequal_radii(), 200, [&](const fuzz::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases(cases::unequal_radii(), 200, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     known += Reduction(one.scene).fly(one.query).outcome == exact.outcome;
     first += exact.obstacle.atom == 0;
   });
@@ -130,7 +131,7 @@ TEST_CASE("In the family unequal-radii both obstacles are met, and reduction kno
 
 TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[fuzz][campaign_families]") {
   int few = 0;
-  visit_cases(fuzz::dense_rows(), 200, [&](const fuzz::Case&, const Answer& exact, const Oracle&) {
+  visit_cases(cases::dense_rows(), 200, [&](const cases::Case&, const Answer& exact, const Oracle&) {
     few += exact.outcome == Outcome::hit && *exact.time < 8;
   });
   CHECK(few > 150);  // 200 seen

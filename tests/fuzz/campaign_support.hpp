@@ -30,9 +30,9 @@ inline fuzz::MakeSubject skewed_subjects() {
   return [] { return std::make_unique<SkewedSubject>(); };
 }
 
-inline std::string text_of(const fuzz::Account& a) {
+inline std::string text_of(const fuzz::TargetTally& a) {
   std::ostringstream out;
-  out << a.next << ' ' << a.cases << ' ' << a.mutants << ' ' << a.reworded << ' ' << a.margin << ' '
+  out << a.next << ' ' << a.cases << ' ' << a.variants << ' ' << a.reworded << ' ' << a.margin << ' '
       << a.margin_index;
   for (const std::uint64_t n : a.kinds) out << ' ' << n;
   for (const std::uint64_t n : a.stages) out << ' ' << n;
@@ -58,9 +58,9 @@ inline std::string text_of(const fuzz::Store& store) {
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const fuzz::Manifest& m = campaign.manifest;
     out += m.engine + ' ' + m.targets + ' ' + std::to_string(m.seed) + ' ' + m.options + ' ' + m.shard + '\n';
-    for (const fuzz::Target& target : fuzz::targets())
+    for (const cases::Target& target : cases::targets())
       if (m.targets.find(target.name()) != std::string::npos)
-        out += std::string(target.name()) + ' ' + text_of(store.account(campaign.id, target.name()));
+        out += std::string(target.name()) + ' ' + text_of(store.tally(campaign.id, target.name()));
   }
   for (const fuzz::Stored& one : store.findings()) out += text_of(one);
   return out;

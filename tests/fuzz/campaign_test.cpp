@@ -1,4 +1,4 @@
-// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, mutants, kinds.
+// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, variants, kinds.
 #include "fuzz/campaign/campaign.hpp"
 
 #include <catch2/catch.hpp>
@@ -6,9 +6,10 @@
 #include <set>
 #include <thread>
 
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/parts.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
@@ -16,9 +17,9 @@
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Account;
 using fuzz::Kind;
 using fuzz::Plan;
+using fuzz::TargetTally;
 
 namespace {
 
@@ -26,7 +27,7 @@ constexpr std::uint64_t kSeed = 5;
 
 Plan plan_of(std::initializer_list<const char*> names) {
   Plan plan;
-  for (const char* name : names) plan.targets.push_back(fuzz::target_named(name));
+  for (const char* name : names) plan.targets.push_back(cases::target_named(name));
   plan.seed = kSeed;
   plan.mutate = 8;
   return plan;
@@ -42,16 +43,16 @@ void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned 
                           "",
                           plan.keep,
                           std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
-  for (const fuzz::Target* target : plan.targets)
+  for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   const std::int64_t id = store.open_campaign(manifest);
-  std::vector<Account> accounts;
-  for (const fuzz::Target* target : plan.targets) accounts.push_back(store.account(id, target->name()));
+  std::vector<TargetTally> tallies;
+  for (const cases::Target* target : plan.targets) tallies.push_back(store.tally(id, target->name()));
   fuzz::StoreJournal journal(store, id);
   fuzz::Bounds bounds;
   bounds.count = count;
   bounds.jobs = jobs;
-  fuzz::run(plan, bounds, subjects, accounts, journal);
+  fuzz::run(plan, bounds, subjects, tallies, journal);
 }
 
 std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
@@ -116,7 +117,7 @@ class ParochialSubject final : public fuzz::Subject {
 
  private:
   void change_scene(const Scene& scene) override {
-    const double size = fuzz::length(scene.lattices[0].vectors[0]);
+    const double size = length(scene.lattices[0].vectors[0]);
     knows_ = size > 0x1p-60 && size < 0x1p60;
     oracle_.emplace(scene);
   }
@@ -127,13 +128,13 @@ class ParochialSubject final : public fuzz::Subject {
 };
 
 // What a campaign of a few targets finds in a subject that errs in other words alone.
-std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account& all) {
+std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, TargetTally& all) {
   Plan plan = plan_of({"generic", "grazing", "superpositions"});
   plan.counts.ulps = 0;
   plan.reword = reword;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 128, 2, [] { return std::make_unique<ParochialSubject>(); });
-  for (const fuzz::Target* target : plan.targets) all.add(store.account(1, target->name()));
+  for (const cases::Target* target : plan.targets) all.add(store.tally(1, target->name()));
   return store.findings();
 }
 
@@ -141,7 +142,7 @@ std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, Account&
 
 TEST_CASE("What goes wrong in other words alone is found, and keeps its words", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
-  Account without, with;
+  TargetTally without, with;
   CHECK(findings_in_other_words(0, without).empty());
   CHECK(without.reworded == 0);
   int lengths = 0, limits = 0;
@@ -161,8 +162,8 @@ TEST_CASE("What goes wrong in other words alone is found, and keeps its words", 
   }
   CHECK(lengths > 13);  // 17 seen
   CHECK(limits > 17);   // 22 seen
-  CHECK(with.reworded > (with.cases + with.mutants) / 2);
-  CHECK(with.reworded <= with.cases + with.mutants);
+  CHECK(with.reworded > (with.cases + with.variants) / 2);
+  CHECK(with.reworded <= with.cases + with.variants);
 }
 
 TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]") {
@@ -173,10 +174,10 @@ TEST_CASE("A campaign is the same for any number of threads", "[fuzz][campaign]"
   CHECK(once.find("boundary/") != std::string::npos);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 300, 1);
-  std::uint64_t mutants = 0;
-  for (const fuzz::Target* target : plan.targets) mutants += store.account(1, target->name()).mutants;
-  CHECK(mutants > 900 / 16 * 12);  // one case in 8 has up to 24
-  CHECK(mutants < 900 / 4 * 24);
+  std::uint64_t variants = 0;
+  for (const cases::Target* target : plan.targets) variants += store.tally(1, target->name()).variants;
+  CHECK(variants > 900 / 16 * 12);  // one case in 8 has up to 24
+  CHECK(variants < 900 / 4 * 24);
   for (const unsigned jobs : {2u, 5u}) CHECK(one_run(plan, 300, jobs) == once);
 }
 
@@ -192,19 +193,19 @@ TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on fro
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   const Plan plan = plan_of({"leaving", "boundary"});
-  std::vector<Account> accounts(2);
+  std::vector<TargetTally> tallies(2);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   fuzz::StoreJournal journal(store, 1);
   fuzz::Bounds bounds;
   bounds.seconds = 0.2;
   bounds.jobs = 2;
-  fuzz::run(plan, bounds, skewed_subjects(), accounts, journal);
-  for (const Account& account : accounts) {
-    CHECK(account.next > 0);
-    CHECK(account.cases == account.next);
+  fuzz::run(plan, bounds, skewed_subjects(), tallies, journal);
+  for (const TargetTally& tally : tallies) {
+    CHECK(tally.next > 0);
+    CHECK(tally.cases == tally.next);
     std::uint64_t judged = 0;
-    for (const std::uint64_t number : account.kinds) judged += number;
-    CHECK(judged == account.cases + account.mutants + account.reworded);
+    for (const std::uint64_t number : tally.kinds) judged += number;
+    CHECK(judged == tally.cases + tally.variants + tally.reworded);
   }
 }
 
@@ -233,8 +234,8 @@ TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
     fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
     fuzz::merge(paths, uneven);
     CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::Manifest::kMerged);
-    CHECK(uneven.account(1, "leaving").next == 150);
-    CHECK(uneven.account(1, "leaving").cases == 153);
+    CHECK(uneven.tally(1, "leaving").next == 150);
+    CHECK(uneven.tally(1, "leaving").cases == 153);
   }
 }
 
@@ -245,21 +246,21 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all", 
   plan.mutate = 0;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 200, 3);
-  const Account account = store.account(1, "leaving");
+  const TargetTally tally = store.tally(1, "leaving");
   std::map<std::string, std::vector<std::uint64_t>> kept;
   for (const fuzz::Stored& one : store.findings()) kept[one.finding.sort].push_back(one.finding.index);
   std::uint64_t all = 0;
-  REQUIRE(account.sorts.size() > 1);
-  for (const auto& [sort, number] : account.sorts) {
+  REQUIRE(tally.sorts.size() > 1);
+  for (const auto& [sort, number] : tally.sorts) {
     INFO(sort);
     CHECK(kept[sort].size() == std::min<std::uint64_t>(number, 2));
     all += number;
   }
-  CHECK(all == account.kinds[static_cast<std::size_t>(Kind::wrong)] +
-                   account.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
-  CHECK(all > 40);                                                         // 52 seen
+  CHECK(all == tally.kinds[static_cast<std::size_t>(Kind::wrong)] +
+                   tally.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
+  CHECK(all > 40);                                                       // 52 seen
 
-  plan.mutate = 1;  // a case and its mutants, which mostly fail alike, are one finding
+  plan.mutate = 1;  // a case and its variants, which mostly fail alike, are one finding
   fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
   run_in(mutated, plan, 40, 2);
   std::set<std::pair<std::string, std::uint64_t>> seen;
@@ -273,18 +274,18 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
   INFO("seed " << kSeed);
   Plan plan = plan_of({"corner"});
   plan.mutate = 0;
-  std::vector<Account> accounts(1);
+  std::vector<TargetTally> tallies(1);
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   fuzz::Bounds bounds;
   bounds.count = 100;
   for (const bool undecided : {true, false}) {
-    accounts = {{}};
+    tallies = {{}};
     plan.counts.undecided = undecided;
     fuzz::StoreJournal journal(store, undecided);
     fuzz::run(
-        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, accounts, journal);
+        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, tallies, journal);
   }
-  const auto number = [&](Kind kind) { return accounts[0].kinds[static_cast<std::size_t>(kind)]; };
+  const auto number = [&](Kind kind) { return tallies[0].kinds[static_cast<std::size_t>(kind)]; };
   CHECK(number(Kind::undecided) > 30);  // 40 seen
   CHECK(number(Kind::error) > 40);      // 55 seen
   CHECK(number(Kind::slow) > 3);        // 10 seen
@@ -339,7 +340,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   // Wrong in two ways, and about hits, starts inside, and flights without end.
   const auto subjects = [] {
     return std::make_unique<ToldSubject>([](const Query& query) {
-      return query.v[0] > 0 ? Answer::never() : Answer::inside(fuzz::obstacle(7, 7));
+      return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
     });
   };
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
@@ -363,33 +364,33 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
 TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
-  for (const fuzz::Target& target : fuzz::targets()) {
+  for (const cases::Target& target : cases::targets()) {
     INFO(target.name());
-    CHECK(fuzz::target_named(target.name()) == &target);
+    CHECK(cases::target_named(target.name()) == &target);
     std::string again;
     const std::string first = stream(target.make(kSeed, 77).scene, target.make(kSeed, 77).query);
     std::thread([&] {
       target.make(kSeed, 3);
-      const fuzz::Case one = target.make(kSeed, 77);
+      const cases::Case one = target.make(kSeed, 77);
       again = stream(one.scene, one.query);
     }).join();
     CHECK(again == first);
   }
-  CHECK(fuzz::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
-  CHECK(fuzz::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
-  for (const fuzz::Family& family :
-       {fuzz::leaving(), fuzz::scale(), fuzz::mixture(), fuzz::rounding(), fuzz::early(),
-        fuzz::nearly_parallel(), fuzz::ellipsoid_edges(), fuzz::drift(), fuzz::vast_ellipsoids(),
-        fuzz::nearby(), fuzz::unequal_radii(), fuzz::dense_rows(), fuzz::dense_layers(), fuzz::slender(),
-        fuzz::far_starts(), fuzz::specks()}) {
+  CHECK(cases::target_named("generic")->make(kSeed, 31).scene.dimension == 2);
+  CHECK(cases::target_named("generic")->make(kSeed, 32).scene.dimension == 3);
+  for (const cases::Family& family :
+       {cases::leaving(), cases::scale(), cases::mixture(), cases::rounding(), cases::early(),
+        cases::nearly_parallel(), cases::ellipsoid_edges(), cases::drift(), cases::vast_ellipsoids(),
+        cases::nearby(), cases::unequal_radii(), cases::dense_rows(), cases::dense_layers(), cases::slender(),
+        cases::far_starts(), cases::specks()}) {
     std::map<std::string, int> met;
-    for (const fuzz::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
+    for (const cases::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();
     for (std::uint64_t index = 0; index < 2000; ++index) {
-      const fuzz::Case one = family.make(kSeed, index);
+      const cases::Case one = family.make(kSeed, index);
       INFO(family.name() << ' ' << index << ' ' << stream(one.scene, one.query));
       if (index % 32 == 0) REQUIRE_FALSE((flaw_of(one.scene) || oracle::dependence_in(one.scene)));
-      REQUIRE(fuzz::same(one.scene, family.make(kSeed, index / 32 * 32).scene));
+      REQUIRE(one.scene == family.make(kSeed, index / 32 * 32).scene);
       REQUIRE_FALSE(flaw_of(one.query, one.scene));
       if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
       for (const std::string& tag : one.tags) ++met[tag];
@@ -407,7 +408,7 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
   INFO("seed " << kSeed);
   int on_surface = 0;
   for (std::uint64_t index = 0; index < 500; ++index) {
-    const fuzz::Case one = fuzz::target_named("leaving")->make(kSeed, index);
+    const cases::Case one = cases::target_named("leaving")->make(kSeed, index);
     REQUIRE(one.query.from);
     const Vec centre = centre_of(one.scene, *one.query.from);
     Vec arm{};
@@ -420,39 +421,39 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
   CHECK(on_surface > 300);  // 389 seen
 }
 
-TEST_CASE("A climb is repeatable and comes to smaller margins; its mutants are queries with their answers",
+TEST_CASE("A climb is repeatable and comes to smaller margins; its variants are queries with their answers",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   int improved = 0, at_the_edge = 0;
   for (std::uint64_t index = 0; index < 60; ++index) {
-    const fuzz::Case base = fuzz::target_named("generic")->make(kSeed, index);
+    const cases::Case base = cases::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
-    const oracle::Scrutiny scrutiny(base.scene);
+    const oracle::Margins margins(base.scene);
     const auto nobody = skewed_subjects()();
     const fuzz::Examiner examiner(*nobody, base.scene, oracle::kDefaultUlps);
-    const auto mutants = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
-    const auto again = fuzz::climb(fuzz::Random(1, "climb", index), base, examiner, scrutiny);
-    REQUIRE(mutants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
-    REQUIRE(mutants.size() == again.size());
+    const auto variants = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
+    const auto again = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
+    REQUIRE(variants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
+    REQUIRE(variants.size() == again.size());
     double least = 1e300;
-    for (std::size_t i = 0; i < mutants.size(); ++i) {
-      REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, again[i].question.query));
-      REQUIRE_FALSE(flaw_of(mutants[i].question.query, base.scene));
-      REQUIRE(same(mutants[i].question.exact, oracle.first_hit(mutants[i].question.query)));
-      least = std::min(least, mutants[i].margin());
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, again[i].question.query));
+      REQUIRE_FALSE(flaw_of(variants[i].question.query, base.scene));
+      REQUIRE(same(variants[i].question.exact, oracle.first_hit(variants[i].question.query)));
+      least = std::min(least, variants[i].margin());
     }
     // Each round goes on from the best before it.
-    fuzz::Random random(1, "climb", index);
-    fuzz::Mutant best = fuzz::seen(examiner, scrutiny, base.query);
+    cases::Random random(1, "climb", index);
+    fuzz::Variant best = fuzz::seen(examiner, margins, base.query);
     REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
     improved += least < best.margin();
     at_the_edge += least < 4;
-    for (std::size_t i = 0; i < mutants.size();) {
-      const fuzz::Mutant here = best;
+    for (std::size_t i = 0; i < variants.size();) {
+      const fuzz::Variant here = best;
       for (int move = 0; move < fuzz::kMovesPerRound; ++move, ++i) {
         const Query query = fuzz::next_query(random, base.scene, examiner, here, move);
-        REQUIRE(stream(base.scene, mutants[i].question.query) == stream(base.scene, query));
-        if (mutants[i].margin() < best.margin()) best = mutants[i];
+        REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, query));
+        if (variants[i].margin() < best.margin()) best = variants[i];
       }
     }
     CHECK(best.margin() <= least);

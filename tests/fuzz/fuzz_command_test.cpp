@@ -194,7 +194,7 @@ TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had nev
   for (const int milliseconds : {600, 30, 700}) {
     killed_after(std::chrono::milliseconds(milliseconds), with_store);
     const Store store(folder.file("killed"), Store::Access::read);
-    const std::uint64_t now = store.account(1, "leaving").next;
+    const std::uint64_t now = store.tally(1, "leaving").next;
     CHECK(now >= next);
     next = now;
   }

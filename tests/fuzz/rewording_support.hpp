@@ -52,8 +52,8 @@ struct Tally {
 };
 
 // One scene in other words, with the oracle for them.
-struct Room {
-  explicit Room(fuzz::Rewording&& one)
+struct RewordedScene {
+  explicit RewordedScene(fuzz::Rewording&& one)
       : rewording(std::move(one)), oracle(rewording.scene()), certified(rewording.scene()) {
     if (!Reduction::beyond(rewording.scene())) reduction.emplace(rewording.scene());
   }
@@ -66,34 +66,35 @@ struct Room {
 
 // What was said in the new words, `there`, is what the oracle said in the old: to the bit of the time, and
 // the same obstacle, or one that is entered at that very time.
-inline void require_carried(Room& room, const fuzz::Reworded& reworded, const Answer& exact,
+inline void require_carried(RewordedScene& scene, const fuzz::Reworded& reworded, const Answer& exact,
                             const Answer& there, Tally& tally) {
-  INFO("there: " << line(there, room.rewording.scene().dimension));
+  INFO("there: " << line(there, scene.rewording.scene().dimension));
   if (reworded.rounded) return;  // another question
   REQUIRE(there.outcome == exact.outcome);
-  const auto carried = room.rewording.carried(exact, reworded);
+  const auto carried = scene.rewording.carried(exact, reworded);
   ++tally.met[carried ? "(carried over)" : "(time lost)"];
   if (carried) REQUIRE(there.time == carried->time);
   if (!names_obstacle(exact)) return;
-  if (room.rewording.back(there.obstacle, reworded) == exact.obstacle) return;
+  if (scene.rewording.back(there.obstacle, reworded) == exact.obstacle) return;
   ++tally.met["(ties)"];
-  if (!room.judge) room.judge.emplace(room.rewording.scene());
+  if (!scene.judge) scene.judge.emplace(scene.rewording.scene());
   const Answer other = exact.outcome == Outcome::hit
-                           ? Answer::hit(room.rewording.there(exact.obstacle, reworded), *there.time)
-                           : Answer::inside(room.rewording.there(exact.obstacle, reworded));
-  REQUIRE(fuzz::is_tie(room.rewording.scene(), *room.judge, reworded.query, there, other));
+                           ? Answer::hit(scene.rewording.there(exact.obstacle, reworded), *there.time)
+                           : Answer::inside(scene.rewording.there(exact.obstacle, reworded));
+  REQUIRE(fuzz::is_tie(scene.rewording.scene(), *scene.judge, reworded.query, there, other));
 }
 
 // The engines that claim to be exact say what the oracle says, in its words.
-inline void require_exact_engines(const Room& room, const Query& query, const Answer& there, Tally& tally) {
-  const Answer certified = room.certified.first_hit(query);
-  INFO("certified: " << line(certified, room.rewording.scene().dimension));
+inline void require_exact_engines(const RewordedScene& scene, const Query& query, const Answer& there,
+                                  Tally& tally) {
+  const Answer certified = scene.certified.first_hit(query);
+  INFO("certified: " << line(certified, scene.rewording.scene().dimension));
   REQUIRE(certified.outcome == there.outcome);
   REQUIRE(certified.time == there.time);
   if (names_obstacle(there)) REQUIRE(certified.obstacle == there.obstacle);
-  if (!room.reduction) return;
-  const Answer reduction = answer_of(room.reduction->fly(query));
-  INFO("reduction: " << line(reduction, room.rewording.scene().dimension));
+  if (!scene.reduction) return;
+  const Answer reduction = answer_of(scene.reduction->fly(query));
+  INFO("reduction: " << line(reduction, scene.rewording.scene().dimension));
   ++tally.met[reduction.outcome == Outcome::undecided ? "(reduction: undecided)" : "(reduction: decided)"];
   if (reduction.outcome == Outcome::undecided) return;
   REQUIRE(reduction.outcome == there.outcome);

@@ -4,16 +4,17 @@
 #include <deque>
 #include <filesystem>
 
+#include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/target.hpp"
-#include "cases/parts.hpp"
+#include "cases/free_start.hpp"
 #include "fuzz/examine/time_limit.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "golden/reader.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
-using fuzz::Random;
+using cases::Random;
 using fuzz::Reworded;
 using fuzz::Rewording;
 
@@ -23,59 +24,59 @@ constexpr std::uint64_t kSeed = 1301;
 
 enum class Who { oracle, engines };
 
-// One question in the words of one of some rooms.
-void require_same_in(Room& room, Random& random, const Query& query, const Answer& exact, Who who,
-                     Tally& tally) {
-  const auto reworded = room.rewording.reword(random, query);
+// One question in the words of one of some reworded scenes.
+void require_same_in(RewordedScene& in_words, Random& random, const Query& query, const Answer& exact,
+                     Who who, Tally& tally) {
+  const auto reworded = in_words.rewording.reword(random, query);
   if (!reworded) {
     ++tally.met["(no binary64)"];
     return;
   }
-  const Scene& other = room.rewording.scene();
-  INFO("in other words: " << room.rewording.words(*reworded) << '\n' << stream(other, reworded->query));
+  const Scene& other = in_words.rewording.scene();
+  INFO("in other words: " << in_words.rewording.words(*reworded) << '\n' << stream(other, reworded->query));
   REQUIRE_FALSE(flaw_of(reworded->query, other));
-  tally.see(room.rewording.words(*reworded));
+  tally.see(in_words.rewording.words(*reworded));
   if (query.from) {
     ++tally.met["(from)"];
-    REQUIRE(room.rewording.back(*reworded->query.from, *reworded) == *query.from);
+    REQUIRE(in_words.rewording.back(*reworded->query.from, *reworded) == *query.from);
   }
-  const Answer there = room.oracle.first_hit(reworded->query);
-  require_carried(room, *reworded, exact, there, tally);
-  if (who == Who::engines) require_exact_engines(room, reworded->query, there, tally);
+  const Answer there = in_words.oracle.first_hit(reworded->query);
+  require_carried(in_words, *reworded, exact, there, tally);
+  if (who == Who::engines) require_exact_engines(in_words, reworded->query, there, tally);
 }
 
 // A scene in some other words.
-std::deque<Room> rooms_of(Random& random, const Scene& scene, int count) {
-  std::deque<Room> rooms;
+std::deque<RewordedScene> reworded_scenes(Random& random, const Scene& scene, int count) {
+  std::deque<RewordedScene> scenes;
   for (int i = 0; i < count; ++i) {
     Rewording rewording(random, scene);
     INFO(rewording.words({}) << '\n' << stream(rewording.scene(), {}));
     REQUIRE_FALSE(flaw_of(rewording.scene()));
     REQUIRE_FALSE(oracle::dependence_in(rewording.scene()));
-    rooms.emplace_back(std::move(rewording));
+    scenes.emplace_back(std::move(rewording));
   }
-  return rooms;
+  return scenes;
 }
 
 // The cases of a target, each in two of four other words for its scene.
-void require_same_in_other_words(const fuzz::Target& target, std::uint64_t seed, std::uint64_t count, Who who,
-                                 Tally& tally) {
-  std::deque<Room> rooms;
+void require_same_in_other_words(const cases::Target& target, std::uint64_t seed, std::uint64_t count,
+                                 Who who, Tally& tally) {
+  std::deque<RewordedScene> scenes;
   std::optional<oracle::Oracle> oracle;
   std::optional<Scene> scene;
   for (std::uint64_t index = 0; index < count; ++index) {
-    const fuzz::Case one = target.make(seed, index);
-    Random random(seed, target.name(), index, fuzz::Use::rewordings);
+    const cases::Case one = target.make(seed, index);
+    Random random(seed, target.name(), index, cases::Use::rewordings);
     INFO(target.name() << ' ' << index << ", seed " << seed << '\n' << stream(one.scene, one.query));
-    if (!scene || !fuzz::same(*scene, one.scene)) {
+    if (!scene || *scene != one.scene) {
       scene = one.scene;
       oracle.emplace(*scene);
-      rooms = rooms_of(random, *scene, 4);
+      scenes = reworded_scenes(random, *scene, 4);
     }
     const Answer exact = oracle->first_hit(one.query);
     INFO("exact: " << line(exact, one.scene.dimension));
     for (const std::uint64_t i : {index % 4, (index + 1) % 4})
-      require_same_in(rooms[i], random, one.query, exact, who, tally);
+      require_same_in(scenes[i], random, one.query, exact, who, tally);
   }
 }
 
@@ -83,17 +84,17 @@ void require_same_in_other_words(const fuzz::Target& target, std::uint64_t seed,
 void require_same_in_other_words(const std::string& path, Tally& tally) {
   golden::Reader reader(path);
   golden::ReadRecord read;
-  std::deque<Room> rooms;
+  std::deque<RewordedScene> scenes;
   std::size_t scene_number = ~std::size_t{0};
   for (std::uint64_t index = 0; reader.next(read); ++index) {
     if (!read.query) continue;
-    Random random(kSeed, reader.header().name, index, fuzz::Use::rewordings);
-    if (scene_number != reader.scene_number()) rooms = rooms_of(random, reader.scene(), 3);
+    Random random(kSeed, reader.header().name, index, cases::Use::rewordings);
+    if (scene_number != reader.scene_number()) scenes = reworded_scenes(random, reader.scene(), 3);
     scene_number = reader.scene_number();
     INFO(path << ':' << read.line << ", seed " << kSeed);
     ++tally.met["(records)"];
     for (const std::uint64_t i : {index % 3, (index + 1) % 3})
-      require_same_in(rooms[i], random, *read.query, read.record.expect, Who::engines, tally);
+      require_same_in(scenes[i], random, *read.query, read.record.expect, Who::engines, tally);
   }
 }
 
@@ -108,7 +109,7 @@ Tally in_golden_sets() {
 
 TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewording]") {
   Tally tally;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     require_same_in_other_words(target, kSeed, 512, Who::oracle, tally);
   tally.print("the oracle in other words, all targets, 512 cases each, seed " + std::to_string(kSeed));
   // A generator that rots is seen.
@@ -131,10 +132,10 @@ TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewordin
 TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {
   std::map<std::string, int> misread;
   int questions = 0;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 320; ++index, ++questions) {
-      const fuzz::Case one = target.make(kSeed, index);
-      Random random(kSeed, target.name(), index, fuzz::Use::rewordings);
+      const cases::Case one = target.make(kSeed, index);
+      Random random(kSeed, target.name(), index, cases::Use::rewordings);
       const auto misreading = fuzz::misreading(random, one.scene, one.query);
       if (misreading && ++misread[misreading->notation] == 1)
         UNSCOPED_INFO(target.name() << ' ' << index << ", " << misreading->notation << ": "
@@ -148,12 +149,12 @@ TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the
           "[fuzz][rewording]") {
   constexpr std::uint64_t kOther = 1303;
   std::map<fuzz::LimitAt, int> met, later;
-  for (const fuzz::Target& target : fuzz::targets())
+  for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 64; ++index) {
-      const fuzz::Case one = target.make(kOther, index);
-      const oracle::Oracle& oracle = fuzz::oracle_of(one.scene);
+      const cases::Case one = target.make(kOther, index);
+      const oracle::Oracle& oracle = cases::oracle_of(one.scene);
       const Answer exact = oracle.first_hit(one.query);
-      Random random(kOther, target.name(), index, fuzz::Use::rewordings);
+      Random random(kOther, target.name(), index, cases::Use::rewordings);
       const fuzz::LimitAt at = fuzz::drawn_limit(random, fuzz::Subject::Limits::exact, exact);
       if (at == fuzz::LimitAt::none) continue;
       oracle::Request request;
@@ -184,8 +185,8 @@ TEST_CASE("Rewording: a million questions in other words to certified and reduct
           "[fuzz][rewording][long]") {
   constexpr std::uint64_t kOther = 1302;
   Tally tally;
-  for (const fuzz::Target& target : fuzz::targets())
-    require_same_in_other_words(target, kOther, 1'250'000 / 2 / fuzz::targets().size(), Who::engines, tally);
+  for (const cases::Target& target : cases::targets())
+    require_same_in_other_words(target, kOther, 1'250'000 / 2 / cases::targets().size(), Who::engines, tally);
   tally.print("certified and reduction in other words, seed " + std::to_string(kOther));
   CHECK(tally.met["(reduction: decided)"] + tally.met["(reduction: undecided)"] > 1'000'000);
 }

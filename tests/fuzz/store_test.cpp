@@ -50,29 +50,29 @@ std::string message_of(const std::function<void()>& act) {
 
 TEST_CASE("What is put in a store comes out of it", "[fuzz][store]") {
   const Folder folder;
-  fuzz::Account account;
-  account.next = 1ull << 60;
-  account.cases = 5;
-  account.mutants = 6;
-  for (std::size_t k = 0; k < account.kinds.size(); ++k) account.kinds[k] = k * k;
-  account.sorts = {{"one", 1}, {"two", 2}};
-  account.margin = 4.9e-324;
-  account.margin_index = 17;
+  fuzz::TargetTally tally;
+  tally.next = 1ull << 60;
+  tally.cases = 5;
+  tally.variants = 6;
+  for (std::size_t k = 0; k < tally.kinds.size(); ++k) tally.kinds[k] = k * k;
+  tally.sorts = {{"one", 1}, {"two", 2}};
+  tally.margin = 4.9e-324;
+  tally.margin_index = 17;
   {
     Store store(folder.file("store"), Store::Access::write);
     CHECK(store.open_campaign(manifest()) == 1);
     CHECK(store.open_campaign(manifest("1/2")) == 2);
     CHECK(store.open_campaign(manifest()) == 1);
-    store.put(2, "leaving", account);
+    store.put(2, "leaving", tally);
     store.put(2, finding());
     store.commit();
   }
   const Store store(folder.file("store"), Store::Access::read);
   REQUIRE(store.campaigns().size() == 2);
   CHECK(store.campaigns()[1].manifest == manifest("1/2"));
-  CHECK(text_of(store.account(2, "leaving")) == text_of(account));
-  CHECK(text_of(store.account(2, "scale")) == text_of(fuzz::Account{}));
-  CHECK(text_of(store.account(1, "leaving")) == text_of(fuzz::Account{}));
+  CHECK(text_of(store.tally(2, "leaving")) == text_of(tally));
+  CHECK(text_of(store.tally(2, "scale")) == text_of(fuzz::TargetTally{}));
+  CHECK(text_of(store.tally(1, "leaving")) == text_of(fuzz::TargetTally{}));
   REQUIRE(store.findings().size() == 1);
   CHECK(text_of(store.findings()[0]) == text_of(fuzz::Stored{2, finding()}));
   CHECK(store.findings()[0].label() == "2/leaving/12345678901.7");

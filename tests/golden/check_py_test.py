@@ -237,7 +237,7 @@ class Refuses(unittest.TestCase):
         self.refused("plane", "Error", lambda case: case.pop("expect"), lambda case: case.update(expect=[]))
 
     def test_errors(self):
-        """A query that is none is an error, and no other."""
+        """Invalid queries yield an error, and no others do."""
         at = {"lattice": 0, "atom": 0, "cell": [0, 0]}
         def error(**query):
             return {**CASES["error"], "query": {"x": [0, 0], "v": [1, 0], **query}}

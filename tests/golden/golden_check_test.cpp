@@ -117,7 +117,7 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   const Run error = checked("a = {'id': a['id'], 'outcome': 'error', 'message': 'no'}");
   CHECK(error.status == 1);
   CHECK(contains(error.out, "\"error\":125"));
-  // To what is no query an answer is wrong, and an error right.
+  // Of an invalid query an answer is wrong, and an error right.
   CHECK(checked("pass", "bad-queries").status == 0);
   const Run sure = checked("a = {'id': a['id'], 'outcome': 'never'}", "bad-queries");
   CHECK(sure.status == 1);
@@ -156,7 +156,7 @@ TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden
   CHECK(folder.lorentz("golden check -e reduction no-such-set").status == 3);
 }
 
-TEST_CASE("golden explain: a hit, inside, never, and what is no query", "[golden][golden_check]") {
+TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden][golden_check]") {
   const Folder folder;
   const auto explained = [&](const std::string& set, const std::string& word) {
     const std::string id = first_id(set, word);
@@ -178,7 +178,7 @@ TEST_CASE("golden explain: a hit, inside, never, and what is no query", "[golden
   CHECK(contains(hard, "entered before the obstacle that is hit? No, by 0 ulps."));
   CHECK(contains(explained("boundary-starts", "\"outcome\":\"inside\""), "It starts inside lattice "));
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
-  CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is no query: "));
+  CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
   const std::string far = first_id("generic-3d", "\"outcome\":\"hit\"");
   const std::size_t all = lines(folder.lorentz("golden explain " + far + " generic-3d").out);

@@ -22,12 +22,12 @@ Order order_of(const char* set, std::uint64_t count, std::uint64_t jobs = 1, std
 
 struct Production {
   std::string text;
-  golden::Account account;
+  golden::RecordCounts counts;
 };
 
 Production produced(const Order& order) {
   Production made;
-  made.account = golden::produce(order, [&](std::string_view text) { made.text += text; }, {});
+  made.counts = golden::produce(order, [&](std::string_view text) { made.text += text; }, {});
   return made;
 }
 
@@ -65,15 +65,15 @@ void leave(const Folder& folder, Moment moment) {
 }
 
 void require_made(const Folder& folder, const Order& order, const Production& whole) {
-  const golden::Account account = golden::produce_file(order, folder.file("set"), {});
+  const golden::RecordCounts counts = golden::produce_file(order, folder.file("set"), {});
   CHECK((folder.read("set") == whole.text));
   CHECK(names_in(folder) == std::set<std::string>{"set"});
-  CHECK(account.records == whole.account.records);
-  CHECK(account.walked == whole.account.walked);
-  CHECK(account.hits == whole.account.hits);
-  CHECK(account.insides == whole.account.insides);
-  CHECK(account.nevers == whole.account.nevers);
-  CHECK(account.errors == whole.account.errors);
+  CHECK(counts.records == whole.counts.records);
+  CHECK(counts.walked == whole.counts.walked);
+  CHECK(counts.hits == whole.counts.hits);
+  CHECK(counts.insides == whole.counts.insides);
+  CHECK(counts.nevers == whole.counts.nevers);
+  CHECK(counts.errors == whole.counts.errors);
 }
 
 std::size_t scenes_in(const std::string& text) {
@@ -101,9 +101,9 @@ TEST_CASE("Golden: a set is the same whatever the number of threads, and no id c
     for (const std::uint64_t jobs : {2, 5}) {
       const Production other = produced(order_of(name, count, jobs));
       CHECK((one.text == other.text));
-      CHECK(one.account.walked == other.account.walked);
+      CHECK(one.counts.walked == other.counts.walked);
     }
-    const golden::Account& a = one.account;
+    const golden::RecordCounts& a = one.counts;
     CHECK(a.records == count);
     CHECK(a.hits + a.insides + a.nevers + a.errors == count);
     CHECK((a.errors == 0) == (name != std::string("bad-queries")));

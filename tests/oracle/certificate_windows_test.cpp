@@ -109,7 +109,7 @@ TEST_CASE("An obstacle at the very end of a window is looked at", "[oracle][cert
   }
 }
 
-TEST_CASE("A basis that is none is refused", "[oracle][certificate_check]") {
+TEST_CASE("Vectors that are no basis are refused", "[oracle][certificate_check]") {
   Draw draw(2107);
   INFO("seed 2107");
   for (int i = 0; i < 300; ++i) {

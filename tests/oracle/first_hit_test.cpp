@@ -147,7 +147,7 @@ TEST_CASE("Times of a ball and an ellipsoid are compared as times, also where a 
   CHECK(*answer.time == 0.0002681065563184844);
 }
 
-TEST_CASE("A query that is none gets an error that says why", "[oracle][first_hit]") {
+TEST_CASE("An invalid query yields an error that says why", "[oracle][first_hit]") {
   const oracle::Oracle oracle(kQuarter);
   CHECK(oracle.first_hit({{0, 0.5}, {0, 0}, {}}).message.find("v is zero") != std::string::npos);
   CHECK(oracle.first_hit({{0, NAN}, {1, 0}, {}}).message.find("x is not finite") != std::string::npos);

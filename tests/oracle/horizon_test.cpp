@@ -1,5 +1,6 @@
 // The channels that a scene leaves open: against closed forms, brute force, affine images, and the oracle,
 // which must answer `never` in a channel and only there.
+#include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,6 @@
 #include <lorentz/oracle.hpp>
 #include "oracle/exact/root_sums.hpp"
 #include "oracle/horizon/shadow.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -82,15 +82,15 @@ bool is_curved(const Problem& problem, const Answer& exact, double margin) {
   const Vec& v = problem.query.v;
   const double moved = margin * 0x1p-51 * (1 + exact.time.value_or(0) * std::hypot(v[0], v[1], v[2]));
   double least = INFINITY;
-  for (const Lattice& lattice : problem.scene.lattices)
-    for (const Atom& atom : lattice.atoms)
-      if (atom.is_ball()) least = std::min(least, atom.radius);
+  for_each_atom(problem.scene, [&](const Atom& atom) {
+    if (atom.is_ball()) least = std::min(least, atom.radius);
+  });
   return problem.scene.dimension == 3 && moved > 0.01 * std::min(least, 0.1);
 }
 
 void hold(Draw& draw, const Problem& problem, int corners, Tally& tally) {
   const Answer exact = truth(problem);
-  const auto decision = oracle::Scrutiny(problem.scene).hardest_decision(problem.query, exact);
+  const auto decision = oracle::Margins(problem.scene).hardest_decision(problem.query, exact);
   REQUIRE(decision.has_value() == (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside));
   if (!decision) return;
   ++tally.cases;
@@ -136,8 +136,8 @@ Tally grazing_campaign(std::uint64_t seed, int dimension, int cases, int corners
   for (const double radius : {0.3, 0.1, 0.01, 1e-3}) {
     const Scene scene = unit_scene(dimension, radius);
     const oracle::Oracle oracle(scene);
-    for (const auto difficulty : {cli::Difficulty::drawn, cli::Difficulty::grazing})
-      for (const Query& query : cli::hard_queries(difficulty, scene, oracle, seed, cases / 8))
+    for (const auto difficulty : {compare::Difficulty::drawn, compare::Difficulty::grazing})
+      for (const Query& query : compare::hard_queries(difficulty, scene, oracle, seed, cases / 8))
         hold(draw, {scene, query}, corners, tally);
   }
   return tally;

@@ -8,7 +8,7 @@
 using namespace lorentz;
 using namespace lorentz::test;
 using oracle::DecisionKind;
-using oracle::Scrutiny;
+using oracle::Margins;
 
 namespace {
 
@@ -18,18 +18,18 @@ Answer truth(const Scene& scene, const Query& query) {
   return oracle::Oracle(scene).first_hit(query);
 }
 
-oracle::Decision hardest(const Scene& scene, const Query& query) {
-  return Scrutiny(scene).hardest_decision(query, truth(scene, query)).value();
+oracle::HardestDecision hardest(const Scene& scene, const Query& query) {
+  return Margins(scene).hardest_decision(query, truth(scene, query)).value();
 }
 
 double condition(const Scene& scene, const Query& query) {
-  return Scrutiny(scene).condition(query, truth(scene, query));
+  return Margins(scene).condition(query, truth(scene, query));
 }
 
 // Of the decision to meet the obstacle that is hit; not limited.
 double meeting(const Scene& scene, const Query& query) {
   const Answer exact = truth(scene, query);
-  const auto passed = Scrutiny(scene).passed(query, exact, 1);
+  const auto passed = Margins(scene).passed(query, exact, 1);
   REQUIRE(passed.size() == 1);
   REQUIRE(passed[0].obstacle == exact.obstacle);
   return passed[0].margin;

@@ -80,11 +80,11 @@ TEST_CASE("Prover: the proofs of drawn answers are accepted", "[oracle][prover]"
 
 TEST_CASE("Prover: the proofs of every family's answers are accepted", "[oracle][prover]") {
   INFO("seed " << kSeed);
-  for (const fuzz::Family& family : fuzz::families()) {
+  for (const cases::Family& family : cases::families()) {
     INFO(family.name());
     Tally tally;
     for (std::uint64_t index = 0; index < 1200; index += 8) {
-      const fuzz::Case one = family.make(kSeed, index);
+      const cases::Case one = family.make(kSeed, index);
       require_proved(one.scene, one.query, tally);
     }
     CHECK(tally.most_windows < 600);  // 57 seen at most

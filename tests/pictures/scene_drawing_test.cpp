@@ -7,7 +7,7 @@
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using namespace lorentz::cli;
+using namespace lorentz::pictures;
 
 namespace {
 

@@ -10,7 +10,6 @@
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using namespace lorentz::cli;
 using lorentz::test::Draw;
 using std::numbers::pi;
 
@@ -22,7 +21,7 @@ Atom with_axes(std::vector<Vec> axes) {
 
 // An ellipsoid of these semiaxes, turned anyhow, and described by three vectors that are no principal axes.
 Atom disguised(Draw& draw, const Vec& axes) {
-  fuzz::Random random(1, "frames", draw.below(1'000'000'000));
+  cases::Random random(1, "frames", draw.below(1'000'000'000));
   std::array<Vec, 3> turn, mix;
   for (auto* frame : {&turn, &mix}) {
     const Vec e = random.direction(3), f = random.direction(3);

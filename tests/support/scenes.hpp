@@ -2,15 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include <lorentz/problem.hpp>
 
 namespace lorentz::test {
-
-inline double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
-}
 
 /// One ball in each cell of the lattice with these vectors.
 inline Scene one_atom(int dimension, const std::array<Vec, 3>& vectors, double radius,
@@ -23,8 +18,7 @@ inline Scene one_atom(int dimension, const std::array<Vec, 3>& vectors, double r
 
 /// The scene with all its balls alike.
 inline Scene with_radius(Scene scene, double radius) {
-  for (Lattice& lattice : scene.lattices)
-    for (Atom& atom : lattice.atoms) atom.radius = radius;
+  for_each_atom(scene, [&](Atom& atom) { atom.radius = radius; });
   return scene;
 }
 

@@ -126,9 +126,9 @@ inline std::vector<Vec> semiaxes_of(Draw& draw, Style style, int dimension) {
 /// The scene with ellipsoids in place of its balls: of all of them, or of some.
 inline Scene with_ellipsoids(Draw& draw, Style style, Scene scene) {
   const bool all = draw.one_in(2);
-  for (Lattice& lattice : scene.lattices)
-    for (Atom& atom : lattice.atoms)
-      if (all || draw.one_in(2)) atom = {atom.position, 0, semiaxes_of(draw, style, scene.dimension)};
+  for_each_atom(scene, [&](Atom& atom) {
+    if (all || draw.one_in(2)) atom = {atom.position, 0, semiaxes_of(draw, style, scene.dimension)};
+  });
   return scene;
 }
 

@@ -18,16 +18,8 @@ constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
 // kFlushed.
 constexpr double kTinyVectorComponent = 0x1p-480;
 
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vec rounded(const WideVec& a) {
   return {a[0].hi, a[1].hi, a[2].hi};
-}
-
-double length(const Vec& a) {
-  return std::sqrt(dot(a, a));
 }
 
 Vec times(const Vec (&rows)[3], const Vec& a) {

@@ -11,10 +11,6 @@ namespace {
 
 using WideMatrix = Wide[3][3];
 
-double length(const Vec& a) {
-  return std::sqrt(dot(a, a));
-}
-
 double frobenius(const WideMatrix& a) {
   double sum = 0;
   for (const auto& row : a)

@@ -1,4 +1,4 @@
-#include "oracle/exact/cylinder.hpp"
+#include "oracle/exact/stretches.hpp"
 
 #include <optional>
 
@@ -13,19 +13,19 @@ constexpr long kManyRows = 1000;  // more than a stretch ought to have that is n
 
 // 4^across |h|^2 + 4^along s^2 in the plane.
 struct StripForm {
-  const Flight<2>& flight;
+  const Velocity<2>& velocity;
   long across, along;
   Z operator()(const LatticePoint<2>& a, const LatticePoint<2>& b) const {
-    return shifted_left(cross(flight.v, a.p) * cross(flight.v, b.p), 2 * across) +
-           shifted_left(dot(flight.v, a.p) * dot(flight.v, b.p), 2 * along);
+    return shifted_left(cross(velocity.v, a.p) * cross(velocity.v, b.p), 2 * across) +
+           shifted_left(dot(velocity.v, a.p) * dot(velocity.v, b.p), 2 * along);
   }
 };
 
 // The rows k2 of the window's rectangle, |h| <= reach and low <= s <= high. With v' = v turned by a right
 // angle v^2 w = s v + h v', so v^2 cross(b1, w) = h s_1 - s h_1 for every point w.
 Range rows_of_strip(const View<2>& view, const Z& reach, const Basis<2>& basis, const Z& low, const Z& high) {
-  const Z& v2 = view.flight.v2;
-  const Z h1 = cross(view.flight.v, basis[0].p), s1 = dot(view.flight.v, basis[0].p);
+  const Z& v2 = view.velocity.v2;
+  const Z h1 = cross(view.velocity.v, basis[0].p), s1 = dot(view.velocity.v, basis[0].p);
   const auto [least, most] = ordered(-low * h1, -high * h1);
   const Z spread = reach * abs(s1), home = v2 * cross(basis[0].p, view.offset.p);
   return multiples_between(least - spread - home, most + spread - home, v2 * cross(basis[0].p, basis[1].p));
@@ -75,14 +75,14 @@ Count count_rows(const View<3>& view, const Planes& planes, const Basis<3>& basi
 }  // namespace
 
 template <>
-Z Cylinder<2>::shorten(Basis<2>& basis, const Z& low, const Z& high) const {
-  reduce(basis, StripForm{view_.flight, bit_length(high - low), bit_length(2 * reach_)});
+Z Stretches<2>::shorten(Basis<2>& basis, const Z& low, const Z& high) const {
+  reduce(basis, StripForm{view_.velocity, bit_length(high - low), bit_length(2 * reach_)});
   return rows_of_strip(view_, reach_, basis, low, high).count();
 }
 
 template <>
-Z Cylinder<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) const {
-  const Planes planes(view_.flight, reach2_, basis[0], basis[1], basis[2]);
+Z Stretches<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) const {
+  const Planes planes(view_.velocity, reach2_, basis[0], basis[1], basis[2]);
   const Count count = count_rows(view_, planes, basis, low, high);
   if (count.rows <= kFewRows || !count.widest) return count.rows;
   // A slender section: a basis of the plane that is short for this.
@@ -94,15 +94,15 @@ Z Cylinder<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) c
 }
 
 template <>
-Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
+Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   const long j = std::max(0L, bit_length(high - low) - bit_length(reach_) - 1);
   std::array<WindowVector, 3> vectors;
-  for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.flight.v, basis[i].p)};
-  reduce(vectors, WindowForm(view_.flight, j));
+  for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.velocity.v, basis[i].p)};
+  reduce(vectors, WindowForm(view_.velocity, j));
   for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
   // If v is normal to the planes of b1 and b2, it is not to those of b1 and b3: one can look along these.
   const auto is_head_on = [this](const Basis<3>& b) {
-    return cross(view_.flight.v, cross(b[0].p, b[1].p)) == ZVec<3>{};
+    return cross(view_.velocity.v, cross(b[0].p, b[1].p)) == ZVec<3>{};
   };
   if (is_head_on(basis)) std::swap(basis[1], basis[2]);
   const Basis<3> reduced = basis;
@@ -122,8 +122,8 @@ Z Cylinder<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
 }
 
 template <std::size_t D>
-bool Cylinder<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
-                         const std::function<bool(const Stretch<D>&)>& take) const {
+bool Stretches<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
+                          const std::function<bool(const Stretch<D>&)>& take) const {
   const Z rows = shorten(basis, low, high);
   if (rows <= kFewRows || !is_long(low, high)) return take({low, high, basis});
   const Z middle = floor_div(low + high, 2);
@@ -131,14 +131,15 @@ bool Cylinder<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
 }
 
 template <std::size_t D>
-bool Cylinder<D>::cut(const Z& low, const Z& high, const std::function<bool(const Stretch<D>&)>& take) const {
+bool Stretches<D>::cut(const Z& low, const Z& high,
+                       const std::function<bool(const Stretch<D>&)>& take) const {
   return cut_on(view_.basis, low, high, take);
 }
 
 template <std::size_t D>
-bool Cylinder<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch,
-                            const RowVisitor<D>& visit) const {
-  const Row<D> row(view_.flight, start, stretch.basis[0]);
+bool Stretches<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch,
+                             const RowVisitor<D>& visit) const {
+  const Row<D> row(view_.velocity, start, stretch.basis[0]);
   Range k;
   if (row.sg != 0) {
     k = multiples_between(stretch.low - row.s0, stretch.high - row.s0, row.sg);
@@ -161,7 +162,7 @@ bool Cylinder<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& stre
 }
 
 template <>
-bool Cylinder<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) const {
+bool Stretches<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) const {
   const Range rows = rows_of_strip(view_, reach_, stretch.basis, stretch.low, stretch.high);
   LatticePoint<2> row = view_.offset;
   row.add_multiple(rows.first, stretch.basis[1]);
@@ -171,9 +172,9 @@ bool Cylinder<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) c
 }
 
 template <>
-bool Cylinder<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
+bool Stretches<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
   const LatticePoint<3>& b2 = stretch.basis[1];
-  const Planes planes(view_.flight, reach2_, stretch.basis[0], b2, stretch.basis[2]);
+  const Planes planes(view_.velocity, reach2_, stretch.basis[0], b2, stretch.basis[2]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
                           [&](const PlaneSection& section, const Range& rows) {
                             LatticePoint<3> row = section.origin;
@@ -184,7 +185,7 @@ bool Cylinder<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) c
                           });
 }
 
-template class Cylinder<2>;
-template class Cylinder<3>;
+template class Stretches<2>;
+template class Stretches<3>;
 
 }  // namespace lorentz::oracle

@@ -20,9 +20,9 @@ struct Stretch {
 
 /// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R).
 template <std::size_t D>
-class Cylinder {
+class Stretches {
  public:
-  Cylinder(const View<D>& view, const Z& reach2)
+  Stretches(const View<D>& view, const Z& reach2)
       : view_(view), reach2_(reach2), reach_(reach2 > 0 ? root_below(reach2) : Z(0)) {}
 
   /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
@@ -55,7 +55,7 @@ class Cylinder {
 /// monotone along a row on either side of the line, being a quotient of linear functions, so these are the
 /// ones.)
 template <std::size_t D, class Visit>
-void visit_extremes(const Flight<D>& flight, const LatticePoint<D>& first, const LatticePoint<D>& step,
+void visit_extremes(const Velocity<D>& velocity, const LatticePoint<D>& first, const LatticePoint<D>& step,
                     const Z& last, const Visit& visit) {
   constexpr long kManyPoints = 64, kFewPoints = 16;
   const auto visit_range = [&](Z begin, Z end) {
@@ -66,7 +66,7 @@ void visit_extremes(const Flight<D>& flight, const LatticePoint<D>& first, const
     for (Z k = begin; k <= end; ++k, point.add_multiple(1, step)) visit(point);
   };
   if (last < kManyPoints) return visit_range(0, last);
-  const Row<D> row(flight, first, step);
+  const Row<D> row(velocity, first, step);
   const Z nearest = row.A == 0 ? Z(0) : floor_div(-row.B, row.A);
   visit_range(0, kFewPoints);
   visit_range(nearest - kFewPoints, nearest + kFewPoints);

@@ -10,15 +10,15 @@
 namespace lorentz::oracle {
 
 template <std::size_t D>
-class Situation {
+class PerturbedQuery {
  public:
-  Situation(const Scene& scene, const ExactScene<D>& exact_scene, const Query& query)
+  PerturbedQuery(const Scene& scene, const ExactScene<D>& exact_scene, const Query& query)
       : exact_scene_(exact_scene), exact_(exact_scene, query, kFiner), ulps_(scene, query, exact_) {
     for_each_atom(exact_scene,
                   [&](int l, int a) { atoms_.emplace_back(scene, exact_scene, exact_, ulps_, l, a); });
   }
-  Situation(const Situation&) = delete;
-  Situation& operator=(const Situation&) = delete;
+  PerturbedQuery(const PerturbedQuery&) = delete;
+  PerturbedQuery& operator=(const PerturbedQuery&) = delete;
 
   const ExactScene<D>& scene() const { return exact_scene_; }
   const ExactQuery<D>& query() const { return exact_; }
@@ -39,7 +39,7 @@ class Situation {
         oracle::centre_of<D>(exact_scene_, id.lattice, id.atom, point.n, exact_.x, exact_.length_exponent);
     if (const auto& frame = exact_scene_.lattices[id.lattice].atoms[id.atom].frame)
       point.p = frame->to_ball * point.p;
-    return Centre<D>(atom_of(id).view().flight, std::move(point));
+    return Centre<D>(atom_of(id).view().velocity, std::move(point));
   }
 
   bool is_from(const Uncertain<D>& atom, const ZVec<D>& n) const {
@@ -62,35 +62,37 @@ class Situation {
 
 /// The largest change of the time at which an obstacle is entered, in the query's own units.
 template <std::size_t D>
-Real change_of_time(const Situation<D>& situation, const ObstacleId& id) {
-  const Uncertain<D>& atom = situation.atom_of(id);
-  const Real change = largest_change(situation.ulps(), atom, atom.arrival(situation.centre_of(id)));
-  const ExactQuery<D>& query = situation.query();
+Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
+  const Uncertain<D>& atom = perturbed.atom_of(id);
+  const Real change = largest_change(perturbed.ulps(), atom, atom.arrival(perturbed.centre_of(id)));
+  const ExactQuery<D>& query = perturbed.query();
   return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
 }
 
 /// The time at which an obstacle is entered, in the query's own units; beyond binary64, too.
 template <std::size_t D>
-Real time_in_own_units(const Situation<D>& situation, const ObstacleId& id) {
-  const ExactQuery<D>& query = situation.query();
-  return times_power_of_two(situation.atom_of(id).time_of(situation.centre_of(id)),
+Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
+  const ExactQuery<D>& query = perturbed.query();
+  return times_power_of_two(perturbed.atom_of(id).time_of(perturbed.centre_of(id)),
                             query.length_exponent - query.velocity_exponent);
 }
 
 /// A scene whose queries are looked at closely.
-class Situations {
+class PerturbedScene {
  public:
-  explicit Situations(const Scene& scene)
+  explicit PerturbedScene(const Scene& scene)
       : scene_(scene),
         exact_scene_(scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))) {}
 
   const Scene& scene() const { return scene_; }
 
-  /// What `work` makes of the query's Situation<2> or Situation<3>.
+  /// What `work` makes of the query's PerturbedQuery<2> or PerturbedQuery<3>.
   template <class Work>
   auto with(const Query& query, const Work& work) const {
     return std::visit(
-        [&]<std::size_t D>(const ExactScene<D>& exact) { return work(Situation<D>(scene_, exact, query)); },
+        [&]<std::size_t D>(const ExactScene<D>& exact) {
+          return work(PerturbedQuery<D>(scene_, exact, query));
+        },
         exact_scene_);
   }
 

@@ -1,5 +1,5 @@
 // Lattice points in a stretch of a cylinder, against all points of a box.
-#include "oracle/exact/cylinder.hpp"
+#include "oracle/exact/stretches.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -145,7 +145,7 @@ ZVec<D> big(const Ints<D>& a) {
 template <std::size_t D>
 View<D> view_of(const Problem<D>& problem) {
   View<D> view;
-  view.flight = {big<D>(problem.v), product(problem.v, problem.v)};
+  view.velocity = {big<D>(problem.v), product(problem.v, problem.v)};
   for (std::size_t i = 0; i < D; ++i) {
     view.basis[i].p = big<D>(problem.basis[i]);
     for (std::size_t k = 0; k < D; ++k) view.basis[i].n[k] = i == k;
@@ -167,19 +167,20 @@ Basis<D> some_basis(Draw& draw, Basis<D> basis) {
 }
 
 // Is v normal to the planes of the first two vectors?
-bool is_head_on(const Flight<2>&, const Basis<2>&) {
+bool is_head_on(const Velocity<2>&, const Basis<2>&) {
   return false;
 }
-bool is_head_on(const Flight<3>& flight, const Basis<3>& basis) {
-  return dot(flight.v, basis[0].p) == 0 && dot(flight.v, basis[1].p) == 0;
+bool is_head_on(const Velocity<3>& velocity, const Basis<3>& basis) {
+  return dot(velocity.v, basis[0].p) == 0 && dot(velocity.v, basis[1].p) == 0;
 }
 
 // Visits a stretch; each centre once, and where it says that it is.
 template <std::size_t D>
-std::set<Ints<D>> visited(const Problem<D>& problem, const Cylinder<D>& cylinder, const Stretch<D>& stretch) {
+std::set<Ints<D>> visited(const Problem<D>& problem, const Stretches<D>& stretches,
+                          const Stretch<D>& stretch) {
   std::set<Ints<D>> found;
   const bool stopped =
-      cylinder.visit(stretch, [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+      stretches.visit(stretch, [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
         REQUIRE(last >= 0);
         LatticePoint<D> point = first;
         for (Z k = 0; k <= last; ++k, point.add_multiple(1, step)) {
@@ -219,19 +220,19 @@ Met hold(std::uint64_t seed, int cases) {
   for (int i = 0; i < cases; ++i) {
     const Problem<D> problem = drawn_problem<D>(draw);
     const View<D> view = view_of(problem);
-    const Cylinder<D> cylinder(view, problem.reach2);
+    const Stretches<D> stretches(view, problem.reach2);
     INFO("seed " << seed << ", case " << i << ": " << text(problem));
     const auto found = brute_force(problem);
     const auto all = between<D>(found, problem.low, problem.high);
     met.centres += !all.empty();
     const Basis<D> basis = some_basis(draw, view.basis);
-    met.head_on += is_head_on(view.flight, basis);
+    met.head_on += is_head_on(view.velocity, basis);
     REQUIRE((visited<D>(problem, cylinder, {problem.low, problem.high, basis}) == all));
     // Cut up, the stretches follow each other without gaps, and their centres are the same.
     Z end = problem.low;
     std::set<Ints<D>> together;
     int stretches = 0;
-    const bool stopped = cylinder.cut(problem.low, problem.high, [&](const Stretch<D>& stretch) {
+    const bool stopped = stretches.cut(problem.low, problem.high, [&](const Stretch<D>& stretch) {
       ++stretches;
       REQUIRE(stretch.low == end);
       REQUIRE(stretch.high >= stretch.low);
@@ -252,35 +253,35 @@ Met hold(std::uint64_t seed, int cases) {
 
 }  // namespace
 
-TEST_CASE("Cylinder: its stretches hold the centres that a box holds, 2D", "[oracle][cylinder]") {
+TEST_CASE("Stretches hold the centres that a box holds, 2D", "[oracle][stretches]") {
   const Met met = hold<2>(kSeed, 600);
   CHECK(met.centres > 400);  // 551 seen
   CHECK(met.cuts > 25);      // 33 seen
 }
 
-TEST_CASE("Cylinder: its stretches hold the centres that a box holds, 3D", "[oracle][cylinder]") {
+TEST_CASE("Stretches hold the centres that a box holds, 3D", "[oracle][stretches]") {
   const Met met = hold<3>(kSeed + 1, 300);
   CHECK(met.centres > 200);  // 258 seen
   CHECK(met.cuts > 30);      // 43 seen
   CHECK(met.head_on > 10);   // 20 seen
 }
 
-TEST_CASE("Cylinder: a visitor that has enough ends the visit, and one of stretches the cuts",
-          "[oracle][cylinder]") {
+TEST_CASE("Stretches: a visitor that has enough ends the visit, and one of stretches the cuts",
+          "[oracle][stretches]") {
   Draw draw(kSeed + 2);
   int stops = 0, cuts = 0;
   for (int i = 0; i < 60; ++i) {
     const Problem<3> problem = drawn_problem<3>(draw);
     const View<3> view = view_of(problem);
-    const Cylinder<3> cylinder(view, problem.reach2);
+    const Stretches<3> stretches(view, problem.reach2);
     int visits = 0;
     const bool any = !brute_force(problem).empty();
     const auto once = [&](const LatticePoint<3>&, const LatticePoint<3>&, const Z&) { return ++visits > 0; };
-    CHECK(cylinder.visit({problem.low, problem.high, view.basis}, once) == any);
+    CHECK(stretches.visit({problem.low, problem.high, view.basis}, once) == any);
     CHECK(visits == any);
     stops += any;
     int seen = 0;
-    CHECK(cylinder.cut(problem.low, problem.high, [&](const Stretch<3>&) { return ++seen > 0; }));
+    CHECK(stretches.cut(problem.low, problem.high, [&](const Stretch<3>&) { return ++seen > 0; }));
     CHECK(seen == 1);
     ++cuts;
   }
@@ -288,13 +289,13 @@ TEST_CASE("Cylinder: a visitor that has enough ends the visit, and one of stretc
   CHECK(cuts == 60);
 }
 
-TEST_CASE("Cylinder: of a long row the ends and the points nearest to the line are visited",
-          "[oracle][cylinder]") {
-  const Flight<2> flight{{Z(1), Z(0)}, Z(1)};
+TEST_CASE("Stretches: of a long row the ends and the points nearest to the line are visited",
+          "[oracle][stretches]") {
+  const Velocity<2> velocity{{Z(1), Z(0)}, Z(1)};
   const auto visits = [&](long x, long y, long dx, long dy, long last) {
     LatticePoint<2> first{{Z(x), Z(y)}, {Z(0), Z(0)}}, step{{Z(dx), Z(dy)}, {Z(1), Z(0)}};
     std::set<long> seen;
-    visit_extremes<2>(flight, first, step, last,
+    visit_extremes<2>(velocity, first, step, last,
                       [&](const LatticePoint<2>& point) { seen.insert(point.n[0].get_si()); });
     return seen;
   };

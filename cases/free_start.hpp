@@ -1,0 +1,18 @@
+// Starts that lie in no obstacle, and the oracle that says what they lead to.
+#pragma once
+
+#include <lorentz/oracle.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::cases {
+
+/// The oracle for a scene; each thread keeps the last one.
+const oracle::Oracle& oracle_of(const Scene& scene);
+
+/// Uniform in the cell of the first lattice.
+Vec point_in_cell(Random& random, const Scene& scene);
+
+/// The same, in no obstacle; after some tries in vain the last point that was drawn.
+Vec free_point(Random& random, const Scene& scene);
+
+}  // namespace lorentz::cases

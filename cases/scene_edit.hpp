@@ -1,0 +1,23 @@
+// Small scenes made, scenes changed, and the names of their obstacles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::cases {
+
+/// One lattice with one ball at the origin.
+Scene lattice_scene(int dimension, const std::array<Vec, 3>& vectors, double radius);
+
+/// Every ball with this radius; ellipsoids stay.
+void set_radius(Scene& scene, double radius);
+
+/// Every obstacle multiplied by the factor.
+void scale_obstacles(Scene& scene, double factor);
+
+/// The obstacle of lattice 0 and this atom in a small cell.
+ObstacleId obstacle(std::int64_t a, std::int64_t b, std::int64_t c = 0, int atom = 0);
+
+}  // namespace lorentz::cases

@@ -1,0 +1,22 @@
+// A symmetry of the square or cubic lattice, drawn.
+#pragma once
+
+#include <array>
+
+#include "cases/random.hpp"
+
+namespace lorentz::cases {
+
+/// A vector with its components permuted and reflected: a symmetry of the square or cubic lattice.
+class Symmetry {
+ public:
+  Symmetry(Random& random, int dimension);
+  Vec operator()(const Vec& a) const;
+  ObstacleId operator()(const ObstacleId& id) const;
+
+ private:
+  std::array<int, 3> from_{0, 1, 2};
+  std::array<int, 3> sign_{1, 1, 1};
+};
+
+}  // namespace lorentz::cases
