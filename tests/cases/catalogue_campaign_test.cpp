@@ -90,7 +90,7 @@ TEST_CASE("certified equals the oracle on every scene of the catalogue", "[cases
       StageTally tally;
       hold_certified(scene, difficulty, 300, tally);
       // Drawn queries are the fast engine's, unless obstacles overlap their own translates.
-      if (difficulty == Difficulty::drawn && !Reduction::beyond(scene)) CHECK(tally.undecided < 3);
+      if (difficulty == Difficulty::drawn && !Reduction::beyond(scene)) CHECK(tally.undecided < 3);  // 0 seen
     }
 }
 
@@ -108,7 +108,8 @@ TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][cat
         INFO(stream(scene, query));
         REQUIRE(same(exact.first_hit(query), second));
       }
-      if (difficulty == Difficulty::drawn && !name.starts_with("superposition")) CHECK(judged > 50);
+      if (difficulty == Difficulty::drawn && !name.starts_with("superposition"))
+        CHECK(judged > 50);  // 59 seen at least
     }
 }
 
@@ -135,5 +136,5 @@ TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[c
     CHECK(spread < 0.1 * expected);
     CHECK(std::fabs(mean - expected) < 4 * spread);
   }
-  CHECK(scenes >= 16);
+  CHECK(scenes >= 16);  // 20 seen
 }

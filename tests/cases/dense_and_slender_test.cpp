@@ -67,7 +67,8 @@ TEST_CASE("dense-layers: a radius spans many spacings, and the oracle is walk an
   CHECK(densest > 16);
   CHECK(decided > 0.8 * cases);
   CHECK(hits > 0.6 * cases);
-  for (const int atom : hits_of_atom) CHECK(atom > 60);  // none is always above the others
+  // None is always above the others.
+  for (const int atom : hits_of_atom) CHECK(atom > 260);  // 335 seen at least
 }
 
 TEST_CASE("slender: flights along the long axis of what is slender, and nobody is wrong",
@@ -89,9 +90,10 @@ TEST_CASE("slender: flights along the long axis of what is slender, and nobody i
     ++edge;
     own += exact.outcome == Outcome::hit && exact.obstacle.cell == Cell{};
   });
-  CHECK(lengthwise > 1000);
+  CHECK(lengthwise > 1900);  // 2 381 seen
   CHECK(slenderest > 2048);
   CHECK(own > edge / 8);  // the obstacle aimed at is met, and passed
   CHECK(own < edge * 7 / 8);
-  CHECK(undecided < 1500);  // half of the scenes, whose needles overlap, are beyond the fast engine
+  // Half of the scenes, whose needles overlap, are beyond the fast engine.
+  CHECK(undecided < 1500);  // 1 052 seen
 }

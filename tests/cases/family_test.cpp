@@ -104,7 +104,7 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
     std::map<std::string_view, long> met;
     for (const cases::Tag& tag : family.tags()) {
       CHECK(met.emplace(tag.name, 0).second);
-      CHECK(tag.note.size() > 10);
+      CHECK(tag.note.size() > 10);  // 17 seen at least
     }
     std::string last;
     for (std::uint64_t index = 0; index < kCount; ++index) {
@@ -127,7 +127,7 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
     }
     for (const auto& [tag, count] : met) {
       INFO(tag);
-      CHECK(count > 0);
+      CHECK(count > 8);  // 11 seen at least
     }
   }
   CHECK(names.size() == 17);
@@ -149,7 +149,7 @@ TEST_CASE("Cases share a scene in rows of 32, and no query comes twice", "[cases
       }
       cases.insert(stream(one.scene, one.query));
     }
-    CHECK(scenes.size() > 20);
+    CHECK(scenes.size() > 20);  // 29 seen at least
     CHECK(cases.size() >= kCount - cases::kCasesPerScene - 2);
   }
 }
@@ -178,7 +178,7 @@ TEST_CASE("Bad queries are well-formed, each different, and refused by the reade
     CHECK(item.message.find("not JSON") == std::string::npos);
   }
   CHECK(used == explained);
-  CHECK(texts.size() > 100);
+  CHECK(texts.size() > 100);  // 115 seen
   CHECK(read("\"x\":[0.25,0.5],\"v\":[1,0.5],\"from\":{\"lattice\":0,\"atom\":1,\"cell\":[0,\"-7\"]}").kind ==
         StreamItem::Kind::query);
 }

@@ -100,8 +100,8 @@ TEST_CASE("Classical equals the oracle in any cell, with any motif, in superposi
       counts.add(exact, given);
       REQUIRE(counts.wrong == 0);
     }
-    CHECK(counts.hit > 1000);
-    CHECK(counts.inside > 500);
+    CHECK(counts.hit > 1000);     // 1 259 seen at least
+    CHECK(counts.inside > 1000);  // 1 348 seen at least
     CHECK(counts.worst < 1e-9);
   }
 }
@@ -122,8 +122,8 @@ TEST_CASE("Classical through cells that are much smaller than the obstacles, and
     counts.add(oracle::Oracle(scene).first_hit(query), make_engine("classical", scene)->first_hit(query));
     REQUIRE(counts.wrong == 0);
   }
-  CHECK(counts.hit > 500);
-  CHECK(counts.inside > 100);
+  CHECK(counts.hit > 950);     // 1 190 seen
+  CHECK(counts.inside > 240);  // 310 seen
   CHECK(counts.worst < 1e-9);
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("An obstacle that begins at a cell's wall is met, on this side of it o
     counts.add(exact, CellWalk(scene).first_hit(query));
     REQUIRE(counts.wrong == 0);
   }
-  CHECK(counts.hit > 1500);
+  CHECK(counts.hit > 1500);  // 1 952 seen
 }
 
 TEST_CASE("An ellipsoid is entered when the ball behind it is", "[engines][cell_walk]") {
@@ -177,8 +177,8 @@ TEST_CASE("An ellipsoid is entered when the ball behind it is", "[engines][cell_
                  make_engine("classical", ellipsoids)->first_hit(image));
       REQUIRE(counts.wrong == 0);  // generic: as for balls
     }
-    CHECK(counts.hit > 500);
-    CHECK(counts.inside > 200);
+    CHECK(counts.hit > 500);     // 687 seen at least
+    CHECK(counts.inside > 540);  // 684 seen at least
     CHECK(counts.worst < 1e-9);
   }
 }
@@ -202,7 +202,7 @@ TEST_CASE("The general walker equals the unit lattices' own path there", "[engin
       REQUIRE(counts.wrong == 0);
     }
   }
-  CHECK(counts.hit > 5000);
+  CHECK(counts.hit > 5000);  // 8 073 seen
   CHECK(counts.worst < 1e-9);
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("Collision detail of balls is the oracle's, which is correctly rounded
     CHECK(distance(given.normal, exact.detail->normal) < error / r);
     CHECK(std::fabs(given.impact_parameter - exact.detail->impact_parameter) < error);
   }
-  CHECK(hits > 300);
+  CHECK(hits > 300);  // 508 seen
 }
 
 TEST_CASE("A reflection keeps the speed and turns the normal component", "[engines][collision]") {

@@ -5,16 +5,12 @@
 #include <lorentz/certified.hpp>
 #include <lorentz/walk.hpp>
 #include "tests/engines/reduction_support.hpp"
+#include "tests/support/scenes.hpp"
 
 using namespace lorentz;
+using test::one_atom;
 
 namespace {
-
-Scene one_atom(int dimension, const std::array<Vec, 3>& vectors, double radius) {
-  Scene scene = unit_scene(dimension, radius);
-  scene.lattices[0].vectors = vectors;
-  return scene;
-}
 
 ObstacleId at(std::int64_t a, std::int64_t b, std::int64_t c = 0) {
   return {0, 0, {Integer(a), Integer(b), Integer(c)}};

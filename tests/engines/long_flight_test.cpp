@@ -37,7 +37,7 @@ TEST_CASE("2D by continued fractions equals 3D by lattice reduction, at any dist
     REQUIRE(in_space.obstacle.cell[b] == in_plane.obstacle.cell[1]);
     REQUIRE(in_space.obstacle.cell[plane] == Integer(0));
   }
-  CHECK(far > 100);
+  CHECK(far > 380);  // 485 seen
 }
 
 TEST_CASE("A plane of the cube off the flight's own is a square of smaller discs", "[engines][long_flight]") {

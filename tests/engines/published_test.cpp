@@ -77,9 +77,9 @@ TEST_CASE("Skipped discs are about 0.1 % of the flights that leave a disc", "[en
     const auto queries = compare::draw_leaving_queries(2, r, 81, 20000);
     const Share share = share_wrong(unit_scene(2, r), queries);
     INFO("r = " << r << ": " << share.wrong << " wrong of " << share.answered);
-    CHECK(share.answered > 19900);
-    CHECK(share.wrong > 5);
-    CHECK(share.wrong < 80);
+    CHECK(share.answered > 19900);  // 20 000 seen
+    CHECK(share.wrong > 12);        // 16 seen at least
+    CHECK(share.wrong < 80);        // 20 seen at most
   }
 }
 
@@ -137,8 +137,8 @@ TEST_CASE("Late spheres are about one in a thousand", "[engines][published]") {
   }
   const Share share = share_wrong(unit_scene(3, 0.2), queries);
   INFO(share.wrong << " wrong of " << share.answered);
-  CHECK(share.wrong >= 1);
-  CHECK(share.wrong < 40);
+  CHECK(share.wrong >= 1);  // 7 seen
+  CHECK(share.wrong < 40);  // 7 seen
 }
 
 TEST_CASE("Directions along an axis have no octant", "[engines][published]") {
@@ -161,8 +161,8 @@ TEST_CASE("Elsewhere the published algorithm is right, in every octant", "[engin
     ++octants[(query.v[0] > 0) + 2 * (query.v[1] > 0) + 4 * (std::fabs(query.v[0]) > std::fabs(query.v[1]))];
     queries.push_back(query);
   }
-  for (const int count : octants) CHECK(count > 1000);
+  for (const int count : octants) CHECK(count > 1900);  // 2 438 seen at least
   const Share share = share_wrong(unit_scene(2, 0.05), queries);
   CHECK(share.answered == 20000);
-  CHECK(share.wrong <= 10);
+  CHECK(share.wrong <= 10);  // 0 seen
 }

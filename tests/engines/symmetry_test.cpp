@@ -163,5 +163,5 @@ TEST_CASE("Time reversal: the way back from a collision meets nothing before the
       REQUIRE(home.outcome == Outcome::never);
     ++compared;
   }
-  CHECK(compared > 200);
+  CHECK(compared > 200);  // 380 seen
 }

@@ -248,9 +248,9 @@ TEST_CASE("Numbers: midpoints between neighbours, and what is beside them", "[ex
   }
   numbers.read_as_toml();
   INFO(numbers.report());
-  CHECK(numbers.count() > 20000);
-  CHECK(numbers.subnormal() > 2000);
-  CHECK(numbers.infinite() >= 11);
+  CHECK(numbers.count() > 20000);     // 24 715 seen
+  CHECK(numbers.subnormal() > 2000);  // 2 657 seen
+  CHECK(numbers.infinite() >= 30);    // 38 seen
 }
 
 TEST_CASE("Numbers: as printf writes them", "[exchange][number]") {
@@ -279,9 +279,9 @@ TEST_CASE("Numbers: 1 to 800 digits, with points and exponents that make up for 
   }
   numbers.read_as_toml();
   INFO(numbers.report());
-  CHECK(numbers.normal() > 30000);
-  CHECK(numbers.subnormal() > 1000);
-  CHECK(numbers.infinite() > 1000);
+  CHECK(numbers.normal() > 30000);    // 45 197 seen
+  CHECK(numbers.subnormal() > 2400);  // 3 030 seen
+  CHECK(numbers.infinite() > 1000);   // 1 773 seen
 }
 
 TEST_CASE("Numbers: exponents of any size that the digits make up for", "[exchange][number]") {
@@ -335,8 +335,8 @@ TEST_CASE("Numbers: hexadecimal, of up to 400 digits", "[exchange][number]") {
     subnormal += right != 0 && std::fabs(right) < 0x1p-1022;
     infinite += std::isinf(right);
   }
-  CHECK(subnormal > 10000);
-  CHECK(infinite > 5000);
+  CHECK(subnormal > 18'000);  // 23 548 seen
+  CHECK(infinite > 8400);     // 10 546 seen
 }
 
 TEST_CASE("Numbers: what is none", "[exchange][number]") {

@@ -51,7 +51,7 @@ TEST_CASE("Times of the family early lie beside midway, and are rounded to where
     REQUIRE((*exact.time < midway) == has(one, "early"));
     odd += (static_cast<double>(midway) < midway) != has(one, "early");
   });
-  CHECK(odd > 200);  // where ties to even would go the other way
+  CHECK(odd > 200);  // 291 seen; where ties to even would go the other way
 }
 
 TEST_CASE("Flights of the family nearly-parallel end, farther than double-double can tell",
@@ -66,8 +66,8 @@ TEST_CASE("Flights of the family nearly-parallel end, farther than double-double
     far += *exact.time * length(one.query.v) > 0x1p90;
     not_known += Reduction(one.scene).fly(one.query).outcome == Outcome::undecided;
   });
-  CHECK(far > 200);
-  CHECK(not_known > 200);
+  CHECK(far > 200);        // 348 seen
+  CHECK(not_known > 200);  // 348 seen
 }
 
 TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz][campaign_families]") {
@@ -78,7 +78,7 @@ TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz
     surface += has(one, "surface");
     inside += exact.outcome == Outcome::inside;
   });
-  CHECK(close > 120);
+  CHECK(close > 260);  // 334 seen
   CHECK(inside > surface / 4);
   CHECK(inside < surface);
 }
@@ -91,7 +91,7 @@ TEST_CASE("Flights of the family drift last long before they meet a plane", "[fu
     REQUIRE(exact.outcome == Outcome::hit);
     long_flights += *exact.time > 0x1p36;
   });
-  CHECK(by_bits > 60);
+  CHECK(by_bits > 60);  // 76 seen
   CHECK(long_flights > by_bits / 2);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("Starts of the family vast-ellipsoids lie in many obstacles", "[fuzz][
                 const Answer second = oracle.first_hit(next.query);
                 REQUIRE(second.outcome == Outcome::inside);
               });
-  CHECK(inside > 90);
+  CHECK(inside > 90);  // 96 seen
 }
 
 TEST_CASE("Starts of the family nearby are nearer to the obstacle that they enter than its radius",
@@ -124,9 +124,9 @@ TEST_CASE("In the family unequal-radii both obstacles are met, and reduction kno
     known += Reduction(one.scene).fly(one.query).outcome == exact.outcome;
     first += exact.obstacle.atom == 0;
   });
-  CHECK(known > 180);
-  CHECK(first > 20);
-  CHECK(first < 180);
+  CHECK(known > 180);  // 200 seen
+  CHECK(first > 55);   // 73 seen
+  CHECK(first < 180);  // 73 seen
 }
 
 TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[fuzz][campaign_families]") {
@@ -134,5 +134,5 @@ TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[
   visit_cases(cases::dense_rows(), 200, [&](const cases::Case&, const Answer& exact, const Oracle&) {
     few += exact.outcome == Outcome::hit && *exact.time < 8;
   });
-  CHECK(few > 150);
+  CHECK(few > 150);  // 200 seen
 }

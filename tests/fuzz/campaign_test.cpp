@@ -160,8 +160,8 @@ TEST_CASE("What goes wrong in other words alone is found, and keeps its words", 
     CHECK(f.words.find("2^") != std::string::npos);
     CHECK(f.text.given.find("never") != std::string::npos);
   }
-  CHECK(lengths > 2);
-  CHECK(limits > 2);
+  CHECK(lengths > 13);  // 17 seen
+  CHECK(limits > 17);   // 22 seen
   CHECK(with.reworded > (with.cases + with.variants) / 2);
   CHECK(with.reworded <= with.cases + with.variants);
 }
@@ -258,7 +258,7 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all", 
   }
   CHECK(all == tally.kinds[static_cast<std::size_t>(Kind::wrong)] +
                    tally.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
-  CHECK(all > 20);
+  CHECK(all > 40);                                                       // 52 seen
 
   plan.mutate = 1;  // a case and its variants, which mostly fail alike, are one finding
   fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
@@ -266,7 +266,7 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all", 
   std::set<std::pair<std::string, std::uint64_t>> seen;
   for (const fuzz::Stored& one : mutated.findings())
     CHECK(seen.emplace(one.finding.sort, one.finding.index).second);
-  CHECK(seen.size() >= 2);
+  CHECK(seen.size() >= 2);  // 6 seen
 }
 
 TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as asked for",
@@ -286,9 +286,9 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
         plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, tallies, journal);
   }
   const auto number = [&](Kind kind) { return tallies[0].kinds[static_cast<std::size_t>(kind)]; };
-  CHECK(number(Kind::undecided) > 10);
-  CHECK(number(Kind::error) > 10);
-  CHECK(number(Kind::slow) > 3);
+  CHECK(number(Kind::undecided) > 30);  // 40 seen
+  CHECK(number(Kind::error) > 40);      // 55 seen
+  CHECK(number(Kind::slow) > 3);        // 10 seen
   CHECK(number(Kind::wrong) == 0);
   std::map<std::pair<std::int64_t, std::string>, int> found;
   for (const fuzz::Stored& one : store.findings()) ++found[{one.campaign, one.finding.kind}];
@@ -351,7 +351,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
     INFO(text.scene << text.query << '\n' << shrunk.scene << shrunk.query);
     CHECK(outcome_in(shrunk.given) == outcome_in(text.given));
     CHECK(outcome_in(shrunk.exact) == outcome_in(text.exact));
-    CHECK(one.finding.complexity < 6000);
+    CHECK(one.finding.complexity < 6000);  // 3 110 seen at most
     ++met[outcome_in(text.given) + " for " + outcome_in(text.exact)];
   }
   for (const char* sort :
@@ -418,7 +418,7 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
     if (std::find(one.tags.begin(), one.tags.end(), "few-bits") == one.tags.end())
       REQUIRE(arm[0] * one.query.v[0] + arm[1] * one.query.v[1] + arm[2] * one.query.v[2] > 0);
   }
-  CHECK(on_surface > 300);
+  CHECK(on_surface > 300);  // 389 seen
 }
 
 TEST_CASE("A climb is repeatable and comes to smaller margins; its variants are queries with their answers",
@@ -458,6 +458,6 @@ TEST_CASE("A climb is repeatable and comes to smaller margins; its variants are 
     }
     CHECK(best.margin() <= least);
   }
-  CHECK(improved > 50);
-  CHECK(at_the_edge > 40);
+  CHECK(improved > 50);     // 53 seen
+  CHECK(at_the_edge > 40);  // 53 seen
 }

@@ -103,7 +103,7 @@ TEST_CASE("What matters stays", "[fuzz][shrink]") {
   CHECK(needs(shrunk.scene, shrunk.query));
   CHECK(shrunk.tries == asked - 1);
   CHECK(shrunk.query.v[2] == -1);
-  CHECK(bits_of(shrunk.query.x[0]) <= 2);
+  CHECK(bits_of(shrunk.query.x[0]) <= 2);  // 1 seen
   CHECK(bits_of(shrunk.scene.lattices[0].atoms[0].radius) == 1);
   const Shrunk again = fuzz::shrink(scene, query, needs);
   CHECK(stream(again.scene, again.query) == stream(shrunk.scene, shrunk.query));

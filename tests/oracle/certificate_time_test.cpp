@@ -6,6 +6,21 @@ using namespace lorentz;
 using namespace lorentz::test;
 using namespace lorentz::test::proofs;
 
+TEST_CASE("The sign of a + sqrt(c) - sqrt(b), also where it is 0", "[oracle][certificate_time]") {
+  int zeros = 0;
+  for (int a = -8; a <= 8; ++a)
+    for (int b = 0; b <= 40; ++b)
+      for (int c = 0; c <= 40; ++c) {
+        const long double value =
+            a + std::sqrt(static_cast<long double>(c)) - std::sqrt(static_cast<long double>(b));
+        const int expected = std::fabs(value) < 1e-12L ? 0 : value < 0 ? -1 : 1;  // none is that small but 0
+        INFO(a << " " << b << " " << c);
+        REQUIRE(oracle::certificate::sign_of(a, c, b) == expected);
+        zeros += expected == 0;
+      }
+  CHECK(zeros > 50);  // 83 seen
+}
+
 TEST_CASE("A time one ulp off is refused, and so are other numbers", "[oracle][certificate_time]") {
   Draw draw(2108);
   INFO("seed 2108");
@@ -44,8 +59,8 @@ TEST_CASE("A time one ulp off is refused, and so are other numbers", "[oracle][c
       hold(c);
       infinite += std::isinf(*c.answer.time);
     }
-  CHECK(infinite > 10);
-  CHECK(infinite < 110);
+  CHECK(infinite > 10);   // 15 seen
+  CHECK(infinite < 110);  // 15 seen
 }
 
 TEST_CASE("Times at the ends of binary64's range", "[oracle][certificate_time]") {

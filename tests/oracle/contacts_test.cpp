@@ -173,8 +173,8 @@ TEST_CASE("Drawn ellipses and ellipsoids against a search for the nearest point"
     INFO("case " << n << ": " << value);
     REQUIRE(found_in(pair(dimension, first, second, c)) == (value < 1 ? Found::overlap : Found::apart));
   }
-  CHECK(apart > 300);
-  CHECK(overlap > 300);
+  CHECK(apart > 300);    // 555 seen
+  CHECK(overlap > 510);  // 644 seen
 }
 
 TEST_CASE("All contacts of a lattice of ellipses: every cell that a look at all cells finds",
@@ -214,7 +214,7 @@ TEST_CASE("All contacts of a lattice of ellipses: every cell that a look at all 
     contacts += static_cast<int>(seen.size());
     if (unclear.empty()) REQUIRE(seen == expected);
   }
-  CHECK(contacts > 50);
+  CHECK(contacts > 85);  // 107 seen
 }
 
 TEST_CASE("Touching balls are counted once a pair, and told from overlapping ones", "[oracle][contacts]") {
@@ -283,7 +283,7 @@ TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all 
     REQUIRE(found.found.size() == expected);
     contacts += expected;
   }
-  CHECK(contacts > 1000);
+  CHECK(contacts > 3400);  // 4 273 seen
 }
 
 TEST_CASE("Ten thousand atoms are checked in seconds; what would take too long is given up, and said so",

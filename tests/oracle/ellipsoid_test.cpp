@@ -110,7 +110,7 @@ TEST_CASE("A sphere is an ellipsoid: turned axes change nothing, to the bit", "[
       REQUIRE(given.detail->impact_parameter == expected.detail->impact_parameter);
     }
   }
-  CHECK(hits > 300);
+  CHECK(hits > 590);  // 738 seen
 }
 
 TEST_CASE("A linear map moves scene and flight together: the same obstacle at the same time, to the bit",
@@ -137,8 +137,8 @@ TEST_CASE("A linear map moves scene and flight together: the same obstacle at th
     REQUIRE(same(here, there));
     ++(here.outcome == Outcome::hit ? hits : others);
   }
-  CHECK(hits > 700);
-  CHECK(others > 200);
+  CHECK(hits > 700);    // 736 seen
+  CHECK(others > 610);  // 763 seen
 }
 
 TEST_CASE("An ellipse hit by hand", "[oracle][ellipsoid]") {

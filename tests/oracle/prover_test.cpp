@@ -70,11 +70,11 @@ TEST_CASE("Prover: the proofs of drawn answers are accepted", "[oracle][prover]"
       const Scene scene = drawn_scene(draw, style, dimension);
       for (int k = 0; k < 3; ++k) require_proved(scene, query_of(draw, style, scene), tally);
     }
-    CHECK(tally.by_outcome[Outcome::hit] > 300);
-    CHECK(tally.by_outcome[Outcome::inside] > 100);
-    CHECK(tally.by_outcome[Outcome::never] > 5);
-    CHECK(tally.from > 100);
-    CHECK(tally.most_windows < 100);
+    CHECK(tally.by_outcome[Outcome::hit] > 300);     // 419 seen at least
+    CHECK(tally.by_outcome[Outcome::inside] > 520);  // 655 seen at least
+    CHECK(tally.by_outcome[Outcome::never] > 5);     // 7 seen at least
+    CHECK(tally.from > 100);                         // 196 seen at least
+    CHECK(tally.most_windows < 100);                 // 4 seen
   }
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("Prover: the proofs of every family's answers are accepted", "[oracle]
       const cases::Case one = family.make(kSeed, index);
       require_proved(one.scene, one.query, tally);
     }
-    CHECK(tally.most_windows < 600);
+    CHECK(tally.most_windows < 600);  // 57 seen at most
   }
 }
 
@@ -121,9 +121,9 @@ TEST_CASE("Prover: whatever it writes of a wrong answer is refuted", "[oracle][p
     require_refuted(other);
     ++beside;
   }
-  CHECK(later > 200);
-  CHECK(beside > 200);
-  CHECK(never > 5);
+  CHECK(later > 390);   // 488 seen
+  CHECK(beside > 370);  // 472 seen
+  CHECK(never > 9);     // 12 seen
 }
 
 TEST_CASE("Prover: few windows, however long the flight", "[oracle][prover]") {
@@ -138,9 +138,9 @@ TEST_CASE("Prover: few windows, however long the flight", "[oracle][prover]") {
       require_proved(unit_scene(3, radius), {{0, 0.5, 0.25}, {1, drift, 0.618}, {}}, tally);
     }
   }
-  CHECK(tally.by_outcome[Outcome::hit] > 30);
-  CHECK(tally.most_windows > 1);
-  CHECK(tally.most_windows < 100);
+  CHECK(tally.by_outcome[Outcome::hit] > 30);  // 36 seen
+  CHECK(tally.most_windows > 35);              // 49 seen
+  CHECK(tally.most_windows < 100);             // 49 seen
 }
 
 TEST_CASE("Prover: nearly at right angles to lattice planes, at any angle", "[oracle][prover]") {
@@ -152,8 +152,8 @@ TEST_CASE("Prover: nearly at right angles to lattice planes, at any angle", "[or
     for (const Vec& x : {Vec{0, 0, 1}, {0.01, 0.02, 0.5}, {0.4, 0.3, 0.25}})
       for (const double z : {-1.1, 1.0})
         require_proved(scene, {x, {0x1.3p-16, 0.58, std::ldexp(z, k)}, {}}, tally);
-  CHECK(tally.by_outcome[Outcome::inside] > 50);
-  CHECK(tally.by_outcome[Outcome::hit] > 100);
+  CHECK(tally.by_outcome[Outcome::inside] > 50);  // 88 seen
+  CHECK(tally.by_outcome[Outcome::hit] > 100);    // 176 seen
 }
 
 TEST_CASE("Prover: never, with a velocity whose components have nothing in common", "[oracle][prover]") {

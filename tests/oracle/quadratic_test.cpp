@@ -70,9 +70,9 @@ TEST_CASE("Rounding to binary64 agrees with MPFR", "[oracle][quadratic]") {
     subnormal += given != 0 && std::fabs(given) < 0x1p-1022;
     negative += given < 0;
   }
-  CHECK(subnormal > 100);
-  CHECK(infinite > 100);
-  CHECK(negative > 1000);
+  CHECK(subnormal > 340);  // 432 seen
+  CHECK(infinite > 580);   // 726 seen
+  CHECK(negative > 5200);  // 6 586 seen
 }
 
 TEST_CASE("Ties go to the even neighbour, in the normal and the subnormal range, and at the top",
@@ -155,7 +155,7 @@ TEST_CASE("Entries compare as MPFR says, and exactly where they are equal", "[or
     REQUIRE(compare_entries(s1, e1, s2, d2) == expected);
     REQUIRE(compare_entries(s2, d2, s1, e1) == -expected);
   }
-  CHECK(equal > 1000);
+  CHECK(equal > 2600);  // 3 296 seen
 }
 
 TEST_CASE("A quadratic number compares with a binary64 exactly", "[oracle][quadratic]") {

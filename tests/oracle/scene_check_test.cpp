@@ -2,16 +2,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 
 namespace {
 
-Scene with_vectors(int dimension, std::array<Vec, 3> vectors) {
-  Scene scene = unit_scene(dimension, 0.1);
-  scene.lattices[0].vectors = vectors;
-  return scene;
+Scene with_vectors(int dimension, const std::array<Vec, 3>& vectors) {
+  return test::one_atom(dimension, vectors, 0.1);
 }
 
 bool in_contact(const Scene& scene) {

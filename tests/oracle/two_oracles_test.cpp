@@ -66,8 +66,8 @@ TEST_CASE("Oracle equals walk on a coarse grid: ties, tangents, rational slopes"
   const Counts flat = campaign(201, Style::grid, 2, 3000), solid = campaign(202, Style::grid, 3, 1500);
   require_variety(flat, 3000);
   require_variety(solid, 1500);
-  CHECK(flat.never > 100);
-  CHECK(solid.never > 10);
+  CHECK(flat.never > 100);   // 109 seen
+  CHECK(solid.never > 120);  // 151 seen
 }
 
 TEST_CASE("Oracle equals walk a little off the grid: near-rational slopes, nearly touching, nearly parallel",
@@ -98,7 +98,7 @@ TEST_CASE("Oracle equals walk on slender ellipsoids", "[oracle][two_oracles]") {
         }
     hold_against_each_other(scene, query_of(draw, Style::near_grid, scene), counts);
   }
-  CHECK(counts.hit > 200);
+  CHECK(counts.hit > 200);  // 378 seen
 }
 
 TEST_CASE("Oracle equals walk on small obstacles", "[oracle][two_oracles]") {
@@ -110,7 +110,7 @@ TEST_CASE("Oracle equals walk on small obstacles", "[oracle][two_oracles]") {
         dimension, dimension == 2 ? std::exp2(draw.between(-9, -4)) : std::exp2(draw.between(-4.5, -3)));
     hold_against_each_other(scene, {draw.vec(dimension, 0, 1), draw.vec(dimension, -1, 1), {}}, counts);
   }
-  CHECK(counts.hit > 400);
+  CHECK(counts.hit > 400);  // 592 seen
 }
 
 TEST_CASE("Oracle equals walk on dense walls and rods of overlapping obstacles", "[oracle][two_oracles]") {
@@ -129,7 +129,7 @@ TEST_CASE("Oracle equals walk on dense walls and rods of overlapping obstacles",
     if (dimension == 3 && scene.lattices[0].vectors[1][1] == 1) x[1] = draw.between(0.35, 0.65);
     hold_against_each_other(scene, {x, vec_of(draw, Style::near_grid, dimension, 2), {}}, counts);
   }
-  CHECK(counts.hit > 100);
+  CHECK(counts.hit > 200);  // 252 seen
 }
 
 TEST_CASE("Walls so dense that their obstacles cannot be told apart by size", "[oracle][two_oracles]") {

@@ -145,7 +145,7 @@ TEST_CASE("never: whatever lattice line or plane v was rounded from, its corrido
     ill_posed += verdict == Verdict::ill_posed;
     REQUIRE(judged(scene, query, Answer::never(), 100).verdict == verdict);
   }
-  CHECK(ill_posed > 100);
+  CHECK(ill_posed > 200);  // 252 seen
   ill_posed = 0;
   for (int i = 0; i < 200; ++i) {
     // In the plane normal to (a, b, 1), which (1, 0, -a) and (0, 1, -b) span; its channel around 1/2.
@@ -161,7 +161,7 @@ TEST_CASE("never: whatever lattice line or plane v was rounded from, its corrido
     REQUIRE((verdict == Verdict::ill_posed || verdict == Verdict::agree));
     ill_posed += verdict == Verdict::ill_posed;
   }
-  CHECK(ill_posed > 50);
+  CHECK(ill_posed > 95);  // 122 seen
 }
 
 TEST_CASE("never: small obstacles and a slope near a lattice vector", "[oracle][verdict]") {
