@@ -86,7 +86,8 @@ void add_golden(CLI::App& app, Action& action) {
   add_golden_verify(*golden, action);
   add_golden_explain(*golden, action);
   add_golden_list(*golden, action);
-  golden->footer("docs/certificates.md has the format, data/README.md the committed sets.");
+  golden->footer(
+      "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.");
 }
 
 }  // namespace lorentz::cli

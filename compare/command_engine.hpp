@@ -1,5 +1,5 @@
 // `cmd:COMMAND`: another program as an engine. It reads a query stream and writes an answer stream; what it
-// is asked, and what is made of its faults, is in docs/exchange.md.
+// is asked, and what is made of its faults, is in docs/command_engines.md.
 #pragma once
 
 #include <chrono>

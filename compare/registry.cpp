@@ -99,7 +99,7 @@ std::vector<std::string> answerer_names() {
 }
 
 std::string names_for_help() {
-  return fmt::format("{}, cmd:COMMAND (another program, docs/exchange.md)",
+  return fmt::format("{}, cmd:COMMAND (another program, docs/command_engines.md)",
                      fmt::join(answerer_names(), ", "));
 }
 

@@ -1,4 +1,4 @@
-// Golden records: queries with their exact answers and the proofs of these (docs/certificates.md has the
+// Golden records: queries with their exact answers and the proofs of these (docs/formats.md has the
 // format).
 #pragma once
 
