@@ -1,27 +1,28 @@
-// Every rounding-error constant of the reduction engine. docs/bounds.md has the lemmas and derivations,
-// tests/engines/bounds_test.cpp computes each constant again, by running the formulas of predicates.hpp on
-// numbers that carry their error.
+// Every constant of a decision of the reduction engine, but two that all engines share (kTinyComponent and
+// kMaxStart, engine.hpp). First what formulas err by: docs/bounds.md derives each of these, and
+// tests/engines/bounds_test.cpp computes it again, by running the engine's own formulas (formulas.hpp) on
+// numbers that carry their error. Then by how much ranges are widened, which follows from them. Last what is
+// no error bound: caps, ranges, and from where on another formula is used.
 #pragma once
 
 namespace lorentz {
 
-/// Unit roundoff of binary64: one operation errs by at most u times its result.
-inline constexpr double kRoundoff = 0x1p-53;
+/// Unit roundoff of binary64: one operation errs by at most u times its result. And its square, the unit of
+/// double-double.
+inline constexpr double kRoundoff = 0x1p-53, kWideRoundoff = 0x1p-106;
 
-/// Velocity and offset components below kTinyComponent (engine.hpp; the largest component of v is in [1, 2),
-/// lattice vectors are about 1) are taken as zero, so that no product underflows; what that changes, over
-/// 2^53 cells, is below kFlushed.
+// ---- Errors of formulas, in units of the roundoff if not said otherwise -----------------------------------
+
+/// Velocity and offset components below kTinyComponent (the largest component of v is in [1, 2), lattice
+/// vectors are about 1) are taken as zero, so that no product underflows; what that changes, over 2^53 cells,
+/// is below kFlushed.
 inline constexpr double kFlushed = 0x1p-390;
 
-/// |computed height - height| <= kHeight u (|y| + |n D_R| + |m D_L|): predicates.hpp, height_in_row.
+/// |computed height - height| <= kHeight u (|y| + |n D_R| + |m D_L|): formulas.hpp, height_in_row.
 inline constexpr double kHeight = 8;
 
 /// A coordinate dual_i . a of a vector a, times |B_i| / (|a|_1 kappa^2), kappa = |B_1| |B_2| |B_3| / volume.
 inline constexpr double kCoordinate = 32;
-
-/// A start's coordinates from its home cell are within 1/2 and this; scenes for which they are not known so
-/// well are not done.
-inline constexpr double kMaxHomeError = 0x1p-12;
 
 /// |d|^2 - r^2, relative to |d|^2 + r^2.
 inline constexpr double kInside = 6;
@@ -29,23 +30,202 @@ inline constexpr double kInside = 6;
 /// d . G d - r^2 for an ellipsoid, relative to |G| |d|^2 + r^2.
 inline constexpr double kInsideEllipsoid = 16;
 
-/// The height of an anchor, from the compensated sum of its terms: relative to it, and to the terms.
+/// The height of an anchor, from the compensated sum of its terms: relative to it, and (absolutely) to the
+/// terms.
 inline constexpr double kAnchor = 3, kAnchorTerms = 0x1p-100;
 
-/// A sum s + n S_R + m S_L of positions along the line, likewise.
+/// A sum s + n S_R + m S_L of positions along the line, relative to its terms.
 inline constexpr double kAlong = 8;
 
-/// r |v| as computed from the sum of squares.
+/// r |v| as computed from the sum of squares, and the roundings of a comparison with it.
 inline constexpr double kRho = 6;
+
+/// 2D, the number of the row beside the start: relative to its terms.
+inline constexpr double kRowNumber = 16;
+
+/// 2D, where a row enters the strip, from (y + n D_R - rho) / D_L: relative to the terms.
+inline constexpr double kRowEntry = 16;
+
+/// 2D, rows that a unit of s passes: relative (absolutely).
+inline constexpr double kRowSlope = 0x1p-48;
 
 /// 3D, across in units of r: a point's coordinates as sums along the basis, relative to the sizes of the
 /// terms; and the scale of the coordinates (of ellipsoids: times the condition of the shape).
 inline constexpr double kAcross = 8, kScale = 32;
 
-/// 3D, where a lattice line enters the cylinder: relative to the sizes of the terms.
-inline constexpr double kLine = 32;
+/// 3D, where a lattice line enters the cylinder: its moment about the flight, relative to the sizes of the
+/// terms; in units of that, how far its discriminant is raised, and the ends of its interval are moved out.
+inline constexpr double kLine = 32, kDiscriminant = 8, kLineEnd = 4;
 
-/// v x d, v . d and d . d in double-double, relative to |v| |d|, |v| |d|, |d|^2.
+/// 3D, the tilt of a family of lattice planes, relative to the two vectors that it is computed from.
+inline constexpr double kTilt = 32;
+
+/// 3D, the distance xi at which the line passes a lattice plane, relative to the terms that it is summed
+/// from.
+inline constexpr double kPlane = 512;
+
+/// 3D, z in a window (which is of length 1) from the anchor (absolutely).
+inline constexpr double kWindowStart = 0x1p-48;
+
+/// 3D, where the next window begins.
+inline constexpr double kNextWindow = 2;
+
+/// v x d, v . d and d . d in double-double, relative to |v| |d|, |v| |d|, |d|^2 (absolutely).
 inline constexpr double kStable = 0x1p-100;
+
+/// In double-double, of such numbers: a form in a shape's metric, and a quotient; |d|^2 - r^2, relative to
+/// r^2 (absolutely). In units of u: the root of a slack's high part alone.
+inline constexpr double kStableForm = 2 * kStable, kStableTime = 2 * kStable, kStableGap = 8 * kStable;
+inline constexpr double kRoot = 2;
+
+/// The place of an obstacle as seen from x in double-double, relative to its terms (absolutely).
+inline constexpr double kPlace = 0x1p-102;
+
+/// |a| of a vector with components up to 1.
+inline constexpr double kDiagonal = 2;
+
+/// A form (height, along, across in units of r) of a vector, by what each component of the vector errs.
+inline constexpr double kForm = 4;
+
+/// A vector of the short basis, relative to the largest of its terms, in units of u^2.
+inline constexpr double kBasis = 32;
+
+/// What a vector of the short basis errs by, counted as the size of terms that err by kAnchorTerms: of a
+/// height in 2D, and of the vector in 3D.
+inline constexpr double kBasisInHeight = 0x1p108, kBasisInSize = 0x1p104;
+
+/// The shape of an ellipsoid in double-double, in units of u^2: the adjugate of its semiaxes (relative to the
+/// square of the longest), their determinant (to its cube), N, its square G, and the cofactors C.
+inline constexpr double kAdjugate = 16, kDeterminant = 64, kToBall = 32, kMetric = 64, kCofactor = 64;
+
+/// 2D, an ellipse of condition c: rho errs by kRho + kRhoOfShape c, and s by kAlongOfShape c, relative to |N|
+/// |w| |d|.
+inline constexpr double kRhoOfShape = 4, kAlongOfShape = 16;
+
+/// The time (s - q) / v^2 in binary64, relative to s / v^2.
+inline constexpr double kRoughTime = 16;
+
+// ---- Widening of ranges -----------------------------------------------------------------------------------
+
+/// 2D: numbers of rows, whose terms are below 2^20; other quotients, which are below 2^18.
+inline constexpr double kRowSlop = 0x1p-28, kSlop2d = 0x1p-30;
+
+/// 3D: every range of the enumeration; half of it is for what the anchor errs by, which is checked.
+inline constexpr double kSlop3d = 0x1p-20;
+
+/// 3D: of the half width of a section, which is a root, so that its square is compared.
+inline constexpr double kSectionSlop = kSlop3d * kSlop3d;
+
+/// How far an obstacle reaches in a cell (relative); and what is computed in a few roundings where more would
+/// do no harm.
+inline constexpr double kReachSlop = 0x1p-30, kAmple = 0x1p-40;
+
+/// 3D, Newton's step to the entry of a line into the cylinder: not where it is so far that what the curvature
+/// adds is above this, relative to the step; of which twice, and one more candidate on each side, are
+/// granted.
+inline constexpr double kEntryCurvature = 0x1p-7, kEntrySlop = 2;
+
+// ---- No error bounds: no test derives them ----------------------------------------------------------------
+//
+// What is beyond a cap is `undecided` (or, of scenes, not done), and where one formula takes over from
+// another both are right: a wrong value here costs answers or time, it does not make an answer wrong. Where a
+// cap is what a bound above relies on, the line says so.
+
+/// Integers of the search, held in binary64: exact below this, and never used beyond.
+inline constexpr double kMaxCoefficient = 0x1p53;
+
+/// Components of lattice vectors below this are taken as zero, so that no product with a velocity's
+/// underflows. kFlushed relies on it: what that changes, times kMaxTransform of the short basis, over 2^53
+/// cells.
+inline constexpr double kTinyVectorComponent = 0x1p-480;
+
+/// Cells whose short basis has larger coefficients are not done.
+inline constexpr double kMaxTransform = 0x1p20;
+
+/// The range of the first lattice's shortest vector, and of the others relative to it.
+inline constexpr double kMaxLength = 0x1p400, kMaxSpacing = 0x1p60;
+
+/// Radii, in units of the shortest lattice vector (of ellipsoids: both in the metric of their shape): at most
+/// 1/2 (then the obstacles of one atom do not overlap, and are entered in the order of their centres), at
+/// least this, or numbers of cells leave the exact integers.
+inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
+
+/// More slender ellipsoids are not done, nor larger or smaller ones, nor those whose metric errs by more than
+/// this in the directions in which they are long: so that in binary64 its error never counts.
+inline constexpr double kMaxCondition = 0x1p14, kMaxShapeRadius = 0x1p100, kMaxMetricError = 0x1p-62;
+
+/// A start's coordinates from its home cell are within 1/2 and kMaxHomeError; scenes for which they are not
+/// known so well for what lies within kHomeCell of each basis vector are not done.
+inline constexpr double kMaxHomeError = 0x1p-12, kHomeCell = 0.6;
+
+/// An obstacle that reaches less far into its cell contains no point of another one's; one that reaches less
+/// far on the unit lattice is found by one step along each axis.
+inline constexpr double kReachAtHome = 0.499, kReachOfAxes = 0.99;
+
+/// Starts farther than this many cells from the atom's origin are beyond the general lattices; the unit
+/// lattices go to kMaxStart.
+inline constexpr double kMaxGeneralStart = 0x1p44;
+
+/// Added before a coordinate is rounded down to that of its home cell. Not 0.5, which takes 1/2 - 2^-54 to 1:
+/// from there it would be seen with a rounding.
+inline constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
+
+/// Cells that the search names, from the home cell.
+inline constexpr double kMaxCell = 0x1p61;
+
+/// 2D: positive heights below this vanish when they are multiplied by the inverse of an area.
+inline constexpr double kSmallestHeight = 0x1p-800;
+
+/// 2D: below this rho positions are counted from an anchor near the start instead of the home cell.
+inline constexpr double kRhoOfAnchor = 0x1p-20;
+
+/// 2D: the low part of a height that Euclid's algorithm may leave aside until then, relative to the high one;
+/// and the quotient of its last step where that is taken back for a shape.
+inline constexpr double kMaxLowPart = 0x1p-8, kMaxBackwardQuotient = 0x1p40;
+
+/// What a candidate's number may be unsure by before it is computed in double-double.
+inline constexpr double kMaxUnsure = 0.25;
+
+/// 3D: the expected number of obstacles in the first window; how far the windows go, in s (the cells there
+/// still fit 64 bits); the longest jump, in windows; where in a window its anchor is.
+inline constexpr double kWindowCells = 2, kFarthest = 0x1p61, kMaxJump = 0x1p70, kMiddle = 0.5;
+
+/// 3D: by how much later windows are longer.
+inline constexpr double kLonger = 4;
+
+/// 3D: steps from an anchor to the next one; beyond kNearAnchor another step follows.
+inline constexpr double kMaxAnchorStep = 0x1p60, kNearAnchor = 0x1p20;
+
+/// 3D: sections with more lines than this are searched in parts; each part is at first at most this many
+/// cells large.
+inline constexpr double kManyLines = 12, kPartCells = 2;
+
+/// 3D: half of the lines of a part.
+inline constexpr double kMaxLinesInPart = 64;
+
+/// 3D: shorter stretches of a line that binary64 does not resolve are walked, candidate by candidate; how far
+/// Newton's step may be off in candidates.
+inline constexpr double kShortStretch = 16, kMaxEntryError = 24;
+
+/// 3D, running coordinates of a reduction err by their coefficients times the first rounding: beyond these
+/// they are computed anew. kGoodRunning: coefficients times 1/r, for errors of 2^-12 in units of r.
+inline constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100,
+                        kGoodRunning = 0x1p40;
+
+/// 3D: a basis is nearly orthogonal if all |b_i| |dual_i| are at most this. kPlane relies on it.
+inline constexpr double kMaxDefect = 8;
+
+/// Rounds of loops that end by themselves much earlier, or have found something hard.
+inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenormalisations = 8,
+                     kMaxCandidatesInRow = 16, kMaxWindows = 200, kMaxAnchorPasses = 4,
+                     kMaxCandidatesOnLine = 64, kMaxReductionRounds = 60, kMaxReductionSteps = 300,
+                     kMaxPlaneReductionSteps = 200;
+
+/// Times: nearer than kNear q, s - q would cancel; a slack that errs by more than kGrazing u q s (of
+/// ellipsoids of condition c: kGrazing + kGrazingOfShape c), or a shape more slender than kSlender, takes
+/// double-double. In double-double: nearer than kNearWide q likewise, and beyond kFarSlack q one roundoff of
+/// q does not count.
+inline constexpr double kNear = 4, kGrazing = 64, kGrazingOfShape = 32, kSlender = 12, kNearWide = 2,
+                        kFarSlack = 0x1p14;
 
 }  // namespace lorentz

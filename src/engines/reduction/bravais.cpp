@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <lorentz/geometry.hpp>
 #include "src/engines/reduction/bounds.hpp"
+#include "src/engines/reduction/formulas.hpp"
 
 namespace lorentz {
 namespace {
 
-constexpr double kMaxTransform = 0x1p20;  // cells more skewed than that are not done
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
-
-// Components of lattice vectors (which are about 1) below this are taken as zero, so that no product with a
-// velocity's underflows. What that changes, times 2^20 of the short basis, over 2^53 cells, is below
-// kFlushed.
-constexpr double kTinyVectorComponent = 0x1p-480;
 
 Vec rounded(const WideVec& a) {
   return {a[0].hi, a[1].hi, a[2].hi};
@@ -116,7 +113,7 @@ struct Shortening {
   }
 
   void run() {
-    for (int pass = 0; pass < 1000; ++pass) {
+    for (int pass = 0; pass < kMaxShorteningPasses; ++pass) {
       bool changed = false;
       for (int i = 0; i < dimension; ++i) changed |= shorten(i);
       if (!changed) break;
@@ -132,13 +129,13 @@ struct Shortening {
 
 void set_dual(Bravais& bravais) {
   const Vec b[3] = {rounded(bravais.basis[0]), rounded(bravais.basis[1]), rounded(bravais.basis[2])};
-  const double volume = dot(b[0], cross(b[1], b[2]));
+  const double volume = volume_of(b[0], cross_product(b[1], b[2]));
   for (int i = 0; i < 3; ++i) {
-    bravais.dual[i] = cross(b[(i + 1) % 3], b[(i + 2) % 3]);
+    bravais.dual[i] = cross_product(b[(i + 1) % 3], b[(i + 2) % 3]);
     for (double& component : bravais.dual[i]) component /= volume;
   }
   bravais.volume = std::fabs(volume);
-  double defect = 1 / bravais.volume, shortest = 0x1p1000;
+  double defect = 1 / bravais.volume, shortest = kInfinity;
   for (int i = 0; i < 3; ++i) defect *= length(b[i]);
   for (int i = 0; i < bravais.dimension; ++i) shortest = std::min(shortest, length(b[i]));
   bravais.coordinate_error = kCoordinate * kRoundoff * defect * defect / shortest;
@@ -149,7 +146,7 @@ double home_error(const Bravais& bravais) {
   double size = 0;
   for (int i = 0; i < bravais.dimension; ++i)
     for (const Wide& component : bravais.basis[i]) size += std::fabs(component.hi);
-  return 0.6 * size * bravais.coordinate_error;
+  return kHomeCell * size * bravais.coordinate_error;
 }
 
 // The adjugate. Entries are below 2^20, or the scene is not done. False if the determinant is not 1 or -1:
@@ -170,7 +167,7 @@ bool set_inverse(Bravais& bravais) {
 // at least 2/|dual_i| long; the others are tried.
 double shortest_vector(const Bravais& bravais, const Metric& metric) {
   const int d = bravais.dimension;
-  double shortest = 0x1p1000;
+  double shortest = kInfinity;
   for (int i = 0; i < d; ++i) shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
   for (int a = 0; a <= 1; ++a)
     for (int b = -1; b <= 1; ++b)
@@ -194,10 +191,9 @@ bool is_too_skewed(const Shortening& shortening) {
 // Why this atom is beyond the engine, or nothing.
 std::string beyond(const Bravais& bravais, const Metric& metric) {
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
-  const double shortest =
-      bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - 0x1p-40);
+  const double shortest = bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - kAmple);
   const Vec& reach = bravais.reach;
-  if (!(shortest > 0x1p-60 && shortest < 0x1p60 && home_error(bravais) < kMaxHomeError))
+  if (!(shortest > 1 / kMaxSpacing && shortest < kMaxSpacing && home_error(bravais) < kMaxHomeError))
     return "does not do lattices of so different spacings, or so flat a cell";
   if (metric.shape && !(2 * bravais.radius <= shortest))
     return "does ellipsoids only that do not overlap their own translates";
@@ -221,7 +217,7 @@ bool set_basis(Bravais& bravais, const Shortening& shortening) {
     }
   }
   bravais.exact = shortening.is_exact();
-  bravais.basis_error = bravais.exact ? 0 : 32 * 0x1p-106 * largest;  // three sums of 3 u^2 each, generously
+  bravais.basis_error = bravais.exact ? 0 : kBasis * kWideRoundoff * largest;
   set_dual(bravais);
   return set_inverse(bravais);
 }
@@ -300,7 +296,8 @@ class LatticePreparation {
     Bravais axes = bravais;
     set_basis(axes, short_);
     set_reach(axes, {&bravais.shape});
-    axes.unit = std::max({axes.reach[0], axes.reach[1], scene_.dimension == 3 ? axes.reach[2] : 0}) < 0.99;
+    axes.unit =
+        std::max({axes.reach[0], axes.reach[1], scene_.dimension == 3 ? axes.reach[2] : 0}) < kReachOfAxes;
     if (axes.unit) bravais = axes;
   }
 
@@ -310,10 +307,10 @@ class LatticePreparation {
 
   static void set_reach(Bravais& bravais, const Metric& metric) {
     for (int i = 0; i < bravais.dimension; ++i)
-      bravais.reach[i] = bravais.radius * (1 + 0x1p-30) *
+      bravais.reach[i] = bravais.radius * (1 + kReachSlop) *
                          (metric.length_of_form(bravais.dual[i]) +
                           2 * bravais.coordinate_error * metric.length_of_longest_form());
-    bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < 0.499);
+    bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < kReachAtHome);
   }
 
   static std::string finish(Bravais& bravais, const Metric& metric) {
@@ -347,7 +344,7 @@ PreparedScene prepare(const Scene& scene) {
   Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});
   unscaled.run();
   const double first = length(rounded(unscaled.B[0]));
-  if (!(first > 0x1p-400 && first < 0x1p400)) {
+  if (!(first > 1 / kMaxLength && first < kMaxLength)) {
     prepared.beyond = "does lattice vectors between 2^-400 and 2^400 only";
     return prepared;
   }

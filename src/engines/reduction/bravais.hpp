@@ -14,9 +14,6 @@ namespace lorentz {
 
 using WideVec = std::array<Wide, 3>;
 
-/// Integers of the search, held in binary64: exact below this, and never used beyond.
-inline constexpr double kMaxCoefficient = 0x1p53;
-
 struct Bravais {
   int dimension = 0;
   int lattice = 0, atom = 0;  ///< which of the scene
@@ -48,10 +45,5 @@ struct PreparedScene {
 
 /// For a scene without flaws.
 PreparedScene prepare(const Scene& scene);
-
-/// Radii that the engine does, in units of the shortest lattice vector (of ellipsoids: both in the metric of
-/// their shape): at most 1/2 (then the obstacles of one atom do not overlap, and are entered in the order of
-/// their centres), at least this (see docs/bounds.md).
-inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
 
 }  // namespace lorentz

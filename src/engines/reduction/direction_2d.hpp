@@ -3,12 +3,13 @@
 // In coordinates (s, h), along the line and across it, the lattice points of the strip |h| < rho are wanted,
 // and of these the first with s > 0. Euclid's algorithm on the heights of two basis vectors on either side of
 // the line (the continued fraction of the slope) gives a basis R, L with heights D_R >= 0 >= -D_L and D_L < 2
-// rho; then every row { n R - m L : m } meets the strip, in one interval of m, and few rows come near the
+// rho; then every row { n R + m L : m } meets the strip, in one interval of m, and few rows come near the
 // start.
 #pragma once
 
 #include <algorithm>
 
+#include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/offset.hpp"
 
 namespace lorentz {
@@ -44,13 +45,14 @@ struct WidthOfShape {
 
   void set(const Shape& ellipsoid, const Vec& v) {
     const Vec* N = ellipsoid.to_ball;
-    const double w0 = N[0][0] * v[0] + N[0][1] * v[1], w1 = N[1][0] * v[0] + N[1][1] * v[1];
-    along[0] = N[0][0] * w0 + N[1][0] * w1, along[1] = N[0][1] * w0 + N[1][1] * w1;
-    v2 = w0 * w0 + w1 * w1;
-    s_rho = ellipsoid.radius * std::sqrt(v2);
+    const double w[2] = {sum_of_products(N[0][0], v[0], N[0][1], v[1]),
+                         sum_of_products(N[1][0], v[0], N[1][1], v[1])};
+    for (int k = 0; k < 2; ++k) along[k] = sum_of_products(N[0][k], w[0], N[1][k], w[1]);
+    v2 = square_of(w);
+    s_rho = width_of(ellipsoid.radius, v2);
     rho = s_rho * ellipsoid.inverse_height_scale;
     along_error = ellipsoid.along_error * s_rho;
-    rho_error = (kRho + 4 * ellipsoid.condition) * kRoundoff;
+    rho_error = (kRho + kRhoOfShape * ellipsoid.condition) * kRoundoff;
     slack_scale = ellipsoid.cofactor[2][2] * ellipsoid.cofactor[2][2];
     euclidean_v2 = speed_squared(v[0], v[1], 0.0);
     skew = along[1] * v[0] - along[0] * v[1];
@@ -61,7 +63,6 @@ struct WidthOfShape {
 template <bool kUnit, bool kBall>
 struct Direction2 {
   static constexpr bool kTurned = kUnit && kBall;
-  static constexpr double kSmallestHeight = 0x1p-800;
 
   Vec v;                    ///< turned, components below kTinyComponent taken as zero
   double v2 = 0;            ///< in the metric of the shape
@@ -85,7 +86,7 @@ struct Direction2 {
     set_first_arms();
     euclid<Arch>();
     if constexpr (!kUnit)
-      for (int round = 0; round < 8 && usable && renormalise(); ++round) euclid<Arch>();
+      for (int round = 0; round < kMaxRenormalisations && usable && renormalise(); ++round) euclid<Arch>();
     if constexpr (kUnit && !kBall) go_forward<Arch>();
     finish(lattice);
   }
@@ -94,7 +95,7 @@ struct Direction2 {
   void set_width(const Bravais& lattice) {
     if constexpr (kBall) {
       v2 = speed_squared(v[0], v[1], 0.0);
-      s_rho = rho = lattice.radius * std::sqrt(v2);
+      s_rho = rho = width_of(lattice.radius, v2);
     } else {
       shape.set(lattice.shape, v);
       v2 = shape.v2, rho = shape.rho, s_rho = shape.s_rho;
@@ -117,8 +118,8 @@ struct Direction2 {
       for (int i = 0; i < 2; ++i) {
         const DD x(lattice.basis[i][0]), y(lattice.basis[i][1]);
         H[i] = Wide(add_product(add_product(DD(0.0), y, v[0]), x, -v[1]));
-        M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + 0x1p106 * 4 * lattice.basis_error;
-        S[i] = along_of(0) * x.hi + along_of(1) * y.hi;
+        M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + kBasisInHeight * lattice.basis_error;
+        S[i] = sum_of_products(along_of(0), x.hi, along_of(1), y.hi);
         if constexpr (!kBall) size_of[i] = std::fabs(x.hi) + std::fabs(y.hi);
       }
     }
@@ -188,15 +189,15 @@ struct Direction2 {
   void go_forward() {
     if (!(along_arm(L) < 0)) return;
     const double k = std::floor(R.D / L.D);
-    usable = k < 0x1p40;
+    usable = k < kMaxBackwardQuotient;
     R.subtract<Arch>(k, L);
     swap_arms();
   }
 
-  double along_arm(const Arm2& arm) const { return arm.n[0] * S[0] + arm.n[1] * S[1]; }
+  double along_arm(const Arm2& arm) const { return sum_of_products(arm.n[0], S[0], arm.n[1], S[1]); }
 
   bool goes_on(const Arm2& smaller) const {
-    return smaller.D >= 2 * rho && (kUnit || std::fabs(smaller.D_low) <= 0x1p-8 * smaller.D);
+    return smaller.D >= 2 * rho && (kUnit || std::fabs(smaller.D_low) <= kMaxLowPart * smaller.D);
   }
 
   // Adds the low parts to the high ones; true if Euclid's algorithm has to go on from there.

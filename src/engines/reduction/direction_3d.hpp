@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/offset.hpp"
 
 namespace lorentz {
@@ -67,7 +68,7 @@ struct Direction3 {
       set_frame<Arch>(lattice);
     else
       set_frame_of_shape<Arch>(lattice);
-    s_rho = rho = lattice.radius * std::sqrt(v2);
+    s_rho = rho = width_of(lattice.radius, v2);
     set_forms<Arch>(lattice);
     basis.length = first_length(lattice);
     const double along = 1 / basis.length;
@@ -85,7 +86,7 @@ struct Direction3 {
   void retarget(const Bravais& lattice) {
     static_assert(kBall);
     const double before = inverse_r, length_before = basis.length;
-    s_rho = rho = lattice.radius * std::sqrt(v2);
+    s_rho = rho = width_of(lattice.radius, v2);
     set_scale(lattice);
     basis.length = first_length(lattice);
     const double wider = inverse_r / before, longer = length_before / basis.length;
@@ -104,12 +105,12 @@ struct Direction3 {
   /// A vector's across and along from its coefficients: the large terms cancel exactly.
   template <class Arch>
   void recompute(Arm3& arm, double length) const {
-    arm.p[0] = scale[0] * combination<Arch>(form[0], arm.n);
-    arm.p[1] = scale[1] * combination<Arch>(form[1], arm.n);
-    arm.z = combination<Arch>(form[2], arm.n) / length;
+    arm.p[0] = scale[0] * compensated_sum<DoubleDouble<Arch>>(form[0], arm.n);
+    arm.p[1] = scale[1] * compensated_sum<DoubleDouble<Arch>>(form[1], arm.n);
+    arm.z = compensated_sum<DoubleDouble<Arch>>(form[2], arm.n) / length;
     double terms = 0;
     for (int j = 0; j < 3; ++j) terms += std::fabs(arm.n[j]) * size_of[j];
-    arm.floor = kAnchorTerms / kRoundoff * 4 * inverse_r * terms;
+    arm.floor = kAnchorTerms / kRoundoff * kForm * inverse_r * terms;
   }
 
   /// Across (twice) and along of a Cartesian vector.
@@ -127,15 +128,6 @@ struct Direction3 {
     }
   }
 
-  template <class Arch>
-  static double combination(const Wide (&f)[3], const double (&n)[3]) {
-    using DD = DoubleDouble<Arch>;
-    const DD a = DD::product(n[0], f[0].hi), b = DD::product(n[1], f[1].hi), c = DD::product(n[2], f[2].hi);
-    const DD ab = DD::sum(a.hi, b.hi), all = DD::sum(ab.hi, c.hi);
-    const double low = (a.lo + n[0] * f[0].lo) + (b.lo + n[1] * f[1].lo) + (c.lo + n[2] * f[2].lo);
-    return all.hi + ((ab.lo + all.lo) + low);
-  }
-
  private:
   // Two vectors across the line, exactly perpendicular to it and to each other, and v itself.
   template <class Arch>
@@ -148,7 +140,7 @@ struct Direction3 {
     else
       c = smallest_component(v);
     const int a = (c + 1) % 3, b = (c + 2) % 3;
-    const double across2 = v[a] * v[a] + v[b] * v[b], across = std::sqrt(across2);
+    const double across2 = sum_of_products(v[a], v[a], v[b], v[b]), across = std::sqrt(across2);
     across_ = across;
     set_scale(lattice);
     cartesian[0][a] = Wide(-v[b]), cartesian[0][b] = Wide(v[a]);
@@ -158,14 +150,13 @@ struct Direction3 {
   }
 
   void set_scale(const Bravais& lattice) {
-    scale[0] = 1 / (across_ * lattice.radius);
+    scale[0] = first_scale(1.0, across_, lattice.radius);
     scale[1] = scale[0] / std::sqrt(v2);
     inverse_r = 1 / lattice.radius;
   }
 
   // Of a window in which two balls are expected.
   double first_length(const Bravais& lattice) const {
-    constexpr double kWindowCells = 2;
     return kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius) * std::sqrt(v2);
   }
 
@@ -230,18 +221,12 @@ struct Direction3 {
         forms_of<Arch>(B, f);
         for (int k = 0; k < 3; ++k) form[k][i] = f[k];
         size_of[i] =
-            std::fabs(B[0].hi) + std::fabs(B[1].hi) + std::fabs(B[2].hi) + 0x1p104 * lattice.basis_error;
+            std::fabs(B[0].hi) + std::fabs(B[1].hi) + std::fabs(B[2].hi) + kBasisInSize * lattice.basis_error;
       }
     }
   }
 
  public:
-  /// Running coordinates err by their coefficients times the first rounding: beyond these they are computed
-  /// anew.
-  static constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100;
-  static constexpr int kMaxSteps = 300;
-  static constexpr double kGoodRunning = 0x1p40;  ///< coefficients times 1/r: errors of 2^-12, in units of r
-
   /// The state of a reduction: how large the integers ever were, and whether the coordinates are running
   /// sums.
   struct Progress {
@@ -257,7 +242,7 @@ struct Direction3 {
     Progress progress;
     Arm3* order[3] = {&basis.b[0], &basis.b[1], &basis.b[2]};
     bool done = false;
-    for (int round = 0; round < 60 && !done; ++round) {
+    for (int round = 0; round < kMaxReductionRounds && !done; ++round) {
       done = greedy(order, progress) && (progress.fresh || progress.largest * inverse_r < kGoodRunning);
       for (Arm3& arm : basis.b) recompute<Arch>(arm, basis.length);
       progress.fresh = true;
@@ -281,7 +266,7 @@ struct Direction3 {
     double size[3];
     for (int i = 0; i < 3; ++i) size[i] = product(*b[i], *b[i]);
     sort(b, size);
-    for (int step = 0; step < kMaxSteps; ++step) {
+    for (int step = 0; step < kMaxReductionSteps; ++step) {
       double c01 = product(*b[0], *b[1]);
       const double k = std::nearbyint(c01 / size[0]);
       if (k != 0) {
@@ -337,26 +322,26 @@ struct Direction3 {
       }
     for (int i = 0; i < 3; ++i) {
       const Arm3 &x = b[(i + 1) % 3], &y = b[(i + 2) % 3];
-      basis.dual[i][0] = x.p[1] * y.z - x.z * y.p[1];
-      basis.dual[i][1] = x.z * y.p[0] - x.p[0] * y.z;
-      basis.dual[i][2] = x.p[0] * y.p[1] - x.p[1] * y.p[0];
+      basis.dual[i][0] = difference_of_products(x.p[1], y.z, x.z, y.p[1]);
+      basis.dual[i][1] = difference_of_products(x.z, y.p[0], x.p[0], y.z);
+      basis.dual[i][2] = difference_of_products(x.p[0], y.p[1], x.p[1], y.p[0]);
     }
-    const double inverse =
-        1 / (b[0].p[0] * basis.dual[0][0] + b[0].p[1] * basis.dual[0][1] + b[0].z * basis.dual[0][2]);
+    const double inverse = 1 / sum_of_products(b[0].p[0], basis.dual[0][0], b[0].p[1], basis.dual[0][1],
+                                               b[0].z, basis.dual[0][2]);
     for (auto& row : basis.dual)
       for (double& component : row) component *= inverse;
     basis.usable = true;
     for (int i = 0; i < 3; ++i) {
       const auto& g = basis.dual[i];
       const double defect = product(b[i], b[i]) * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-      basis.usable = basis.usable && defect <= 64;  // and no NaN
+      basis.usable = basis.usable && defect <= kMaxDefect * kMaxDefect;  // and no NaN
       for (const double n : b[i].n) basis.usable = basis.usable && std::fabs(n) < kMaxCoefficient;
     }
     const auto& g2 = basis.dual[2];
     const auto& g1 = basis.dual[1];
-    basis.g = std::sqrt(g2[0] * g2[0] + g2[1] * g2[1]);
+    basis.g = std::sqrt(sum_of_products(g2[0], g2[0], g2[1], g2[1]));
     const auto reach = [](const Arm3& arm) { return std::fabs(arm.p[0]) + std::fabs(arm.p[1]) + arm.floor; };
-    basis.tilt_error = 32 * kRoundoff * reach(b[0]) * reach(b[1]) * std::fabs(inverse);
+    basis.tilt_error = kTilt * kRoundoff * reach(b[0]) * reach(b[1]) * std::fabs(inverse);
     basis.inverse_g = 1 / basis.g;
     basis.e[0] = g2[0] * basis.inverse_g, basis.e[1] = g2[1] * basis.inverse_g;
     basis.g1_e = g1[0] * basis.e[0] + g1[1] * basis.e[1];

@@ -8,6 +8,7 @@
 #include "src/engines/base/double_double.hpp"
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/bravais.hpp"
+#include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
 
 namespace lorentz {
@@ -24,8 +25,8 @@ inline DoubleDouble<Arch> square_in(const Shape& shape, const DoubleDouble<Arch>
     square = square + image[k] * d[k];
     size2 += d[k].hi * d[k].hi;
   }
-  square_error = (shape.metric_error + 2 * kStable * shape.metric_size) * size2 +
-                 4 * shape.metric_size * error * (std::sqrt(size2) + error);
+  square_error = (shape.metric_error + kStableForm * shape.metric_size) * size2 +
+                 2 * kDiagonal * shape.metric_size * error * (std::sqrt(size2) + error);
   return square;
 }
 
@@ -45,14 +46,15 @@ struct Encounter {
   Encounter(const Vec& v, const DD (&d)[D], double error, const Bravais& lattice) {
     DD across[3];
     double d2 = d[0].hi * d[0].hi + d[1].hi * d[1].hi, speed2 = v[0] * v[0] + v[1] * v[1];
-    across[2] = d[1] * v[0] - d[0] * v[1];
+    across[2] = difference_of_products(d[1], v[0], d[0], v[1]);
     if constexpr (D == 3) {
-      across[0] = d[2] * v[1] - d[1] * v[2], across[1] = d[0] * v[2] - d[2] * v[0];
+      across[0] = difference_of_products(d[2], v[1], d[1], v[2]);
+      across[1] = difference_of_products(d[0], v[2], d[2], v[0]);
       d2 += d[2].hi * d[2].hi, speed2 += v[2] * v[2];
     }
     nearness = std::sqrt(d2);
     const double speed = std::sqrt(speed2);
-    across_error = speed * (kStable * nearness + 2 * error) + kFlushed;
+    across_error = speed * (kStable * nearness + kDiagonal * error) + kFlushed;
     DD h2;
     double h_error;
     if constexpr (kBall)
@@ -72,25 +74,25 @@ struct Encounter {
   DD time(const DD (&d)[D], double error, const Bravais& lattice, double& time_error) const {
     double q_rounding = 0;
     DD q(std::sqrt(slack.hi));
-    if (s.hi > 0x1p14 * q.hi)
-      q_rounding = 2 * kRoundoff * q.hi;  // far away one roundoff of q does not count
+    if (s.hi > kFarSlack * q.hi)
+      q_rounding = kRoot * kRoundoff * q.hi;  // far away one roundoff of q does not count
     else
       q = sqrt(slack);
     // sqrt(slack + e) - sqrt(slack) is below e / sqrt(slack).
     const double q_error = slack_error / q.hi + kStable * q.hi + q_rounding;
-    if (s.hi > 2 * q.hi) {
+    if (s.hi > kNearWide * q.hi) {
       // One of Newton's steps from a quotient within a few ulps.
       const DD difference = s - q;
       const double inverse = 1 / v2.hi, rough = difference.hi * inverse;
       const DD product = v2 * rough;
       const DD t =
           DD::ordered_sum(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
-      time_error = 2 * (s_error + q_error + t.hi * v2_error) * inverse + 2 * kStable * t.hi;
+      time_error = 2 * (s_error + q_error + t.hi * v2_error) * inverse + kStableTime * t.hi;
       return t;
     }
     double gap_error;
     const DD t = gap(d, error, lattice, gap_error) / (s + q);
-    time_error = 2 * (gap_error + t.hi * (s_error + q_error)) / (s.hi + q.hi) + 2 * kStable * t.hi;
+    time_error = 2 * (gap_error + t.hi * (s_error + q_error)) / (s.hi + q.hi) + kStableTime * t.hi;
     return t;
   }
 
@@ -100,10 +102,10 @@ struct Encounter {
     DD gap = -DD::product(r, r);
     if constexpr (kBall) {
       for (const DD& component : d) gap = gap + component * component;
-      gap_error = 8 * kStable * r * r + 8 * error * nearness;
+      gap_error = kStableGap * r * r + 4 * kDiagonal * error * nearness;
     } else {
       const DD square = square_in(lattice.shape, d, error, gap_error);
-      gap_error += 8 * kStable * (r * r + square.hi);
+      gap_error += kStableGap * (r * r + square.hi);
       gap = gap + square;
     }
     return gap;
@@ -112,11 +114,12 @@ struct Encounter {
  private:
   void measure_ball(const Vec& v, const DD (&d)[D], const DD (&across)[3], DD& h2, double& h_error) {
     v2 = DD::product(v[0], v[0]) + DD::product(v[1], v[1]);
-    s = d[0] * v[0] + d[1] * v[1];
     h2 = across[2] * across[2];
-    if constexpr (D == 3) {
+    if constexpr (D == 2) {
+      s = sum_of_products(d[0], v[0], d[1], v[1]);
+    } else {
       v2 = v2 + DD::product(v[2], v[2]);
-      s = s + d[2] * v[2];
+      s = sum_of_products(d[0], v[0], d[1], v[1], d[2], v[2]);
       h2 = h2 + (across[0] * across[0] + across[1] * across[1]);
     }
     s_error = h_error = across_error;
@@ -131,9 +134,9 @@ struct Encounter {
       v2 = v2 + DD(along[k]) * v[k];
       s = s + DD(along[k]) * d[k];
     }
-    const double form_error = shape.metric_error + 2 * kStable * shape.metric_size;
+    const double form_error = shape.metric_error + kStableForm * shape.metric_size;
     v2_error = form_error * speed * speed;
-    s_error = speed * (form_error * nearness + 2 * shape.metric_size * error) + kFlushed;
+    s_error = speed * (form_error * nearness + kDiagonal * shape.metric_size * error) + kFlushed;
     double size2 = 0;
     h2 = DD(0.0);
     for (int i = 3 - (D == 2 ? 1 : 3); i < 3; ++i) {

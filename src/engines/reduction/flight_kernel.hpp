@@ -86,7 +86,7 @@ class Finding {
 
   /// Balls that are entered after max_time need not be found.
   void find(const Aim<D, kUnit, kBall>& aim, const ObstacleId* from, double max_time) {
-    const double s_limit = (max_time * aim.direction.v2 + aim.direction.s_rho) * (1 + 0x1p-40);
+    const double s_limit = (max_time * aim.direction.v2 + aim.direction.s_rho) * (1 + kAmple);
     v2_ = aim.direction.v2;
     if constexpr (!kBall && D == 3) std::copy(aim.direction.along, aim.direction.along + D, along_);
     Offset<D> turned;
@@ -119,7 +119,7 @@ class Finding {
   bool cell(std::array<std::int64_t, 3>& cell) const {
     std::int64_t n[3]{};
     for (int i = 0; i < D; ++i) {
-      if (!(std::fabs(N[i].hi) < 0x1p61)) return false;
+      if (!(std::fabs(N[i].hi) < kMaxCell)) return false;
       n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(N[i].lo) +
              static_cast<std::int64_t>(offset_.home[i]);
     }
@@ -143,11 +143,11 @@ class Finding {
   double close_time(const Vec& v, double v2) const {
     if constexpr (!kBall) return close_time_of_ellipsoid(v);
     const double q = std::sqrt(slack_);
-    if (slack_error_ > 64 * kRoundoff * q * s_) {  // a grazing hit nearby
+    if (slack_error_ > kGrazing * kRoundoff * q * s_) {  // a grazing hit nearby
       double error;
       return wide_time(v, error).value();
     }
-    if (s_ > 4 * q) {
+    if (s_ > kNear * q) {
       double s = 0;
       for (int k = 0; k < D; ++k) s += v[k] * distance(k);
       return (s - q) / v2;
@@ -168,9 +168,9 @@ class Finding {
 
   /// The time in binary64 and the bound of its error, from the search alone.
   double rough_time(double& error) const {
-    const double q = std::sqrt(slack_), t = (s_ - q) / v2_;
-    error = 2 * (s_error_ + slack_error_ / q) / v2_ + 16 * kRoundoff * s_ / v2_;
-    return t;
+    const double q = std::sqrt(slack_);
+    error = 2 * (s_error_ + slack_error_ / q) / v2_ + kRoughTime * kRoundoff * s_ / v2_;
+    return rough_time_of(s_, q, v2_);
   }
 
   /// The time in double-double, and the bound of its error.
@@ -190,8 +190,6 @@ class Finding {
   }
 
  private:
-  static constexpr double kSlender = 12;
-
   // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
   // known; in 3D it is computed in double-double. Nearby s - q would cancel: then t = (d . G d - r^2) / (s +
   // q). In 3D the bound of the slack is so large that what is near has gone to the second stage before.
@@ -200,12 +198,12 @@ class Finding {
     double error;
     // What the last bits of h do to the time of a slender one is more than some ulps.
     if (lattice_->shape.condition > kSlender) return std::max(time(v, error).value(), 0.0);
-    const double unsure =
-        (64 + 32 * lattice_->shape.condition) * kRoundoff;  // its bounds are larger by so much
+    const double unsure = (kGrazing + kGrazingOfShape * lattice_->shape.condition) *
+                          kRoundoff;  // its bounds are larger by so much
     if (slack_error_ > unsure * q * s_) return wide_time(v, error).value();
     if constexpr (D == 2) {
       const double along = v[0] * distance(0) + v[1] * distance(1);
-      if (!(s_ > 4 * q)) return close_gap() / ((along * v2_ + across_) / euclidean_v2_ + q);
+      if (!(s_ > kNear * q)) return close_gap() / ((along * v2_ + across_) / euclidean_v2_ + q);
       return along / euclidean_v2_ + (across_ - q * euclidean_v2_) / (euclidean_v2_ * v2_);
     } else {
       DD d[D];

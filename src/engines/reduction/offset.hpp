@@ -8,6 +8,7 @@
 #include <lorentz/flight.hpp>
 #include "src/engines/reduction/bravais.hpp"
 #include "src/engines/reduction/encounter.hpp"
+#include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
 
 namespace lorentz {
@@ -23,10 +24,6 @@ struct Offset {
   double home[D];
   double error = 0;  ///< of each component, at most
 };
-
-/// Starts farther than this many cells from the atom's origin are beyond the general lattices; the unit
-/// lattices go to kMaxStart.
-inline constexpr double kMaxGeneralStart = 0x1p44;
 
 /// d, and its error, for a home cell that is chosen; `place` is x seen from the atom's origin, of this size.
 template <class Arch, int D>
@@ -46,7 +43,7 @@ inline void set_offset_from_home(const Bravais& lattice, const DoubleDouble<Arch
     offset.error += std::fabs(offset.home[i]) * lattice.basis_error;
   }
   for (int k = 0; k < D; ++k) offset.d[k] = Wide(d[k]);
-  offset.error += 0x1p-102 * size;
+  offset.error += kPlace * size;
 }
 
 /// The coordinate i of x, seen from the ball of the home cell.
@@ -62,7 +59,7 @@ inline double coordinate_from_home(const Bravais& lattice, const Offset<D>& offs
 template <class Arch, int D>
 [[gnu::noinline]] bool refine_home(const Bravais& lattice, const DoubleDouble<Arch> (&place)[D], double size,
                                    Offset<D>& offset) {
-  for (int pass = 0; pass < 8; ++pass) {
+  for (int pass = 0; pass < kMaxHomePasses; ++pass) {
     bool at_home = true;
     for (int i = 0; i < D; ++i) {
       const double step = std::nearbyint(coordinate_from_home(lattice, offset, i));
@@ -81,8 +78,6 @@ template <class Arch, bool kUnit, int D>
 inline bool set_offset(const Bravais& lattice, const Vec& x, Offset<D>& offset) {
   using DD = DoubleDouble<Arch>;
   if constexpr (kUnit) {
-    // Not 0.5, which takes 1/2 - 2^-54 to 1: from there it would be seen with a rounding.
-    constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
     for (int k = 0; k < D; ++k) {
       if (!(std::fabs(x[k]) < kMaxStart)) return false;
       offset.home[k] = std::floor(x[k] + kBelowHalf);
@@ -156,19 +151,18 @@ inline double place_of(const Bravais& lattice, const Offset<D>& offset, const Do
       d[k] = DD::ordered_sum(d[k].hi, d[k].lo + N[k].lo);
       size += std::fabs(N[k].hi);
     } else {
-      DD sum = 0.0;
+      DD step[D];
       for (int i = 0; i < D; ++i) {
-        const DD step = DD(lattice.basis[i][k].hi, lattice.basis[i][k].lo) * N[i];
-        size += std::fabs(step.hi);
-        sum = sum + step;
+        step[i] = DD(lattice.basis[i][k].hi, lattice.basis[i][k].lo) * N[i];
+        size += std::fabs(step[i].hi);
       }
-      d[k] = sum + DD(offset.d[k]);
+      d[k] = place_after(step, DD(offset.d[k]));
       size += std::fabs(offset.d[k].hi);
     }
   }
   if (!kUnit)
     for (int i = 0; i < D; ++i) error += std::fabs(N[i].hi) * lattice.basis_error;
-  return error + 0x1p-102 * size;
+  return error + kPlace * size;
 }
 
 /// Is the lattice vector n (in the short basis) exactly parallel to v? No also where binary64 cannot tell.
@@ -194,13 +188,13 @@ template <bool kBall, int D>
 [[gnu::noinline]] Decision is_inside_closely(const Wide (&d)[D], double error, const Bravais& lattice) {
   const double r = lattice.radius;
   Wide gap = -Wide::product(r, r);
-  double spread = kStable * r * r + 4 * error * (r + error) + kFlushed;
+  double spread = kStable * r * r + 2 * kDiagonal * error * (r + error) + kFlushed;
   if constexpr (kBall) {
     for (const Wide& component : d) gap = gap + component * component;
   } else {
     double square_error;
     gap = gap + square_in(lattice.shape, d, error, square_error);
-    spread = 2 * kStable * r * r + square_error + kFlushed;
+    spread = kStableForm * r * r + square_error + kFlushed;
   }
   return is_positive(-gap.hi, spread);
 }
@@ -209,15 +203,15 @@ template <bool kBall, int D>
 template <bool kBall, int D>
 inline Decision is_inside(const Wide (&d)[D], double error, const Bravais& lattice, Stage& stage) {
   const double r = lattice.radius, limit = r * r;
-  double square = 0, form = 0, size = 0;
-  for (const Wide& component : d) square += component.hi * component.hi, size += std::fabs(component.hi);
-  double spread = kInside * kRoundoff * (square + limit) + 4 * error * (r + error);
+  double high[D], form = 0, size = 0;
+  for (int k = 0; k < D; ++k) high[k] = d[k].hi, size += std::fabs(d[k].hi);
+  const double square = square_of(high);
+  double spread = kInside * kRoundoff * (square + limit) + 2 * kDiagonal * error * (r + error);
   if constexpr (!kBall) {
     const Shape& shape = lattice.shape;
-    for (int i = 0; i < D; ++i)
-      for (int k = 0; k < D; ++k) form += shape.metric[i][k].hi * d[i].hi * d[k].hi;
+    form = form_of(shape.metric, high);
     spread = kInsideEllipsoid * kRoundoff * (shape.metric_size * square + limit) +
-             4 * shape.metric_size * error * (size + error);
+             2 * kDiagonal * shape.metric_size * error * (size + error);
   }
   const Decision decision = is_positive(limit - (kBall ? square : form), spread);
   if (decision != Decision::doubtful) return decision;

@@ -31,16 +31,16 @@ class Search2 {
     s_limit_ = s_limit;
     if (!to_.usable || !set_anchor()) return give_up();
     const Arm2 &R = to_.R, &L = to_.L;
-    const double nu = -(L.S * y_ + L.D * s_) * to_.inverse_A, reach = reach_of_rows();
+    const double nu = row_number(L.S, y_, L.D, s_, to_.inverse_A), reach = reach_of_rows();
     if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
-    const double slope = (kUnit ? L.D : (L.D + L.D_error) * (1 + 0x1p-48)) * to_.inverse_A;
+    const double slope = row_slope(kUnit ? L.D : (L.D + L.D_error) * (1 + kRowSlope), to_.inverse_A);
     for (double n = std::ceil(nu - reach);; ++n) {
       double last = nu + reach;
       if (L.D > 0) last += std::min(best_s, s_limit) * slope;
       if (!(n <= last)) break;
       if (!look_in_row(n)) return give_up();
       if (best_s < std::numeric_limits<double>::infinity() &&
-          R.D > 2 * to_.rho * (1 + kSlop) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
+          R.D > 2 * to_.rho * (1 + kSlop2d) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
         break;  // rows come one after the other
     }
     if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
@@ -48,18 +48,16 @@ class Search2 {
   }
 
  private:
-  static constexpr double kSlop = 0x1p-30;
-
   Outcome give_up() {
     stage = Stage::undecided;
     return Outcome::undecided;
   }
 
   // Rows in the strip beside the start: within this of nu, which errs, too. On the unit lattices D_R >= 2
-  // rho, so the terms of nu are below 2^20, each rounded some ten times: 2^-29 in all; among tiny balls they
-  // are about 1, and what y errs by counts. On other lattices the terms are what they are.
+  // rho, so the terms of nu are below 2^20, and kRowSlop is enough; among tiny balls they are about 1, and
+  // what y errs by counts. On other lattices the terms are what they are.
   double reach_of_rows() const {
-    constexpr double kRowSlop = 0x1p-28, kRows = 16 * kRoundoff;
+    constexpr double kRows = kRowNumber * kRoundoff;
     const Arm2& L = to_.L;
     if constexpr (kUnit && kBall) return kRowSlop + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
     const double height = to_.rho + kRows * (std::fabs(y_) + to_.rho) + y_error_,
@@ -75,14 +73,14 @@ class Search2 {
     const DD h = add_product(add_product(DD(0.0), DD(offset_.d[1]), to_.v[0]), DD(offset_.d[0]), -to_.v[1]);
     const double size = std::fabs(offset_.d[0].hi) + std::fabs(offset_.d[1].hi);
     y_ = to_.sigma * h.hi;
-    y_error_ = kRoundoff * std::fabs(y_) + 4 * offset_.error + kAnchorTerms * size + kFlushed;
-    s_ = along(0) * offset_.d[0].hi + along(1) * offset_.d[1].hi;
-    s_error_ = kAlong * kRoundoff * size + 4 * offset_.error;
+    y_error_ = kRoundoff * std::fabs(y_) + kForm * offset_.error + kAnchorTerms * size + kFlushed;
+    s_ = sum_of_products(along(0), offset_.d[0].hi, along(1), offset_.d[1].hi);
+    s_error_ = kAlong * kRoundoff * size + kForm * offset_.error;
     if constexpr (!kBall)
       s_error_ =
-          to_.shape.along_error * size + 4 * offset_.error * (std::fabs(along(0)) + std::fabs(along(1)));
-    if (to_.rho > 0x1p-20) return true;
-    const double n = std::nearbyint(-(L.S * y_ + L.D * s_) * to_.inverse_A);
+          to_.shape.along_error * size + kForm * offset_.error * (std::fabs(along(0)) + std::fabs(along(1)));
+    if (to_.rho > kRhoOfAnchor) return true;
+    const double n = std::nearbyint(row_number(L.S, y_, L.D, s_, to_.inverse_A));
     const double m = std::nearbyint((R.S * y_ - R.D * s_) * to_.inverse_A);
     double terms = 0, along = 0;
     for (int i = 0; i < 2; ++i) {
@@ -98,10 +96,10 @@ class Search2 {
       else
         s_error_ += to_.shape.along_error * std::fabs(anchor_[i]) * to_.size_of[i];
     }
-    y_ = to_.sigma * compensated(h);
+    y_ = to_.sigma * compensated_height<!kUnit>(h, anchor_, to_.H);
     y_error_ += kAnchor * kRoundoff * std::fabs(y_) + kAnchorTerms * terms;
     anchor_error_ = y_error_;
-    s_ += anchor_[0] * to_.S[0] + anchor_[1] * to_.S[1];
+    s_ += sum_of_products(anchor_[0], to_.S[0], anchor_[1], to_.S[1]);
     s_error_ += kAlong * kRoundoff * along;
     return true;
   }
@@ -111,34 +109,25 @@ class Search2 {
     return to_.shape.along[k];
   }
 
-  // h + anchor_0 H_0 + anchor_1 H_1, its large terms cancelling exactly.
-  double compensated(DD h) const {
-    const DD a = DD::product(anchor_[0], to_.H[0].hi), b = DD::product(anchor_[1], to_.H[1].hi);
-    const DD ab = DD::sum(a.hi, b.hi), all = DD::sum(ab.hi, h.hi);
-    double low = (a.lo + b.lo) + (ab.lo + all.lo) + h.lo;
-    if constexpr (!kUnit) low += anchor_[0] * to_.H[0].lo + anchor_[1] * to_.H[1].lo;
-    return all.hi + low;
-  }
-
   // The first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
   bool look_in_row(double n) {
     const Arm2 &R = to_.R, &L = to_.L;
     const double y = y_ + n * R.D, rho = to_.rho;
-    const double behind = -(s_ + n * R.S) * to_.inverse_S_L;
-    double m = behind;
-    double unsure = kSlop;
+    double m = passing_of_row(s_, n, R.S, to_.inverse_S_L);
+    double unsure = kSlop2d;
     if (L.D > 0) {
-      m = std::max(m, (y - rho) * to_.inverse_D_L);
-      unsure += (16 * kRoundoff * (std::fabs(y) + std::fabs(n * R.D) + rho) + y_error_) * to_.inverse_D_L;
+      m = std::max(m, entry_of_row(y, rho, to_.inverse_D_L));
+      unsure +=
+          (kRowEntry * kRoundoff * (std::fabs(y) + std::fabs(n * R.D) + rho) + y_error_) * to_.inverse_D_L;
       if constexpr (!kUnit) unsure += (std::fabs(n) * R.D_error + std::fabs(m) * L.D_error) * to_.inverse_D_L;
     }
-    if (unsure > 0.25) return look_closely_in_row(n);
+    if (unsure > kMaxUnsure) return look_closely_in_row(n);
     return look_from(n, std::ceil(m - unsure));
   }
 
   // The balls of row n from m on, until one is met or the row has left the strip.
   bool look_from(double n, double m) {
-    for (int step = 0; step < 16; ++step) {
+    for (int step = 0; step < kMaxCandidatesInRow; ++step) {
       const Look look = look_at(n, m + step);
       if (look == Look::doubtful) return false;
       if (look != Look::before) return true;
@@ -222,7 +211,7 @@ class Search2 {
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
     const Encounter<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
-    const Wide h = (d[1] * to_.v[0] - d[0] * to_.v[1]) * to_.sigma;
+    const Wide h = difference_of_products(d[1], to_.v[0], d[0], to_.v[1]) * to_.sigma;
     Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
     if constexpr (!kBall) {
       const Wide& scale = lattice_.shape.wide_cofactor[2][2];
@@ -231,10 +220,10 @@ class Search2 {
     const Wide m = (h - rho) / Wide(L.D, L.D_low);
     const double unsure =
         (start.across_error + kStable * (std::fabs(h.hi) + rho.hi) + std::fabs(m.hi) * L.D_error) / L.D +
-        kStable * std::fabs(m.hi) + kSlop;
-    if (!(unsure < 0.25)) return false;
-    const double first =
-        std::max(std::ceil(m.value() - unsure), std::ceil(-(s_ + n * R.S) * to_.inverse_S_L - kSlop));
+        kStable * std::fabs(m.hi) + kSlop2d;
+    if (!(unsure < kMaxUnsure)) return false;
+    const double first = std::max(std::ceil(m.value() - unsure),
+                                  std::ceil(passing_of_row(s_, n, R.S, to_.inverse_S_L) - kSlop2d));
     return std::fabs(first) < kMaxCoefficient && look_from(n, first);
   }
 

@@ -36,18 +36,13 @@ class Search3 {
       advance();
       if (begin_ > s_limit_ || begin_ > 2 * period()) return Outcome::never;
       if (!(begin_ < kFarthest)) return give_up();
-      if (window >= 1) lengthen(4);
+      if (window >= 1) lengthen(kLonger);
     }
     return give_up();
   }
 
  private:
   static constexpr double kNothing = std::numeric_limits<double>::infinity();
-  static constexpr double kSlop = 0x1p-20;  ///< inflation of every range of the enumeration
-  static constexpr int kMaxWindows = 200;
-  static constexpr double kFarthest = 0x1p61;  ///< in s; the cells of a ball there still fit 64 bits
-  static constexpr double kManyLines = 12;
-  static constexpr double kMiddle = 0.5;  ///< of a window
 
   /// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
   struct Point {
@@ -59,8 +54,8 @@ class Search3 {
     Point(const Point& base, double k, const Arm3& arm) {
       for (int i = 0; i < 3; ++i) n[i] = base.n[i] + k * arm.n[i];
       const double step[2] = {k * arm.p[0], k * arm.p[1]};
-      p[0] = base.p[0] + step[0], p[1] = base.p[1] + step[1];
-      z = base.z + k * arm.z;
+      for (int i = 0; i < 2; ++i) p[i] = stepped(base.p[i], k, arm.p[i]);
+      z = stepped(base.z, k, arm.z);
       size = base.size + std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(k) * arm.floor;
       extent = base.extent + std::fabs(k * arm.z);
     }
@@ -81,32 +76,32 @@ class Search3 {
     for (Wide& n : anchor_) n = Wide();
     for (int i = 0; i < 2; ++i) anchor_point_.p[i] = to_.scale[i] * start_[i].hi;
     anchor_point_.z = (start_[2].hi - begin_) / basis_->length;
-    for (int pass = 0; pass < 4; ++pass) {
+    for (int pass = 0; pass < kMaxAnchorPasses; ++pass) {
       double k[3], largest = 0;
       for (int i = 0; i < 3; ++i) {
         const auto& g = basis_->dual[i];
-        k[i] = -std::nearbyint(g[0] * anchor_point_.p[0] + g[1] * anchor_point_.p[1] +
-                               g[2] * (anchor_point_.z - kMiddle));
+        k[i] = -std::nearbyint(sum_of_products(g[0], anchor_point_.p[0], g[1], anchor_point_.p[1], g[2],
+                                               anchor_point_.z - kMiddle));
         largest = std::max(largest, std::fabs(k[i]));
       }
-      if (!(largest < 0x1p60)) return false;
+      if (!(largest < kMaxAnchorStep)) return false;
       move_anchor(k);
       anchor_point_ = at(anchor_);
-      if (largest < 0x1p20) break;
-      if (pass == 3) return false;
+      if (largest < kNearAnchor) break;
+      if (pass == kMaxAnchorPasses - 1) return false;
     }
     double terms = start_size_;
     for (int j = 0; j < 3; ++j) {
-      if (!(std::fabs(anchor_[j].hi) < 0x1p61)) return false;
+      if (!(std::fabs(anchor_[j].hi) < kMaxCell)) return false;
       terms += std::fabs(anchor_[j].hi) * to_.size_of[j];
     }
-    const double error = 4 * (kAnchorTerms * terms + offset_.error) + kFlushed;
+    const double error = kForm * (kAnchorTerms * terms + offset_.error) + kFlushed;
     p_error_ = error * to_.inverse_r;
     s_error_ = to_.along_size * error + kRoundoff * begin_;
-    if constexpr (!kBall) s_error_ += 4 * lattice_.shape.metric_error * terms;
+    if constexpr (!kBall) s_error_ += kForm * lattice_.shape.metric_error * terms;
     z_error_ = s_error_ / basis_->length;
-    z_first_ = -(2 * z_error_ + 0x1p-48);
-    return p_error_ < kSlop / 2;
+    z_first_ = -(2 * z_error_ + kWindowStart);
+    return p_error_ < kSlop3d / 2;
   }
 
   // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice
@@ -128,20 +123,11 @@ class Search3 {
 
   Point at(const Wide (&N)[3]) const {
     Point point;
-    for (int i = 0; i < 2; ++i) point.p[i] = to_.scale[i] * combination(N, to_.form[i], start_[i]);
-    point.z = combination(N, to_.form[2], start_[2] - Wide(begin_)) / basis_->length;
+    for (int i = 0; i < 2; ++i) point.p[i] = to_.scale[i] * compensated_sum<DD>(to_.form[i], N, start_[i]);
+    point.z = compensated_sum<DD>(to_.form[2], N, start_[2] - Wide(begin_)) / basis_->length;
     point.size = std::fabs(point.p[0]) + std::fabs(point.p[1]);
     point.extent = std::fabs(point.z);
     return point;
-  }
-
-  static double combination(const Wide (&N)[3], const Wide (&f)[3], Wide start) {
-    const DD a = DD::product(N[0].hi, f[0].hi), b = DD::product(N[1].hi, f[1].hi),
-             c = DD::product(N[2].hi, f[2].hi);
-    const DD ab = DD::sum(a.hi, b.hi), abc = DD::sum(ab.hi, c.hi), all = DD::sum(abc.hi, start.hi);
-    double low = 0;
-    for (int i = 0; i < 3; ++i) low += N[i].hi * f[i].lo + N[i].lo * f[i].hi;
-    return all.hi + (((ab.lo + abc.lo) + (all.lo + start.lo)) + ((a.lo + b.lo) + (c.lo + low)));
   }
 
   // To the next window: right behind this one, or where the next lattice plane comes within r of the line.
@@ -156,11 +142,12 @@ class Search3 {
       const double up = gap_above(tilt - kappa), down = gap_above(kappa - tilt);
       // Of a tilt that is below its error not even the sign is known.
       const double gap = std::fabs(tilt) <= basis.tilt_error ? std::min(up, down) : tilt > 0 ? up : down;
-      const double jump = 1 + (gap - kSlop) / steepest;
-      step = std::min(std::max(step, jump), 0x1p70);
+      const double jump = 1 + (gap - kSlop3d) / steepest;
+      step = std::min(std::max(step, jump), kMaxJump);
     }
-    const double next = begin_ + step * (1 - kSlop) * basis.length;
-    begin_ = std::max(begin_, next - 2 * kRoundoff * next);  // rounded down: no gap between the windows
+    const double next = begin_ + step * (1 - kSlop3d) * basis.length;
+    begin_ =
+        std::max(begin_, next - kNextWindow * kRoundoff * next);  // rounded down: no gap between the windows
   }
 
   // What lies on the line repeats after this: v . b of a lattice vector b that is exactly parallel to it.
@@ -179,7 +166,7 @@ class Search3 {
 
   double plane_of(const Point& point) const {
     const auto& g = basis_->dual[2];
-    return g[0] * point.p[0] + g[1] * point.p[1] + g[2] * point.z;
+    return sum_of_products(g[0], point.p[0], g[1], point.p[1], g[2], point.z);
   }
 
   // Can one count from low to high by ones?
@@ -187,14 +174,14 @@ class Search3 {
     return std::fabs(low) < kMaxCoefficient && std::fabs(high) < kMaxCoefficient;
   }
 
-  double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop + 2 * z_error_; }
+  double end() const { return std::min(1.0, (best_s - begin_) / basis_->length) + kSlop3d + 2 * z_error_; }
 
   // The planes k b_2 + (b_0, b_1) that meet the window.
   bool scan_window() {
     const Basis3& basis = *basis_;
     const double kappa = plane_of(anchor_point_), tilt = basis.dual[2][2];
-    const double low = std::min(0.0, tilt) - basis.g - kappa - kSlop,
-                 high = std::max(0.0, tilt) + basis.g - kappa + kSlop;
+    const double low = std::min(0.0, tilt) - basis.g - kappa - kSlop3d,
+                 high = std::max(0.0, tilt) + basis.g - kappa + kSlop3d;
     if (!are_countable(low, high)) return false;
     for (double k = std::ceil(low); k <= high; ++k) {
       const Point point(anchor_point_, k, basis.b[2]);
@@ -205,10 +192,8 @@ class Search3 {
 
   // By how much xi, where the line passes the plane of this point, may be off. A plane that the line passes
   // at nearly the radius leaves a section of the half width sqrt(1 - xi^2), whose square is off by twice
-  // that: more than all of it, when the section is thin. kPlane: dual_2's relative error (|b_i| |dual_i| <=
-  // 8) and the rounding of three products and their sum, generously.
+  // that: more than all of it, when the section is thin.
   double xi_error(const Point& point) const {
-    constexpr double kPlane = 512;
     const Basis3& basis = *basis_;
     const auto& g = basis.dual[2];
     const double terms =
@@ -225,25 +210,25 @@ class Search3 {
     const double tilt = basis.dual[2][2];
     double z_first = z_first_, z_last = end();
     const double at_first = kappa - tilt * z_first, at_last = kappa - tilt * z_last,
-                 g = basis.g * (1 + kSlop);
+                 g = basis.g * (1 + kSlop3d);
     if (std::fabs(at_first) > g || std::fabs(at_last) > g) {  // the section ends within the window
       if ((at_first > g && at_last > g) || (at_first < -g && at_last < -g)) return true;
       const double one = (kappa - g) / tilt, other = (kappa + g) / tilt;
-      z_first = std::max(z_first, std::min(one, other) - kSlop);
-      z_last = std::min(z_last, std::max(one, other) + kSlop);
+      z_first = std::max(z_first, std::min(one, other) - kSlop3d);
+      z_last = std::min(z_last, std::max(one, other) + kSlop3d);
       if (z_first > z_last) return true;
     }
     no_plane_met_ = false;
-    const double xi_first = (kappa - tilt * z_first) * basis.inverse_g,
-                 xi_last = (kappa - tilt * z_last) * basis.inverse_g;
+    const double xi_first = distance_of_plane(kappa, tilt, z_first, basis.inverse_g),
+                 xi_last = distance_of_plane(kappa, tilt, z_last, basis.inverse_g);
     double nearest = 0;
     if (xi_first * xi_last > 0) nearest = std::min(std::fabs(xi_first), std::fabs(xi_last));
-    const double eta = std::sqrt(std::max(0.0, 1 - nearest * nearest) + 2 * xi_error(point)) + kSlop;
+    const double eta = std::sqrt(std::max(0.0, 1 - nearest * nearest) + 2 * xi_error(point)) + kSlop3d;
     const auto& g1 = basis.dual[1];
     const double a = basis.g1_e * xi_first + g1[2] * z_first, b = basis.g1_e * xi_last + g1[2] * z_last;
     const double here = g1[0] * point.p[0] + g1[1] * point.p[1] + g1[2] * point.z,
                  half = std::fabs(basis.g1_f) * eta;
-    const double spread = kSlop * (1 + std::fabs(basis.g1_e) + std::fabs(g1[2]));
+    const double spread = kSlop3d * (1 + std::fabs(basis.g1_e) + std::fabs(g1[2]));
     const double low = std::ceil(std::min(a, b) - half - here - spread),
                  high = std::max(a, b) + half - here + spread;
     if (!are_countable(low, high)) return false;
@@ -261,15 +246,16 @@ class Search3 {
     const double tilt = basis.dual[2][2];
     const double unsure = 2 * xi_error(in_plane);
     const auto half_width = [&](double z1, double z2) {
-      const double xi_1 = (kappa - tilt * z1) * basis.inverse_g, xi_2 = (kappa - tilt * z2) * basis.inverse_g;
+      const double xi_1 = distance_of_plane(kappa, tilt, z1, basis.inverse_g),
+                   xi_2 = distance_of_plane(kappa, tilt, z2, basis.inverse_g);
       const double nearest = xi_1 * xi_2 > 0 ? std::min(std::fabs(xi_1), std::fabs(xi_2)) : 0;
-      return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest)) + unsure) + kSlop * kSlop;
+      return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest)) + unsure) + kSectionSlop;
     };
     const auto eta = [&](const double* p) { return p[1] * basis.e[0] - p[0] * basis.e[1]; };
     Arm3 c[2] = {basis.b[0], basis.b[1]};
     const double cell = std::fabs(c[0].z * eta(c[1].p) - c[1].z * eta(c[0].p));
     double part = z_last - z_first;
-    while (part * half_width(z_first, z_first + part) > 2 * cell) part /= 4;
+    while (part * half_width(z_first, z_first + part) > kPartCells * cell) part /= 4;
     Point base = in_plane;
     for (double z = z_first; z < std::min(z_last, end()); z += part, part *= 2) {
       const double z_next = std::min(z + part, z_last), width = half_width(z, z_next),
@@ -292,10 +278,10 @@ class Search3 {
       const double centre = (c[0].z * -eta(base.p) - (middle - base.z) * eta(c[0].p)) * inverse;
       const double reach =
           (std::fabs(c[0].z) * width + 0.5 * (z_next - z) * std::fabs(eta(c[0].p))) * std::fabs(inverse) +
-          kSlop;
-      if (!(reach < 64 && are_countable(centre - reach, centre + reach))) return false;
+          kSlop3d;
+      if (!(reach < kMaxLinesInPart && are_countable(centre - reach, centre + reach))) return false;
       for (double k = std::ceil(centre - reach); k <= centre + reach; ++k)
-        if (!scan_line(Point(base, k, c[1]), c[0], z - kSlop * part, z_next + kSlop * part)) return false;
+        if (!scan_line(Point(base, k, c[1]), c[0], z - kSlop3d * part, z_next + kSlop3d * part)) return false;
     }
     return true;
   }
@@ -306,7 +292,7 @@ class Search3 {
     const auto times = [&](const Arm3& a, const Arm3& b) {
       return a.z * along * (b.z * along) + eta(a.p) * across * (eta(b.p) * across);
     };
-    for (int step = 0; step < 200; ++step) {
+    for (int step = 0; step < kMaxPlaneReductionSteps; ++step) {
       if (times(c[1], c[1]) < times(c[0], c[0])) std::swap(c[0], c[1]);
       const double k = std::nearbyint(times(c[0], c[1]) / times(c[0], c[0]));
       if (k == 0) {
@@ -333,21 +319,21 @@ class Search3 {
 
   // The balls along one line: |q + k p| < 1 is a quadratic in k.
   bool scan_line(const Point& q, const Arm3& arm, double z_first, double z_last) {
-    const double a = arm.p[0] * arm.p[0] + arm.p[1] * arm.p[1];
-    const double b = q.p[0] * arm.p[0] + q.p[1] * arm.p[1];
-    const double moment = q.p[0] * arm.p[1] - q.p[1] * arm.p[0];
+    const double a = square_of(arm.p);
+    const double b = sum_of_products(q.p[0], arm.p[0], q.p[1], arm.p[1]);
+    const double moment = moment_of_line(q.p, arm.p);
     const double unsure = line_error(q);
-    const double discriminant = a * (1 + 8 * unsure) - moment * moment;  // rounded up
+    const double discriminant = a * (1 + kDiscriminant * unsure) - moment * moment;  // rounded up
     if (discriminant < 0) return true;
     const double inverse = 1 / a, half = std::sqrt(discriminant) * inverse;
     double k_first = -b * inverse - half, k_last = -b * inverse + half;
-    const double slack = kSlop + 4 * unsure * std::sqrt(inverse);
-    if (!(slack < 0.25)) return scan_line_closely(q, arm, z_first, z_last, k_first);
+    const double slack = kSlop3d + kLineEnd * unsure * std::sqrt(inverse);
+    if (!(slack < kMaxUnsure)) return scan_line_closely(q, arm, z_first, z_last, k_first);
     k_first -= slack, k_last += slack;
     if (arm.z > 0) {
       const double inverse_z = 1 / arm.z;
-      k_first = std::max(k_first, (z_first - q.z) * inverse_z - kSlop);
-      k_last = std::min(k_last, (z_last - q.z) * inverse_z + kSlop);
+      k_first = std::max(k_first, (z_first - q.z) * inverse_z - kSlop3d);
+      k_last = std::min(k_last, (z_last - q.z) * inverse_z + kSlop3d);
     }
     return scan_stretch(q, arm, std::ceil(k_first), k_last);
   }
@@ -361,14 +347,14 @@ class Search3 {
   [[gnu::noinline]] bool scan_line_closely(const Point& q, const Arm3& arm, double z_first, double z_last,
                                            double estimate) {
     if (!(arm.z > 0)) return false;
-    const double k_first = std::ceil((z_first - q.z) / arm.z - kSlop),
-                 k_last = (z_last - q.z) / arm.z + kSlop;
+    const double k_first = std::ceil((z_first - q.z) / arm.z - kSlop3d),
+                 k_last = (z_last - q.z) / arm.z + kSlop3d;
     const Point first(q, k_first, arm);
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
     const double distance = std::hypot(first.p[0], first.p[1]);
-    const double unsure = 8 * line_error(first);
+    const double unsure = kDiscriminant * line_error(first);
     if (distance - drift > 1 + unsure) return true;
-    if (distance < 1 - unsure || k_last - k_first < 16 || !(estimate > k_first))
+    if (distance < 1 - unsure || k_last - k_first < kShortStretch || !(estimate > k_first))
       return scan_stretch(q, arm, k_first, k_last);
     double k = std::nearbyint(estimate);
     return refine_entry(q, arm, k) && scan_stretch(q, arm, std::max(k_first, k), k_last);
@@ -388,10 +374,11 @@ class Search3 {
     const double rho2 = to_.rho * to_.rho, outside = -encounter.slack.hi / rho2;  // |p|^2 - 1
     const double inward = -2 * (there.p[0] * arm.p[0] + there.p[1] * arm.p[1]);
     const double speed = std::fabs(arm.p[0]) + std::fabs(arm.p[1]), step = outside / inward;
-    if (!(inward > 0 && std::fabs(step) * speed * speed < 0x1p-7 * inward))
+    if (!(inward > 0 && std::fabs(step) * speed * speed < kEntryCurvature * inward))
       return false;  // grazing, or not near
-    const double unsure = 2 + std::fabs(step) * 0x1p-6 + encounter.slack_error / rho2 / inward;
-    if (!(unsure < 24)) return false;
+    const double unsure =
+        kEntrySlop + std::fabs(step) * (2 * kEntryCurvature) + encounter.slack_error / rho2 / inward;
+    if (!(unsure < kMaxEntryError)) return false;
     k = std::floor(k + step - unsure);
     return true;
   }
@@ -400,7 +387,7 @@ class Search3 {
     if (k_first <= k_last && !are_countable(k_first, k_last)) return false;
     int steps = 0;
     for (double k = k_first; k <= k_last; ++k) {
-      if (++steps > 64) return false;
+      if (++steps > kMaxCandidatesOnLine) return false;
       const Look look = look_at(Point(q, k, arm));
       if (look == Look::doubtful) return false;
       if (look != Look::missed) return true;
@@ -411,7 +398,7 @@ class Search3 {
   enum class Look { missed, taken, beyond, doubtful };
 
   Look look_at(const Point& point) {
-    const double square = point.p[0] * point.p[0] + point.p[1] * point.p[1];
+    const double square = square_of(point.p);
     const double error = kAcross * kRoundoff * point.size + p_error_;
     const double spread = (1 + square) * (2 * error + scale_error());
     const Decision meets = is_positive(1 - square, spread);

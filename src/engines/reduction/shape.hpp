@@ -37,9 +37,6 @@ struct Shape {
   }
 };
 
-/// More slender ellipsoids are not done: errors of the metric would count.
-inline constexpr double kMaxCondition = 0x1p14;
-
 /// The shape of d semiaxes (any ball: r times the axes), or nothing if they are too slender, or dependent.
 /// Lengths between 2^-100 and 2^100.
 std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes);
