@@ -1,4 +1,6 @@
 // Elementary geometry in plain binary64: products, a line and a ball, coordinates in a cell or an ellipsoid.
+// Each is the textbook formula, rounded at every step: what it errs by is for the caller to know. To have the
+// same bits everywhere, compile without contraction (-ffp-contract=off).
 #pragma once
 
 #include <algorithm>

@@ -27,8 +27,8 @@ struct HardestDecision {
   DecisionKind kind = DecisionKind::meeting;
   ObstacleId obstacle;
   bool yes = false;  ///< what was decided
-  double margin =
-      0;  ///< in ulps: how far the inputs must move, each by so many ulps, to change it; to first order
+  /// In ulps: how far the inputs must move, each by so many ulps, to change it; to first order.
+  double margin = 0;
 };
 
 /// An obstacle that a flight came near, on its way to the answer.
@@ -39,7 +39,19 @@ struct PassedObstacle {
   double margin = 0;  ///< of that decision, in ulps; not limited
 };
 
-/// Answers of one scene, looked at closely.
+/// How hard the questions of one scene were.
+///
+///  1. Inputs that move by less than the margin (each by so many units in its last place) leave the
+///     answer as it is; of those that move by twice as much some change it. To first order: where the
+///     change is strongly curved, as in 3D along lattice planes, the margin is too large
+///     (docs/verdicts.md).
+///     held by "Inputs moved by less than the margin give the same answer, moved by twice it some give
+///     another"
+///  2. The condition is what one ulp in each input can make of the time, in its ulps.
+///     held by "Conditions: what each input makes of the time"
+///
+/// Cost: 100 us and more, by the obstacles that the flight comes near. Allocates. Any number of threads
+/// may ask one.
 class Margins {
  public:
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).

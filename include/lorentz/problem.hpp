@@ -1,4 +1,5 @@
-// The exact problem statement, shared by every engine, oracle and reader: scenes, queries, answers.
+// The exact problem statement, shared by every engine, oracle and reader: scenes, queries, answers. Values,
+// without hidden state: copy them, and share them between threads as you would a double.
 //
 // Every number here is a binary64 value and means exactly the dyadic rational that it is. Lengths are in the
 // scene's own unit; a velocity has any length, and times are in units in which x + t v is the particle's
