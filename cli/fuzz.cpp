@@ -191,7 +191,7 @@ int act(const Options& options) {
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
-  const fuzz::MakeSubject make_subject = subject_maker(options.engine, {{}, timeout, terminal()});
+  const fuzz::MakeSubject make_subject = fuzz::subject_maker(options.engine, {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks = fuzz::Ranks::join();
   if (!ranks) return run_campaign(options, plan, make_subject, nullptr);
   try {

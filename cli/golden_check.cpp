@@ -186,11 +186,11 @@ std::string json_of(const std::string& engine, const std::vector<SetTally>& tall
         "\"error\":{}",
         t.queries, t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error);
   };
-  for (const SetTally& tally : tallies) {
-    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &tally == &tallies.front() ? "" : ",",
-                       json_quoted(tally.all.name), counts(tally.all));
+  for (const SetTally& set : tallies) {
+    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &set == &tallies.front() ? "" : ",",
+                       json_quoted(set.all.name), counts(set.all));
     bool first = true;
-    for (const auto& [tag, tally] : tally.by_tag) {
+    for (const auto& [tag, tally] : set.by_tag) {
       out += fmt::format("{}{}:{{{}}}", first ? "" : ",", json_quoted(tag), counts(tally));
       first = false;
     }
@@ -202,9 +202,9 @@ std::string json_of(const std::string& engine, const std::vector<SetTally>& tall
 void show(const std::string& engine, const std::vector<SetTally>& tallies,
           const std::vector<Failure>& failures) {
   Table table(kColumns);
-  for (const SetTally& tally : tallies) {
-    table.add(cells_of(tally.all.name, "all", tally.all));
-    for (const auto& [tag, tally] : tally.by_tag) table.add(cells_of("", tag, tally));
+  for (const SetTally& set : tallies) {
+    table.add(cells_of(set.all.name, "all", set.all));
+    for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
   print(fmt::format("{}\n\n{}\n", engine, table.text()));
   if (failures.empty()) return;
@@ -251,11 +251,11 @@ std::string summary_page(const std::vector<std::string>& engines,
 std::string faults_page(const std::string& engine, const std::vector<SetTally>& tallies,
                         const std::vector<Failure>& failures) {
   std::string rows;
-  for (const SetTally& tally : tallies)
-    for (const auto& [tag, note] : tally.notes) {
-      const auto found = tally.by_tag.find(tag);
-      if (found == tally.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
-      rows += fmt::format("| {} | {} | {} | {} | {} |\n", tally.all.name, tag, found->second.queries,
+  for (const SetTally& set : tallies)
+    for (const auto& [tag, note] : set.notes) {
+      const auto found = set.by_tag.find(tag);
+      if (found == set.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n", set.all.name, tag, found->second.queries,
                           troubles(found->second), note);
     }
   std::string page = fmt::format("\n## {}\n\n", engine);
@@ -269,9 +269,9 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
 
 int status_of(const std::vector<SetTally>& tallies, bool strict) {
   int status = kDone;
-  for (const SetTally& tally : tallies) {
-    const Tally& t = tally.all;
-    if (tally.failed) return kFailed;
+  for (const SetTally& set : tallies) {
+    const Tally& t = set.all;
+    if (set.failed) return kFailed;
     if (t.wrong > 0 || t.error > 0 || (strict && t.ill_posed + t.undecided > 0)) status = kDisagreement;
   }
   return status;
