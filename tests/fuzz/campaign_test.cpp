@@ -10,6 +10,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/scene_edit.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"

@@ -136,7 +136,8 @@ TEST_CASE("Golden: of a key that comes twice the last counts", "[golden]") {
   const GoldenCase c = hit_case();
   std::string text = replaced(set_of({c}), "\"tags\":[", "\"tags\":[\"other\"],\"tags\":[");
   text = replaced(text, ",\"margin\"", R"(,"expect":{"outcome":"never"},"margin":1,"margin")");
-  text = replaced(text, "\"windows\":", R"("windows":[],"windows":)");
+  const std::string window = R"({"lattice":0,"atom":0,"from":0,"to":1,"basis":[[1,0],[0,1]]})";
+  text = replaced(text, "\"windows\":", "\"windows\":[" + window + "],\"windows\":");
   Record expected = c.record;
   const Record read = read_all(folder.write("set", text)).at(0).record;
   CHECK(read.expect.outcome == Outcome::never);
@@ -178,12 +179,15 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
   CHECK(complaint(replaced(good, "\n", "\n\n")) == "");  // blank lines are skipped
   CHECK_THAT(complaint(""), Catch::Contains("is empty"));
   CHECK(complaint(good.substr(good.find('\n') + 1)).starts_with("1: a golden set begins with its header"));
-  CHECK(complaint(replaced(good, "\"format\":1", "\"format\":2")).starts_with("1: format: only format 1"));
+  for (const char* other : {"\"format\":2", "\"format\":0"})
+    CHECK(complaint(replaced(good, "\"format\":1", other)).starts_with("1: format: only format 1"));
   CHECK(complaint(replaced(good, "\"count\":2", "\"count\":-2")).starts_with("1: count"));
   CHECK(complaint(replaced(good, "{\"scene\"", "{\"scenery\"")).starts_with("2: "));
   CHECK(complaint(replaced(good, "\"expect\"", "\"expected\"")).starts_with("3: a golden record has an id"));
   CHECK(complaint(replaced(good, "\"outcome\":\"hit\"", "\"outcome\":\"hat\"")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
+  CHECK(
+      complaint(replaced(good, "\"windows\":[{", "\"panes\":[{")).starts_with("3: certificate: has either"));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
   CHECK(complaint(replaced(good, "]]}", "],[0,0]]}")).starts_with("3: basis: has more than 2 vectors"));
   CHECK(complaint(replaced(good, "]]}", ",0]]}")).starts_with("3: basis"));

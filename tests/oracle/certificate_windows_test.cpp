@@ -109,6 +109,20 @@ TEST_CASE("An obstacle at the very end of a window is looked at", "[oracle][cert
   }
 }
 
+TEST_CASE("An obstacle in the last row that a window can meet is looked at", "[oracle][certificate_check]") {
+  // Balls that touch; the start is on one of them, and enters it. In this basis its row is as far out as any.
+  Scene scene = unit_scene(3, 1);
+  for (int i = 0; i < 3; ++i) scene.lattices[0].vectors[i][i] = 2;
+  const Query query{{0, 0, 1}, {2, -2, -1}, {}};
+  REQUIRE(oracle::Oracle(scene).first_hit(query).obstacle == ObstacleId{});
+  Case c = proved(scene, {query.x, query.v, ObstacleId{}});
+  REQUIRE(c.answer.obstacle == ObstacleId{0, 0, {1, -1, 0}});
+  c.proof.windows[0].basis = {Cell{2, 0, -1}, {-1, 0, 1}, {2, -1, -1}};
+  require_accepted(c);
+  c.query.from.reset();
+  require_refused(c, "obstacle (lattice 0, atom 0, cell [0, 0, 0]) is entered earlier");
+}
+
 TEST_CASE("Vectors that are no basis are refused", "[oracle][certificate_check]") {
   Draw draw(2107);
   INFO("seed 2107");

@@ -55,6 +55,52 @@ TEST_CASE("Where the query is none nobody is wrong", "[oracle][verdict]") {
         Verdict::error);
 }
 
+TEST_CASE("The obstacle that is left is never the answer, however few ulps speak against it",
+          "[oracle][verdict]") {
+  const Query off{{0.5, 0.125}, {1, 0}, at(1, 0)}, out{{0.125, 0}, {1, 0}, at(0, 0)};
+  CHECK(judged(kScene, off, Answer::hit(at(1, 0), 0.28)).verdict == Verdict::wrong);
+  CHECK(judged(kScene, out, Answer::inside(at(0, 0))).verdict == Verdict::wrong);
+}
+
+TEST_CASE("inside: only what comes before the obstacle named speaks against it", "[oracle][verdict]") {
+  const Scene overlapping = unit_scene(2, 0.75);
+  // In the first disc by an ulp, in the second by a lot.
+  const Query query{{std::nextafter(0.75, 0), 0}, {1, 0.5}, {}};
+  REQUIRE(oracle::Oracle(overlapping).first_hit(query).obstacle == at(0, 0));
+  CHECK(judged(overlapping, query, Answer::inside(at(1, 0))).verdict == Verdict::ill_posed);
+  CHECK(judged(overlapping, {{0.5, 0}, {1, 0.5}, {}}, Answer::inside(at(1, 0))).verdict == Verdict::wrong);
+}
+
+TEST_CASE("never: a component of v that is zero is exact", "[oracle][verdict]") {
+  // Along (+-1, 0, 1) the flight would be free.
+  for (const double side : {1, -1}) {
+    const Query query{{side * 0.05, 0, 0.5}, {0, 0, 1}, {}};
+    CHECK(judged(unit_scene(3, 0.1), query, Answer::never()).verdict == Verdict::wrong);
+  }
+}
+
+TEST_CASE("never: among tiny discs nearly every direction is within ulps of a free one",
+          "[oracle][verdict]") {
+  Draw draw(41);
+  INFO("seed 41");
+  int ill_posed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Query query{draw.vec(2, 0, 1), draw.vec(2, 0.1, 1), {}};
+    ill_posed += judged(unit_scene(2, 1e-9), query, Answer::never()).verdict == Verdict::ill_posed;
+  }
+  CHECK(ill_posed > 190);  // 198 seen; with coefficients of lattice lines up to 1 only, 164
+}
+
+TEST_CASE("A wrong time departs by no more than its own ulps", "[oracle][verdict]") {
+  // Here an ulp in each input moves the time by less than an ulp of its own.
+  const Scene scene = unit_scene(3, 0.4);
+  const Query query{{0.5, 0.5, 0}, {-0.06926965601134438, -0.004098486767561527, 0.9153936903353617}, {}};
+  const Answer exact = oracle::Oracle(scene).first_hit(query);
+  const auto judgement = judged(scene, query, Answer::hit(exact.obstacle, *exact.time * (1 + 0x1p-40)));
+  CHECK(judgement.verdict == Verdict::wrong);
+  CHECK(judgement.departs == Approx(*judgement.ulps));
+}
+
 TEST_CASE("An answer that a few ulps would make right is ill-posed, with the tolerance that it needs",
           "[oracle][verdict]") {
   // At b = 1/4 - m ulps of the cell the disc is hit; x and r move: m - 1 + 1/4 ulps are left between.

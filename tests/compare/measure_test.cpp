@@ -1,0 +1,38 @@
+// What a tally says of the judgements that it counts.
+#include "compare/measure.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lorentz;
+using compare::Tally;
+using oracle::Verdict;
+
+TEST_CASE("A tally counts each verdict, and those that are wrong for the time alone", "[compare][measure]") {
+  Tally tally;
+  for (const Verdict verdict : {Verdict::agree, Verdict::ill_posed, Verdict::undecided, Verdict::unsupported,
+                                Verdict::error, Verdict::missing, Verdict::wrong, Verdict::wrong})
+    tally.count({verdict});
+  tally.count({.verdict = Verdict::wrong, .ulps = 9, .departs = 7, .wrong_time = true});
+  CHECK(tally.queries == 9);
+  for (const std::size_t once : {tally.agree, tally.ill_posed, tally.undecided, tally.unsupported,
+                                 tally.error, tally.missing, tally.wrong_time, tally.timed_hits})
+    CHECK(once == 1);
+  CHECK(tally.wrong == 3);
+}
+
+TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of them does not exceed",
+          "[compare][measure]") {
+  Tally tally;
+  CHECK(tally.mean_ulp() == 0);
+  CHECK(tally.ulp_at(0.5) == 0);
+  for (const double ulps : {3, 10, 1, 2, 9, 4, 8, 5, 7, 6})
+    tally.count({.verdict = Verdict::agree, .ulps = ulps});
+  tally.count({Verdict::agree});  // without a time
+  CHECK(tally.timed_hits == 10);
+  CHECK(tally.max_ulp == 10);
+  CHECK(tally.mean_ulp() == 5.5);
+  CHECK(tally.ulp_at(0) == 1);
+  CHECK(tally.ulp_at(0.3) == 4);    // the nearest to 2.7 steps up from the first
+  CHECK(tally.ulp_at(0.99) == 10);  // to 8.91
+  CHECK(tally.ulp_at(1) == 10);
+}
