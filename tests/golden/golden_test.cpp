@@ -58,7 +58,8 @@ std::vector<GoldenCase> odd_cases() {
   window.to = 0x1.fffffffffffffp1023;
   far.record.margin = 0x1p20;
   far.record.condition = 0x1.5p-3;
-  far.record.tags = {"drawn", "drawn \"\\\n\t, too", "no],\"end"};
+  // Brackets in a text are not nested, also behind a quotation mark.
+  far.record.tags = {"drawn", "drawn \"\\\n\t, too", "no],\"end", '"' + std::string(2000, '[')};
   cases.push_back(far);
   cases.push_back(far);
   return cases;

@@ -227,18 +227,18 @@ Met hold(std::uint64_t seed, int cases) {
     met.centres += !all.empty();
     const Basis<D> basis = some_basis(draw, view.basis);
     met.head_on += is_head_on(view.velocity, basis);
-    REQUIRE((visited<D>(problem, cylinder, {problem.low, problem.high, basis}) == all));
+    REQUIRE((visited<D>(problem, stretches, {problem.low, problem.high, basis}) == all));
     // Cut up, the stretches follow each other without gaps, and their centres are the same.
     Z end = problem.low;
     std::set<Ints<D>> together;
-    int stretches = 0;
+    int pieces = 0;
     const bool stopped = stretches.cut(problem.low, problem.high, [&](const Stretch<D>& stretch) {
-      ++stretches;
+      ++pieces;
       REQUIRE(stretch.low == end);
       REQUIRE(stretch.high >= stretch.low);
       end = stretch.high;
       REQUIRE(abs(determinant(stretch.basis)) == std::labs(determinant_of(problem.basis)));
-      const auto part = visited<D>(problem, cylinder, stretch);
+      const auto part = visited<D>(problem, stretches, stretch);
       REQUIRE((part == between<D>(found, stretch.low, stretch.high)));
       together.insert(part.begin(), part.end());
       return false;
@@ -246,7 +246,7 @@ Met hold(std::uint64_t seed, int cases) {
     REQUIRE_FALSE(stopped);
     REQUIRE(end == problem.high);
     REQUIRE((together == all));
-    met.cuts += stretches > 1;
+    met.cuts += pieces > 1;
   }
   return met;
 }
