@@ -10,6 +10,8 @@
 
 namespace lorentz {
 
+struct AtomDirections;  // of the engine's inside: a velocity as seen from each atom
+
 class Reduction : public Engine {
  public:
   /// With the fused multiply-add if the processor has it, or as if it had not: the same answers, to the bit.
@@ -49,7 +51,8 @@ class Reduction : public Engine {
 
  private:
   void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
-  void fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const;
+  void fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
+           Flight& flight) const;
   std::unique_ptr<const Model> model_;
 };
 
@@ -59,7 +62,7 @@ class Reduction::Direction {
   Vec scaled_v_{};
   int exponent_ = 0;
   bool tiny_component_ = false;
-  std::shared_ptr<const void> aims_;  // what it points to depends on the scene's model
+  std::shared_ptr<const AtomDirections> atoms_;
 };
 
 /// An answer of the interface that all engines share; or into one that is there, and is as newly made.
