@@ -10,6 +10,8 @@
 
 namespace lorentz {
 
+struct AtomDirections;  // of the engine's inside: a velocity as seen from each atom
+
 /// The first obstacle on a flight, for one scene, in binary64.
 ///
 /// What it promises, and which test holds it to that:
@@ -90,7 +92,8 @@ class Reduction : public Engine {
 
  private:
   void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
-  void fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const;
+  void fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
+           Flight& flight) const;
   std::unique_ptr<const Model> model_;
 };
 
@@ -101,7 +104,7 @@ class Reduction::Direction {
   Vec scaled_v_{};
   int exponent_ = 0;
   bool tiny_component_ = false;
-  std::shared_ptr<const void> aims_;  // what it points to depends on the scene's model
+  std::shared_ptr<const AtomDirections> atoms_;
 };
 
 /// A flight as the answer that all engines give; or written into an answer that is as newly made

@@ -328,13 +328,14 @@ TEST_CASE("In double-double: kStable and its multiples", "[engines][bounds]") {
 }
 
 TEST_CASE("The shape of an ellipsoid: its metric in double-double", "[engines][bounds]") {
-  // Semiaxes of the longest length 1, all three at once; norms of matrices are at most sqrt(3) times those of
-  // rows. Each is derived from exact numbers: what the others bring is added where it is used.
+  // Semiaxes with all components 1, of the length sqrt(3); Frobenius norms are 3 times an entry. The factors
+  // sqrt(2) and sqrt(3) are for rows in other directions. Each constant is derived from exact numbers: what
+  // the others bring is added where it is used.
   const std::array<std::array<double, 3>, 3> a{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
   ShapeForms<CarriedWide> forms;
   forms.set_adjugate(a);
-  const double third = 1 / 3.0;  // |row|^2 = 3
-  covers(kAdjugate, 3 * forms.adjugate[0][0].error * third * std::sqrt(2), 2.5);
+  const double third = 1 / 3.0;  // of the square of a length
+  covers(kAdjugate, 3 * forms.adjugate[0][0].error * third * std::sqrt(2));
   covers(kDeterminant, forms.det.error * third * std::sqrt(third) * std::sqrt(3), 3);
   ShapeForms<CarriedWide> exact;
   for (auto& row : exact.adjugate)
@@ -346,7 +347,7 @@ TEST_CASE("The shape of an ellipsoid: its metric in double-double", "[engines][b
   for (auto& row : exact.to_ball)
     for (CarriedWide& entry : row) entry = 1;
   exact.set_metric();
-  covers(kMetric, 3 * exact.metric[0][0].error / 3);  // |G| <= |N|^2, of which this is a third
+  covers(kMetric, 3 * exact.metric[0][0].error / 9, 7);  // relative to |N|^2 = 9
 }
 
 TEST_CASE("The width of an ellipse: kRhoOfShape, kAlongOfShape", "[engines][bounds]") {

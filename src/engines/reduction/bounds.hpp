@@ -173,6 +173,10 @@ inline constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
 /// Cells that the search names, from the home cell.
 inline constexpr double kMaxCell = 0x1p61;
 
+/// Powers of two: `from` is not near x if its cell is beyond the first, or beyond the second from the home
+/// cell.
+inline constexpr int kFarthestCellBits = 84, kFarthestHereBits = 62;
+
 /// 2D: positive heights below this vanish when they are multiplied by the inverse of an area.
 inline constexpr double kSmallestHeight = 0x1p-800;
 

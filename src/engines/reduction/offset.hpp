@@ -7,9 +7,9 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/flight.hpp>
 #include "src/engines/reduction/bravais.hpp"
-#include "src/engines/reduction/encounter.hpp"
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
+#include "src/engines/reduction/stable_meeting.hpp"
 
 namespace lorentz {
 

@@ -9,7 +9,21 @@
 #include "src/engines/reduction/flight_kernel.hpp"
 
 namespace lorentz {
+
+/// A velocity as seen from each atom. What that is depends on the scene's model, which knows.
+struct AtomDirections {};
+
 namespace {
+
+template <class Item>
+struct DirectionsOfModel : AtomDirections {
+  std::vector<Item> items;
+};
+
+template <class Item>
+const Item& direction_of(const AtomDirections& directions, std::size_t atom) {
+  return static_cast<const DirectionsOfModel<Item>&>(directions).items[atom];
+}
 
 // What a kernel is asked.
 struct Task {
@@ -18,7 +32,7 @@ struct Task {
   const Vec& v;  ///< in [1, 2)
   const ObstacleId* from;
   double max_time;
-  const void* aims;  ///< an Aim for each atom, or null: then they are made here
+  const AtomDirections* directions;  ///< of each atom, or null: then they are made here
 };
 
 using Time = Reduction::Time;
@@ -56,13 +70,13 @@ void give_up(Flight& flight) {
   flight.stage = Stage::undecided;
 }
 
-template <Time kTime, class Arch, int D, bool kUnit, bool kBall>
-inline void set_time(const Finding<Arch, D, kUnit, kBall>& finding, const Task& task, Flight& flight) {
+template <Time kTime, class AtomFlight>
+inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) {
   if constexpr (kTime == Time::close) {
-    flight.time = finding.close_time(task.v, speed_squared(task.v[0], task.v[1], task.v[2]));
+    flight.time = found.time(task.v).close();
   } else {
     double error;
-    const auto t = finding.time(task.v, error);
+    const auto t = found.time(task.v).wide(error);
     flight.time = t.hi + (t.lo + error);
     flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
   }
@@ -72,85 +86,87 @@ inline void set_time(const Finding<Arch, D, kUnit, kBall>& finding, const Task& 
 template <Time kTime, class Arch, int D, bool kUnit, bool kBall>
 inline void fly_one(const Task& task, Flight& flight) {
   const Bravais& lattice = task.scene.atoms[0];
-  Finding<Arch, D, kUnit, kBall> finding;
-  if (!finding.start(lattice, task.x)) return give_up(flight);
-  const Decision inside = finding.inside(task.from);
+  using Direction = AtomDirection<D, kUnit, kBall>;
+  AtomFlight<Arch, D, kUnit, kBall> atom;
+  if (!atom.start(lattice, task.x)) return give_up(flight);
+  const Decision inside = atom.inside(task.from);
   if (inside == Decision::doubtful) return give_up(flight);
   if (inside == Decision::no) {
-    if (task.aims)
-      finding.find(*static_cast<const Aim<D, kUnit, kBall>*>(task.aims), task.from, task.max_time);
+    if (task.directions)
+      atom.find(direction_of<Direction>(*task.directions, 0), task.from, task.max_time);
     else
-      finding.find(Aim<D, kUnit, kBall>(Arch{}, lattice, task.v), task.from, task.max_time);
-    flight.outcome = finding.outcome;
+      atom.find(Direction(Arch{}, lattice, task.v), task.from, task.max_time);
+    flight.outcome = atom.outcome;
   } else {
     flight.outcome = Outcome::inside;
   }
-  flight.stage = finding.stage;
+  flight.stage = atom.stage;
   const bool named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
-  if (named && !finding.cell(flight.cell)) return give_up(flight);
-  if (flight.outcome == Outcome::hit) set_time<kTime>(finding, task, flight);
+  if (named && !atom.cell(flight.cell)) return give_up(flight);
+  if (flight.outcome == Outcome::hit) set_time<kTime>(atom, task, flight);
 }
 
 // Is one hit before the other? Binary64, then double-double.
-template <class Found>
-inline Decision is_sooner(const Found& one, const Found& other, const Vec& v, Stage& stage) {
+template <class OneFlight>
+inline Decision is_sooner(const OneFlight& one, const OneFlight& other, const Vec& v, Stage& stage) {
   double error, other_error;
   const double difference = other.rough_time(other_error) - one.rough_time(error);
   const Decision decision = is_positive(difference, error + other_error);
   if (decision != Decision::doubtful) return decision;
   stage = std::max(stage, Stage::double_double);
-  const Wide close = other.wide_time(v, other_error) - one.wide_time(v, error);
+  const Wide close = other.time(v).rare(other_error) - one.time(v).rare(error);
   return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
 }
 
-/// The findings of several atoms: those of the first few are kept from the inside tests for the searches.
-template <class Found>
-class Findings {
+/// The flights of several atoms: those of the first few are kept from the inside tests for the searches.
+template <class OneFlight>
+class AtomFlights {
  public:
-  /// The finding of this atom, started; null if the start is too far away.
-  Found* started(std::size_t atom, const Task& task) {
-    Found& found = atom < kKept ? kept_[atom] : other_;
-    return atom < started_ || found.start(task.scene.atoms[atom], task.x) ? &found : nullptr;
+  /// The flight of this atom, started; null if the start is too far away.
+  OneFlight* started(std::size_t atom, const Task& task) {
+    OneFlight& flight = atom < kKept ? kept_[atom] : other_;
+    return atom < started_ || flight.start(task.scene.atoms[atom], task.x) ? &flight : nullptr;
   }
   /// From now on those that are kept need not be started again.
   void keep() { started_ = kKept; }
 
  private:
   static constexpr std::size_t kKept = 6;
-  Found kept_[kKept], other_;
+  OneFlight kept_[kKept], other_;
   std::size_t started_ = 0;
 };
 
 /// Several atoms, in one lattice or several: the earliest of their hits.
 template <Time kTime, class Arch, int D, bool kBall>
 inline void fly_several(const Task& task, Flight& flight) {
-  using Found = Finding<Arch, D, false, kBall>;
+  using OneFlight = AtomFlight<Arch, D, false, kBall>;
+  using Direction = AtomDirection<D, false, kBall>;
   const std::vector<Bravais>& atoms = task.scene.atoms;
-  Findings<Found> findings;
+  AtomFlights<OneFlight> flights;
   for (std::size_t a = 0; a < atoms.size(); ++a) {  // the smallest obstacle that contains x
-    Found* finding = findings.started(a, task);
-    if (!finding) return give_up(flight);
-    const Decision inside = finding->inside(task.from);
-    flight.stage = std::max(flight.stage, finding->stage);
+    OneFlight* one = flights.started(a, task);
+    if (!one) return give_up(flight);
+    const Decision inside = one->inside(task.from);
+    flight.stage = std::max(flight.stage, one->stage);
     if (inside == Decision::no) continue;
     if (inside == Decision::doubtful) return give_up(flight);
     flight.outcome = Outcome::inside;
     flight.lattice = atoms[a].lattice, flight.atom = atoms[a].atom;
-    if (!finding->cell(flight.cell)) give_up(flight);
+    if (!one->cell(flight.cell)) give_up(flight);
     return;
   }
-  findings.keep();
+  flights.keep();
   flight.outcome = Outcome::never;
-  Found best;
+  OneFlight best;
   const Bravais* best_lattice = nullptr;
-  std::optional<Aim<D, false, kBall>> own;
+  std::optional<Direction> own;
   double limit = task.max_time;
   for (std::size_t a = 0; a < atoms.size(); ++a) {
-    if (!task.aims) Aim<D, false, kBall>::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
-    const auto& aim = task.aims ? static_cast<const Aim<D, false, kBall>*>(task.aims)[a] : *own;
-    Found* next = findings.started(a, task);
+    if (!task.directions) Direction::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
+    const Direction& to = task.directions ? direction_of<Direction>(*task.directions, a) : *own;
+    OneFlight* next = flights.started(a, task);
     if (!next) return give_up(flight);
-    next->find(aim, task.from, limit);
+    next->find(to, task.from, limit);
     flight.stage = std::max(flight.stage, next->stage);
     if (next->outcome == Outcome::undecided) return give_up(flight);
     if (next->outcome == Outcome::never) continue;
@@ -170,12 +186,12 @@ inline void fly_several(const Task& task, Flight& flight) {
 }
 
 using Kernel = void (*)(const Task&, Flight&);
-using AimsKernel = std::shared_ptr<const void> (*)(const PreparedScene&, const Vec&);
+using DirectionsKernel = std::shared_ptr<const AtomDirections> (*)(const PreparedScene&, const Vec&);
 
 /// What runs for a scene, on this processor.
 struct Kernels {
   Kernel close = nullptr, rounded = nullptr;
-  AimsKernel aims = nullptr;
+  DirectionsKernel directions = nullptr;
 };
 
 template <Time kTime, class Arch, int D, Model kModel, bool kBall>
@@ -187,18 +203,18 @@ inline void fly_with(const Task& task, Flight& flight) {
 }
 
 template <class Arch, int D, Model kModel, bool kBall>
-std::shared_ptr<const void> aims_for(const PreparedScene& scene, const Vec& v) {
-  using Item = Aim<D, kModel == Model::unit, kBall>;
-  auto aims = std::make_shared<std::vector<Item>>();
+std::shared_ptr<const AtomDirections> directions_for(const PreparedScene& scene, const Vec& v) {
+  using Item = AtomDirection<D, kModel == Model::unit, kBall>;
+  auto directions = std::make_shared<DirectionsOfModel<Item>>();
   // As fly_several sets them, one from the one before: so that both decide alike, to the bit.
-  std::optional<Item> aim;
+  std::optional<Item> to;
   const Bravais* before = nullptr;
   for (const Bravais& lattice : scene.atoms) {
-    Item::set(aim, Arch{}, before, lattice, v);
-    aims->push_back(*aim);
+    Item::set(to, Arch{}, before, lattice, v);
+    directions->items.push_back(*to);
     before = &lattice;
   }
-  return std::shared_ptr<const void>(aims, aims->data());
+  return directions;
 }
 
 // Inlined as a whole into functions for one kind of processor, so that an fma is one instruction or none.
@@ -225,9 +241,9 @@ template <int D, Model kModel, bool kBall>
 Kernels kernels_of(bool fma) {
   if (fma)
     return {fly_fma<Time::close, D, kModel, kBall>, fly_fma<Time::rounded, D, kModel, kBall>,
-            aims_for<SplitProduct, D, kModel, kBall>};
+            directions_for<SplitProduct, D, kModel, kBall>};
   return {fly_split<Time::close, D, kModel, kBall>, fly_split<Time::rounded, D, kModel, kBall>,
-          aims_for<SplitProduct, D, kModel, kBall>};
+          directions_for<SplitProduct, D, kModel, kBall>};
 }
 
 template <int D, bool kBall>
@@ -288,15 +304,16 @@ const char* Reduction::model() const {
   return "";
 }
 
-void Reduction::fly(const Ray& ray, const void* aims, double max_time, Time time, Flight& flight) const {
+void Reduction::fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
+                    Flight& flight) const {
   const int exponent = model_->scene.exponent;
   const Kernel kernel = time == Time::close ? model_->kernels.close : model_->kernels.rounded;
   if (exponent == 0) {
-    kernel({model_->scene, ray.x, ray.v, ray.from, max_time, aims}, flight);
+    kernel({model_->scene, ray.x, ray.v, ray.from, max_time, directions}, flight);
   } else {
     Vec x;
     for (int i = 0; i < 3; ++i) x[i] = scaled_time(ray.x[i], -exponent);
-    kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), aims}, flight);
+    kernel({model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), directions}, flight);
     rescale(flight, exponent);
   }
   if (flight.outcome == Outcome::never && ray.tiny_component) give_up(flight);
@@ -317,14 +334,14 @@ Reduction::Direction Reduction::direction(const Vec& v) const {
   direction.scaled_v_ = velocity.scaled;
   direction.exponent_ = velocity.exponent;
   direction.tiny_component_ = velocity.tiny_component;
-  direction.aims_ = model_->kernels.aims(model_->scene, velocity.scaled);
+  direction.atoms_ = model_->kernels.directions(model_->scene, velocity.scaled);
   return direction;
 }
 
 Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
                       Time time) const {
   Flight flight;
-  fly(Ray{x, direction.scaled_v_, from, direction.tiny_component_}, direction.aims_.get(),
+  fly(Ray{x, direction.scaled_v_, from, direction.tiny_component_}, direction.atoms_.get(),
       scaled_time(max_time, direction.exponent_), time, flight);
   rescale(flight, -direction.exponent_);
   return flight;

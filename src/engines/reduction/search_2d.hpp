@@ -3,10 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
 #include "src/engines/reduction/direction_2d.hpp"
-#include "src/engines/reduction/encounter.hpp"
+#include "src/engines/reduction/found.hpp"
+#include "src/engines/reduction/stable_meeting.hpp"
 
 namespace lorentz {
 
@@ -19,13 +19,10 @@ class Search2 {
   Search2(const Bravais& lattice, const Direction2<kUnit, kBall>& direction, const Offset<2>& offset)
       : lattice_(lattice), to_(direction), offset_(offset) {}
 
-  Stage stage = Stage::binary64;
-  Wide best[2];  ///< coefficients of the ball found, from the home cell, in the short basis
-  double best_s = std::numeric_limits<double>::infinity(), best_slack = 0, best_s_error = 0,
-         best_slack_error = 0;
-  double best_h = 0;  ///< v x d; of ellipsoids only
+  Found<2> found;
 
-  /// `from`: coefficients of the ball that is being left, or null. Entered after s_limit: need not be found.
+  /// `from`: coefficients of the ball that is being left, or null. Balls that are entered after s_limit may
+  /// be ignored.
   Outcome run(const Wide* from, double s_limit) {
     from_ = from;
     s_limit_ = s_limit;
@@ -36,20 +33,19 @@ class Search2 {
     const double slope = row_slope(kUnit ? L.D : (L.D + L.D_error) * (1 + kRowSlope), to_.inverse_A);
     for (double n = std::ceil(nu - reach);; ++n) {
       double last = nu + reach;
-      if (L.D > 0) last += std::min(best_s, s_limit) * slope;
+      if (L.D > 0) last += std::min(found.s, s_limit) * slope;
       if (!(n <= last)) break;
       if (!look_in_row(n)) return give_up();
-      if (best_s < std::numeric_limits<double>::infinity() &&
-          R.D > 2 * to_.rho * (1 + kSlop2d) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
+      if (found.any() && R.D > 2 * to_.rho * (1 + kSlop2d) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
         break;  // rows come one after the other
     }
-    if (best_s < std::numeric_limits<double>::infinity()) return Outcome::hit;
+    if (found.any()) return Outcome::hit;
     return Outcome::never;  // before s_limit; or rows exactly parallel to the line were all passed
   }
 
  private:
   Outcome give_up() {
-    stage = Stage::undecided;
+    found.stage = Stage::undecided;
     return Outcome::undecided;
   }
 
@@ -149,7 +145,7 @@ class Search2 {
     const Decision meets = is_below(h, to_.rho, error, rho_error());
     if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;
     if (s < -s_error) return Look::before;
-    if (s - s_error > std::min(best_s + best_s_error, s_limit_)) return Look::beyond;
+    if (s - s_error > std::min(found.s + found.s_error, s_limit_)) return Look::beyond;
     double N[2] = {anchor_[0] + n * R.n[0] + m * L.n[0], anchor_[1] + n * R.n[1] + m * L.n[1]};
     for (int i = 0; i < 2; ++i)
       if (!(std::fabs(N[i]) < kMaxCoefficient && std::fabs(n * R.n[i]) < kMaxCoefficient &&
@@ -174,34 +170,34 @@ class Search2 {
   }
 
   Look offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
-    if (!(s + s_error < best_s - best_s_error)) return Look::doubtful;
-    best[0] = Wide(N[0]), best[1] = Wide(N[1]);
-    best_s = s, best_s_error = s_error, best_slack = slack, best_slack_error = slack_error;
-    if constexpr (!kBall) best_h = to_.sigma * h;
+    if (!(s + s_error < found.s - found.s_error)) return Look::doubtful;
+    found.N[0] = Wide(N[0]), found.N[1] = Wide(N[1]);
+    found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
+    if constexpr (!kBall) found.h = to_.sigma * h;
     return Look::taken;
   }
 
   // The same decisions in double-double.
   [[gnu::noinline]] Look look_closely(const double* N, double h) {
-    stage = std::max(stage, Stage::double_double);
+    found.needs(Stage::double_double);
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
-    const Encounter<SplitProduct, 2, kBall> encounter(to_.v, d, error, lattice_);
-    const Decision meets = encounter.meets();
+    const StableMeeting<SplitProduct, 2, kBall> meeting(to_.v, d, error, lattice_);
+    const Decision meets = meeting.meets();
     if (meets == Decision::doubtful) return Look::doubtful;
     if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look::beyond : Look::before;
-    const Decision ahead = encounter.is_ahead();
+    const Decision ahead = meeting.is_ahead();
     if (ahead == Decision::doubtful) return Look::doubtful;
     if (ahead == Decision::no) return Look::before;
-    return offer(N, encounter.s.hi, encounter.s_error + kRoundoff * encounter.s.hi, encounter.slack.hi,
-                 encounter.slack_error + kRoundoff * encounter.slack.hi, h);
+    return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,
+                 meeting.slack_error + kRoundoff * meeting.slack.hi, h);
   }
 
   // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
   [[gnu::noinline]] bool look_closely_in_row(double n) {
     const Arm2 &R = to_.R, &L = to_.L;
-    stage = std::max(stage, Stage::double_double);
+    found.needs(Stage::double_double);
     double N[2];
     for (int i = 0; i < 2; ++i) {
       N[i] = anchor_[i] + n * R.n[i];
@@ -210,7 +206,7 @@ class Search2 {
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
-    const Encounter<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
+    const StableMeeting<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
     const Wide h = difference_of_products(d[1], to_.v[0], d[0], to_.v[1]) * to_.sigma;
     Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
     if constexpr (!kBall) {

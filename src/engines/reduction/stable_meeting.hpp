@@ -33,7 +33,7 @@ inline DoubleDouble<Arch> square_in(const Shape& shape, const DoubleDouble<Arch>
 /// Seen from x: the centre at d, s = v . d, slack = r^2 v^2 - |v x d|^2, positive iff the line meets the open
 /// ball. Of an ellipsoid: all of this in the metric of its shape (shape.hpp).
 template <class Arch, int D, bool kBall>
-struct Encounter {
+struct StableMeeting {
   using DD = DoubleDouble<Arch>;
 
   DD v2, s, slack;
@@ -43,7 +43,7 @@ struct Encounter {
   double nearness = 0;      ///< |d|
 
   /// d errs by at most `error` in each component.
-  Encounter(const Vec& v, const DD (&d)[D], double error, const Bravais& lattice) {
+  StableMeeting(const Vec& v, const DD (&d)[D], double error, const Bravais& lattice) {
     DD across[3];
     double d2 = d[0].hi * d[0].hi + d[1].hi * d[1].hi, speed2 = v[0] * v[0] + v[1] * v[1];
     across[2] = difference_of_products(d[1], v[0], d[0], v[1]);

@@ -1,0 +1,34 @@
+// One atom's lattice seen along a velocity. Private to the reduction engine.
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "src/engines/reduction/direction_2d.hpp"
+#include "src/engines/reduction/direction_3d.hpp"
+
+namespace lorentz {
+
+/// The unit lattices of balls are turned so that the velocity lies in the first octant.
+template <int D, bool kUnit, bool kBall>
+struct AtomDirection {
+  Octant octant;
+  std::conditional_t<D == 2, Direction2<kUnit, kBall>, Direction3<kUnit, kBall>> direction;
+
+  template <class Arch>
+  AtomDirection(Arch arch, const Bravais& lattice, const Vec& v)
+      : octant(kUnit && kBall ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
+
+  /// The same for the next atom along the same velocity, from that of the atom `before`.
+  template <class Arch>
+  static void set(std::optional<AtomDirection>& to, Arch arch, const Bravais* before, const Bravais& lattice,
+                  const Vec& v) {
+    const bool same_lattice = before && before->lattice == lattice.lattice;
+    if (same_lattice && before->radius == lattice.radius && (kBall || before->shape == lattice.shape)) return;
+    if constexpr (D == 3 && kBall)
+      if (same_lattice) return to->direction.template retarget<Arch>(lattice);
+    to.emplace(arch, lattice, v);
+  }
+};
+
+}  // namespace lorentz

@@ -1,0 +1,131 @@
+// A start as seen from one atom's lattice: does it lie in an obstacle, which cells do `from` and what is
+// found have? Private to the reduction engine.
+#pragma once
+
+#include <algorithm>
+
+#include "src/engines/reduction/offset.hpp"
+
+namespace lorentz {
+
+/// Cells are counted from the home cell, in the short basis.
+template <int D, bool kUnit, bool kBall>
+class AtomStart {
+ public:
+  const Bravais* lattice = nullptr;
+  Offset<D> offset;
+
+  /// False if the start is too far away.
+  template <class Arch>
+  bool set(const Bravais& of_lattice, const Vec& x) {
+    lattice = &of_lattice;
+    return set_offset<Arch, kUnit, D>(of_lattice, x, offset);
+  }
+
+  /// Does x lie in an obstacle (`from` excepted)? Then N is its cell.
+  Decision inside(const ObstacleId* from, Wide (&N)[D], Stage& stage) const {
+    for (Wide& n : N) n = Wide();
+    double other[D]{};
+    int others = 0;
+    if constexpr (!(kUnit && kBall))
+      if (lattice->reaches_out) others = neighbours(other);
+    if (others == 0) {  // nearly always
+      const Decision decision = is_inside<kBall>(offset.d, offset.error, *lattice, stage);
+      if (decision == Decision::no) return decision;
+    }
+    Wide leaving[D];
+    const bool has_from = find_from(from, leaving);
+    for (int which = 0; which < 1 << others; ++which) {
+      Wide d[D];
+      std::copy(offset.d, offset.d + D, d);
+      double error = offset.error;
+      if (which > 0) {
+        choose(which, other, N);
+        error = place_of<SplitProduct, kUnit, D>(*lattice, offset, N, d);
+      }
+      const Decision decision = is_inside<kBall>(d, error, *lattice, stage);
+      if (decision == Decision::no || (has_from && same(leaving, N))) continue;
+      return decision;
+    }
+    return Decision::no;
+  }
+
+  /// The cell of `from`; false if it is of another atom, or farther away than any obstacle that the search
+  /// names (kMaxCell, and kMaxCoefficient more). In a skewed cell what is near may have coordinates of 84
+  /// bits: those of the search times a transform's 2^20, three of these. They times an inverse's 2^41, three
+  /// of these, are below 2^127.
+  [[gnu::noinline]] bool find_from(const ObstacleId* from, Wide (&here)[D]) const {
+    if (!from || from->lattice != lattice->lattice || from->atom != lattice->atom) return false;
+    constexpr WideInteger kFarthestCell = WideInteger{1} << kFarthestCellBits,
+                          kFarthestHere = WideInteger{1} << kFarthestHereBits;
+    WideInteger cell[D];
+    for (int k = 0; k < D; ++k) {
+      const auto n = from->cell[k].int128();
+      if (!n || *n > kFarthestCell || *n < -kFarthestCell) return false;
+      cell[k] = *n;
+    }
+    for (int i = 0; i < D; ++i) {
+      WideInteger sum = -static_cast<WideInteger>(offset.home[i]);
+      for (int k = 0; k < D; ++k) sum += cell[k] * (kUnit ? k == i : lattice->inverse[k][i]);
+      if (sum > kFarthestHere || sum < -kFarthestHere) return false;
+      const double high = static_cast<double>(sum);
+      here[i] = Wide(high, static_cast<double>(sum - static_cast<WideInteger>(high)));
+    }
+    return true;
+  }
+
+  /// The cell N in the scene's own primitive vectors; false if 64 bits do not hold it.
+  bool set_cell(const Wide (&N)[D], std::array<std::int64_t, 3>& cell) const {
+    std::int64_t n[3]{};
+    for (int i = 0; i < D; ++i) {
+      if (!(std::fabs(N[i].hi) < kMaxCell)) return false;
+      n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(N[i].lo) +
+             static_cast<std::int64_t>(offset.home[i]);
+    }
+    if constexpr (kUnit) {
+      for (int k = 0; k < D; ++k) cell[k] = n[k];
+      return true;
+    }
+    for (int k = 0; k < D; ++k) {
+      cell[k] = 0;
+      for (int i = 0; i < D; ++i) {
+        std::int64_t step;
+        if (__builtin_mul_overflow(n[i], lattice->transform[i][k], &step) ||
+            __builtin_add_overflow(cell[k], step, &cell[k]))
+          return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static bool same(const Wide* a, const Wide* b) {
+    for (int i = 0; i < D; ++i)
+      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
+    return true;
+  }
+
+  // The cells besides the home cell whose obstacle may contain x: up to one step along each basis vector.
+  int neighbours(double (&other)[D]) const {
+    int count = 0;
+    for (int i = 0; i < D; ++i) {
+      const double coordinate = coordinate_from_home(*lattice, offset, i);
+      if (std::fabs(coordinate) + lattice->reach[i] < 1 - kMaxHomeError) continue;
+      other[i] = std::copysign(1, coordinate);
+      ++count;
+    }
+    return count;
+  }
+
+  // The subset number `which` of these steps.
+  static void choose(int which, const double (&other)[D], Wide (&N)[D]) {
+    for (int i = 0, bit = 0; i < D; ++i) {
+      N[i] = Wide();
+      if (other[i] == 0) continue;
+      if (which >> bit & 1) N[i] = Wide(other[i]);
+      ++bit;
+    }
+  }
+};
+
+}  // namespace lorentz

@@ -1,0 +1,89 @@
+// Is this ball met, and is it the first so far? The decisions of the search in 3D. Private to the reduction
+// engine.
+#pragma once
+
+#include <algorithm>
+
+#include "src/engines/reduction/found.hpp"
+#include "src/engines/reduction/stable_meeting.hpp"
+#include "src/engines/reduction/window_3d.hpp"
+
+namespace lorentz {
+
+template <class Arch, bool kUnit, bool kBall>
+class Candidates3 {
+  using Window = Window3<Arch, kUnit, kBall>;
+
+ public:
+  enum class Look { missed, taken, beyond, doubtful };
+
+  Found<3> found;
+
+  const Wide* from = nullptr;  ///< coefficients of the ball that is being left
+  double s_limit = 0;          ///< balls that are entered after it may be ignored
+
+  explicit Candidates3(const Window& window) : window_(window) {}
+
+  /// Where in the window nothing is wanted any more.
+  double end() const {
+    return std::min(1.0, (found.s - window_.begin) / window_.basis->length) + kSlop3d + 2 * window_.z_error;
+  }
+
+  Look look_at(const Point3& point) {
+    const double square = square_of(point.p);
+    const double error = kAcross * kRoundoff * point.size + window_.p_error;
+    const double spread = (1 + square) * (2 * error + window_.scale_error());
+    const Decision meets = is_positive(1 - square, spread);
+    if (meets == Decision::no) return Look::missed;
+    const double length = window_.basis->length;
+    const double s = window_.begin + point.z * length;
+    const double s_error = window_.s_error + kAlong * kRoundoff * point.extent * length;
+    if (s < -s_error) return Look::missed;
+    if (s - s_error > std::min(found.s + found.s_error, s_limit)) return Look::beyond;
+    Wide N[3];
+    if (!window_.cell_of(point, N)) return Look::doubtful;
+    if (from && same(N, from)) return Look::missed;
+    const double rho = window_.to.rho;
+    if (meets == Decision::yes && s > s_error)
+      return offer(N, s, s_error, (1 - square) * (rho * rho), 2 * spread * (rho * rho));
+    return look_closely(N);
+  }
+
+  StableMeeting<SplitProduct, 3, kBall> meeting_at(const Wide (&N)[3]) const {
+    Wide d[3];
+    const double error = place_of<SplitProduct, kUnit, 3>(window_.lattice, window_.offset, N, d);
+    return {window_.to.v, d, error, window_.lattice};
+  }
+
+ private:
+  Look offer(const Wide* N, double s, double s_error, double slack, double slack_error) {
+    if (!(s + s_error < found.s - found.s_error)) return same(N, found.N) ? Look::missed : Look::doubtful;
+    for (int i = 0; i < 3; ++i) found.N[i] = N[i];
+    found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
+    return Look::taken;
+  }
+
+  static bool same(const Wide* a, const Wide* b) {
+    for (int i = 0; i < 3; ++i)
+      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
+    return true;
+  }
+
+  // The same decisions in double-double.
+  [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
+    found.needs(Stage::double_double);
+    const auto meeting = meeting_at(N);
+    const Decision meets = meeting.meets();
+    if (meets == Decision::doubtful) return Look::doubtful;
+    if (meets == Decision::no) return Look::missed;
+    const Decision ahead = meeting.is_ahead();
+    if (ahead == Decision::doubtful) return Look::doubtful;
+    if (ahead == Decision::no) return Look::missed;
+    return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,
+                 meeting.slack_error + kRoundoff * meeting.slack.hi);
+  }
+
+  const Window& window_;
+};
+
+}  // namespace lorentz
