@@ -262,12 +262,14 @@ TEST_CASE("Planes in 3D: kTilt, kPlane, kSlop3d", "[engines][bounds]") {
   // dual_2 along the line is b_0 x b_1 across, divided by the volume.
   const Carried p = across_of_arm();
   covers(kTilt, (difference_of_products(p, p, none, none) * one).error, 4);
-  // |b_i| |dual_i| <= kMaxDefect: so is kappa of a reduced basis (at most sqrt(2) before the last roundings),
-  // and a component of the cross product b_0 x b_1 is as much smaller than |b_0| |b_1|, at most.
+  // |b_2| |dual_2| = kappa sin(b_0, b_1) <= kMaxDefect, and the sine is no less than 1 / kMaxDefect, because
+  // b_0 is as far from the line along b_1 as from the plane of b_1 and b_2 at least, which is 1 / |dual_0|.
+  // So kappa is at most kMaxDefect^2, and b_0 x b_1 no more than that smaller than |b_0| |b_1|.
+  constexpr double kMaxKappa = kMaxDefect * kMaxDefect;
   const Carried cross = difference_of_products(p, p, none, none);
-  const double of_cross = kMaxDefect * cross.error;
+  const double of_cross = kMaxKappa * cross.error;
   const Carried volume = sum_of_products(p, Carried{1, std::sqrt(3) * cross.error}, none, none, none, none);
-  const double of_volume = kMaxDefect * volume.error;
+  const double of_volume = kMaxKappa * volume.error;
   const Carried dual = Carried{1, of_cross} * (one / Carried{1, of_volume});
   // The terms of kappa err by what the points err (kAcross), and so does the length of dual_2 across.
   const Carried kappa = sum_of_products(dual, Carried{1, kAcross}, none, none, none, none),

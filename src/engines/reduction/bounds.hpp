@@ -216,8 +216,9 @@ inline constexpr double kShortStretch = 16, kMaxEntryError = 24;
 inline constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100,
                         kGoodRunning = 0x1p40;
 
-/// 3D: a basis is nearly orthogonal if all |b_i| |dual_i| are at most this. kPlane relies on it.
-inline constexpr double kMaxDefect = 8;
+/// 3D: a basis is nearly orthogonal if all |b_i| |dual_i| are at most this; then |b_0| |b_1| |b_2| / volume
+/// is at most its square, on which kPlane relies. Of reduced bases both are at most sqrt(2).
+inline constexpr double kMaxDefect = 2.8;
 
 /// Rounds of loops that end by themselves much earlier, or have found something hard.
 inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenormalisations = 8,
