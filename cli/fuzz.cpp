@@ -115,6 +115,7 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
+  // Words of a store: another text would be another campaign, and "mutants" is what variants were called.
   manifest.options =
       fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.counts.ulps,
                   plan.mutate, plan.reword, plan.keep, plan.counts.times ? ", times" : "",

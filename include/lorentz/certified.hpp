@@ -27,7 +27,8 @@ class Certified {
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
   explicit Certified(const Scene& scene);
 
-  /// The exact answer; an invalid query yields `error`. `digits` and `detail` are the oracle's work alone.
+  /// The exact answer; an invalid query yields `error`. A request for digits or detail is
+  /// answered by the oracle, at its cost.
   /// `tally`, if given, counts which stage decided; `undecided` are the queries that the oracle answered.
   Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
 

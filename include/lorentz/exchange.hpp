@@ -70,7 +70,7 @@ void append_answer_line(std::string& out, const Id& id, const Answer& answer, in
 /// What the formats are read with, and its versions.
 std::string exchange_libraries();
 
-/// Beyond 2^53 in absolute value as a decimal string.
+/// A JSON number; beyond 2^53 in absolute value a decimal string.
 void append_integer(std::string& out, const Integer& n);
 
 /// A JSON string with its quotes.

@@ -62,6 +62,7 @@ struct Horizon {
   std::vector<CylinderFamily> families;  ///< 3D
   std::string no_cylinders;              ///< not empty: cylinders were not searched for, and why
 
+  /// True if a path is known to be infinite, whatever is undecided.
   bool is_infinite() const;
   /// True if no path is infinite, and that is known.
   bool is_finite() const;

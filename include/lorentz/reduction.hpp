@@ -21,7 +21,9 @@ struct AtomDirections;  // of the engine's inside: a velocity as seen from each 
 ///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases"
 ///  2. The time of a drawn flight errs by at most 6 ulps among balls, 8 among ellipses and ellipsoids
 ///     (seen: 5 and 6), by more if the flight ends within some 1e-16 r of its start. It is correctly
-///     rounded where `time_is_rounded` says so, for which one asks with Time::rounded.
+///     rounded where `time_is_rounded` says so, for which one asks with Time::rounded. "Drawn": isotropic
+///     from a uniform start. Of other flights no bound is promised: where the time matters, ask for it
+///     rounded.
 ///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The same bits on every processor that computes in IEEE 754 binary64, with a fused multiply-add or
 ///     without, if it is compiled without contraction and fast-math, as this project's build files do.
@@ -41,10 +43,10 @@ struct AtomDirections;  // of the engine's inside: a velocity as seen from each 
 ///
 /// Ranges: `beyond` says which scenes are not done (obstacles that overlap their own translates, or are
 /// too small or too slender; very flat cells). Starts beyond 2^51 cells from the origin on the unit
-/// lattices, 2^44 on others, are `undecided`, and so are obstacles beyond 2^53 cells from the place where
-/// they are met.
+/// lattices (is_unit_scene), 2^44 on others, are `undecided`, and so are obstacles beyond 2^53 cells from
+/// the place where they are met. What is undecided, certified.hpp asks the oracle.
 ///
-/// Cost: some 100 ns a flight in 2D and 500 ns in 3D at r = 0.1, about 10 ns and 100 ns more for each
+/// Cost: some 85 ns a flight in 2D and 420 ns in 3D at r = 0.1, about 13 ns and 115 ns more for each
 /// factor of ten in 1/r (docs/speed.md); the constructor reduces the lattices and looks at every atom.
 ///
 /// Source: this project. docs/reduction.md explains the method, docs/bounds.md why its decisions can be
@@ -54,7 +56,8 @@ class Reduction : public Engine {
   /// With the fused multiply-add if the processor has it, or as if it had not: the same answers, to the bit.
   enum class Processor { this_one, without_fma };
 
-  /// For a scene without flaws (flaw_of). Throws std::invalid_argument for one that is beyond the engine.
+  /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
+  /// std::invalid_argument for one that is beyond the engine.
   explicit Reduction(const Scene& scene, Processor processor = Processor::this_one);
   ~Reduction() override;
 
@@ -74,15 +77,16 @@ class Reduction : public Engine {
   ///
   /// `max_time` only cuts the search short, and `later` is not used: of a flight with nothing before it the
   /// outcome is `never`, or a `hit` after it, of an obstacle that need not be the first.
-  /// limited(answer_of(flight), max_time) says `later` for both.
+  /// limited(answer_of(flight), max_time) says `later` for both. `first_hit`, which all engines
+  /// have, does that, and checks the query besides.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
   /// One velocity, prepared: for many particles that share it, the lattices are reduced once.
   class Direction;
 
-  /// The lattices, reduced along v: finite, and not zero. Keep the engine as long as the direction. Then a
-  /// flight costs a third (3D) to a half (2D) of the time. Allocates.
+  /// The lattices, reduced along v: finite, and not zero. For this engine only: keep it as long as the
+  /// direction. Then a flight costs a third (3D) to a half (2D) of the time. Allocates.
   Direction direction(const Vec& v) const;
   /// The same for a prepared velocity; to the bit. `from`: as in Query, or null.
   Flight fly(const Direction& direction, const Vec& x, const ObstacleId* from = nullptr,
@@ -97,7 +101,8 @@ class Reduction : public Engine {
   std::unique_ptr<const Model> model_;
 };
 
-/// A velocity with all that the engine makes of it once. Cheap to copy; its copies share what was prepared.
+/// A velocity with all that one engine makes of it once; nothing until the engine's `direction` made it.
+/// Cheap to copy; its copies share what was prepared.
 class Reduction::Direction {
  private:
   friend class Reduction;

@@ -12,7 +12,7 @@ enum class Verdict {
   agree,        ///< the same outcome and the same obstacle, the time within its tolerance
   ill_posed,    ///< another one, but the inputs need to move by no more than k ulps each for it to be right
   wrong,        ///< another one, and not so; or a time off by more than k times its condition
-  undecided,    ///< it said that it does not know
+  undecided,    ///< it said that it does not know, or `later`
   unsupported,  ///< it said that it does not do this kind of query
   error,        ///< it said that the query is invalid, or it broke
   missing       ///< there is no answer
@@ -40,7 +40,8 @@ struct Judgement {
 ///     right (to first order, docs/verdicts.md); `ill_posed` one that some such movement does.
 ///     held by "Each answer gets its verdict",
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
-///  2. A time is wrong if it errs by more than `ulps` times the condition of the time, in its ulps.
+///  2. A time is wrong if it errs, in its ulps, by more than `ulps` and by more than `ulps` times the
+///     condition of the time.
 ///     held by "Errors of the time are counted in ulps, and judged by the condition"
 ///  3. Any number of threads may ask one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"

@@ -1,4 +1,4 @@
-// Binary64 values as what they are: integers times powers of two. Private to oracle/.
+// Binary64 values as what they are: integers times powers of two. Private to oracle/ and fuzz/rewording.
 #pragma once
 
 #include <algorithm>

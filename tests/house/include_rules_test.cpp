@@ -17,7 +17,8 @@ namespace {
 const fs::path kRoot = LORENTZ_SOURCE_DIR;
 using Names = std::vector<std::string>;
 
-/// A folder with sources. Besides its own headers and the standard library its files may include ..
+/// A folder with sources, a room of the house. Besides its own headers and the standard library its files may
+/// include ..
 struct Room {
   std::string folder;
   Names open_doors;  ///< .. the public headers, <lorentz/..>, of these rooms,
@@ -56,7 +57,8 @@ const std::vector<Room> kHouse{
     {"oracle", {"src/problem"}, {"oracle/integers", "oracle/exact", "oracle/first_hit"}, {}},
     {"oracle/walk", {"src/problem"}, {}, {"CGAL/ walk.cpp"}},
     {"oracle/certified", {"src/problem", "src/engines/base", "src/engines/reduction", "oracle"}, {}, {}},
-    // From here on the oracle is seen by its public headers, and its libraries not at all.
+    // From here on the oracle is seen by its public headers, and its libraries not at all; but for
+    // fuzz/rewording, which adds with its integers.
     {"cases", {"src/problem", "oracle", "oracle/certified"}, {}, {"Random123/ random.cpp"}},
     {"cases/families", {"src/problem", "oracle"}, {"cases"}, {}},
     {"compare",
