@@ -86,7 +86,8 @@ class Reduction : public Engine {
   class Direction;
 
   /// The lattices, reduced along v: finite, and not zero. For this engine only: keep it as long as the
-  /// direction. Then a flight costs a third (3D) to a half (2D) of the time. Allocates.
+  /// direction. Then a flight costs some 57 ns (2D) or 200 ns (3D), whatever the radius.
+  /// Allocates.
   Direction direction(const Vec& v) const;
   /// The same for a prepared velocity; to the bit. `from`: as in Query, or null.
   Flight fly(const Direction& direction, const Vec& x, const ObstacleId* from = nullptr,
