@@ -64,7 +64,7 @@ TEST_CASE("dense-layers: a radius spans many spacings, and the oracle is walk an
     if (exact.outcome == Outcome::hit && lattice.atoms.size() == 3) ++hits_of_atom[exact.obstacle.atom];
   });
   CHECK(sparsest > 4);
-  CHECK(densest > 16);
+  CHECK(densest > 20);  // 24 seen
   CHECK(decided > 0.8 * cases);
   CHECK(hits > 0.6 * cases);
   // None is always above the others.
@@ -91,8 +91,8 @@ TEST_CASE("slender: flights along the long axis of what is slender, and nobody i
     own += exact.outcome == Outcome::hit && exact.obstacle.cell == Cell{};
   });
   CHECK(lengthwise > 1900);  // 2 381 seen
-  CHECK(slenderest > 2048);
-  CHECK(own > edge / 8);  // the obstacle aimed at is met, and passed
+  CHECK(slenderest > 2700);  // 3 452 seen
+  CHECK(own > edge / 8);     // the obstacle aimed at is met, and passed
   CHECK(own < edge * 7 / 8);
   // Half of the scenes, whose needles overlap, are beyond the fast engine.
   CHECK(undecided < 1500);  // 1 052 seen

@@ -75,6 +75,6 @@ TEST_CASE("A superposition is drawn from a box of 1000 cells", "[compare][sampli
   double widest = 0;
   for (const Query& query : draw_queries(scene, oracle::Oracle(scene), 1, 1000))
     widest = std::max(widest, query.x[0]);
-  CHECK(widest > 35);
+  CHECK(widest > 35);  // 39.9 seen, of 40
   CHECK(widest < 40);
 }
