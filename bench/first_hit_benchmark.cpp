@@ -119,8 +119,8 @@ void channel(benchmark::State& state, const Scene& scene, Query query) {
 
 void near_rational(benchmark::State& state, const Scene& scene) {
   fly(state, scene,
-      compare::hard_queries(compare::Difficulty::near_rational, scene, oracle::Oracle(scene), compare::kDefaultSeed,
-                        kQueries));
+      compare::hard_queries(compare::Difficulty::near_rational, scene, oracle::Oracle(scene),
+                            compare::kDefaultSeed, kQueries));
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct Mean {
 Mean mean_free_path(int dimension, double r, int count, std::uint64_t seed) {
   const oracle::Oracle oracle(unit_scene(dimension, r));
   double sum = 0, sum2 = 0;
-  for (const Query& query : compare::draw_leaving_queries(dimension, r, seed, static_cast<std::size_t>(count))) {
+  for (const Query& query :
+       compare::draw_leaving_queries(dimension, r, seed, static_cast<std::size_t>(count))) {
     const Answer answer = oracle.first_hit(query);
     REQUIRE(answer.outcome == Outcome::hit);
     sum += *answer.time;
