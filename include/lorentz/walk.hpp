@@ -1,5 +1,6 @@
 // The second oracle: cell by cell, exact, slow, without any cleverness. It exists to catch the first one, and
-// shares nothing with it but the problem statement: neither code nor arithmetic (CGAL's MP_Float, not GMP).
+// shares nothing with it but the problem statement: neither code nor arithmetic. It computes with another
+// library's numbers.
 #pragma once
 
 #include <cstdint>

@@ -247,6 +247,18 @@ TEST_CASE("Public headers show their room's open doors and the standard library"
   CHECK(headers == kPublic.size());
 }
 
+TEST_CASE("Public headers name no library, not even in comments, and no void*", "[house]") {
+  static const std::regex kForeign(
+      R"(\b(gmp|mpfr|mpz|mpq|cgal|boost|simdjson|eigen|sqlite|openssl)|void *\*)", std::regex::icase);
+  for (const fs::path& file : sources("include/lorentz")) {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+      INFO(file << ": " << line);
+      CHECK_FALSE(std::regex_search(line, kForeign));
+    }
+  }
+}
+
 // Of `lorentz_library(NAME .. PUBLIC a b PRIVATE c)` the targets named lorentz_*, but its own.
 std::set<std::string> linked_by(const fs::path& cmake_lists) {
   std::ifstream in(cmake_lists);
