@@ -39,6 +39,7 @@ Family nearby();
 Family unequal_radii();
 Family dense_rows();
 Family far_starts();
+Family skewed_cells();
 Family specks();
 
 }  // namespace lorentz::cases

@@ -4,9 +4,10 @@
 // An engine takes a start to its home cell, x - U n with n the nearest integers to U^-1 x. Where x is far and
 // U is no short number, n itself is off in the last bits of the quotient: near the boundary between two cells
 // by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour's. So:
-// radii within 2^-1 to 2^-40 of half the cell, often about the error of a quotient of 2^43, starts midway
-// between two neighbours or on an obstacle's edge towards the next, the other coordinates exactly or nearly
-// those of a row of centres.
+// radii within 2^-1 to 2^-40 of half the cell, starts midway between two neighbours or on an obstacle's edge
+// towards the next, the other coordinates exactly or nearly those of a row of centres; and every other time
+// just so far out that a quotient errs by about the gap between the obstacles.
+#include <algorithm>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -37,13 +38,24 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   std::array<Vec, 3> vectors{};
   for (int i = 0; i < dimension; ++i)
     vectors[i][i] = i == 0 || drawn.one_in(2) ? size : size * drawn.between(1, 2);
-  const double gap = drawn.one_in(4) ? drawn.octave(-40, -1) : drawn.between(0.001, 0.008);
+  const double gap = drawn.one_in(3) ? drawn.octave(-40, -1) : drawn.octave(-9, -8);
   return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
 }
 
-// So many cells out along one vector; along all of them in every third case.
-IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, std::vector<std::string>& tags) {
-  const auto size = std::int64_t{1} << (random.one_in(4) ? random.integer(10, 50) : random.integer(42, 44));
+// What part of the way between the centres of two neighbours along a vector lies outside both; at most 1/2.
+double gap_along(const Vec& u, const Atom& atom) {
+  return atom.is_ball() ? std::clamp(1 - 2 * atom.radius / length(u), 0x1p-40, 0.5) : 0x1p-8;
+}
+
+// 2^this many cells out a quotient of 53 bits errs by about the gap.
+int matching_distance(double gap) {
+  return std::min(53 + std::ilogb(gap), 44);
+}
+
+// Up to 2^this many cells out along one vector; along all of them in every third case.
+IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, int bits,
+                  std::vector<std::string>& tags) {
+  const auto size = std::int64_t{1} << bits;
   IntVec cell{};
   const bool all = random.one_in(3);
   tags.push_back(all ? "anywhere" : "along-a-row");
@@ -59,14 +71,19 @@ Case make_far_start(Source& source) {
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
   const std::uint64_t along = random.below(static_cast<std::uint64_t>(dimension));
-  const IntVec cell = drawn_cell(random, dimension, along, made.tags);
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   const Vec& u = lattice.vectors[along];
+  const double gap = gap_along(u, atom);
+  const bool matching = random.one_in(2);
+  if (matching) made.tags.push_back("matching");
+  const auto bits =
+      static_cast<int>(matching ? matching_distance(gap) + random.integer(-1, 0) : random.integer(10, 50));
+  const IntVec cell = drawn_cell(random, dimension, along, bits, made.tags);
   const bool midway = random.one_in(2) || !atom.is_ball();
   made.tags.push_back(midway ? "midway" : "edge");
   const double off = random.one_in(4)   ? 0
                      : random.one_in(4) ? random.octave(-40, -6)
-                                        : random.between(0, 0.008);  // about what a quotient of 2^43 errs by
+                                        : random.between(gap, 2 * gap);
   const double arm = (midway ? 0.5 : atom.radius / length(u)) * (1 + off * random.sign());
   made.query.x = sum(sum(atom.position, cartesian(lattice, cell)), scaled(u, arm * random.sign()));
   if (random.one_in(4))
@@ -84,6 +101,7 @@ Family far_starts() {
            {"crystal", "another lattice, or several obstacles a cell, of such a size"},
            {"along-a-row", "far away along one lattice vector, near the origin along the others"},
            {"anywhere", "far away along all of them"},
+           {"matching", "so far that a quotient of 53 bits errs by about the gap between two obstacles"},
            {"midway", "where two cells meet, to 2^-40 or nearer"},
            {"edge", "at the edge of an obstacle towards the next, to 2^-40 or nearer"}},
           make_far_start};

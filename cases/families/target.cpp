@@ -33,6 +33,7 @@ const std::vector<Target>& targets() {
                                        {"unequal-radii", {unequal_radii()}},
                                        {"dense-rows", {dense_rows()}},
                                        {"far-starts", {far_starts()}},
+                                       {"skewed-cells", {skewed_cells()}},
                                        {"specks", {specks()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},

@@ -383,7 +383,7 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
        {cases::leaving(), cases::scale(), cases::mixture(), cases::rounding(), cases::early(),
         cases::nearly_parallel(), cases::ellipsoid_edges(), cases::drift(), cases::vast_ellipsoids(),
         cases::nearby(), cases::unequal_radii(), cases::dense_rows(), cases::dense_layers(), cases::slender(),
-        cases::far_starts(), cases::specks()}) {
+        cases::far_starts(), cases::skewed_cells(), cases::specks()}) {
     std::map<std::string, int> met;
     for (const cases::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();
