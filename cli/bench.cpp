@@ -1,16 +1,17 @@
 // lorentz bench: speed against error, engines by radii by difficulty.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/compare_table.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
+#include "cli/whole_file.hpp"
 #include "compare/hard_cases.hpp"
 #include "compare/measure.hpp"
 
@@ -37,29 +38,21 @@ constexpr int kRounds = 5;
 // What one engine did over all cells of the table, for the line that says what to conclude.
 struct Summary {
   std::string engine;
-  std::size_t queries = 0, judged = 0, wrong = 0, undecided = 0, skipped = 0;
-  double fastest = 0, slowest = 0, max_ulp = 0;
+  std::size_t skipped = 0;
+  double fastest = 0, slowest = 0;
+  Tally all;
 
   void add(const Tally& t) {
-    queries += t.queries;
-    judged += t.agree + t.ill_posed + t.wrong;
-    wrong += t.wrong;
-    undecided += t.undecided;
-    max_ulp = std::max(max_ulp, t.max_ulp);
+    all.add(t);
     slowest = std::max(slowest, t.ns_median);
     fastest = fastest == 0 ? t.ns_median : std::min(fastest, t.ns_median);
   }
 
   std::string conclusion() const {
-    if (queries == 0) return fmt::format("{}: too slow for every cell of this table", engine);
-    std::string text = fmt::format("{}: {:.0f} to {:.0f} ns, ", engine, fastest, slowest);
-    if (wrong > 0)
-      text += fmt::format("WRONG in {} of {} answers, without saying so", wrong, judged);
-    else
-      text += fmt::format("no wrong answer in {} (with 95 %: fewer than {:.2g} in all such)", judged,
-                          3.0 / static_cast<double>(std::max<std::size_t>(judged, 1)));
-    if (undecided > 0) text += fmt::format("; says 'undecided' in {} of {}", undecided, queries);
-    text += fmt::format("; times at worst {:.3g} ulps off", max_ulp);
+    if (all.queries == 0) return fmt::format("{}: too slow for every cell of this table", engine);
+    std::string text = fmt::format("{}\n  {:.0f} to {:.0f} ns", verdict_of(all), fastest, slowest);
+    if (all.undecided > 0) text += fmt::format("; says 'undecided' in {} of {}", all.undecided, all.queries);
+    text += fmt::format("; times at worst {:.3g} ulps off", all.max_ulp);
     if (skipped > 0) text += fmt::format("; too slow for {} cells", skipped);
     return text;
   }
@@ -67,7 +60,7 @@ struct Summary {
 
 std::string csv_header() {
   return "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,"
-         "wrong,mean_ulp,"
+         "wrong,wrong_time,mean_ulp,"
          "ulp_99_percent,max_ulp\n";
 }
 
@@ -75,7 +68,10 @@ class Report {
  public:
   explicit Report(const Options& options)
       : timeout_(positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout)) {
-    for (const std::string& name : names_in(options.engines)) summaries_.push_back({name});
+    for (const std::string& name : names_in(options.engines)) {
+      Summary& summary = summaries_.emplace_back();
+      summary.engine = summary.all.name = name;
+    }
   }
 
   // One cell: all engines over the same queries, as many as the slowest of them can do in the time.
@@ -89,7 +85,7 @@ class Report {
       first = false;
       if (count < kFewest) {
         ++summary.skipped;
-        table_.add({what, summary.engine, "-", "too slow", "", "", "", "", "", ""});
+        table_.add({what, summary.engine, "-", "too slow", "", "", "", "", "", "", ""});
         continue;
       }
       CaseSet set = all;
@@ -101,12 +97,12 @@ class Report {
       summary.add(t);
       table_.add({what, summary.engine, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
                   fmt::format("{:.0f}-{:.0f}", t.ns_low, t.ns_high), std::to_string(t.undecided),
-                  std::to_string(t.wrong), fmt::format("{:.3g}", t.mean_ulp()),
+                  std::to_string(t.wrong), std::to_string(t.wrong_time), fmt::format("{:.3g}", t.mean_ulp()),
                   fmt::format("{:.3g}", t.ulp_at(0.99)), fmt::format("{:.3g}", t.max_ulp)});
-      csv_ +=
-          fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{:.4g},{:.4g},{:.4g}\n", scene_name,
-                      radius, name_of(difficulty), t.name, t.queries, t.ns_per_query, t.ns_median, t.ns_low,
-                      t.ns_high, t.undecided, t.wrong, t.mean_ulp(), t.ulp_at(0.99), t.max_ulp);
+      csv_ += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{:.4g},{:.4g},{:.4g}\n",
+                          scene_name, radius, name_of(difficulty), t.name, t.queries, t.ns_per_query,
+                          t.ns_median, t.ns_low, t.ns_high, t.undecided, t.wrong, t.wrong_time, t.mean_ulp(),
+                          t.ulp_at(0.99), t.max_ulp);
     }
   }
 
@@ -138,8 +134,8 @@ class Report {
   double timeout_;
   bool failed_ = false;  // another program broke
   std::vector<Summary> summaries_;
-  Table table_{{"queries", "engine", "number", "ns", "quartiles", "undecided", "wrong", "mean ulp",
-                "99 % ulp", "max ulp"}};
+  Table table_{{"queries", "engine", "number", "ns", "quartiles", "undecided", "wrong", "wrong time",
+                "mean ulp", "99 % ulp", "max ulp"}};
   std::string csv_ = csv_header();
 };
 
@@ -156,11 +152,8 @@ int act(const Options& options) {
   for (const std::string& name : names_in(options.engines)) check_name(name);
   const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   const std::uint64_t count = whole_number(options.count, "--count", kFewest, 10'000'000);
-  std::ofstream csv;
-  if (options.csv) {
-    csv.open(*options.csv);
-    if (!csv) throw FileError(*options.csv + ": cannot be written");
-  }
+  std::optional<WholeFile> csv;
+  if (options.csv) csv.emplace(*options.csv);
   Report report(options);
   for (const std::string& name : options.scenes)
     for (const std::string& radius : radii_of(options, name))
@@ -176,7 +169,10 @@ int act(const Options& options) {
       }
   print(fmt::format("Speed against error, one thread (seed {}).\n\n", seed));
   report.show();
-  if (options.csv && !(csv << report.csv()).flush()) throw FileError(*options.csv + ": cannot be written");
+  if (csv) {
+    csv->write(report.csv());
+    csv->commit();
+  }
   return report.failed() ? kFailed : kDone;
 }
 

@@ -1,4 +1,5 @@
 // lorentz compare: engines, and answers logged elsewhere, against the oracle.
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -10,6 +11,7 @@
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
+#include "cli/reason.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "compare/measure.hpp"
@@ -27,7 +29,8 @@ struct Options {
   std::vector<std::string> engines, answers;
   std::optional<std::string> scene, radius, queries, disagreements, ulps, timeout;
   std::string count = "10000", seed = std::to_string(kDefaultSeed);
-  bool json = false, strict = false, no_oracle = false;
+  std::string failures = "3";
+  bool json = false, strict = false, times = false, no_oracle = false;
 };
 
 CaseSet read_cases(const std::string& path, std::optional<Scene> initial, bool& bad_input) {
@@ -126,8 +129,7 @@ Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& 
     const oracle::Judgement judgement =
         judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], answer, ulps);
     tally.count(judgement);
-    if (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed)
-      on_wrong(set.cases[i], exact[i], logged.name, answer, judgement);
+    if (departs(judgement)) on_wrong(set.cases[i], exact[i], logged.name, answer, judgement);
   }
   return tally;
 }
@@ -140,6 +142,22 @@ void check_matches(const std::string& file, const Tally& tally, std::size_t answ
     bad_input = true;
     say("{}: no answer matches any query; is it the right file?", file);
   }
+}
+
+// Median, 99 % and largest; null of nothing.
+void append_spread(std::string& out, const char* key, const std::vector<double>& values) {
+  out += fmt::format(",\"{}\":", key);
+  if (values.empty()) {
+    out += "null";
+    return;
+  }
+  const std::pair<const char*, double> parts[] = {
+      {"{\"median\":", 0.5}, {",\"p99\":", 0.99}, {",\"max\":", 1}};
+  for (const auto& [text, part] : parts) {
+    out += text;
+    append_number(out, quantile(values, part));
+  }
+  out += '}';
 }
 
 std::string json_of(const std::string& scene, const std::string& seed, const std::vector<Tally>& tallies,
@@ -166,7 +184,10 @@ std::string json_of(const std::string& scene, const std::string& seed, const std
     measured(t.ns_per_query, t.ns_per_query > 0);
     out += ",\"ns_median\":";
     measured(t.ns_median, t.ns_per_query > 0);
-    out += ",\"wrong_time\":" + count(t.wrong_time) + '}';
+    out += ",\"wrong_time\":" + count(t.wrong_time);
+    append_spread(out, "wrong_time_ulps", t.wrong_ulps);
+    append_spread(out, "wrong_time_conditions", t.wrong_conditions);
+    out += '}';
   }
   return out + "]}\n";
 }
@@ -191,14 +212,62 @@ std::string title(const Options& options, const CaseSet& set) {
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
 
-int exit_status(const std::vector<Tally>& tallies, bool strict, bool bad_input) {
+int exit_status(const std::vector<Tally>& tallies, const Options& options, bool bad_input) {
   for (const Tally& t : tallies)
     if (t.failed) return kFailed;
   if (bad_input) return kBadInput;
   for (const Tally& t : tallies)
-    if (t.wrong > 0 || (strict && t.ill_posed + t.undecided > 0)) return kDisagreement;
+    if (t.wrong > 0 || (options.times && t.wrong_time > 0) ||
+        (options.strict && t.ill_posed + t.undecided > 0))
+      return kDisagreement;
   return kDone;
 }
+
+// What departs from the exact answers: to the file, and the first wrong ones of each engine for people.
+class Departures {
+ public:
+  Departures(const Options& options, const CaseSet& set)
+      : times_(options.times),
+        most_(static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000))),
+        set_(set),
+        file_(options.disagreements) {
+    file_.begin(set);
+  }
+
+  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given,
+           const oracle::Judgement& judgement) {
+    if (judgement.wrong_time && !times_) return;
+    file_.add(one, exact, name, given, judgement);
+    if (judgement.verdict != oracle::Verdict::wrong || listed_[name]++ >= most_) return;
+    const Scene& scene = set_.scenes[one.scene];
+    text_[name] += description(one, exact, given, scene) +
+                   reason_of(oracle::Margins(scene), scene, one.query, exact, given, "    ");
+  }
+
+  /// The first wrong answers of an engine, for people; empty if there are none.
+  std::string text_of(const std::string& name) const {
+    const auto found = text_.find(name);
+    return found == text_.end() ? "" : found->second;
+  }
+  void close() { file_.close(); }
+
+ private:
+  static std::string description(const Case& one, const Answer& exact, const Answer& given,
+                                 const Scene& scene) {
+    std::string query, truth, says;
+    append_query_line(query, one.id, one.query, scene.dimension);
+    append_answer_line(truth, one.id, exact, scene.dimension);
+    append_answer_line(says, one.id, given, scene.dimension);
+    return fmt::format("  {}    says  {}    truth {}", query, says, truth);
+  }
+
+  const bool times_;
+  const std::size_t most_;
+  const CaseSet& set_;
+  DisagreementFile file_;
+  std::map<std::string, std::size_t> listed_;
+  std::map<std::string, std::string> text_;
+};
 
 // The cases that were asked for: drawn, or read from a stream.
 CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
@@ -212,7 +281,8 @@ CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
   return options.queries ? read_cases(*options.queries, scene, bad_input) : draw_cases(*scene, seed, count);
 }
 
-void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies) {
+void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies,
+          const Departures& departures) {
   const std::string seed_text = std::to_string(seed);
   if (options.json) {
     print(json_of(title(options, set), seed <= 1ull << 53 ? seed_text : json_quoted(seed_text), tallies,
@@ -223,6 +293,11 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
   print(fmt::format("{}: {} {} queries{}\n\n{}", title(options, set), set.cases.size(),
                     drawn ? "drawn" : "given", drawn ? ", seed " + seed_text : "",
                     table_of(tallies, !options.no_oracle)));
+  if (options.no_oracle) return;
+  for (const Tally& t : tallies) {
+    const std::string text = departures.text_of(t.name);
+    print(fmt::format("\n{}\n{}{}", verdict_of(t), text.empty() ? "" : "  The first wrong answers:\n", text));
+  }
 }
 
 int act(const Options& options) {
@@ -242,11 +317,10 @@ int act(const Options& options) {
   bool bad_input = false;
   const CaseSet set = cases_of(options, seed, bad_input);
   if (!all_logged.empty()) check_ids(set, bad_input);
-  DisagreementFile disagreements(options.disagreements);
-  disagreements.begin(set);
+  Departures departures(options, set);
   const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
                                const Answer& given, const oracle::Judgement& judgement) {
-    disagreements.add(one, exact, name, given, judgement);
+    departures.add(one, exact, name, given, judgement);
   };
   const std::vector<Answer> exact =
       options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal());
@@ -256,9 +330,9 @@ int act(const Options& options) {
     tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, ulps, bad_input));
     check_matches(logged.file, tallies.back(), answers.size(), bad_input);
   }
-  disagreements.close();
-  show(options, set, seed, tallies);
-  return exit_status(tallies, options.strict, bad_input);
+  departures.close();
+  show(options, set, seed, tallies, departures);
+  return exit_status(tallies, options, bad_input);
 }
 
 }  // namespace
@@ -270,7 +344,8 @@ void add_compare(CLI::App& app, Action& action) {
                                          "oracle: right or wrong, error, speed.");
   command
       ->add_option("-e,--engine", options->engines,
-                   names_for_help() + "; several with commas between them, or once each")
+                   names_for_help() +
+                       "; several with commas between them, or once each (default: classical,published)")
       ->type_name("E");
   command
       ->add_option("--answers", options->answers,
@@ -288,7 +363,7 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--seed", options->seed, "of the drawn queries")->capture_default_str()->type_name("N");
   command
       ->add_option("--disagreements", options->disagreements,
-                   "write each wrong or ill-posed answer there, as a query stream")
+                   "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream")
       ->type_name("FILE");
   command
       ->add_option(
@@ -298,12 +373,16 @@ void add_compare(CLI::App& app, Action& action) {
       ->type_name("K");
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
+  command->add_option("--failures", options->failures, "show so many wrong answers of each engine")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag("--times", options->times, "wrong times count: exit status 1, and in --disagreements");
   command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
   command->footer(
-      "wrong: no error of k ulps in the inputs explains the answer, or its time is off by more than k times "
-      "what such "
-      "errors make of it (docs/verdicts.md).\n"
+      "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
+      "right obstacle,\n"
+      "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
       "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
       "thread; "
       "of a cmd: engine by the wall, pipes included."

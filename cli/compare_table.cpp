@@ -2,21 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <lorentz/margin.hpp>
 #include "cli/numbers.hpp"
 #include "cli/table.hpp"
 
 namespace lorentz::cli {
 
 using namespace compare;
-
-double tolerance(const std::optional<std::string>& text) {
-  const double ulps = positive_number(text, "--ulps").value_or(oracle::kDefaultUlps);
-  if (ulps > oracle::kLargestMargin)
-    throw InputError(
-        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
-  return ulps;
-}
 
 namespace {
 
@@ -38,18 +29,36 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
       table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
     return table.text();
   }
-  Table table({"engine", "queries", "agree", "ill-posed", "wrong", "in time only", "undecided", "unsupported",
+  Table table({"engine", "queries", "agree", "ill-posed", "wrong", "wrong time", "undecided", "unsupported",
                "error", "missing", "max ulp", "mean ulp", "ns/query", "ns median"});
   for (const Tally& t : tallies) {
-    const std::size_t judged_answers = t.agree + t.ill_posed + t.wrong;
+    const std::size_t answers = t.agree + t.ill_posed + t.wrong;
     table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), std::to_string(t.ill_posed),
-               share(t.wrong, judged_answers), std::to_string(t.wrong_time), std::to_string(t.undecided),
+               share(t.wrong, answers), share(t.wrong_time, answers), std::to_string(t.undecided),
                std::to_string(t.unsupported), std::to_string(t.error), std::to_string(t.missing),
                t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
                t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.ns_per_query),
                nanoseconds(t.ns_median)});
   }
   return table.text();
+}
+
+std::string verdict_of(const Tally& t) {
+  const std::size_t answers = t.agree + t.ill_posed + t.wrong;
+  if (answers == 0) return fmt::format("{}: no answer to judge", t.name);
+  std::string text = t.wrong
+                         ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
+                         : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)",
+                                       t.name, answers, 300.0 / static_cast<double>(answers));
+  if (t.wrong_time == 0) return text;
+  const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
+  return text +
+         fmt::format(
+             "\n  {} wrong times of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} "
+             "(largest);\n"
+             "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
+             t.wrong_time, at(t.wrong_ulps, 0.5), at(t.wrong_ulps, 0.99), at(t.wrong_ulps, 1),
+             at(t.wrong_conditions, 0.5), at(t.wrong_conditions, 0.99), at(t.wrong_conditions, 1));
 }
 
 }  // namespace lorentz::cli

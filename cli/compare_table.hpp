@@ -1,7 +1,6 @@
-// What engines came to beside the oracle, for people; and the tolerance that people ask for.
+// What engines came to beside the oracle, for people.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +8,10 @@
 
 namespace lorentz::cli {
 
-/// The tolerance k of the verdicts, as given on the command line. Throws InputError.
-double tolerance(const std::optional<std::string>& ulps);
-
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<compare::Tally>& tallies, bool judged);
+
+/// In a line what to make of a tally's answers: how many are wrong, and what its wrong times are worth.
+std::string verdict_of(const compare::Tally& tally);
 
 }  // namespace lorentz::cli

@@ -1,7 +1,6 @@
 #include "cli/disagreement_file.hpp"
 
-#include <cerrno>
-#include <cstring>
+#include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
 
@@ -10,14 +9,7 @@ namespace lorentz::cli {
 using namespace compare;
 
 DisagreementFile::DisagreementFile(const std::optional<std::string>& path) {
-  if (!path) return;
-  path_ = *path;
-  file_ = std::fopen(path_.c_str(), "w");
-  if (!file_) throw FileError(path_ + ": " + std::strerror(errno));
-}
-
-DisagreementFile::~DisagreementFile() {
-  if (file_) std::fclose(file_);
+  if (path) file_.emplace(*path);
 }
 
 void DisagreementFile::begin(const CaseSet& set) {
@@ -28,7 +20,7 @@ void DisagreementFile::begin(const CaseSet& set) {
 void DisagreementFile::write_scene(std::size_t scene) {
   std::string out;
   append_scene_line(out, set_->scenes[scene]);
-  std::fputs(out.c_str(), file_);
+  file_->write(out);
   scene_ = scene;
 }
 
@@ -41,8 +33,10 @@ void DisagreementFile::add(const Case& one, const Answer& exact, const std::stri
   append_query_line(out, one.id, one.query, dimension);
   out.resize(out.size() - 2);  // "}\n": the object goes on
   out += ",\"engine\":" + json_quoted(name);
-  out += judgement.verdict == oracle::Verdict::wrong ? ",\"verdict\":\"wrong\",\"departs\":"
-                                                     : ",\"verdict\":\"ill-posed\",\"departs\":";
+  const char* verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
+                        : judgement.wrong_time                      ? "wrong-time"
+                                                                    : "ill-posed";
+  out += fmt::format(",\"verdict\":\"{}\",\"departs\":", verdict);
   append_number(out, judgement.departs);
   out += ",\"expected\":";
   append_answer_line(out, one.id, exact, dimension);
@@ -50,15 +44,12 @@ void DisagreementFile::add(const Case& one, const Answer& exact, const std::stri
   out += "\"given\":";
   append_answer_line(out, one.id, given, dimension);
   out.back() = '}';
-  std::fputs((out + '\n').c_str(), file_);
+  file_->write(out + '\n');
 }
 
 void DisagreementFile::close() {
-  if (!file_) return;
-  const bool failed = std::ferror(file_) != 0;
-  const bool not_closed = std::fclose(file_) != 0;
-  file_ = nullptr;
-  if (failed || not_closed) throw FileError(path_ + ": writing failed");
+  if (file_) file_->commit();
+  file_.reset();
 }
 
 }  // namespace lorentz::cli

@@ -87,13 +87,7 @@ fuzz::Plan plan_of(const Options& options) {
   plan.counts.times = options.times;
   plan.counts.undecided =
       options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
-  if (options.ulps != "0")  // which allows for nothing
-    plan.counts.ulps = positive_number(options.ulps, "--ulps").value_or(oracle::kDefaultUlps);
-  else
-    plan.counts.ulps = 0;
-  if (plan.counts.ulps > oracle::kLargestMargin)
-    throw InputError(fmt::format("--ulps: {} is above {}, up to which margins are known", plan.counts.ulps,
-                                 oracle::kLargestMargin));
+  plan.counts.ulps = tolerance(options.ulps);
   return plan;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
+#include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "compare/measure.hpp"
@@ -28,7 +29,7 @@ struct Options {
   std::vector<std::string> engines, sets;
   std::optional<std::string> ulps, timeout, id, first;
   std::string failures = "10";
-  bool strict = false, json = false, markdown = false;
+  bool strict = false, times = false, json = false, markdown = false;
 };
 
 struct Failure {
@@ -37,6 +38,7 @@ struct Failure {
   std::optional<double> margin;
   Answer expect, given;
   int dimension;
+  std::string reason;  // why, in words
 };
 
 // One engine's tally of a set, and of each of its tags.
@@ -59,9 +61,10 @@ oracle::Judgement judge_error(const Answer& given) {
 // Asks an engine the questions of a set and judges the answers as they come.
 class Examination {
  public:
-  Examination(std::string engine, double ulps, double timeout, std::size_t most_failures)
+  Examination(std::string engine, double ulps, bool times, double timeout, std::size_t most_failures)
       : engine_(std::move(engine)),
         ulps_(ulps),
+        times_(times),
         most_failures_(most_failures),
         answerer_(make_answerer(engine_, {{}, timeout, terminal()})) {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
@@ -82,10 +85,10 @@ class Examination {
       if (id && read.record.id != *id) continue;
       if (scene != reader.scene_number()) {
         scene = reader.scene_number();
-        judge_ = std::make_shared<oracle::Judge>(reader.scene());
+        bench_ = std::make_shared<Bench>(reader.scene());
         answerer_->set_scene(reader.scene());
       }
-      open_.push_back({std::move(read.record), judge_, read.query, reader.scene().dimension});
+      open_.push_back({std::move(read.record), bench_, read.query});
       const golden::Record& record = open_.back().record;
       if (read.query)
         answerer_->ask(json_quoted(record.id), *read.query);
@@ -101,11 +104,18 @@ class Examination {
   const std::vector<Failure>& failures() const { return failures_; }
 
  private:
+  // A scene and who judges its answers.
+  struct Bench {
+    Scene scene;
+    oracle::Judge judge;
+    oracle::Margins margins;
+    explicit Bench(const Scene& of_scene) : scene(of_scene), judge(of_scene), margins(of_scene) {}
+  };
+
   struct Open {
     golden::Record record;
-    std::shared_ptr<const oracle::Judge> judge;
+    std::shared_ptr<const Bench> bench;
     std::optional<Query> query;
-    int dimension;
   };
 
   void take(Answer& given) {
@@ -113,21 +123,26 @@ class Examination {
     open_.pop_front();
     const golden::Record& record = open.record;
     const oracle::Judgement judgement =
-        open.query ? open.judge->judge(*open.query, record.expect, given, ulps_) : judge_error(given);
+        open.query ? open.bench->judge.judge(*open.query, record.expect, given, ulps_) : judge_error(given);
     tally_.all.count(judgement);
     for (const std::string& tag : record.tags) tally_.by_tag[tag].count(judgement);
-    const bool failed =
-        judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::error;
-    if (failed && failures_.size() < most_failures_)
-      failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_,
-                           judgement, record.margin, record.expect, given, open.dimension});
+    const bool failed = judgement.verdict == oracle::Verdict::wrong ||
+                        judgement.verdict == oracle::Verdict::error || (times_ && judgement.wrong_time);
+    if (!failed || failures_.size() >= most_failures_) return;
+    const Scene& scene = open.bench->scene;
+    failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_, judgement,
+                         record.margin, record.expect, given, scene.dimension, ""});
+    if (open.query && judgement.verdict == oracle::Verdict::wrong)
+      failures_.back().reason =
+          reason_of(open.bench->margins, scene, *open.query, record.expect, given, "    ");
   }
 
   const std::string engine_;
   const double ulps_;
+  const bool times_;
   const std::size_t most_failures_;
   std::unique_ptr<Answerer> answerer_;
-  std::shared_ptr<const oracle::Judge> judge_;
+  std::shared_ptr<const Bench> bench_;
   std::deque<Open> open_;
   std::string set_;
   SetTally tally_;
@@ -141,7 +156,7 @@ std::vector<std::string> cells_of(const std::string& set, const std::string& tag
           std::to_string(t.queries),
           number(t.agree),
           number(t.ill_posed),
-          number(t.wrong - t.wrong_time),
+          number(t.wrong),
           number(t.wrong_time),
           number(t.undecided),
           number(t.unsupported),
@@ -164,8 +179,12 @@ std::string describe(const Failure& failure) {
                                  failure.tags, short_answer(failure.expect, failure.dimension),
                                  short_answer(failure.given, failure.dimension));
   if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
-  if (failure.judgement.wrong_time)
-    text += fmt::format("the time is off by {:.3g} times what an ulp in each input makes\n",
+  const bool of_time = failure.given.outcome == Outcome::hit && failure.expect.outcome == Outcome::hit &&
+                       failure.given.obstacle == failure.expect.obstacle;
+  if (of_time)
+    text += fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time\n",
+                        failure.judgement.wrong_time ? "a wrong time of the right obstacle"
+                                                     : "no time of that collision at all",
                         failure.judgement.departs);
   else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
     text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
@@ -173,8 +192,9 @@ std::string describe(const Failure& failure) {
     text += "the question is a good one\n";
   else
     text += "no error in the inputs explains it\n";
-  return text + fmt::format("    again: lorentz golden check --engine {} --id {} {}\n",
-                            shell_quoted(failure.engine), failure.id, shell_quoted(failure.set));
+  return text + failure.reason +
+         fmt::format("    again: lorentz golden check --engine {} --id {} {}\n", shell_quoted(failure.engine),
+                     failure.id, shell_quoted(failure.set));
 }
 
 std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies) {
@@ -199,6 +219,13 @@ std::string json_of(const std::string& engine, const std::vector<SetTally>& tall
   return out + "]}\n";
 }
 
+// Of all sets together.
+Tally total_of(const std::vector<SetTally>& tallies) {
+  Tally total;
+  for (const SetTally& set : tallies) total.add(set.all);
+  return total;
+}
+
 void show(const std::string& engine, const std::vector<SetTally>& tallies,
           const std::vector<Failure>& failures) {
   Table table(kColumns);
@@ -206,11 +233,16 @@ void show(const std::string& engine, const std::vector<SetTally>& tallies,
     table.add(cells_of(set.all.name, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
+  Tally total = total_of(tallies);
+  table.add(cells_of("total", "", total));
   print(fmt::format("{}\n\n{}\n", engine, table.text()));
-  if (failures.empty()) return;
-  print("The first failures:\n");
-  for (const Failure& failure : failures) print(describe(failure));
-  print("\n");
+  if (!failures.empty()) {
+    print("The first failures:\n");
+    for (const Failure& failure : failures) print(describe(failure));
+    print("\n");
+  }
+  total.name = engine;
+  print(verdict_of(total) + '\n');
 }
 
 // ---- A page of documentation
@@ -221,8 +253,8 @@ std::string troubles(const Tally& t) {
   const auto add = [&](std::size_t n, const char* what) {
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
   };
-  add(t.wrong - t.wrong_time, "wrong");
-  add(t.wrong_time, "wrong in time");
+  add(t.wrong, "wrong");
+  add(t.wrong_time, "wrong times");
   add(t.ill_posed, "ill-posed");
   add(t.undecided, "undecided");
   add(t.unsupported, "unsupported");
@@ -267,12 +299,14 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
   return page + "```\n";
 }
 
-int status_of(const std::vector<SetTally>& tallies, bool strict) {
+int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
   int status = kDone;
   for (const SetTally& set : tallies) {
     const Tally& t = set.all;
     if (set.failed) return kFailed;
-    if (t.wrong > 0 || t.error > 0 || (strict && t.ill_posed + t.undecided > 0)) status = kDisagreement;
+    if (t.wrong > 0 || t.error > 0 || (times && t.wrong_time > 0) ||
+        (strict && t.ill_posed + t.undecided > 0))
+      status = kDisagreement;
   }
   return status;
 }
@@ -293,7 +327,7 @@ int act(const Options& options) {
   std::vector<std::vector<SetTally>> all_tallies;
   std::string pages;
   for (const std::string& engine : engines) {
-    Examination examination(engine, ulps, timeout, most);
+    Examination examination(engine, ulps, options.times, timeout, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
       tallies.push_back(examination.run(file, options.id, first));
@@ -304,7 +338,7 @@ int act(const Options& options) {
       break;
     }
     examination.finish();
-    status = std::max(status, status_of(tallies, options.strict));
+    status = std::max(status, status_of(tallies, options.strict, options.times));
     if (options.json)
       print(json_of(engine, tallies));
     else if (!options.markdown)
@@ -329,7 +363,9 @@ void add_golden_check(CLI::App& golden, Action& action) {
       ->allow_extra_args(false)  // what follows is a set
       ->type_name("E");
   command->add_option("sets", options->sets, "files, or names of committed sets (default: all of these)");
-  command->add_option("--ulps", options->ulps, "the tolerance k of the verdicts (default: 4)")
+  command
+      ->add_option("--ulps", options->ulps,
+                   "the tolerance k of the verdicts; 0 forgives nothing (default: 4)")
       ->type_name("K");
   command->add_option("--first", options->first, "only the first N records of each set")->type_name("N");
   command->add_option("--id", options->id, "only this record")->type_name("ID");
@@ -337,6 +373,7 @@ void add_golden_check(CLI::App& golden, Action& action) {
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
+  command->add_flag("--times", options->times, "wrong times count: exit status 1, and among the failures");
   command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
   command->add_flag("--json", options->json, "one JSON object an engine");
   command->add_flag("--markdown", options->markdown, "a page of documentation: who fails what");

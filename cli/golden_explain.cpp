@@ -5,6 +5,7 @@
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
+#include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "golden/reader.hpp"
 
@@ -15,35 +16,6 @@ struct Options {
   std::string id, most = "12";
   std::vector<std::string> sets;
 };
-
-std::string name_of(const ObstacleId& id, int dimension) {
-  std::string cell;
-  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + id.cell[i].decimal();
-  return fmt::format("lattice {}, atom {}, cell ({})", id.lattice, id.atom, cell);
-}
-
-std::string margin_text(double margin) {
-  return margin >= oracle::kLargestMargin ? "2^20 ulps or more" : fmt::format("{:.6g} ulps", margin);
-}
-
-// The decision that is hardest, in words.
-std::string decision_text(const oracle::HardestDecision& decision, int dimension) {
-  const std::string name = name_of(decision.obstacle, dimension);
-  if (decision.margin >= oracle::kLargestMargin)
-    return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
-  switch (decision.kind) {
-    case oracle::DecisionKind::containing:
-      return fmt::format("The hard decision: does {} contain x? {}, by {}.", name,
-                         decision.yes ? "Yes" : "No", margin_text(decision.margin));
-    case oracle::DecisionKind::meeting:
-      return fmt::format("The hard decision: does the line meet {}? {}, by {}.", name,
-                         decision.yes ? "Yes" : "No", margin_text(decision.margin));
-    case oracle::DecisionKind::order:
-      return fmt::format("The hard decision: is {} entered before the obstacle that is hit? No, by {}.", name,
-                         margin_text(decision.margin));
-  }
-  return "";
-}
 
 std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, const ObstacleId& hit,
                          int dimension) {

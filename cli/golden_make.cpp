@@ -9,6 +9,7 @@
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
+#include "cli/whole_file.hpp"
 #include "compare/sampling.hpp"
 #include "golden/production.hpp"
 
@@ -64,8 +65,9 @@ int make_all(golden::Order order, const std::string& folder) {
     sums += golden::sha256(contents(path)) + "  " + name + '\n';
   }
   const std::string path = (fs::path(folder) / "SHA256SUMS").string();
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << sums << std::flush)) throw FileError(path + ": cannot be written");
+  WholeFile file(path);
+  file.write(sums);
+  file.commit();
   return kDone;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/verdict.hpp>
 
 namespace lorentz::cli {
 
@@ -29,16 +31,32 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
   return value;
 }
 
-std::optional<double> positive_number(const std::optional<std::string>& text, const char* option) {
-  if (!text) return std::nullopt;
-  double value = 0;
+namespace {
+
+double number(const std::string& text, const char* option) {
   try {
-    value = parse_number(*text);
+    return parse_number(text);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
+}
+
+}  // namespace
+
+std::optional<double> positive_number(const std::optional<std::string>& text, const char* option) {
+  if (!text) return std::nullopt;
+  const double value = number(*text, option);
   if (!(value > 0)) throw InputError(fmt::format("{}: must be above zero", option));
   return value;
+}
+
+double tolerance(const std::optional<std::string>& text) {
+  const double ulps = text ? number(*text, "--ulps") : oracle::kDefaultUlps;
+  if (!(ulps >= 0)) throw InputError("--ulps: must not be below zero");
+  if (ulps > oracle::kLargestMargin)
+    throw InputError(
+        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
+  return ulps;
 }
 
 }  // namespace lorentz::cli

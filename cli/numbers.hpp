@@ -15,4 +15,8 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 /// InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
 
+/// The tolerance k of the verdicts (--ulps): zero, which forgives nothing, or more; 4 if it was not given.
+/// Throws InputError.
+double tolerance(const std::optional<std::string>& text);
+
 }  // namespace lorentz::cli

@@ -17,7 +17,6 @@ void Tally::count(const oracle::Judgement& judgement) {
       break;
     case oracle::Verdict::wrong:
       ++wrong;
-      wrong_time += judgement.wrong_time;
       break;
     case oracle::Verdict::undecided:
       ++undecided;
@@ -32,6 +31,11 @@ void Tally::count(const oracle::Judgement& judgement) {
       ++missing;
       break;
   }
+  if (judgement.wrong_time) {
+    ++wrong_time;
+    wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
+    wrong_conditions.push_back(judgement.departs);
+  }
   if (!judgement.ulps) return;
   ++timed_hits;
   ulps.push_back(*judgement.ulps);
@@ -39,9 +43,6 @@ void Tally::count(const oracle::Judgement& judgement) {
   max_ulp = std::max(max_ulp, *judgement.ulps);
 }
 
-namespace {
-
-// The value that this share of the values does not exceed; 0 of none.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto last = static_cast<double>(values.size() - 1);
@@ -50,10 +51,25 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-}  // namespace
+void Tally::add(const Tally& other) {
+  for (const auto count :
+       {&Tally::queries, &Tally::agree, &Tally::ill_posed, &Tally::wrong, &Tally::undecided,
+        &Tally::unsupported, &Tally::error, &Tally::missing, &Tally::wrong_time, &Tally::timed_hits})
+    this->*count += other.*count;
+  failed |= other.failed;
+  max_ulp = std::max(max_ulp, other.max_ulp);
+  sum_ulp += other.sum_ulp;
+  for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
+    (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
+}
 
 double Tally::ulp_at(double share) const {
   return quantile(ulps, share);
+}
+
+bool departs(const oracle::Judgement& judgement) {
+  return judgement.wrong_time || judgement.verdict == oracle::Verdict::wrong ||
+         judgement.verdict == oracle::Verdict::ill_posed;
 }
 
 std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener) {
@@ -176,9 +192,7 @@ class Examination {
     const Case& one = set_.cases[i];
     const oracle::Judgement judgement = judges_[one.scene].judge(one.query, exact_[i], given, ulps_);
     tally.count(judgement);
-    if (on_wrong_ &&
-        (judgement.verdict == oracle::Verdict::wrong || judgement.verdict == oracle::Verdict::ill_posed))
-      on_wrong_(one, exact_[i], tally.name, given, judgement);
+    if (on_wrong_ && departs(judgement)) on_wrong_(one, exact_[i], tally.name, given, judgement);
   }
 
  private:

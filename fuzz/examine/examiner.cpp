@@ -173,7 +173,7 @@ Examined Examiner::judge_unlimited(const Question& question, Reply& reply) {
   const auto too_slow = [&] { return one.work && is_slow(*one.work); };
   switch (judgement.verdict) {
     case oracle::Verdict::wrong:
-      one.kind = !judgement.wrong_time ? Kind::wrong : too_slow() ? Kind::slow : Kind::wrong_time;
+      one.kind = Kind::wrong;
       break;
     case oracle::Verdict::undecided:
       one.kind = Kind::undecided;
@@ -186,13 +186,8 @@ Examined Examiner::judge_unlimited(const Question& question, Reply& reply) {
       one.kind = Kind::error;
       break;
     case oracle::Verdict::ill_posed:
-      if (impl_->ulps == 0) {  // a tie decided the wrong way needs no change of the inputs
-        one.kind = Kind::wrong;
-        break;
-      }
-      [[fallthrough]];
     case oracle::Verdict::agree:
-      one.kind = too_slow() ? Kind::slow : Kind::fine;
+      one.kind = too_slow() ? Kind::slow : judgement.wrong_time ? Kind::wrong_time : Kind::fine;
   }
   return one;
 }

@@ -40,8 +40,7 @@ bool is_tie(const Scene& scene, const oracle::Judge& judge, const Query& query, 
            query.from != other.obstacle;
   if (exact.outcome != Outcome::hit || exact.time != other.time) return false;
   if (exact.obstacle == other.obstacle) return true;
-  const oracle::Judgement judgement = judge.judge(query, exact, other, 0);
-  return judgement.verdict == oracle::Verdict::ill_posed && judgement.departs == 0;
+  return judge.judge(query, exact, other, 0).departs == 0;
 }
 
 }  // namespace lorentz::fuzz

@@ -39,6 +39,14 @@ struct PassedObstacle {
   double margin = 0;  ///< of that decision, in ulps; not limited
 };
 
+/// How near the line of a query comes to one obstacle, whatever else is in the way. Lengths in units of the
+/// obstacle's radius, in the coordinates in which it is a ball.
+struct Approach {
+  double gap = 0;        ///< distance of the line from the obstacle; below 0: the line meets it
+  double start_gap = 0;  ///< distance of x from it; below 0: it contains x
+  bool ahead = true;     ///< the line is nearest to its centre at t > 0
+};
+
 /// How hard the questions of one scene were.
 ///
 ///  1. Inputs that move by less than the margin (each by so many units in its last place) leave the
@@ -70,6 +78,9 @@ class Margins {
   /// The obstacles that the flight of an exact `hit` passed at the smallest distances in units of their
   /// radii, up to and with the one that it hit; in order of time, `most` of them at most.
   std::vector<PassedObstacle> passed(const Query& query, const Answer& exact, std::size_t most) const;
+
+  /// Of an obstacle that must exist.
+  Approach approach(const Query& query, const ObstacleId& obstacle) const;
 
   /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
   /// make. Requires an exact `hit`.

@@ -9,9 +9,9 @@
 namespace lorentz::oracle {
 
 enum class Verdict {
-  agree,        ///< the same outcome and the same obstacle, the time within its tolerance
+  agree,        ///< the same outcome and the same obstacle; `wrong_time` says if not its time
   ill_posed,    ///< another one, but the inputs need to move by no more than k ulps each for it to be right
-  wrong,        ///< another one, and not so; or a time off by more than k times its condition
+  wrong,        ///< another one, and not so; or no time of that obstacle at all (kOtherQuantity)
   undecided,    ///< it said that it does not know, or `later`
   unsupported,  ///< it said that it does not do this kind of query
   error,        ///< it said that the query is invalid, or it broke
@@ -21,6 +21,10 @@ enum class Verdict {
 /// The tolerance k, in ulps of the inputs, unless told otherwise.
 inline constexpr double kDefaultUlps = 4;
 
+/// A time that is off by more than this part of itself times its condition is no rounded time of the
+/// collision but another quantity, and `wrong`.
+inline constexpr double kOtherQuantity = 0x1p-22;
+
 /// What an answer is worth beside the exact one.
 struct Judgement {
   Verdict verdict = Verdict::missing;
@@ -29,9 +33,10 @@ struct Judgement {
   std::optional<double> ulps = {};
   /// Of ill_posed and wrong: by how many ulps the inputs must move at least for the answer to be right. Of
   /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong
-  /// time: the tolerance that it would have needed.
+  /// time, and one that is another quantity: the tolerance that it would have needed, in units of its
+  /// condition.
   double departs = 0;
-  bool wrong_time = false;  ///< `wrong` for the time alone
+  bool wrong_time = false;  ///< of `agree`: the obstacle is right, the time is beyond its tolerance
 };
 
 /// Judges answers to the queries of one scene.
@@ -40,10 +45,15 @@ struct Judgement {
 ///     right (to first order, docs/verdicts.md); `ill_posed` one that some such movement does.
 ///     held by "Each answer gets its verdict",
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
-///  2. A time is wrong if it errs, in its ulps, by more than `ulps` and by more than `ulps` times the
-///     condition of the time.
-///     held by "Errors of the time are counted in ulps, and judged by the condition"
-///  3. Any number of threads may ask one judge.
+///  2. The time of the right obstacle is a wrong time if it errs, in its ulps, by more than `ulps` and by
+///  more
+///     than `ulps` times its condition. That is no `wrong` answer, unless it errs by more than
+///     kOtherQuantity. held by "Errors of the time are counted in ulps, and judged by the condition",
+///             "A time that is off by a good part of itself is no rounding, and wrong"
+///  3. With `ulps` = 0 an answer is the exact one or `wrong`, and a time the correctly rounded one or a wrong
+///     time: not even a tie is forgiven that was decided the other way.
+///     held by "Where no ulp is forgiven an answer is the exact one or wrong"
+///  4. Any number of threads may ask one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Cost: nothing to speak of where the two agree, else 100 us and more.

@@ -241,6 +241,17 @@ std::vector<PassedObstacle> Margins::passed(const Query& query, const Answer& ex
   });
 }
 
+Approach Margins::approach(const Query& query, const ObstacleId& obstacle) const {
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+    const Uncertain<D>& atom = perturbed.atom_of(obstacle);
+    const Centre<D> centre = perturbed.centre_of(obstacle);
+    const auto gap = [](const Z& distance2, const Z& radius2) {
+      return to_double(Real(sqrt(real(distance2)) / sqrt(real(radius2)) - 1), kHuge);
+    };
+    return Approach{gap(centre.h2, atom.rho2()), gap(centre.c2, atom.view().radius2), centre.s > 0};
+  });
+}
+
 double Margins::condition(const Query& query, const Answer& exact) const {
   return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
     return to_double(change_of_time(perturbed, exact.obstacle) / Real(ulp(*exact.time)),

@@ -142,8 +142,8 @@ class DepartureBound {
 struct Judge::Impl {
   PerturbedScene scene;
 
-  // Off by more than k times what an ulp in each input can make of the time, and by more than k of its own
-  // ulps?
+  // The right obstacle. Is the time off by more than k times what an ulp in each input can make of it, and by
+  // more than k of its own ulps? By a good part of itself, even?
   Judgement judge_time(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
     if (!exact.time || !given.time || *given.time == *exact.time) {
@@ -155,18 +155,24 @@ struct Judge::Impl {
       judgement.ulps = off / ulp(*exact.time);
       if (*judgement.ulps <= ulps) return judgement;
     }
-    double excess = kInfinity;
-    if (std::isfinite(*given.time))
-      excess = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-        // The exact time may lie beyond binary64.
-        const Real far = std::isfinite(off)
-                             ? Real(off)
-                             : Real(time_in_own_units(perturbed, exact.obstacle) - Real(*given.time));
-        const Real change = change_of_time(perturbed, exact.obstacle);
-        return to_double(far / std::max(change, Real(ulp(*exact.time))), kHuge);
-      });
-    if (excess > ulps) judgement = {Verdict::wrong, judgement.ulps, excess, true};
-    return judgement;
+    if (!std::isfinite(*given.time)) {
+      judgement.verdict = Verdict::wrong;
+      judgement.departs = kInfinity;
+      return judgement;
+    }
+    return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      // The exact time may lie beyond binary64.
+      const Real time =
+          std::isfinite(*exact.time) ? Real(*exact.time) : time_in_own_units(perturbed, exact.obstacle);
+      const Real far = abs(Real(time - Real(*given.time)));
+      const Real change = std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time)));
+      judgement.departs = to_double(Real(far / change), kHuge);
+      if (judgement.departs <= ulps) return judgement;
+      const bool other_quantity = far * Real(ulp(*exact.time)) > Real(kOtherQuantity) * time * change;
+      judgement.verdict = other_quantity ? Verdict::wrong : Verdict::agree;
+      judgement.wrong_time = !other_quantity;
+      return judgement;
+    });
   }
 };
 
@@ -196,7 +202,8 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
     departs = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       return DepartureBound<D>(perturbed, exact, ulps).departure(given);
     });
-  return {departs <= ulps ? Verdict::ill_posed : Verdict::wrong, {}, departs};
+  const bool forgiven = ulps > 0 && departs <= ulps;  // not a tie either, where nothing is forgiven
+  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, departs};
 }
 
 }  // namespace lorentz::oracle

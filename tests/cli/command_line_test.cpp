@@ -236,6 +236,54 @@ TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file th
   CHECK(contains(json.out, "\"ns_median\":"));
 }
 
+TEST_CASE("compare: a wrong time has its own column, and counts with --times only", "[cli][command_line]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  const auto logged = [&](const std::string& answer, const std::string& more) {
+    const auto answers = folder.write("a", R"({"id":"good",)" + answer + "}\n");
+    return folder.lorentz("compare --queries " + queries + " --answers mine=" + answers + " " + more);
+  };
+  const std::string late = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.25000000001)";
+  CHECK(logged(late, "").status == 0);
+  CHECK(logged(late, "--times").status == 1);
+  const Run json = logged(late, "--json");
+  CHECK(contains(json.out, R"("agree":1,"ill_posed":0,"wrong":0,)"));
+  CHECK(
+      contains(json.out, R"("wrong_time":1,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
+  CHECK(contains(logged(late, "").out, "mine: no wrong answer in 1 "));
+  CHECK(contains(logged(late, "").out, "  1 wrong times of right obstacles: off by "));
+  // Another quantity, such as the time to the obstacle's far side, is no time of that collision.
+  const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
+  CHECK(logged(through, "").status == 1);
+  CHECK(contains(logged(through, "--json").out, R"("agree":0,"ill_posed":0,"wrong":1,)"));
+  // Zero is a tolerance, here as elsewhere.
+  CHECK(logged(late, "--times --ulps 0").status == 1);
+  CHECK(logged(late, "--ulps -1").status == 2);
+  const Run file = logged(late, "--times --disagreements " + folder.file("d"));
+  CHECK(contains(folder.read("d"), R"("verdict":"wrong-time")"));
+  CHECK(logged(late, "--disagreements " + folder.file("d")).status == 0);
+  CHECK(lines(folder.read("d")) == 1);  // the scene alone
+}
+
+TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][command_line]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  const auto logged = [&](const std::string& answer) {
+    const auto answers = folder.write("a", R"({"id":"good",)" + answer + "}\n");
+    return folder.lorentz("compare --queries " + queries + " --answers mine=" + answers).out;
+  };
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[2,0],"time":1.25)"),
+                 "the line meets lattice 0, atom 0, cell (1, 0) by 1 of its radii, and enters it first\n"));
+  CHECK(contains(logged(R"("outcome":"never")"),
+                 "the line meets lattice 0, atom 0, cell (1, 0) by 1 of its radii\n"));
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,1],"time":0.5)"),
+                 "the line misses lattice 0, atom 0, cell (1, 1) by 3 of its radii\n"));
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0)"),
+                 "lattice 0, atom 0, cell (0, 0) lies behind the start\n"));
+  CHECK(contains(logged(R"("outcome":"inside","lattice":0,"atom":0,"cell":[0,0])"),
+                 "x lies outside of lattice 0, atom 0, cell (0, 0) by 1 of its radii\n"));
+}
+
 TEST_CASE("compare judges answers that were logged elsewhere", "[cli][command_line]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood +
@@ -383,6 +431,14 @@ TEST_CASE("bench measures, concludes, and writes its figures", "[cli][command_li
   CHECK(folder.lorentz("bench --engine nobody").status == 2);
   CHECK(folder.lorentz("bench --count 3").status == 2);
   CHECK(folder.lorentz("bench --scene square --radius 0.1 --count 32 --csv /nowhere/speed.csv").status == 3);
+}
+
+TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][command_line]") {
+  const Folder folder;
+  const Run run = folder.lorentz("bench --scene square --radius 0.01 --count 64 --engine published");
+  INFO(run.out);
+  CHECK(contains(run.out, "published: no wrong answer in "));
+  CHECK(contains(run.out, " wrong times of right obstacles: off by "));
 }
 
 TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][command_line]") {

@@ -7,17 +7,31 @@ using namespace lorentz;
 using compare::Tally;
 using oracle::Verdict;
 
-TEST_CASE("A tally counts each verdict, and those that are wrong for the time alone", "[compare][measure]") {
+TEST_CASE("A tally counts each verdict, and wrong times among those that agree", "[compare][measure]") {
   Tally tally;
   for (const Verdict verdict : {Verdict::agree, Verdict::ill_posed, Verdict::undecided, Verdict::unsupported,
                                 Verdict::error, Verdict::missing, Verdict::wrong, Verdict::wrong})
     tally.count({verdict});
-  tally.count({.verdict = Verdict::wrong, .ulps = 9, .departs = 7, .wrong_time = true});
+  tally.count({.verdict = Verdict::agree, .ulps = 9, .departs = 7, .wrong_time = true});
   CHECK(tally.queries == 9);
-  for (const std::size_t once : {tally.agree, tally.ill_posed, tally.undecided, tally.unsupported,
-                                 tally.error, tally.missing, tally.wrong_time, tally.timed_hits})
+  for (const std::size_t once : {tally.ill_posed, tally.undecided, tally.unsupported, tally.error,
+                                 tally.missing, tally.wrong_time, tally.timed_hits})
     CHECK(once == 1);
-  CHECK(tally.wrong == 3);
+  CHECK(tally.wrong == 2);
+  CHECK(tally.agree == 2);
+  CHECK(tally.wrong_ulps == std::vector<double>{9});
+  CHECK(tally.wrong_conditions == std::vector<double>{7});
+  Tally twice = tally;
+  twice.add(tally);
+  CHECK((twice.queries == 18 && twice.agree == 4 && twice.wrong == 4 && twice.wrong_time == 2));
+  CHECK((twice.timed_hits == 2 && twice.sum_ulp == 18 && twice.max_ulp == 9));
+  CHECK(twice.wrong_ulps == std::vector<double>{9, 9});
+}
+
+TEST_CASE("Quantiles: the value that a share does not exceed", "[compare][measure]") {
+  CHECK(compare::quantile({}, 0.5) == 0);
+  CHECK(compare::quantile({3, 1, 2}, 0.5) == 2);
+  CHECK(compare::quantile({3, 1, 2}, 0.99) == 3);
 }
 
 TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of them does not exceed",

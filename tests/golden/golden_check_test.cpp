@@ -55,7 +55,8 @@ TEST_CASE("golden check: exact engines agree, the published one does not", "[gol
   const Run bad = folder.lorentz("golden check " + faults + " --engine published --failures 2");
   CHECK(bad.status == 1);
   CHECK(contains(bad.out, "The first failures:"));
-  CHECK(lines(bad.out.substr(bad.out.find("The first failures"))) == 1 + 2 * 3 + 1);
+  const std::string failures = bad.out.substr(bad.out.find("The first failures"));
+  CHECK(lines(failures.substr(0, failures.find("\n\n"))) == 1 + 2 * 5 - 1);
   CHECK_FALSE(
       contains(folder.lorentz("golden check " + faults + " -e published --failures 0").out, "failures:"));
   // In the plane a cell has two components.
@@ -108,8 +109,9 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   CHECK(cells.status == 1);
   CHECK(contains(cells.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":125,\"wrong_time\":0,"));
   const Run times = checked("a['time'] *= 1 + 1e-9");
-  CHECK(times.status == 1);
-  CHECK(contains(times.out, "\"wrong\":125,\"wrong_time\":125,"));
+  CHECK(times.status == 0);
+  CHECK(contains(times.out, "\"agree\":125,\"ill_posed\":0,\"wrong\":0,\"wrong_time\":125,"));
+  CHECK(checked("a['time'] *= 1 + 1e-9", set + " --times").status == 1);
   const Run nothing = checked("a = {'id': a['id'], 'outcome': 'undecided'}");
   CHECK(nothing.status == 0);
   CHECK(contains(nothing.out, "\"undecided\":125,"));
@@ -141,12 +143,13 @@ TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden
   const auto wrong = [&](const char* ulps) {
     const Run run = folder.lorentz("golden check -e published --json --ulps " + std::string(ulps) + " " +
                                    folder.file("published-faults.ndjson"));
-    return std::stoi(between(run.out, "\"wrong\":", ","));
+    return std::stoi(between(run.out, "\"wrong_time\":", ","));
   };
   CHECK(wrong("1e-3") >= wrong("4"));
   CHECK(wrong("1e6") < wrong("4"));
+  CHECK(wrong("0") >= wrong("1e-3"));
   for (const char* bad :
-       {"", "-e nobody", "-e reduction --ulps 0", "-e reduction --ulps 1e9", "-e reduction --ulps x",
+       {"", "-e nobody", "-e reduction --ulps -1", "-e reduction --ulps 1e9", "-e reduction --ulps x",
         "-e reduction --failures -1", "-e reduction --timeout 0"}) {
     INFO(bad);
     const Run run = folder.lorentz(std::string("golden check ties ") + bad);
@@ -154,6 +157,25 @@ TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden
     CHECK_FALSE(run.err.empty());
   }
   CHECK(folder.lorentz("golden check -e reduction no-such-set").status == 3);
+}
+
+TEST_CASE("golden check says by how much an answer departs, and what all sets come to",
+          "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "published-faults", 100);
+  const Run run =
+      folder.lorentz("golden check -e published --failures 1000 " + folder.file("published-faults.ndjson"));
+  INFO(run.out);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "\ntotal "));
+  CHECK(contains(run.out, " of its radii, and enters it first\n"));
+  CHECK(contains(run.out, "    No decision is hard: inputs moved by 2^20 ulps give the same answer"));
+  const std::string verdict = run.out.substr(run.out.rfind("\npublished: ") + 1);
+  CHECK(verdict.starts_with("published: wrong in "));
+  const int wrong = std::stoi(verdict.substr(std::string("published: wrong in ").size()));
+  std::size_t told = 0;
+  for (std::size_t at = 0; (at = run.out.find(" of its radii", at)) != std::string::npos; ++at) ++told;
+  CHECK(told == static_cast<std::size_t>(wrong));
 }
 
 TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden][golden_check]") {

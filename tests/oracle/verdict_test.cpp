@@ -1,3 +1,4 @@
+#include <lorentz/margin.hpp>
 #include <lorentz/verdict.hpp>
 
 #include <catch2/catch.hpp>
@@ -97,7 +98,7 @@ TEST_CASE("A wrong time departs by no more than its own ulps", "[oracle][verdict
   const Query query{{0.5, 0.5, 0}, {-0.06926965601134438, -0.004098486767561527, 0.9153936903353617}, {}};
   const Answer exact = oracle::Oracle(scene).first_hit(query);
   const auto judgement = judged(scene, query, Answer::hit(exact.obstacle, *exact.time * (1 + 0x1p-40)));
-  CHECK(judgement.verdict == Verdict::wrong);
+  CHECK(judgement.wrong_time);
   CHECK(judgement.departs == Approx(*judgement.ulps));
 }
 
@@ -270,10 +271,11 @@ TEST_CASE("Errors of the time are counted in ulps, and judged by the condition",
   // (x: 2^-52, r: 2^-54 -> 4 (1 + .577) + .283 * 4 + 1.155 = 8.6 of them.
   const double condition = 4 * (1 + std::tan(M_PI / 6)) + 4 * *hit.time + 1 / std::cos(M_PI / 6);
   CHECK(judgement(*hit.time + std::floor(4 * condition) * unit).verdict == Verdict::agree);
-  CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).verdict == Verdict::wrong);
+  CHECK_FALSE(judgement(*hit.time + std::floor(4 * condition) * unit).wrong_time);
+  CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).verdict == Verdict::agree);
   CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).wrong_time);
   CHECK(judgement(*hit.time + std::ceil(4 * condition + 1) * unit).departs == Approx(4).epsilon(0.1));
-  CHECK(judged(kScene, level(0.125), with_time(*hit.time + 30 * unit), 1).verdict == Verdict::wrong);
+  CHECK(judged(kScene, level(0.125), with_time(*hit.time + 30 * unit), 1).wrong_time);
   Answer logged = hit;
   logged.time.reset();
   CHECK_FALSE(judged(kScene, level(0.125), logged).ulps.has_value());
@@ -282,12 +284,47 @@ TEST_CASE("Errors of the time are counted in ulps, and judged by the condition",
   CHECK_FALSE(judged(kScene, level(0.125), Answer::hit(at(2, 0), 1)).ulps.has_value());
 }
 
+TEST_CASE("A time that is off by a good part of itself is no rounding, and wrong", "[oracle][verdict]") {
+  const Answer hit = oracle::Oracle(kScene).first_hit(level(0.125));
+  const double condition = oracle::Margins(kScene).condition(level(0.125), hit);
+  const auto judgement = [&](double part) {
+    return judged(kScene, level(0.125), Answer::hit(at(1, 0), *hit.time * (1 + part)));
+  };
+  REQUIRE(condition == Approx(8.6).epsilon(0.01));
+  for (const double sign : {1.0, -1.0}) {
+    const auto off = judgement(sign * 0.99 * 0x1p-22 * condition),
+               other = judgement(sign * 1.01 * 0x1p-22 * condition);
+    CHECK((off.verdict == Verdict::agree && off.wrong_time));
+    CHECK((other.verdict == Verdict::wrong && !other.wrong_time));
+    CHECK(other.departs > 1e6);
+  }
+  CHECK(judgement(-2).verdict == Verdict::wrong);  // a negative time
+  // Of a hit at t = 0 nothing is left that a wrong time could be a part of.
+  const Query at_once{{0.75, 0}, {1, 0}, {}};
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).verdict == Verdict::agree);
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).verdict == Verdict::wrong);
+}
+
+TEST_CASE("Where no ulp is forgiven an answer is the exact one or wrong", "[oracle][verdict]") {
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].atoms.push_back({{0, 0.125}, 0.25, {}});
+  const Query middle{{0.5, 0.0625}, {1, 0}, {}};  // an exact tie
+  const Answer exact = oracle::Oracle(scene).first_hit(middle);
+  const auto judgement = [&](const Answer& given) { return judged(scene, middle, given, 0); };
+  CHECK(judgement(exact).verdict == Verdict::agree);
+  const auto other = judgement(Answer::hit({0, 1, {1, 0, 0}}, *exact.time));
+  CHECK((other.verdict == Verdict::wrong && other.departs == 0));
+  CHECK(judgement(Answer::hit(exact.obstacle, std::nextafter(*exact.time, 1))).wrong_time);
+}
+
 TEST_CASE("Times beyond the largest binary64: an infinity is right, a small number is not",
           "[oracle][verdict]") {
   const Query slow{{0.5, 0.125}, {1e-320, 0}, {}};
   REQUIRE(std::isinf(*oracle::Oracle(kScene).first_hit(slow).time));
-  const auto verdict = [&](double time) { return judged(kScene, slow, Answer::hit(at(1, 0), time)).verdict; };
-  CHECK(verdict(INFINITY) == Verdict::agree);
-  CHECK(verdict(1) == Verdict::wrong);
-  CHECK(verdict(1e300) == Verdict::wrong);
+  const auto judgement = [&](double time) { return judged(kScene, slow, Answer::hit(at(1, 0), time)); };
+  CHECK(judgement(INFINITY).verdict == Verdict::agree);
+  CHECK_FALSE(judgement(INFINITY).wrong_time);
+  // An ulp in so small a velocity is 1 / 2000 of it: the condition is larger than 2^22.
+  CHECK(judgement(1).wrong_time);
+  CHECK(judgement(1e300).wrong_time);
 }

@@ -1,0 +1,54 @@
+#include "cli/whole_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <lorentz/errors.hpp>
+
+namespace lorentz::cli {
+
+namespace fs = std::filesystem;
+
+WholeFile::WholeFile(const std::string& path) : path_(path), place_(path), beside_(path) {
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  if (!fs::exists(there) || fs::is_regular_file(there)) {
+    if (fs::is_symlink(fs::symlink_status(path, error))) {
+      const fs::path target = fs::weakly_canonical(path, error);
+      if (!error) place_ = target.string();
+    }
+    beside_ = place_ + '.' + std::to_string(::getpid()) + ".new";
+  }
+  file_ = std::fopen(beside_.c_str(), "wb");
+  if (!file_) throw FileError(path_ + ": " + std::strerror(errno));
+  if (fs::is_regular_file(there)) fs::permissions(beside_, there.permissions(), error);
+}
+
+WholeFile::~WholeFile() {
+  if (!file_) return;
+  std::fclose(file_);
+  if (beside_ != path_) std::remove(beside_.c_str());
+}
+
+void WholeFile::write(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), file_);
+}
+
+void WholeFile::commit() {
+  if (std::fflush(file_) != 0 || std::ferror(file_)) fail();
+  std::FILE* const file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail();
+  if (beside_ != path_ && std::rename(beside_.c_str(), place_.c_str()) != 0) fail();
+}
+
+void WholeFile::fail() {
+  const std::string why = std::strerror(errno);
+  if (beside_ != path_) std::remove(beside_.c_str());
+  throw FileError(path_ + ": " + why + "; what was there stands");
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,35 @@
+// A file that is written beside its place and put there when it is whole: killed at any moment, the old file
+// stands.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace lorentz::cli {
+
+class WholeFile {
+ public:
+  /// Opens NAME.PROCESS.new in the folder of `path`, or what `path` itself names if that is no regular file
+  /// (a device, a pipe). Throws FileError.
+  explicit WholeFile(const std::string& path);
+  /// Without commit() nothing is left behind.
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  /// What could not be written is said by commit().
+  void write(std::string_view text);
+
+  /// Takes the place of what was there. Throws FileError if something was not written; then the old file
+  /// stands.
+  void commit();
+
+ private:
+  [[noreturn]] void fail();
+
+  std::string path_, place_, beside_;  // as it was named; without links; where it is written
+  std::FILE* file_;
+};
+
+}  // namespace lorentz::cli
