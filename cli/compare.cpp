@@ -33,10 +33,15 @@ struct Options {
   bool json = false, strict = false, times = false, no_oracle = false;
 };
 
-CaseSet read_cases(const std::string& path, std::optional<Scene> initial, bool& bad_input) {
+UnknownKeys unknown_keys(const Options& options) {
+  return options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+}
+
+CaseSet read_cases(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown,
+                   bool& bad_input) {
   CaseSet set;
   if (initial) set.scenes.push_back(*initial);
-  QueryStream stream(path, std::move(initial));
+  QueryStream stream(path, std::move(initial), unknown);
   for (StreamItem item; stream.next(item);) {
     if (item.kind == StreamItem::Kind::scene) set.scenes.push_back(item.scene);
     if (item.kind == StreamItem::Kind::query)
@@ -64,14 +69,17 @@ using Answers = std::unordered_map<Id, LoggedAnswer>;
 
 // A logged answer stream, by id. Bad lines and ids that come twice are complained of; answers without an id
 // (to lines that were no queries) are passed over.
-Answers read_answers(const std::string& path, bool& bad_input) {
+Answers read_answers(const std::string& path, UnknownKeys unknown, bool& bad_input) {
   Answers answers;
   LineReader lines(path);
   ExchangeReader reader;
+  KeyCheck keys(path, unknown);
+  reader.on_unknown_key([&](const std::string& key) { keys(key); });
   Id id;
   LoggedAnswer logged;
   bool empty = true;
   for (LineReader::Line line; lines.next(line);) {
+    keys.line = line.number;
     try {
       if (!reader.read_answer_line(line, id, logged.answer, logged.components)) continue;
       empty = false;
@@ -275,10 +283,11 @@ CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
   const std::optional<double> radius = positive_number(options.radius, "--radius");
   std::optional<Scene> scene;
   if (options.scene || !options.queries)
-    scene = load_scene(options.scene.value_or("square"), radius);
+    scene = load_scene(options.scene.value_or("square"), radius, unknown_keys(options));
   else if (radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  return options.queries ? read_cases(*options.queries, scene, bad_input) : draw_cases(*scene, seed, count);
+  return options.queries ? read_cases(*options.queries, scene, unknown_keys(options), bad_input)
+                         : draw_cases(*scene, seed, count);
 }
 
 void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies,
@@ -324,9 +333,10 @@ int act(const Options& options) {
   };
   const std::vector<Answer> exact =
       options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal());
-  std::vector<Tally> tallies = measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout, terminal()});
+  std::vector<Tally> tallies =
+      measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout, terminal(), options.strict});
   for (const Logged& logged : all_logged) {
-    const Answers answers = read_answers(logged.file, bad_input);
+    const Answers answers = read_answers(logged.file, unknown_keys(options), bad_input);
     tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, ulps, bad_input));
     check_matches(logged.file, tallies.back(), answers.size(), bad_input);
   }
@@ -377,7 +387,8 @@ void add_compare(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("N");
   command->add_flag("--times", options->times, "wrong times count: exit status 1, and in --disagreements");
-  command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
+  command->add_flag("--strict", options->strict,
+                    "exit status 1 also for ill-posed and undecided answers; unknown keys are errors");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
   command->footer(
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "

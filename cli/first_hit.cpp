@@ -26,7 +26,7 @@ namespace {
 struct Options {
   std::string queries = "-", engine = "oracle";
   std::optional<std::string> scene, radius, digits, max_time, timeout;
-  bool detail = false;
+  bool detail = false, strict = false;
 };
 
 // Standard output, gathered into large writes, none of which is held back for long.
@@ -122,17 +122,19 @@ oracle::Request request_of(const Options& options) {
 int act(const Options& options) {
   AnswererOptions answerer_options{request_of(options)};
   answerer_options.listener = terminal();
+  answerer_options.strict = options.strict;
   if (const auto timeout = positive_number(options.timeout, "--timeout")) answerer_options.timeout = *timeout;
   const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
   const std::optional<double> radius = positive_number(options.radius, "--radius");
   if (radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   std::optional<Scene> initial;
   if (options.scene) {
-    initial = load_scene(*options.scene, radius);
+    initial = load_scene(*options.scene, radius, unknown);
     answerer->set_scene(*initial);
   }
-  QueryStream stream(options.queries, initial);
+  QueryStream stream(options.queries, initial, unknown);
   Output output;
   AnswerOrder order(output.buffer());
   answerer->on_answer([&](const Answer& answer) { order.answered(answer); });
@@ -182,6 +184,7 @@ void add_first_hit(CLI::App& app, Action& action) {
       ->type_name("T");
   command->add_flag("--detail", options->detail,
                     "add the collision point, the outward normal and the impact parameter");
+  command->add_flag("--strict", options->strict, kStrictKeysHelp);
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->footer(
       "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "

@@ -61,12 +61,13 @@ oracle::Judgement judge_error(const Answer& given) {
 // Asks an engine the questions of a set and judges the answers as they come.
 class Examination {
  public:
-  Examination(std::string engine, double ulps, bool times, double timeout, std::size_t most_failures)
+  Examination(std::string engine, double ulps, bool times, bool strict, double timeout,
+              std::size_t most_failures)
       : engine_(std::move(engine)),
         ulps_(ulps),
         times_(times),
         most_failures_(most_failures),
-        answerer_(make_answerer(engine_, {{}, timeout, terminal()})) {
+        answerer_(make_answerer(engine_, {{}, timeout, terminal(), strict})) {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
   }
 
@@ -327,7 +328,7 @@ int act(const Options& options) {
   std::vector<std::vector<SetTally>> all_tallies;
   std::string pages;
   for (const std::string& engine : engines) {
-    Examination examination(engine, ulps, options.times, timeout, most);
+    Examination examination(engine, ulps, options.times, options.strict, timeout, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
       tallies.push_back(examination.run(file, options.id, first));

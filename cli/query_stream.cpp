@@ -6,8 +6,10 @@
 
 namespace lorentz::cli {
 
-QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial)
-    : lines_(path), scene_(std::move(initial)), initial_(scene_.has_value()) {}
+QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown)
+    : lines_(path), keys_(lines_.name(), unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {
+  reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
+}
 
 void QueryStream::complain(std::size_t line, const std::string& message) {
   if (++complaints_ <= kMaxComplaints) say("{}:{}: {}", lines_.name(), line, message);
@@ -43,6 +45,7 @@ bool QueryStream::next(StreamItem& item) {
       finish();
       return false;
     }
+    keys_.line = line.number;
     reader_.read_query_line(line, scene(), item);
     if (item.no_scene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);

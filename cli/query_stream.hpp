@@ -7,13 +7,14 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
+#include "cli/unknown_keys.hpp"
 
 namespace lorentz::cli {
 
 class QueryStream {
  public:
   /// `initial` is the scene before the first scene line, if any. Throws FileError.
-  QueryStream(const std::string& path, std::optional<Scene> initial);
+  QueryStream(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown);
 
   /// The next scene, query or bad line; false at the end. Bad lines are complained of on stderr with their
   /// place; the first kMaxComplaints of them.
@@ -35,6 +36,7 @@ class QueryStream {
 
   LineReader lines_;
   ExchangeReader reader_;
+  KeyCheck keys_;
   std::optional<Scene> scene_;
   bool initial_;  // no scene line came yet
   std::size_t bad_scene_line_ = 0;

@@ -300,7 +300,7 @@ int draw(const Options& options) {
   std::vector<Flight> flights;
   bool bad = false;
   if (options.queries) {
-    QueryStream stream(*options.queries, scene);
+    QueryStream stream(*options.queries, scene, UnknownKeys::warned);
     flights = flights_of(stream, scene);
     bad = stream.had_bad_input();
   }

@@ -45,8 +45,9 @@ std::string find_scene(const std::string& name_or_file) {
                               name_or_file.substr(0, 200), catalogue_names()));
 }
 
-Scene read_scene(const std::string& name_or_file, std::optional<double> radius) {
-  Scene scene = read_scene_file(find_scene(name_or_file));
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
+  KeyCheck keys(name_or_file, unknown);
+  Scene scene = read_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
   if (radius)
     for_each_atom(scene, [&](Atom& atom) {
       if (!atom.is_ball())
@@ -57,8 +58,8 @@ Scene read_scene(const std::string& name_or_file, std::optional<double> radius) 
   return scene;
 }
 
-Scene load_scene(const std::string& name_or_file, std::optional<double> radius) {
-  Scene scene = read_scene(name_or_file, radius);
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
+  Scene scene = read_scene(name_or_file, radius, unknown);
   warn_of_overlaps(scene, name_or_file);
   return scene;
 }

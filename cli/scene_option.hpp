@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lorentz/problem.hpp>
+#include "cli/unknown_keys.hpp"
 
 namespace lorentz::cli {
 
@@ -21,11 +22,13 @@ std::vector<CatalogueEntry> catalogue();
 std::string find_scene(const std::string& name_or_file);
 
 /// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius.
-/// Throws InputError or FileError.
-Scene read_scene(const std::string& name_or_file, std::optional<double> radius);
+/// Unknown keys are warned of, or errors. Throws InputError or FileError.
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius,
+                 UnknownKeys unknown = UnknownKeys::warned);
 
 /// The same, with a warning of overlaps.
-Scene load_scene(const std::string& name_or_file, std::optional<double> radius);
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius,
+                 UnknownKeys unknown = UnknownKeys::warned);
 
 /// Warns on stderr if obstacles of one lattice overlap or touch: a radius above half the spacing is mostly a
 /// typing error. (Those of two lattices nearly always do, somewhere.)

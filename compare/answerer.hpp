@@ -20,6 +20,7 @@ struct AnswererOptions {
   oracle::Request request;
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program
   Listener listener = {};            ///< is told what became of another program
+  bool strict = false;               ///< an answer with a key that no answer has is none
 };
 
 inline constexpr const char* kTimeoutHelp =

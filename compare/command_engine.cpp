@@ -50,7 +50,9 @@ CommandEngine::CommandEngine(std::string command, const AnswererOptions& options
     : command_(std::move(command)),
       options_(options),
       patience_(std::min(kPatience, options.timeout / 4)),
-      first_patience_(patience_) {}
+      first_patience_(patience_) {
+  reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
+}
 
 void CommandEngine::set_scene(const Scene& scene) {
   scene_ = std::make_shared<const Scene>(scene);
@@ -217,8 +219,12 @@ void CommandEngine::look_at_clock(Wait wait) {
 namespace {
 
 std::string shown(std::string_view text) {
+  // As it is: where the message becomes part of an answer its quotes are escaped, once.
   constexpr std::size_t kShown = 120;
-  return json_quoted(text.substr(0, kShown)) + (text.size() > kShown ? "..." : "");
+  std::string line(text.substr(0, kShown));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return line + (text.size() > kShown ? "..." : "");
 }
 
 // The number that the id is, or 0.
@@ -229,6 +235,15 @@ std::uint64_t number_of(const Id& id) {
 }
 
 }  // namespace
+
+// Told once a key, or the end of the line that has it.
+void CommandEngine::see_unknown_key(const std::string& key) {
+  constexpr std::size_t kMostKeys = 20;
+  if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
+  if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
+    tell(fmt::format("writes the key {}, which no answer has; it is ignored (--strict: an error)",
+                     json_quoted(key)));
+}
 
 void CommandEngine::take_line(const LineReader::Line& line) {
   Id id;

@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <lorentz/exchange.hpp>
@@ -83,6 +84,7 @@ class CommandEngine final : public Answerer {
   Seconds patience(Wait wait) const;
 
   void take_line(const LineReader::Line& line);
+  void see_unknown_key(const std::string& key);
   void take_no_answer(const std::string& what);
   void take_answer(const Id& id, Answer& answer, std::size_t components);
   void take_nameless(Answer& answer);
@@ -119,6 +121,7 @@ class CommandEngine final : public Answerer {
   bool failed_ = false, ever_answered_ = false;
   std::shared_ptr<const Scene> given_up_in_;  // or null: it is not given up
 
+  std::set<std::string> unknown_keys_;  // that were told of
   std::size_t complaints_ = 0;
   std::shared_ptr<const Scene> complained_scene_;  // printed with an earlier complaint
 };

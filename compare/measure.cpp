@@ -148,7 +148,7 @@ struct Entrant {
   Entrant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
     tally.name = name;
     if (is_command(name))
-      program = make_answerer(name, {{}, options.timeout, options.listener});
+      program = make_answerer(name, {{}, options.timeout, options.listener, options.strict});
     else
       for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
   }

@@ -62,6 +62,7 @@ struct MeasureOptions {
   int rounds = 5;
   double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
   Listener listener = {};
+  bool strict = false;  ///< of another program: AnswererOptions::strict
 };
 
 /// The exact answers to all cases.

@@ -1,8 +1,9 @@
 // The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The
 // one place that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a
-// hexadecimal float ("0x1.8p-1") will do; keys that are not known are ignored.
+// hexadecimal float ("0x1.8p-1") will do; keys that are not known are ignored, but somebody may be told.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@ namespace lorentz {
 
 /// An id as JSON text: a quoted string, an integer, or null where there was none.
 using Id = std::string;
+
+/// Called with each key that the format does not have, as often as it comes; with its place if it is inside
+/// of another, "from.kell" or "lattices.atoms.colour". What it throws as an InputError makes the line, or the
+/// scene file, bad.
+using OnUnknownKey = std::function<void(const std::string& key)>;
 
 /// What a line of a query stream turned out to be.
 struct StreamItem {
@@ -45,6 +51,9 @@ class ExchangeReader {
   ExchangeReader();
   ~ExchangeReader();
 
+  /// Who is told of unknown keys from now on; without anybody they are ignored.
+  void on_unknown_key(OnUnknownKey listener);
+
   /// A line of a query stream. `scene` is the scene that holds, or null: then every query is bad. Scenes and
   /// queries are free of flaws (flaw_of), or the item is bad.
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
@@ -60,7 +69,7 @@ class ExchangeReader {
 };
 
 /// A scene file, TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the place.
-Scene read_scene_file(const std::string& path);
+Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
 /// Appends a line, with its line end. A 2D problem has two components everywhere.
 void append_scene_line(std::string& out, const Scene& scene);

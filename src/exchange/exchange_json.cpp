@@ -71,6 +71,8 @@ void skip(json::value value, int depth) {
 
 double read_number(json::value value, const std::string& place) {
   if (value.type() == json::json_type::string) return parse_hexadecimal(value.get_string().value(), place);
+  if (value.type() == json::json_type::null && !token_of(value).starts_with("null"))
+    throw NotJson{"no value"};  // nan, say
   if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
   double number;
   if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;

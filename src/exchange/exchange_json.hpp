@@ -32,7 +32,8 @@ Integer read_integer(json::value value, const char* key);
 
 /// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates. Throws
 /// InputError. False for a `golden` header.
-bool read_answer(json::object object, std::string& id, Answer& answer, std::size_t& components);
+bool read_answer(json::object object, std::string& id, Answer& answer, std::size_t& components,
+                 const OnUnknownKey& on_unknown_key = {});
 
 /// A value of a scene.
 SceneNode read_node(json::value value, const std::string& place = "scene", int depth = 0);

@@ -65,7 +65,7 @@ struct FromRead {
   bool lattice = false, atom = false;
 };
 
-FromRead read_from(json::value value) {
+FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key) {
   if (value.type() != json::json_type::object)
     throw InputError("from: needs an object with lattice, atom and cell");
   FromRead from;
@@ -82,6 +82,7 @@ FromRead read_from(json::value value) {
       from.obstacle.cell = std::move(cell.cell);
       from.components = cell.count;
     } else {
+      if (on_unknown_key) on_unknown_key("from." + std::string(key));
       skip(field.value());
     }
   }
@@ -90,11 +91,31 @@ FromRead read_from(json::value value) {
   return from;
 }
 
+// What programs write for a number that is none, and JSON does not have.
+std::string_view no_number_in(std::string_view text) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted)
+      for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
+        if (text.substr(i).starts_with(word)) return word;
+  }
+  return {};
+}
+
 std::string not_json(const LineReader::Line& line, const std::string& why) {
   const auto nuls = std::count(line.text.begin(), line.text.end(), '\0');
   if (nuls > 0)
     return "not JSON: holds " + std::to_string(nuls) +
            " NUL bytes (was the file overwritten or cut while it was written?)";
+  if (const std::string_view word = no_number_in(line.text); !word.empty())
+    return "not JSON: " + std::string(word) +
+           " is no number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, and "
+           "what "
+           "is not known is \"outcome\":\"undecided\")";
   return "not JSON: " + why;
 }
 
@@ -111,7 +132,16 @@ struct QueryFields {
   bool has_x = false, has_v = false, has_scene = false;
 };
 
-void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields) {
+// What golden records and files of disagreements have beside the query.
+bool is_beside_query(std::string_view key) {
+  constexpr std::string_view kKeys[] = {"golden",  "tags",      "expect",      "time_decimal",
+                                        "margin",  "condition", "certificate", "engine",
+                                        "verdict", "departs",   "expected",    "given"};
+  return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
+}
+
+void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields,
+                      const OnUnknownKey& on_unknown_key) {
   if (key == "x") {
     fields.has_x = true;
     fields.x = read_components(value, "x");
@@ -121,13 +151,14 @@ void read_query_field(std::string_view key, json::value value, Id& id, QueryFiel
   } else if (key == "id") {
     id = read_id(value);
   } else if (key == "from") {
-    fields.from = read_from(value);
+    fields.from = read_from(value, on_unknown_key);
   } else if (key == "scene") {
     fields.has_scene = true;
     fields.scene = read_node(value);
   } else {
     fields.golden |= key == "golden";
     skip(value);
+    if (on_unknown_key && !is_beside_query(key)) on_unknown_key(std::string(key));
   }
 }
 
@@ -156,6 +187,7 @@ Query query_from(QueryFields& fields, const Scene& scene) {
 struct ExchangeReader::Impl {
   json::parser parser;
   json::document document;
+  OnUnknownKey on_unknown_key;
 
   // The line's object. What is no object is no line of any stream.
   json::object open(const LineReader::Line& line) {
@@ -177,6 +209,10 @@ struct ExchangeReader::Impl {
 ExchangeReader::ExchangeReader() : impl_(std::make_unique<Impl>()) {}
 ExchangeReader::~ExchangeReader() = default;
 
+void ExchangeReader::on_unknown_key(OnUnknownKey listener) {
+  impl_->on_unknown_key = std::move(listener);
+}
+
 void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   QueryFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
@@ -184,7 +220,7 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
     const std::string_view key = field.unescaped_key();
     item.bad_scene |= key == "scene";  // should its value turn out to be no JSON
     try {
-      read_query_field(key, field.value(), item.id, fields);
+      read_query_field(key, field.value(), item.id, fields, on_unknown_key);
     } catch (const InputError& error) {
       if (flaw.empty()) flaw = error.what();
     }
@@ -193,7 +229,7 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
   close();
   if (!flaw.empty()) throw InputError(flaw);
   if (fields.scene) {
-    item.scene = scene_from(*fields.scene);
+    item.scene = scene_from(*fields.scene, on_unknown_key);
     item.bad_scene = false;
     item.kind = StreamItem::Kind::scene;
   } else if (!fields.golden || fields.has_x || fields.has_v) {
@@ -267,7 +303,14 @@ struct AnswerFields {
   std::size_t components = 0;  // of the cell
 };
 
-void read_answer_field(std::string_view key, json::value value, Id& id, Answer& answer, AnswerFields& has) {
+// What --digits and --detail add to an answer.
+bool is_beside_answer(std::string_view key) {
+  return key == "golden" || key == "time_decimal" || key == "point" || key == "normal" ||
+         key == "impact_parameter";
+}
+
+void read_answer_field(std::string_view key, json::value value, Id& id, Answer& answer, AnswerFields& has,
+                       const OnUnknownKey& on_unknown_key) {
   if (key == "id") {
     id = read_id(value);
   } else if (key == "outcome") {
@@ -292,16 +335,18 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
   } else {
     has.golden |= key == "golden";
     skip(value);
+    if (on_unknown_key && !is_beside_answer(key)) on_unknown_key(std::string(key));
   }
 }
 
 }  // namespace
 
-bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components) {
+bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components,
+                 const OnUnknownKey& on_unknown_key) {
   AnswerFields has;
   for (auto field : object) {
     const std::string_view key = field.unescaped_key();
-    read_answer_field(key, field.value(), id, answer, has);
+    read_answer_field(key, field.value(), id, answer, has, on_unknown_key);
   }
   if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
@@ -319,7 +364,7 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
   id = "null";
   components = 0;
   try {
-    const bool is_answer = read_answer(impl_->open(line), id, answer, components);
+    const bool is_answer = read_answer(impl_->open(line), id, answer, components, impl_->on_unknown_key);
     impl_->close();
     return is_answer;
   } catch (const simdjson::simdjson_error& error) {

@@ -1,5 +1,6 @@
 #include "src/exchange/exchange_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
@@ -105,9 +106,31 @@ Atom atom_from(const SceneNode& node, int dimension, const std::string& place) {
   return atom;
 }
 
+// Tells of the members of an object, or of each object of an array, that are none of these.
+void check_keys(const SceneNode& node, const std::string& place,
+                std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key) {
+  if (const auto* array = std::get_if<SceneNode::Array>(&node.value))
+    for (const SceneNode& element : *array) check_keys(element, place, known, on_unknown_key);
+  if (const auto* object = std::get_if<SceneNode::Object>(&node.value))
+    for (const auto& [key, value] : *object)
+      if (std::find(known.begin(), known.end(), key) == known.end()) on_unknown_key(place + key);
+}
+
+void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+  check_keys(node, "", {"dimension", "lattices"}, on_unknown_key);
+  const SceneNode* lattices = node.member("lattices");
+  if (!lattices) return;
+  check_keys(*lattices, "lattices.", {"vectors", "atoms"}, on_unknown_key);
+  if (const auto* all = std::get_if<SceneNode::Array>(&lattices->value))
+    for (const SceneNode& lattice : *all)
+      if (const SceneNode* atoms = lattice.member("atoms"))
+        check_keys(*atoms, "lattices.atoms.", {"position", "radius", "semiaxes"}, on_unknown_key);
+}
+
 }  // namespace
 
-Scene scene_from(const SceneNode& node) {
+Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+  if (on_unknown_key) check_scene_keys(node, on_unknown_key);
   Scene scene;
   const double dimension = number_at(required(node, "dimension", ""), "dimension");
   if (dimension != 2 && dimension != 3) throw InputError("dimension: must be 2 or 3");

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include <lorentz/exchange.hpp>
 #include <lorentz/problem.hpp>
 
 namespace lorentz {
@@ -26,7 +27,7 @@ struct SceneNode::Member {
 };
 
 /// Throws InputError with the place of what is missing or wrong, e.g. "lattices[0].atoms[1].radius".
-Scene scene_from(const SceneNode& node);
+Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
 
 /// "0x1.8p-1" and the like; throws InputError, naming `place`.
 double parse_hexadecimal(std::string_view text, const std::string& place);

@@ -88,12 +88,12 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-Scene read_scene_file(const std::string& path) {
+Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key) {
   try {
     const std::string text = text_of(path);
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
-    return scene_from(text[first] == '{' ? parse_json(text) : parse_toml(text));
+    return scene_from(text[first] == '{' ? parse_json(text) : parse_toml(text), on_unknown_key);
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());
   }

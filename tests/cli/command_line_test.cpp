@@ -112,6 +112,32 @@ TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one 
   CHECK(query.out.ends_with(kGoodAnswer));
 }
 
+TEST_CASE("An unknown key is warned of once a stream; with --strict it is an error", "[cli][command_line]") {
+  const Folder folder;
+  const std::string misspelt = R"({"id":1,"x":[0.5,0],"v":[1,0],"form":{"lattice":0,"atom":0,"cell":[1,0]}})"
+                               "\n";
+  const auto queries = folder.write("q", kScene + misspelt + misspelt);
+  const Run run = folder.lorentz("first-hit " + queries);
+  CHECK(run.status == 0);
+  CHECK(lines(run.out) == 2);
+  CHECK(run.err == "lorentz: warning: " + queries +
+                       ":2: the key \"form\" is not known (did you mean from?), and is ignored (--strict: an "
+                       "error)\n");
+  const Run strict = folder.lorentz("first-hit --strict " + queries);
+  CHECK(strict.status == 2);
+  CHECK(contains(strict.out, R"({"id":1,"outcome":"error","message":"the key \"form\" is not known)"));
+  const auto answers = folder.write("a", R"({"id":"good","outcome":"never","tiem":1})"
+                                         "\n");
+  const std::string judged =
+      "compare --queries " + folder.write("g", kScene + kGood) + " --answers mine=" + answers;
+  CHECK(contains(folder.lorentz(judged).err, "a:1: the key \"tiem\" is not known (did you mean time?)"));
+  CHECK(folder.lorentz(judged + " --strict").status == 2);
+  const auto scene = folder.write("s.toml", R"(dimension = 2
+lattices = [{vectors = [[1, 0], [0, 1]], atoms = [{position = [0, 0], radius = 0.25, raduis = 0.3}]}])");
+  CHECK(
+      contains(folder.lorentz("scene show " + scene).err, R"(the key "lattices.atoms.raduis" is not known)"));
+}
+
 TEST_CASE("Files that are not there, folders, empty files, a full disk", "[cli][command_line]") {
   const Folder folder;
   CHECK(folder.lorentz("first-hit /no/such/file").status == 3);

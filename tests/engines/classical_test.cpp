@@ -45,6 +45,28 @@ TEST_CASE("Classical leaves the disc it starts from", "[engines][classical]") {
   CHECK(engine->first_hit({{0.1, 0}, {1, 0}, {}}).outcome == Outcome::inside);
 }
 
+TEST_CASE("An obstacle named as left is never hit, however far off", "[engines][classical]") {
+  const Query reported{{0, 0.8125}, {0.625, 1.5}, ObstacleId{0, 0, {3, 8, 0}}};
+  CHECK(make_engine("classical", unit_scene(2, 0.0625))->first_hit(reported).obstacle.cell == Cell{8, 20, 0});
+  CHECK(make_engine("published", unit_scene(2, 0.0625))->first_hit(reported).obstacle.cell == Cell{8, 20, 0});
+  Draw draw(72);
+  INFO("seed 72");
+  for (int i = 0; i < 2000; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    const Scene scene = unit_scene(dimension, draw.between(0.1, 0.45));
+    const oracle::Oracle oracle(scene);
+    Query query{draw.vec(dimension, -2, 2), draw.vec(dimension, -1, 1), {}};
+    const Answer first = oracle.first_hit(query);
+    if (first.outcome != Outcome::hit) continue;
+    query.from = first.obstacle;
+    const Answer exact = oracle.first_hit(query), given = make_engine("classical", scene)->first_hit(query);
+    INFO(stream(scene, query) << line(exact, dimension) << line(given, dimension));
+    REQUIRE(same_obstacle(exact, given));
+    const Answer published = make_engine("published", scene)->first_hit(query);
+    REQUIRE_FALSE((published.outcome == Outcome::hit && published.obstacle == *query.from));
+  }
+}
+
 TEST_CASE("The velocity's length goes into the time only", "[engines][classical]") {
   for (const char* name : {"classical", "published"}) {
     const auto engine = make_engine(name, unit_scene(2, 0.1));

@@ -294,6 +294,71 @@ TEST_CASE("Blank lines and golden headers are passed over, unknown keys ignored"
             .kind == StreamItem::Kind::query);
 }
 
+TEST_CASE("Unknown keys: their place is told, and whoever objects makes the line bad", "[exchange]") {
+  ExchangeReader reader;
+  std::vector<std::string> told;
+  reader.on_unknown_key([&](const std::string& key) {
+    told.push_back(key);
+    if (key == "worst") throw InputError("objection");
+  });
+  const Scene unit = unit_scene(2, 0.25);
+  StreamItem item;
+  const auto read = [&](const std::string& text) {
+    told.clear();
+    reader.read_query_line(Padded(text).line(), &unit, item);
+    return told;
+  };
+  using Keys = std::vector<std::string>;
+  CHECK(read(R"({"id":1,"x":[0.5,0],"v":[1,0],"form":{"lattice":7}})") == Keys{"form"});
+  CHECK(item.kind == StreamItem::Kind::query);
+  CHECK(read(R"({"x":[0.5,0],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0,0],"kell":1}})") ==
+        Keys{"from.kell"});
+  CHECK(read(R"({"id":1,"x":[0.5,0],"v":[1,0],"worst":1})") == Keys{"worst"});
+  CHECK((item.kind == StreamItem::Kind::bad && item.message == "objection" && item.id == "1"));
+  CHECK(read(R"({"scene":{"dimension":2,"name":"s","lattices":[{"vectors":[[1,0],[0,1]],"basis":1,)"
+             R"("atoms":[{"position":[0,0],"radius":0.25,"colour":"red"}]}]}})") ==
+        Keys{"name", "lattices.basis", "lattices.atoms.colour"});
+  CHECK(item.kind == StreamItem::Kind::scene);
+  // What golden records and files of disagreements have besides is known.
+  CHECK(
+      read(R"({"id":1,"tags":[],"x":[0.5,0],"v":[1,0],"expect":{"outcome":"never"},"margin":1,"condition":2,)"
+           R"("certificate":{},"time_decimal":"1","engine":"e","verdict":"wrong","departs":9,"expected":{},)"
+           R"("given":{}})")
+          .empty());
+  Id id;
+  Answer answer;
+  std::size_t components;
+  told.clear();
+  CHECK(reader.read_answer_line(Padded(R"({"id":1,"outcome":"never","tiem":3})").line(), id, answer,
+                                components));
+  CHECK(told == Keys{"tiem"});
+  CHECK(reader.read_answer_line(
+      Padded(R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":1,)"
+             R"("time_decimal":"1","point":[0,0],"normal":[0,1],"impact_parameter":0})")
+          .line(),
+      id, answer, components));
+  CHECK(told == Keys{"tiem"});
+  CHECK_THROWS_AS(reader.read_answer_line(Padded(R"({"id":1,"outcome":"never","worst":3})").line(), id,
+                                          answer, components),
+                  InputError);
+}
+
+TEST_CASE("NaN and Infinity are told by name", "[exchange]") {
+  for (const char* word : {"NaN", "Infinity", "-Infinity", "nan", "inf", "-inf"}) {
+    INFO(word);
+    StreamItem item;
+    const Scene unit = unit_scene(2, 0.25);
+    ExchangeReader().read_query_line(
+        Padded(std::string(R"({"id":"NaN","x":[0.5,)") + word + R"(],"v":[1,0]})").line(), &unit, item);
+    CHECK(item.kind == StreamItem::Kind::bad);
+    CHECK(item.message.starts_with(std::string("not JSON: ") + word + " is no number there"));
+  }
+  StreamItem item;
+  ExchangeReader().read_query_line(Padded(R"({"id":"Infinity","x":[0.5,?],"v":[1,0]})").line(), nullptr,
+                                   item);
+  CHECK(item.message.find("Infinity") == std::string::npos);
+}
+
 TEST_CASE("Every sort of bad scene is told by its place", "[exchange]") {
   const auto message = [](const std::string& scene) {
     const StreamItem item = read("{\"scene\":" + scene + "}", nullptr);

@@ -1,6 +1,7 @@
 #include "src/engines/classical/classical.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <lorentz/geometry.hpp>
 
@@ -11,6 +12,17 @@ using CellIndex = std::array<std::int64_t, 3>;
 
 ObstacleId obstacle_of(const CellIndex& n) {
   return {0, 0, {Integer(n[0]), Integer(n[1]), Integer(n[2])}};
+}
+
+// The cell of the obstacle that is left; nothing if it is farther off than any walk.
+std::optional<CellIndex> cell_left(const Ray& ray) {
+  if (!ray.from) return std::nullopt;
+  CellIndex n;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!ray.from->cell[i].fits_int64()) return std::nullopt;
+    n[i] = ray.from->cell[i].int64();
+  }
+  return n;
 }
 
 }  // namespace
@@ -28,12 +40,13 @@ Answer Classical::flight_of(const Ray& ray, double max_time) const {
     n[i] = static_cast<std::int64_t>(home);
     x[i] -= home;
   }
-  const auto is_from = [&] { return ray.from && ray.from->cell == obstacle_of(n).cell; };
+  const std::optional<CellIndex> left = cell_left(ray);
+  const auto is_from = [&] { return left && n == *left; };
   if (dot(x, x) < r * r && !is_from()) return Answer::inside(obstacle_of(n));
 
   double elapsed = 0;
   for (long cell = 0; cell < kMaxCells; ++cell) {
-    if (cell > 0 || !is_from()) {
+    if (!is_from()) {
       const auto time = entry_time(x, v, r);
       if (time && *time >= 0) return Answer::hit(obstacle_of(n), elapsed + *time);
     }

@@ -23,10 +23,15 @@ Answer hit_on(const Vec& centre, const Ray& ray, double r) {
 }
 
 Answer published_2d(const Ray& ray, double r, const Vec* from, Proposals& proposals) {
-  const Disc leaving = from ? Disc{(*from)[0], (*from)[1]} : Disc{};
+  const Disc leaving = from ? Disc{(*from)[0], (*from)[1]} : Disc{}, v{ray.v[0], ray.v[1]};
   long passes = Published::kMaxPasses;
-  const PlaneResult result =
-      first_disc({ray.x[0], ray.x[1]}, {ray.v[0], ray.v[1]}, r, from ? &leaving : nullptr, passes);
+  PlaneResult result = first_disc({ray.x[0], ray.x[1]}, v, r, from ? &leaving : nullptr, passes);
+  if (from && result.found == Found::disc && result.disc == leaving) {
+    // The paper has no `from`, and its search in columns may end there: it goes on where the line leaves it.
+    const double there = exit_time(minus(ray.x, *from), ray.v, r);
+    result = first_disc({ray.x[0] + there * v[0], ray.x[1] + there * v[1]}, v, r, &leaving, passes);
+    if (result.found == Found::disc && result.disc == leaving) return Answer::undecided();
+  }
   proposals.passes += Published::kMaxPasses - passes + 1;
   if (auto answer = answer_for(result.found)) return *answer;
   ++proposals.made;

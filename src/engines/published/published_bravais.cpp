@@ -24,13 +24,6 @@ double first_singular_value(const std::array<Vec, 3>& rows) {
   return Eigen::JacobiSVD<Eigen::Matrix<double, kDimension, kDimension>>(matrix).singularValues()(0);
 }
 
-// The time at which the line leaves the disc of radius r around the origin, or is closest to it if it misses
-// it.
-double exit_time(const Vec& x, const Vec& v, double r) {
-  const double v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
-  return -B + std::sqrt(std::max(B * B - C, 0.0));
-}
-
 }  // namespace
 
 PublishedBravais::PublishedBravais(const Scene& scene, int l, int a)

@@ -125,6 +125,13 @@ inline Vec minus(const Vec& a, const Vec& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+// The time at which the line leaves the disc of radius r around the origin, or is closest to it if it misses
+// it.
+inline double exit_time(const Vec& x, const Vec& v, double r) {
+  const double v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
+  return -B + std::sqrt(std::max(B * B - C, 0.0));
+}
+
 // Why a search found no disc, as the answer that this makes; nothing if it found one.
 inline std::optional<Answer> answer_for(Found found) {
   switch (found) {

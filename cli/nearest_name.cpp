@@ -1,0 +1,46 @@
+#include "cli/nearest_name.hpp"
+
+#include <algorithm>
+
+namespace lorentz::cli {
+namespace {
+
+// Optimal string alignment: rows of the table of distances between beginnings of the two.
+std::size_t mistakes_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 100;  // nobody mistypes that
+  std::string nearest;
+  std::size_t fewest = typed.size() / 3 + 1;
+  if (typed.size() > kLongest) return nearest;
+  for (const std::string& name : names) {
+    const std::size_t mistakes = mistakes_between(typed, name);
+    if (mistakes >= fewest && !(nearest.empty() && mistakes == 1 && typed.size() >= 2)) continue;
+    fewest = mistakes;
+    nearest = name;
+  }
+  return nearest;
+}
+
+std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names) {
+  const std::string name = nearest_name(typed, names);
+  return name.empty() ? "" : " (did you mean " + name + "?)";
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,17 @@
+// What was meant by a mistyped name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lorentz::cli {
+
+/// The name that takes the fewest typing mistakes (a character too many, missing, wrong, or two exchanged),
+/// if they are at most a third of it; else empty. Of several the first.
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
+
+/// " (did you mean NAME?)", or empty.
+std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names);
+
+}  // namespace lorentz::cli
