@@ -10,6 +10,7 @@
 #include <lorentz/walk.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -20,24 +21,57 @@ std::string versions() {
                      CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
-// The subcommand that was meant must exist, and so must its own; the parser itself would only say that one is
-// required.
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
+// A subcommand, and what it is called on the command line.
+struct Called {
+  const CLI::App& app;
+  std::string name;
+};
+
+// The one that the words ask for. It must exist, and so must its own; the parser itself would only say that
+// one is required.
+Called subcommand_of(const CLI::App& app, const std::string& before, int argc, char** argv) {
+  const std::string name = (before.empty() ? "" : before + ' ') + app.get_name();
   const auto commands = app.get_subcommands({});
-  if (argc < 2 || argv[1][0] == '-' || commands.empty()) return;
+  if (argc < 2 && app.get_require_subcommand_min() > 0) {
+    print(app.help(before));
+    throw InputError("name a subcommand");
+  }
+  if (argc < 2 || argv[1][0] == '-' || commands.empty()) return {app, name};
   std::vector<std::string> names;
   for (const CLI::App* command : commands) {
-    if (command->get_name() == argv[1]) return check_subcommand(*command, argc - 1, argv + 1);
+    if (command->get_name() == argv[1]) return subcommand_of(*command, name, argc - 1, argv + 1);
     names.push_back(command->get_name());
   }
-  throw InputError(
-      fmt::format("no subcommand is called {}; there are {}", json_quoted(argv[1]), fmt::join(names, ", ")));
+  throw InputError(fmt::format("no subcommand is called {}{}; there are {}", json_quoted(argv[1]),
+                               did_you_mean(argv[1], names), fmt::join(names, ", ")));
+}
+
+// Of the words that no option took those that look like options, with what they may have been meant for.
+std::string unknown_options(const CLI::App& app, const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  std::string text;
+  for (const std::string& word : app.remaining(true))
+    if (word.starts_with('-'))
+      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", word, did_you_mean(word, names));
+  return text;
+}
+
+void parse(CLI::App& app, int argc, char** argv) {
+  const Called command = subcommand_of(app, "", argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const std::string options = unknown_options(app, command.app);
+    if (options.empty()) throw;
+    throw InputError(fmt::format("no such option: {}; {} --help has all", options, command.name));
+  }
 }
 
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   try {
-    check_subcommand(app, argc, argv);
-    app.parse(argc, argv);
+    parse(app, argc, argv);
     return action();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadInput;
@@ -73,9 +107,10 @@ int run(int argc, char** argv) {
   app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
     return "lorentz: " + CLI::FailureMessage::simple(failed, error);
   });
-  app.footer(
+  const std::string statuses =
       "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be "
-      "done.");
+      "done.";
+  app.footer(statuses);  // also of subcommands that have none
   Action action;
   add_first_hit(app, action);
   add_compare(app, action);
@@ -86,6 +121,10 @@ int run(int argc, char** argv) {
   add_scene(app, action);
   add_golden(app, action);
   add_fuzz(app, action);
+  app.footer(
+      statuses +
+      "\nExample: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
+      "  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square --radius 0.1");
   const int status = parse_and_act(app, action, argc, argv);
   try {
     finish_output();

@@ -1,8 +1,12 @@
 #include "cli/data_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+
+#include <lorentz/errors.hpp>
 
 namespace lorentz::cli {
 namespace {
@@ -11,8 +15,15 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> data_folders() {
   std::vector<fs::path> folders;
-  if (const char* data = std::getenv("LORENTZ_DATA")) folders.emplace_back(data);
   std::error_code error;
+  if (const char* data = std::getenv("LORENTZ_DATA")) {
+    folders.emplace_back(data);
+    if (!fs::is_directory(folders[0] / "scenes", error) && !fs::is_directory(folders[0] / "golden", error))
+      throw FileError(
+          fmt::format("LORENTZ_DATA is {}, which has no folder scenes or golden; unset it, or name the "
+                      "project's data folder",
+                      data));
+  }
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
     folders.push_back(program.parent_path() / "../data");
@@ -34,6 +45,13 @@ std::vector<std::string> data_files(const std::string& folder, const std::string
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+std::string data_places(const std::string& folder) {
+  std::string text;
+  for (const fs::path& data : data_folders())
+    text += (text.empty() ? "" : ", ") + (data / folder).lexically_normal().string();
+  return text;
 }
 
 }  // namespace lorentz::cli

@@ -121,7 +121,9 @@ void add_demo(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
   command->footer(
-      "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.");
+      "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
+      "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
+      "classical");
   auto disagreements = std::make_shared<std::optional<std::string>>();
   command->add_option("--disagreements", *disagreements, "write each wrong answer there, as a query stream")
       ->type_name("FILE");

@@ -1,12 +1,14 @@
 // lorentz golden: sets of cases with their exact answers and the proofs of these.
 #include "cli/golden.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
 #include "cli/data_folder.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
 #include "cli/table.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
@@ -46,26 +48,51 @@ std::vector<std::string> committed_sets() {
   return data_files("golden", ".ndjson");
 }
 
+namespace {
+
+// Every *.ndjson in a folder, by name.
+std::vector<std::string> sets_in(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& file : fs::directory_iterator(folder))
+    if (file.path().extension() == ".ndjson") files.push_back(file.path().string());
+  if (files.empty()) throw FileError(folder + ": no file in it is called *.ndjson");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
 std::string find_set(const std::string& name_or_file) {
   std::error_code error;
-  if (fs::is_regular_file(name_or_file, error) || name_or_file == "-") return name_or_file;
+  if (fs::exists(name_or_file, error) || name_or_file == "-") return name_or_file;
   std::vector<std::string> names;
   for (const std::string& file : committed_sets()) {
     names.push_back(fs::path(file).stem());
     if (names.back() == name_or_file) return file;
   }
-  throw FileError(fmt::format("no file and no committed set is called {}; the sets are {}",
-                              json_quoted(name_or_file), fmt::join(names, ", ")));
+  if (names.empty())
+    throw FileError(fmt::format("no file is called {}, and there are no committed sets (looked for in {})",
+                                json_quoted(name_or_file), data_places("golden")));
+  throw FileError(fmt::format("no file and no committed set is called {}{}; the sets are {}",
+                              json_quoted(name_or_file), did_you_mean(name_or_file, names),
+                              fmt::join(names, ", ")));
 }
 
 std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files) {
   std::vector<std::string> files;
-  for (const std::string& one : names_or_files) files.push_back(find_set(one));
+  for (const std::string& one : names_or_files) {
+    const std::string found = find_set(one);
+    if (!fs::is_directory(found)) {
+      files.push_back(found);
+      continue;
+    }
+    const std::vector<std::string> sets = sets_in(found);
+    files.insert(files.end(), sets.begin(), sets.end());
+  }
   if (names_or_files.empty()) files = committed_sets();
   if (files.empty())
     throw FileError(
-        "there are no committed sets (data/golden beside the program, or in the folder LORENTZ_DATA); name "
-        "files");
+        fmt::format("there are no committed sets (looked for in {}); name files", data_places("golden")));
   return files;
 }
 
@@ -73,6 +100,7 @@ void add_golden_list(CLI::App& golden, Action& action) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = golden.add_subcommand("list", "The sets, and how many records of each are committed.");
   command->add_flag("--json", *json, "one JSON object, with all tags and what they are out to break");
+  command->footer("Example:\n  lorentz golden list");
   command->callback([json, &action] { action = [json] { return list(*json); }; });
 }
 
@@ -87,6 +115,7 @@ void add_golden(CLI::App& app, Action& action) {
   add_golden_explain(*golden, action);
   add_golden_list(*golden, action);
   golden->footer(
+      "Example:\n  lorentz golden check --engine reduction near-rational\n"
       "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.");
 }
 

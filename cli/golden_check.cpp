@@ -83,7 +83,7 @@ class Examination {
     std::uint64_t records = 0;
     for (golden::ReadRecord read; records < first && reader.next(read); progress.at(records)) {
       ++records;
-      if (id && read.record.id != *id) continue;
+      if (id && !read.record.id.starts_with(*id)) continue;
       if (scene != reader.scene_number()) {
         scene = reader.scene_number();
         bench_ = std::make_shared<Bench>(reader.scene());
@@ -349,7 +349,8 @@ int act(const Options& options) {
     all_tallies.push_back(std::move(tallies));
   }
   if (options.markdown) print(summary_page(engines, all_tallies) + pages);
-  if (options.id && records == 0) throw InputError("--id: no record has the id " + json_quoted(*options.id));
+  if (options.id && records == 0)
+    throw InputError("--id: no record has the id, or one that begins with, " + json_quoted(*options.id));
   return status;
 }
 
@@ -363,13 +364,15 @@ void add_golden_check(CLI::App& golden, Action& action) {
       ->add_option("-e,--engine", options->engines, names_for_help() + "; several with commas, or once each")
       ->allow_extra_args(false)  // what follows is a set
       ->type_name("E");
-  command->add_option("sets", options->sets, "files, or names of committed sets (default: all of these)");
+  command->add_option("sets", options->sets,
+                      "files, folders, or names of committed sets (default: all of these)");
   command
       ->add_option("--ulps", options->ulps,
                    "the tolerance k of the verdicts; 0 forgives nothing (default: 4)")
       ->type_name("K");
   command->add_option("--first", options->first, "only the first N records of each set")->type_name("N");
-  command->add_option("--id", options->id, "only this record")->type_name("ID");
+  command->add_option("--id", options->id, "only this record; the beginning of its id will do")
+      ->type_name("ID");
   command->add_option("--failures", options->failures, "list so many failures of each engine")
       ->capture_default_str()
       ->type_name("N");

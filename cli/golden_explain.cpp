@@ -1,4 +1,6 @@
 // lorentz golden explain: one record in full.
+#include <set>
+
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/exit_status.hpp"
@@ -21,9 +23,8 @@ std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, cons
                          int dimension) {
   Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
   for (const oracle::PassedObstacle& one : passed)
-    table.add({name_of(one.obstacle, dimension), fmt::format("{:.10g}", one.time),
-               fmt::format("{:.6g}", one.gap), fmt::format("{:.6g}", one.margin),
-               one.obstacle == hit ? "hit" : ""});
+    table.add({name_of(one.obstacle, dimension), one.time_decimal, fmt::format("{:.6g}", one.gap),
+               fmt::format("{:.6g}", one.margin), one.obstacle == hit ? "hit" : ""});
   return table.text();
 }
 
@@ -59,12 +60,27 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
           passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
 }
 
-int act(const Options& options) {
-  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
+// The id that begins like this; of several none.
+std::string whole_id(const Options& options) {
+  std::set<std::string> ids;
   for (const std::string& path : find_sets(options.sets)) {
     golden::Reader reader(path);
     for (golden::ReadRecord read; reader.next(read);)
-      if (read.record.id == options.id) {
+      if (read.record.id.starts_with(options.id)) ids.insert(read.record.id);
+  }
+  if (ids.size() > 1)
+    throw InputError(fmt::format("{} records have ids that begin with {}; the first is {}", ids.size(),
+                                 json_quoted(options.id), *ids.begin()));
+  return ids.empty() ? options.id : *ids.begin();
+}
+
+int act(const Options& options) {
+  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
+  const std::string id = whole_id(options);
+  for (const std::string& path : find_sets(options.sets)) {
+    golden::Reader reader(path);
+    for (golden::ReadRecord read; reader.next(read);)
+      if (read.record.id == id) {
         explain(reader, read, most);
         return kDone;
       }
@@ -79,12 +95,13 @@ void add_golden_explain(CLI::App& golden, Action& action) {
   CLI::App* command = golden.add_subcommand(
       "explain",
       "One record in full: the line, the obstacles passed and by how much, the decision that is hard.");
-  command->add_option("id", options->id, "the record's id")->required();
+  command->add_option("id", options->id, "the record's id, or its first characters")->required();
   command->add_option("sets", options->sets,
-                      "files, or names of committed sets, to look in (default: all of these)");
+                      "files, folders, or names of committed sets, to look in (default: all of these)");
   command->add_option("--most", options->most, "list so many obstacles")
       ->capture_default_str()
       ->type_name("N");
+  command->footer("Example:\n  lorentz golden explain 9cbb135e");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

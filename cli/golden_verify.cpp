@@ -76,12 +76,13 @@ void add_golden_verify(CLI::App& golden, Action& action) {
   CLI::App* command = golden.add_subcommand(
       "verify",
       "Checks each record: its certificate proves the answer, its id, margin and condition are right.");
-  command->add_option("sets", *names, "files, or names of committed sets (default: all of these)");
+  command->add_option("sets", *names, "files, folders, or names of committed sets (default: all of these)");
   command->add_flag("--walk", *walk, "ask walk, too, where it can go");
   command->footer(
       "The certificates are checked by code that shares nothing with what wrote them; data/check.py, which "
       "shares nothing with "
-      "this program at all, does the same.\nExit status 1: a record is refuted.");
+      "this program at all, does the same.\nExit status 1: a record is refuted.\n"
+      "Example:\n  lorentz golden verify ties grazing");
   command->callback([names, walk, &action] { action = [names, walk] { return act(*names, *walk); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/app.hpp"
+#include "cli/data_folder.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/horizon_verdict.hpp"
 #include "cli/messages.hpp"
@@ -54,8 +55,7 @@ int list(const Options& options) {
   std::string json;
   bool bad = false;
   const std::vector<CatalogueEntry> entries = catalogue();
-  if (entries.empty())
-    throw FileError("no catalogue: it is data/scenes/ beside the build folder, or $LORENTZ_DATA/scenes/");
+  if (entries.empty()) throw FileError("no catalogue of scenes; looked for in " + data_places("scenes"));
   for (const CatalogueEntry& entry : entries) {
     try {
       const Scene scene = read_scene(entry.file, std::nullopt);

@@ -12,17 +12,12 @@
 #include <lorentz/scene_check.hpp>
 #include "cli/data_folder.hpp"
 #include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string catalogue_names() {
-  std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 }  // namespace
 
@@ -41,8 +36,14 @@ std::string find_scene(const std::string& name_or_file) {
   if (is_name)
     for (const CatalogueEntry& entry : catalogue())
       if (entry.name == name_or_file) return entry.file;
-  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue ({})",
-                              name_or_file.substr(0, 200), catalogue_names()));
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  const std::string shown = name_or_file.substr(0, 200);
+  if (names.empty())
+    throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
+                                data_places("scenes")));
+  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}", shown,
+                              did_you_mean(shown, names), fmt::join(names, ", ")));
 }
 
 Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {

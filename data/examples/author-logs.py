@@ -12,6 +12,7 @@ into the current folder, for
 
 The printed numbers are taken as the exact inputs; a start that was logged twice is taken once.
 """
+import argparse
 import json
 import pathlib
 import re
@@ -58,4 +59,9 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", help="with the authors' files: " + ", ".join(name + ".dat" for name in FILES))
+    try:
+        main(parser.parse_args().folder)
+    except OSError as error:
+        sys.exit(f"author-logs.py: {error.filename}: {error.strerror}")

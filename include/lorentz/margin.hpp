@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <lorentz/problem.hpp>
@@ -34,8 +35,10 @@ struct HardestDecision {
 /// An obstacle that a flight came near, on its way to the answer.
 struct PassedObstacle {
   ObstacleId obstacle;
-  double time = 0;  ///< at which the line is nearest to its centre, in the coordinates in which it is a ball
-  double gap = 0;   ///< distance of the line from it, in units of its radius there; below 0: it is met
+  double time = 0;  ///< at which the line is nearest to its centre, in the coordinates in which it is a ball;
+                    ///< at most 1e300
+  std::string time_decimal;  ///< the same to 10 significant digits, however large
+  double gap = 0;     ///< distance of the line from it, in units of its radius there; below 0: it is met
   double margin = 0;  ///< of that decision, in ulps; not limited
 };
 

@@ -190,12 +190,11 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
         visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
           --budget;
           const Centre<D> centre(view.velocity, point);
-          const Real nearest = real(centre.s) / v2;
+          const Real nearest = real(centre.s) / v2, time = times_power_of_two(nearest, own_units);
           const bool is_target = &atom == &target && point.n == hit.point.n;
           if (!is_target && (centre.s <= 0 || nearest > target_time || perturbed.is_from(atom, point.n)))
             return;
-          all.push_back({perturbed.id_of(atom, point.n),
-                         to_double(times_power_of_two(nearest, own_units), kHuge),
+          all.push_back({perturbed.id_of(atom, point.n), to_double(time, kHuge), time.str(10),
                          to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
                          to_double(atom.margin_of_meeting(centre), kHuge)});
         });

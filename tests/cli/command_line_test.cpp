@@ -173,6 +173,72 @@ TEST_CASE("Bad usage", "[cli][command_line]") {
     CHECK(folder.lorentz(help).status == 0);
 }
 
+TEST_CASE("Mistyped subcommands, options and scenes get the nearest name", "[cli][command_line]") {
+  const Folder folder;
+  const auto said = [&](const std::string& arguments, int status) {
+    const Run run = folder.lorentz(arguments);
+    CHECK(run.status == status);
+    return run.err;
+  };
+  CHECK(
+      contains(said("compair", 2), "no subcommand is called \"compair\" (did you mean compare?); there are"));
+  CHECK(contains(said("golden verfy", 2), "(did you mean verify?)"));
+  CHECK(contains(said("compare --engin classical", 2),
+                 "no such option: --engin (did you mean --engine?); lorentz compare --help has all"));
+  CHECK(contains(said("golden check --ulsp 3", 2),
+                 "--ulsp (did you mean --ulps?); lorentz golden check --help"));
+  CHECK(contains(said("compare --count 1 --scene sqare", 3), "(did you mean square?)"));
+  CHECK(contains(said("golden check -e reduction near-ratonal", 3), "(did you mean near-rational?)"));
+}
+
+TEST_CASE("Without a subcommand the help is shown; every help has an example", "[cli][command_line]") {
+  const Folder folder;
+  for (const std::string bare : {"", "golden", "scene"}) {
+    const Run run = folder.lorentz(bare), help = folder.lorentz(bare + " --help");
+    CHECK(run.status == 2);
+    CHECK(contains(run.out, "Subcommands:\n"));
+    CHECK(run.out == help.out);
+  }
+  for (const char* command : {"",
+                              "first-hit",
+                              "compare",
+                              "convergents",
+                              "horizon",
+                              "demo",
+                              "bench",
+                              "scene",
+                              "scene list",
+                              "scene show",
+                              "scene draw",
+                              "fuzz",
+                              "fuzz list",
+                              "fuzz show",
+                              "fuzz export",
+                              "fuzz merge",
+                              "golden",
+                              "golden make",
+                              "golden check",
+                              "golden verify",
+                              "golden explain",
+                              "golden list"}) {
+    INFO(command);
+    CHECK(contains(folder.lorentz(std::string(command) + " --help").out, "Example"));
+  }
+}
+
+TEST_CASE("A wrong LORENTZ_DATA is an error; without a catalogue it is said where it was looked for",
+          "[cli][command_line]") {
+  const Folder folder;
+  const auto with_data = [&](const std::string& data, const std::string& arguments) {
+    return folder.run("LORENTZ_DATA=" + data + " " LORENTZ_PROGRAM " " + arguments);
+  };
+  for (const char* arguments : {"scene list", "compare --count 1", "golden list"}) {
+    const Run run = with_data("/no/such/folder", arguments);
+    CHECK(run.status == 3);
+    CHECK(contains(run.err, "LORENTZ_DATA is /no/such/folder, which has no folder scenes or golden"));
+  }
+}
+
 TEST_CASE("A closed or full stderr loses messages and nothing else", "[cli][command_line]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood + "bad\n" + kGood);

@@ -178,6 +178,26 @@ TEST_CASE("golden check says by how much an answer departs, and what all sets co
   CHECK(told == static_cast<std::size_t>(wrong));
 }
 
+TEST_CASE("golden: a folder stands for its sets, the beginning of an id for the id",
+          "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "ties", 40);
+  const std::string set = folder.file("ties.ndjson"), id = first_id("ties", "\"margin\":");
+  const std::string sets = folder.file("sets");
+  std::filesystem::create_directory(sets);
+  std::filesystem::rename(set, sets + "/ties.ndjson");
+  CHECK(contains(folder.lorentz("golden verify " + sets).out, "ties.ndjson: "));
+  CHECK(folder.lorentz("golden check -e oracle " + sets).status == 0);
+  CHECK(contains(folder.lorentz("golden explain " + id.substr(0, 10)).out, ": " + id + "\n"));
+  CHECK(folder.lorentz("golden explain " + id.substr(0, 1)).status == 2);
+  CHECK(contains(folder.lorentz("golden check -e oracle --json ties --id " + id.substr(0, 10)).out,
+                 "\"records\":1,"));
+  std::filesystem::create_directory(folder.file("empty"));
+  CHECK(folder.lorentz("golden verify " + folder.file("empty")).status == 3);
+  // Beyond the range of binary64 times have their digits.
+  CHECK(contains(folder.lorentz("golden explain 19f204542d0726dd").out, "6.084416429e+319"));
+}
+
 TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden][golden_check]") {
   const Folder folder;
   const auto explained = [&](const std::string& set, const std::string& word) {
