@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include <lorentz/errors.hpp>
 
@@ -48,10 +49,9 @@ std::vector<std::string> data_files(const std::string& folder, const std::string
 }
 
 std::string data_places(const std::string& folder) {
-  std::string text;
-  for (const fs::path& data : data_folders())
-    text += (text.empty() ? "" : ", ") + (data / folder).lexically_normal().string();
-  return text;
+  std::set<std::string> places;
+  for (const fs::path& data : data_folders()) places.insert((data / folder).lexically_normal().string());
+  return fmt::format("{}", fmt::join(places, ", "));
 }
 
 }  // namespace lorentz::cli

@@ -128,7 +128,7 @@ void add_golden_make(CLI::App& golden, Action& action) {
       ->type_name("FOLDER");
   command->footer(
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
-      "Example:\n  lorentz golden make --set near-rational --count 1e5 --jobs 2 -o near-rational.ndjson");
+      "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 
