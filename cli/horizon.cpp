@@ -7,6 +7,7 @@
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
+#include "cli/search_progress.hpp"
 #include "cli/table.hpp"
 
 namespace lorentz::cli {
@@ -90,8 +91,8 @@ std::string cylinder_table(const oracle::Horizon& h, std::size_t limit) {
   Table table({"cylinder", "radius", "vector", "through"});
   for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) {
     const auto& c = h.cylinders[i];
-    table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("about {:.4g}", c.radius),
-               text_of(c.vector, 3), point_text(c.point, c.inside, 3)});
+    table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("{:.6g}", c.radius), text_of(c.vector, 3),
+               point_text(c.point, c.inside, 3)});
   }
   return table.text() + rest_of(h.cylinders.size(), limit);
 }
@@ -114,6 +115,14 @@ std::string families_text(const oracle::Horizon& h, std::size_t limit) {
   return out + rest_of(h.families.size(), limit);
 }
 
+std::string tail_text(const oracle::Horizon& h, bool limited) {
+  if (h.is_finite() && !limited) return "tail: none, the free path is bounded\n";
+  if (!h.tail_constant) return fmt::format("tail constant: not given ({})\n", h.no_tail_constant);
+  if (h.channels.empty())
+    return "tail: P(free path > t) falls faster than 1/t, for no planar channel is open\n";
+  return fmt::format("tail: P(free path > t) ~ C / t from a uniform start, C = {:.6g}\n", *h.tail_constant);
+}
+
 std::string human_text(const oracle::Horizon& h, std::size_t limit, bool limited) {
   std::string out = verdict_of(h, limited) + "\n";
   bool outside = false;
@@ -126,11 +135,7 @@ std::string human_text(const oracle::Horizon& h, std::size_t limit, bool limited
   if (!h.undecided.empty())
     out += fmt::format("\nundecided: {}, three lattices or more with long common periods\n",
                        number(h.undecided.size(), h.dimension == 2 ? "direction" : "normal"));
-  if (h.tail_constant)
-    out +=
-        fmt::format("\ntail: P(free path > t) ~ C / t from a uniform start, C = {:.6g}\n", *h.tail_constant);
-  else
-    out += fmt::format("\ntail constant: not given ({})\n", h.no_tail_constant);
+  out += "\n" + tail_text(h, limited);
   if (!h.no_cylinders.empty()) out += "cylinders: undecided (" + h.no_cylinders + ")\n";
   return out;
 }
@@ -221,7 +226,8 @@ int act(const Options& options) {
   const std::size_t limit = whole_number(options.limit, "--limit", 0, 1'000'000'000);
   const Scene scene = load_scene(name, positive_number(options.radius, "--radius"));
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders);
+    const oracle::Horizon horizon =
+        oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders, search_progress());
     print(options.json ? json_text(horizon, name, min_width.has_value())
                        : human_text(horizon, limit, min_width.has_value()));
   } catch (const oracle::TooManyChannels& error) {

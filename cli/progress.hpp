@@ -21,6 +21,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   const std::string& what() const { return what_; }
+  std::size_t total() const { return total_; }
 
   /// `done` of the total are done; draws a few times a second, from the first second on.
   void at(std::size_t done) {

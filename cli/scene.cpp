@@ -13,6 +13,7 @@
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
+#include "cli/search_progress.hpp"
 #include "cli/table.hpp"
 #include "compare/registry.hpp"
 #include "pictures/scene_drawing.hpp"
@@ -28,7 +29,7 @@ namespace {
 struct Options {
   std::optional<std::string> scene, radius, queries;
   std::string output = "-";
-  bool json = false;
+  bool json = false, no_horizon = false;
 };
 
 // The first comment of a scene file: what the scene is.
@@ -78,9 +79,10 @@ int list(const Options& options) {
 // Whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
-    std::string verdict = verdict_of(all ? horizon : oracle::horizon_of(scene), false);
+    std::string verdict =
+        verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, search_progress()), false);
     const std::string word = " horizon";  // said by the row's name
     if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
     return verdict;
@@ -170,8 +172,8 @@ std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
   return out;
 }
 
-void show_text(const std::string& name, const std::string& file, const Scene& scene,
-               const Findings& findings) {
+void show_text(const std::string& name, const std::string& file, const Scene& scene, const Findings& findings,
+               bool with_horizon) {
   const int d = scene.dimension;
   std::string out = line("scene", name);
   if (const std::string what = description_in(file); !what.empty()) out += line("what it is", what);
@@ -189,7 +191,10 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   } else {
     out += line("filling", findings.no_filling) + line("mean free path", findings.no_filling);
   }
-  print(out + line("horizon", horizon_verdict(scene)));
+  // The search of the horizon may take long: all that is known goes out before.
+  print(out);
+  std::fflush(stdout);
+  print(line("horizon", with_horizon ? horizon_verdict(scene) : "not searched, as asked for"));
 }
 
 std::string json_number(const std::optional<double>& value) {
@@ -211,8 +216,8 @@ std::string json_contact(const oracle::Contact& contact, int dimension) {
       contact.cell ? cell + "]" : "null", contact.overlap ? "overlap" : "touch");
 }
 
-void show_json(const std::string& name, const std::string& file, const Scene& scene,
-               const Findings& findings) {
+void show_json(const std::string& name, const std::string& file, const Scene& scene, const Findings& findings,
+               bool with_horizon) {
   std::string cells, contacts, scene_line;
   for (const Lattice& lattice : scene.lattices)
     cells += (cells.empty() ? "" : ",") + json_number(cell_volume(lattice, scene.dimension));
@@ -231,13 +236,14 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
       json_number(filling ? std::optional(filling->fraction) : std::nullopt),
       json_number(filling ? std::optional(filling->surface) : std::nullopt),
       json_number(filling ? std::optional(filling->mean_free_path) : std::nullopt),
-      json_quoted(horizon_verdict(scene))));
+      with_horizon ? json_quoted(horizon_verdict(scene)) : "null"));
 }
 
 int show(const Options& options) {
   const Scene scene = read_scene(*options.scene, positive_number(options.radius, "--radius"));
   const Findings findings = findings_on(scene);
-  (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings);
+  (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings,
+                                         !options.no_horizon);
   return kDone;
 }
 
@@ -326,9 +332,11 @@ void add_scene(CLI::App& app, Action& action) {
   list_command->footer("Example:\n  lorentz scene list");
 
   CLI::App* show_command = command->add_subcommand(
-      "show", "Cell, obstacles, which of them touch or overlap, filling fraction and mean free path.");
+      "show", "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.");
   show_command->add_option("scene", options->scene, "a name of the catalogue, or a file")->required();
   show_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  show_command->add_flag("--no-horizon", options->no_horizon,
+                         "leave out the horizon: among small obstacles its search takes half a minute");
   show_command->add_flag("--json", options->json, "as one JSON object");
   show_command->callback([options, &action] { action = [options] { return show(*options); }; });
   show_command->footer("Example:\n  lorentz scene show fcc --radius 0.35");

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -33,7 +34,10 @@ struct Cylinder {
   Vec vector{};                      ///< the same, Cartesian
   Vec point{};                       ///< rounded, on a line within the channel
   bool inside = false;               ///< that line is inside; decided exactly
-  double radius = 0;                 ///< approximate: of a cylinder around that line
+  /// Of a cylinder that fits around the line that `point` is rounded from, not always the channel's widest.
+  /// Among balls correctly rounded, among ellipsoids at most what fits; above 0, unless it is too small for a
+  /// binary64.
+  double radius = 0;
 };
 
 /// Lattice planes that leave no planar channel open, but nearly: infinitely many directions within the plane
@@ -54,7 +58,8 @@ struct Horizon {
   std::vector<std::array<Integer, 3>> undecided;
 
   /// P(free path from a uniform start > t) ~ tail_constant / t; of one lattice of obstacles that do not
-  /// overlap.
+  /// overlap. 0 for any scene without a corridor or planar channel: the tail falls faster than 1/t, or, if
+  /// is_finite(), there is none.
   std::optional<double> tail_constant;
   std::string no_tail_constant;  ///< else the reason
 
@@ -73,13 +78,19 @@ struct TooManyChannels : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Hears now and then how far a search is: `done` of `total` of what `what` names are done.
+using SearchProgress = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
+
 /// What is open is decided exactly.
 /// held by "Horizon: square and cubic lattices by their closed forms",
 ///         "Horizon: the oracle flies for ever in a channel, and nowhere else"
 ///
 /// All open channels of a scene without flaws (flaw_of, dependence_in); with `min_width` above 0 the
 /// corridors and planar channels at least that wide. The search for cylinders can be left out: among
-/// small obstacles it is the longer one. Throws TooManyChannels.
-Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true);
+/// small obstacles it is the longer one. Throws TooManyChannels, mostly at once, for directions that come
+/// into question are counted before any is looked at; a search of very many takes half a minute, and
+/// `progress` hears of it.
+Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
+                   const SearchProgress& progress = {});
 
 }  // namespace lorentz::oracle

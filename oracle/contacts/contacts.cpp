@@ -8,6 +8,7 @@
 #include <lorentz/scene_check.hpp>
 #include "oracle/contacts/ellipsoid_pair.hpp"
 #include "oracle/exact/exact_problem.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
 
 namespace lorentz::oracle {
@@ -18,24 +19,20 @@ template <std::size_t D>
 struct Body {
   int lattice, atom;
   ZVec<D> position;
-  bool ball;
+  bool ball;      // however it is written
   Z reach;        // no point is farther from the centre; a ball's radius
   Form<D> shape;  // A A^T
 };
 
 template <std::size_t D>
-Form<D> shape_of(const Atom& atom, long exponent) {
-  Form<D> shape;
-  if (atom.is_ball()) {
-    for (std::size_t i = 0; i < D; ++i)
-      shape[i][i] = scaled(atom.radius, exponent) * scaled(atom.radius, exponent);
-    return shape;
-  }
-  for (const Vec& axis : atom.semiaxes)
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t k = 0; k < D; ++k)
-        shape[i][k] += scaled(axis[i], exponent) * scaled(axis[k], exponent);
-  return shape;
+Form<D> atom_shape(const Atom& atom, long exponent) {
+  std::array<ZVec<D>, D> axes;
+  for (std::size_t i = 0; i < D; ++i)
+    if (atom.is_ball())
+      axes[i][i] = scaled(atom.radius, exponent);
+    else
+      axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
+  return shape_of<D>(axes);
 }
 
 // The largest eigenvalue of A A^T is the squared distance of the farthest point; its trace is no less.
@@ -66,10 +63,12 @@ std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
     reduce(result[l].reduced, EuclideanForm<D>{});
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const Atom& atom = lattice.atoms[a];
-      Body<D> body{static_cast<int>(l), static_cast<int>(a), {}, atom.is_ball(), {}, {}};
+      Body<D> body{
+          static_cast<int>(l), static_cast<int>(a), {}, false, {}, atom_shape<D>(atom, common.get())};
       for (std::size_t k = 0; k < D; ++k) body.position[k] = scaled(atom.position[k], common.get());
-      body.shape = shape_of<D>(atom, common.get());
-      body.reach = body.ball ? scaled(atom.radius, common.get()) : reach_of<D>(body.shape);
+      const std::optional<Z> radius = ball_radius<D>(body.shape);
+      body.ball = radius.has_value();
+      body.reach = radius ? *radius : reach_of<D>(body.shape);
       result[l].bodies.push_back(std::move(body));
     }
   }

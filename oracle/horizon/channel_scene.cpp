@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oracle/exact/inside.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/integers/dyadic.hpp"
 
@@ -22,12 +23,16 @@ template <std::size_t D>
 Obstacle<D> obstacle_of(const Atom& atom, long exponent) {
   Obstacle<D> obstacle;
   obstacle.position = scaled_vector<D>(atom.position, exponent);
-  obstacle.ball = atom.is_ball();
-  for (std::size_t i = 0; i < D; ++i)
-    if (obstacle.ball)
-      obstacle.axes[i][i] = scaled(atom.radius, exponent);
-    else
-      obstacle.axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
+  std::optional<Z> radius;
+  if (atom.is_ball()) {
+    radius = scaled(atom.radius, exponent);
+  } else {
+    for (std::size_t i = 0; i < D; ++i) obstacle.axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
+    radius = ball_radius<D>(shape_of<D>(obstacle.axes));
+  }
+  obstacle.ball = radius.has_value();
+  for (std::size_t i = 0; i < D && radius; ++i)
+    for (std::size_t k = 0; k < D; ++k) obstacle.axes[i][k] = i == k ? *radius : Z(0);
   return obstacle;
 }
 
@@ -108,34 +113,70 @@ std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& norma
   }
 }
 
+namespace {
+
+// The row through the origin, first = j step, has two primitive points, +-step, however long it is.
 template <std::size_t D>
-bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit) {
+bool is_through_origin(const LatticePoint<D>& first, const LatticePoint<D>& step) {
+  for (std::size_t i = 0; i < D; ++i) {
+    if (step.n[i] == 0) continue;
+    LatticePoint<D> rest = first;
+    rest.add_multiple(-floor_div(first.n[i], step.n[i]), step);
+    return rest.n == ZVec<D>{};
+  }
+  return false;
+}
+
+// Of a reduced basis.
+template <std::size_t D>
+std::size_t count_points(const Basis<D>& basis, const Z& bound2, std::size_t most) {
+  std::size_t count = 0;
+  visit_ball<D>(basis, LatticePoint<D>{}, bound2,
+                [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+                  if (last > most) {
+                    if (is_through_origin(first, step)) return (count += 3) > most;
+                    count = most + 1;
+                    return true;
+                  }
+                  count +=
+                      std::min<std::size_t>(last.get_ui() + 1, is_through_origin(first, step) ? 3 : most);
+                  return count > most;
+                });
+  return count;
+}
+
+}  // namespace
+
+template <std::size_t D>
+std::size_t points_in_ball(Basis<D> basis, const Z& bound2, std::size_t most) {
   reduce(basis, EuclideanForm<D>{});
+  return count_points<D>(basis, bound2, most);
+}
+
+template <std::size_t D>
+bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit,
+                     const std::function<void(std::size_t, std::size_t)>& step_done) {
+  reduce(basis, EuclideanForm<D>{});
+  const std::size_t total = count_points<D>(basis, bound2, most);
+  if (total > most) return false;
   std::size_t seen = 0;
-  const auto row = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-    LatticePoint<D> point = first;
-    // The row through the origin, first = j step, has two primitive points, +-step, however long it is.
-    for (std::size_t i = 0; i < D; ++i) {
-      if (step.n[i] == 0) continue;
-      const Z j = floor_div(first.n[i], step.n[i]);
-      LatticePoint<D> rest = first;
-      rest.add_multiple(-j, step);
-      if (rest.n == ZVec<D>{}) {
-        if (last > 0) visit(step);
-        return false;
-      }
-      break;
-    }
-    for (Z left = last; left >= 0; --left) {
-      if (++seen > most) return true;
-      Z divisor = 0;
-      for (const Z& n : point.n) divisor = gcd(divisor, n);
-      if (divisor == 1 && point.n > ZVec<D>{}) visit(point);
-      point.add_multiple(1, step);
-    }
-    return false;
-  };
-  return !visit_ball<D>(basis, LatticePoint<D>{}, bound2, row);
+  visit_ball<D>(basis, LatticePoint<D>{}, bound2,
+                [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+                  if (is_through_origin(first, step)) {
+                    if (last > 0) visit(step);
+                    return false;
+                  }
+                  LatticePoint<D> point = first;
+                  for (Z left = last; left >= 0; --left) {
+                    Z divisor = 0;
+                    for (const Z& n : point.n) divisor = gcd(divisor, n);
+                    if (divisor == 1 && point.n > ZVec<D>{}) visit(point);
+                    point.add_multiple(1, step);
+                    if (step_done) step_done(++seen, total);
+                  }
+                  return false;
+                });
+  return true;
 }
 
 #define LORENTZ_CHANNEL_SCENE(D)                                                                        \
@@ -144,7 +185,9 @@ bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const No
   template struct ChannelScene<D>;                                                                      \
   template std::vector<Gap> gaps_of(const ObstacleLattice<D>&, const ZVec<D>&, const Z&, std::size_t&); \
   template void set_cofactors(ObstacleLattice<D>&);                                                     \
-  template bool visit_primitive(Basis<D>, const Z&, std::size_t, const NormalVisitor<D>&);
+  template std::size_t points_in_ball(Basis<D>, const Z&, std::size_t);                                 \
+  template bool visit_primitive(Basis<D>, const Z&, std::size_t, const NormalVisitor<D>&,               \
+                                const std::function<void(std::size_t, std::size_t)>&);
 
 LORENTZ_CHANNEL_SCENE(2)
 LORENTZ_CHANNEL_SCENE(3)

@@ -11,7 +11,8 @@
 
 namespace lorentz::oracle {
 
-/// { position + A y : |y| < 1 }, `axes` the columns of A; a ball has A = axes[0][0] I.
+/// { position + A y : |y| < 1 }, `axes` the columns of A; a ball, also one given by semiaxes, has A =
+/// axes[0][0] I.
 template <std::size_t D>
 struct Obstacle {
   ZVec<D> position;
@@ -59,10 +60,16 @@ void set_cofactors(ObstacleLattice<D>& lattice);
 template <std::size_t D>
 using NormalVisitor = std::function<void(const LatticePoint<D>& normal)>;
 
-/// Visits primitive n, one of each pair +-n, with |sum n_i b_i|^2 < bound2; false if there are more than
-/// `most` points to look at (then some were visited).
+/// How many points n_1 b_1 + .. have |.|^2 < bound2, the origin among them; of those on the line of a
+/// shortest vector just three. Counts rows, not points, and no further than to more than `most`.
 template <std::size_t D>
-bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit);
+std::size_t points_in_ball(Basis<D> basis, const Z& bound2, std::size_t most);
+
+/// Visits primitive n, one of each pair +-n, with |sum n_i b_i|^2 < bound2; false, and none was visited, if
+/// there are more than `most` points to look at. `step`, if any, hears how many points of all were looked at.
+template <std::size_t D>
+bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit,
+                     const std::function<void(std::size_t done, std::size_t total)>& step = {});
 
 /// log2 |a|, roughly; for choices between ways that lead to the same end, and for refusals.
 double log2_of(const Z& a);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/horizon/hole_centre.hpp"
 #include "oracle/horizon/shadow.hpp"
@@ -13,7 +14,7 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr double kMostPlanes = 20'000;
+constexpr std::size_t kMostPlanes = 20'000;
 constexpr double kMostInPlane = 5'000;  // directions
 constexpr std::size_t kMostWork =
     10'000'000;  // blocks placed, points and discs compared: some microseconds each
@@ -106,6 +107,7 @@ PlaneBasis plane_basis(const ObstacleLattice<3>& lattice, const ZVec<3>& k) {
 struct BallScene {
   ObstacleLattice<3> lattice;
   std::array<ZVec<3>, 3> rows;     ///< of the map; the identity for balls
+  std::array<ZVec<3>, 3> axes;     ///< of the largest ball, or of the ellipsoids, before
   std::vector<ZVec<3>> positions;  ///< of the obstacles before
   bool mapped = false;
   std::string unsupported;
@@ -122,20 +124,22 @@ BallScene balls_of(const ChannelScene<3>& scene) {
     if (other.vectors != lattice.vectors) result.unsupported = "done for one lattice only, or equal ones";
     lattice.obstacles.insert(lattice.obstacles.end(), other.obstacles.begin(), other.obstacles.end());
   }
-  std::stable_sort(lattice.obstacles.begin(), lattice.obstacles.end(),
-                   [](const auto& a, const auto& b) { return a.axes[0][0] > b.axes[0][0]; });
-  for (std::size_t i = 0; i < 3; ++i) result.rows[i][i] = 1;
-  const Obstacle<3> first = lattice.obstacles[0];
-  bool same = true, balls = true;
+  bool balls = true, same = true;
+  const ZMatrix<3> shape = shape_of<3>(lattice.obstacles[0].axes);
   for (const auto& obstacle : lattice.obstacles) {
-    same &= obstacle.axes == first.axes;
     balls &= obstacle.ball;
-    result.positions.push_back(obstacle.position);
+    same &= shape_of<3>(obstacle.axes) == shape;
   }
+  if (balls)
+    std::stable_sort(lattice.obstacles.begin(), lattice.obstacles.end(),
+                     [](const auto& a, const auto& b) { return a.axes[0][0] > b.axes[0][0]; });
+  for (std::size_t i = 0; i < 3; ++i) result.rows[i][i] = 1;
+  for (const auto& obstacle : lattice.obstacles) result.positions.push_back(obstacle.position);
+  result.axes = lattice.obstacles[0].axes;
   if (!balls && !same) result.unsupported = "done for balls only, or ellipsoids of one shape and orientation";
   if (balls || !same) return result;
   result.mapped = true;
-  const auto& a = first.axes;
+  const auto& a = result.axes;
   const Z det = dot(cross(a[0], a[1]), a[2]);
   for (std::size_t i = 0; i < 3; ++i) {
     result.rows[i] = cross(a[(i + 1) % 3], a[(i + 2) % 3]);
@@ -155,13 +159,14 @@ BallScene balls_of(const ChannelScene<3>& scene) {
 
 class Search {
  public:
-  Search(const ChannelScene<3>& scene, const BallScene& balls, Horizon& horizon)
-      : scene_(scene), balls_(balls), lattice_(balls.lattice), horizon_(horizon) {}
+  Search(const ChannelScene<3>& scene, const BallScene& balls, Horizon& horizon,
+         const SearchProgress& progress)
+      : scene_(scene), balls_(balls), lattice_(balls.lattice), horizon_(horizon), progress_(progress) {}
 
   void run() {
     if (!find_planes()) return;
-    for (const Plane& plane : closed_) {
-      look_in(plane);
+    for (; planes_done_ < closed_.size(); ++planes_done_) {
+      look_in(closed_[planes_done_]);
       if (work_ <= kMostWork) continue;
       horizon_.no_cylinders = "the search was stopped, being too long; those listed are open";
       return;
@@ -174,14 +179,10 @@ class Search {
   // and b1 <= (2 / sqrt 3) / |k|: 1/k^2 > (12/7) r^2. That leaves finitely many k.
   bool find_planes() {
     const Z r = lattice_.obstacles[0].axes[0][0], r2 = r * r, volume2 = lattice_.volume * lattice_.volume;
-    const double count =
-        1.0664 + 1.5 * log2_of(ceil_div(7 * volume2, 12 * r2)) - 2 * log2_of(lattice_.volume);
-    const bool done =
-        count < std::log2(kMostPlanes) &&
-        visit_primitive<3>(lattice_.cofactors, ceil_div(7 * volume2, 12 * r2),
-                           static_cast<std::size_t>(4 * kMostPlanes), [&](const LatticePoint<3>& normal) {
-                             if (work_ <= kMostWork) sort_in({normal.n, normal.p});
-                           });
+    const bool done = visit_primitive<3>(lattice_.cofactors, ceil_div(7 * volume2, 12 * r2), 2 * kMostPlanes,
+                                         [&](const LatticePoint<3>& normal) {
+                                           if (work_ <= kMostWork) sort_in({normal.n, normal.p});
+                                         });
     if (done && work_ <= kMostWork) return true;
     horizon_.no_cylinders =
         "not searched: the obstacles are so small that too many planes come into question";
@@ -235,6 +236,7 @@ class Search {
 
   void look_along(const PlaneBasis& basis, const Z& i, const Z& j) {
     work_ += 10;
+    if (progress_) progress_("planes searched for cylinders", planes_done_, closed_.size());
     LatticePoint<3> g, next;
     g.add_multiple(i, basis.in_plane[0]);
     g.add_multiple(j, basis.in_plane[1]);
@@ -265,7 +267,7 @@ class Search {
 
   void add(const LatticePoint<3>& g, const Shadow& shadow, const HolePoint& hole) {
     work_ += shadow.discs.size() > 1 ? 200 : 10;
-    const HoleCentre centre = centre_of(shadow, hole);
+    const HoleCentre centre = room_in(shadow, hole);
     Cylinder cylinder;
     cylinder.direction = named(g.n);
     const LatticePoint<3> vector = lattice_vector(scene_.lattices[0], g.n);
@@ -276,25 +278,37 @@ class Search {
     horizon_.cylinders.push_back(cylinder);
   }
 
-  // From the scene of balls back to the scene, rounded: lengths in it are in units of the largest ball's
-  // radius, or, if the balls were ellipsoids, mapped by A.
+  // A hole that is there has room, though not always within the bits of its point.
+  HoleCentre room_in(const Shadow& shadow, const HolePoint& hole) {
+    constexpr unsigned long kMostBits = 1 << 14;
+    HoleCentre centre = centre_of(shadow, hole);
+    const auto none = [&] {
+      return sign_of(centre.clearance.a, centre.clearance.sign, centre.clearance.d) <= 0;
+    };
+    for (unsigned long bits = 4 * hole.bits; none() && bits <= kMostBits; bits *= 4) {
+      work_ += 100;
+      const bool one = shadow.discs.size() == 1;
+      centre = centre_of(shadow, *(one ? hole_of_largest(shadow, bits) : hole_of_all(shadow, work_, bits)));
+    }
+    return centre;
+  }
+
+  // From the scene of balls back to the scene, rounded: offsets are in units of the largest ball's radius,
+  // or, if the balls were ellipsoids, mapped by A; A^-1 makes nothing longer than its norm does.
   void place(Cylinder& cylinder, const ZVec<3>& position, const HoleCentre& centre) const {
     const auto real = [&](const Z& a) { return round_to_binary64({a, 1, 0, 1, scene_.exponent}); };
-    const auto& axes = scene_.lattices[0].obstacles[0].axes;
-    double inverse2 = 0;  // squared norm of A^-1
     for (std::size_t k = 0; k < 3; ++k) {
       cylinder.point[k] = real(position[k]);
-      if (balls_.mapped) {
-        for (std::size_t i = 0; i < 3; ++i) cylinder.point[k] += centre.offset[i] * real(axes[i][k]);
-        inverse2 +=
-            std::exp2(2 * (log2_of(dot(balls_.rows[k], balls_.rows[k])) / 2 -
-                           log2_of(lattice_.obstacles[0].axes[0][0]) - static_cast<double>(scene_.exponent)));
-      } else {
-        cylinder.point[k] += centre.offset[k] * real(lattice_.obstacles[0].axes[0][0]);
-      }
+      for (std::size_t i = 0; i < 3; ++i) cylinder.point[k] += centre.offset[i] * real(balls_.axes[i][k]);
     }
-    cylinder.radius =
-        centre.clearance * (balls_.mapped ? 1 / std::sqrt(inverse2) : real(lattice_.obstacles[0].axes[0][0]));
+    Quadratic radius = centre.clearance;
+    if (balls_.mapped) {
+      Z norm2 = 0;  // of the map, |det A| A^-1, squared
+      for (const ZVec<3>& row : balls_.rows) norm2 += dot(row, row);
+      radius.q *= ceil_sqrt(norm2);
+    }
+    radius.exponent = scene_.exponent;
+    cylinder.radius = round_to_binary64(radius);
   }
 
   bool is_inside(Shadow shadow, const Vec& point) const {
@@ -324,7 +338,9 @@ class Search {
   const BallScene& balls_;
   const ObstacleLattice<3>& lattice_;
   Horizon& horizon_;
+  const SearchProgress& progress_;
   std::vector<Plane> closed_;
+  std::size_t planes_done_ = 0;
   std::vector<ZVec<3>> taken_;  ///< planes that are open, or touch: cylinders in these are not listed
   std::set<ZVec<3>> seen_;
   std::size_t work_ = 0;
@@ -332,10 +348,10 @@ class Search {
 
 }  // namespace
 
-void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon) {
+void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon, const SearchProgress& progress) {
   const BallScene balls = balls_of(scene);
   horizon.no_cylinders = balls.unsupported;
-  if (balls.unsupported.empty()) Search(scene, balls, horizon).run();
+  if (balls.unsupported.empty()) Search(scene, balls, horizon, progress).run();
   std::stable_sort(horizon.cylinders.begin(), horizon.cylinders.end(), [](const auto& a, const auto& b) {
     return std::tuple(-a.radius, length_of(a.vector), b.vector) <
            std::tuple(-b.radius, length_of(b.vector), a.vector);

@@ -7,6 +7,6 @@
 namespace lorentz::oracle {
 
 /// Fills in horizon.cylinders, families, and no_cylinders.
-void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon);
+void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon, const SearchProgress& progress);
 
 }  // namespace lorentz::oracle

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/horizon/widest_step.hpp"
+
 namespace lorentz::oracle {
 namespace {
 
@@ -13,109 +15,271 @@ double quotient(const Z& a, const Z& b) {
   return std::ldexp(x / y, static_cast<int>(exponent_a - exponent_b));
 }
 
-// Orthogonal axes of the plane.
+// Orthogonal axes of the plane. Lengths in units of the largest disc's radius; vectors of the plane as
+// integers, times 2^bits.
 struct Frame {
+  unsigned long bits;
   std::array<ZVec<3>, 2> axes;
-  std::array<Z, 2> fine_units;  ///< |axis| times the largest disc's radius, times 2^kFineBits
+  std::array<Z, 2> units;  ///< |axis| times the unit, times 2^bits
 
-  explicit Frame(const Shadow& shadow) {
+  Frame(const Shadow& shadow, unsigned long fine_bits) : bits(fine_bits) {
     axes = {shadow.basis[0].p, cross(shadow.along, shadow.basis[0].p)};
     const Z r = shadow.discs[0].radius;
     for (int i : {0, 1})
-      fine_units[i] = floor_sqrt(shifted_left(dot(axes[i], axes[i]) * r * r * shadow.along2, 2 * kFineBits));
+      units[i] = floor_sqrt(shifted_left(dot(axes[i], axes[i]) * r * r * shadow.along2, 2 * bits));
   }
-  /// Of a vector times 2^kFineBits.
   std::array<double, 2> coordinates(const ZVec<3>& fine) const {
-    return {quotient(dot(fine, axes[0]), fine_units[0]), quotient(dot(fine, axes[1]), fine_units[1])};
+    return {quotient(dot(fine, axes[0]), units[0]), quotient(dot(fine, axes[1]), units[1])};
+  }
+  ZVec<3> vector(const Step& step) const {
+    ZVec<3> fine;
+    const double parts[] = {step.x, step.y};
+    for (int i : {0, 1}) {
+      int exponent = 0;
+      const Z mantissa(std::ldexp(std::frexp(parts[i], &exponent), 53));
+      const Z length2 = dot(axes[i], axes[i]), times = mantissa * units[i];
+      const int shift = exponent - 53;
+      for (int k = 0; k < 3; ++k)
+        fine[k] +=
+            shift >= 0
+                ? round_div(shifted_left(times * axes[i][k], static_cast<unsigned long>(shift)), length2)
+                : round_div(times * axes[i][k], shifted_left(length2, static_cast<unsigned long>(-shift)));
+    }
+    return fine;
   }
   std::array<double, 3> direction(int i) const {
-    const Z length = floor_sqrt(shifted_left(dot(axes[i], axes[i]), 2 * kFineBits));
+    const Z length = floor_sqrt(shifted_left(dot(axes[i], axes[i]), 2 * bits));
     std::array<double, 3> result;
-    for (int k = 0; k < 3; ++k) result[k] = quotient(shifted_left(axes[i][k], kFineBits), length);
+    for (int k = 0; k < 3; ++k) result[k] = quotient(shifted_left(axes[i][k], bits), length);
     return result;
   }
 };
 
-struct FlatDisc {
-  double x, y, radius;
+// The discs around the start of a climb, times 2^bits; centres relative to the disc that the start is
+// relative to.
+struct Surroundings {
+  const Shadow& shadow;
+  Frame frame;
+  std::vector<Disc> discs;
+  std::vector<std::array<double, 3>> flat;  ///< x, y, radius of each
+
+  /// From here, nearest first; leaves out those further than `most`.
+  void sort_by_distance(double x, double y, double most = std::numeric_limits<double>::infinity());
 };
 
-// The clearance at a point if it is above `floor`, else something not above it.
-double clearance(const std::vector<FlatDisc>& discs, double x, double y, double floor) {
+void Surroundings::sort_by_distance(double x, double y, double most) {
+  struct Seen {
+    double far;
+    Disc disc;
+    std::array<double, 3> flat;
+  };
+  std::vector<Seen> seen;
+  for (Disc& disc : discs) {
+    const auto [disc_x, disc_y] = frame.coordinates(disc.centre);
+    const double radius = quotient(disc.radius, shadow.discs[0].radius);
+    const double far = std::hypot(disc_x - x, disc_y - y) - radius;
+    if (far <= most) seen.push_back({far, std::move(disc), {disc_x, disc_y, radius}});
+  }
+  std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.far < b.far; });
+  discs.clear();
+  flat.clear();
+  for (Seen& one : seen) {
+    discs.push_back(std::move(one.disc));
+    flat.push_back(one.flat);
+  }
+}
+
+// A place in the plane in binary64: quick, and near the discs' edges too coarse.
+class RoughPlace {
+ public:
+  RoughPlace(const Surroundings& around, double x, double y) : around_(&around), x_(x), y_(y) {
+    for (const auto& [disc_x, disc_y, radius] : around.flat) {
+      const double dx = x - disc_x, dy = y - disc_y, length = std::sqrt(dx * dx + dy * dy);
+      walls_.push_back({dx / length, dy / length, length - radius});
+    }
+  }
+  const std::vector<Wall>& walls() const { return walls_; }
+  RoughPlace moved(const Step& step) const { return {*around_, x_ + step.x, y_ + step.y}; }
+  double x() const { return x_; }
+  double y() const { return y_; }
+
+ private:
+  const Surroundings* around_;
+  double x_, y_;
+  std::vector<Wall> walls_;
+};
+
+// A place as integers: its distances from the discs' edges are right however small they are.
+class ExactPlace {
+ public:
+  ExactPlace(const Surroundings& around, ZVec<3> place) : around_(&around), place_(std::move(place)) {
+    const Frame& frame = around.frame;
+    const Z unit = shifted_left(around.shadow.discs[0].radius * around.shadow.along2, frame.bits + kMore);
+    for (const Disc& disc : around.discs) {
+      const auto [x, y] = frame.coordinates(minus(place_, disc.centre));
+      const double length = std::hypot(x, y);
+      const Quadratic far = distance_from(disc);
+      const Z fine = floor_sqrt(shifted_left(far.d, 2 * kMore)) + shifted_left(far.a, kMore);
+      walls_.push_back({x / length, y / length, quotient(fine, unit)});
+      if (walls_.size() > 1 && fine >= least_) continue;
+      least_ = fine;
+      nearest_ = far;
+    }
+  }
+  const std::vector<Wall>& walls() const { return walls_; }
+  ExactPlace moved(const Step& step) const {
+    ZVec<3> to = around_->frame.vector(step);
+    for (std::size_t k = 0; k < 3; ++k) to[k] += place_[k];
+    return {*around_, to};
+  }
+  double x() const { return around_->frame.coordinates(place_)[0]; }
+  double y() const { return around_->frame.coordinates(place_)[1]; }
+  const Quadratic& clearance() const { return nearest_; }
+
+ private:
+  static constexpr unsigned long kMore = 64;
+
+  static ZVec<3> minus(const ZVec<3>& a, const ZVec<3>& b) {
+    return {Z(a[0] - b[0]), Z(a[1] - b[1]), Z(a[2] - b[2])};
+  }
+  // Of the line through the place from a ball: (|X cross g| - r g^2) / g^2, X the vector between them, which
+  // need not be perpendicular to g.
+  Quadratic distance_from(const Disc& disc) const {
+    const Shadow& shadow = around_->shadow;
+    const ZVec<3> across = cross(minus(place_, disc.centre), shadow.along);
+    const unsigned long bits = around_->frame.bits;
+    return {-shifted_left(disc.radius * shadow.along2, bits), +1, dot(across, across),
+            shifted_left(shadow.along2, bits), 0};
+  }
+
+  const Surroundings* around_;
+  ZVec<3> place_;
+  std::vector<Wall> walls_;
+  Z least_;
+  Quadratic nearest_;
+};
+
+template <class Place>
+double clearance_at(const Place& place) {
+  return std::min_element(place.walls().begin(), place.walls().end(),
+                          [](const Wall& a, const Wall& b) { return a.far < b.far; })
+      ->far;
+}
+
+// The clearance at a place if it is above `floor`, else something not above it.
+double rough_clearance(const Surroundings& around, double x, double y, double floor) {
   double least = std::numeric_limits<double>::infinity();
-  for (const FlatDisc& disc : discs) {
-    const double dx = x - disc.x, dy = y - disc.y;
-    least = std::min(least, std::sqrt(dx * dx + dy * dy) - disc.radius);
+  for (const auto& [disc_x, disc_y, radius] : around.flat) {
+    const double dx = x - disc_x, dy = y - disc_y;
+    least = std::min(least, std::sqrt(dx * dx + dy * dy) - radius);
     if (least <= floor) break;
   }
   return least;
 }
 
-struct FlatPoint {
-  double x, y, clearance;
-};
-
-// From the start in ever smaller steps, as long as the clearance grows. A start on the boundary may be in a
-// sharp corner: the way out of that takes more looking for.
-FlatPoint climb(std::vector<FlatDisc>& discs, double start_x, double start_y, double limit) {
-  const auto distance = [&](const FlatDisc& disc) {
-    return std::hypot(disc.x - start_x, disc.y - start_y) - disc.radius;
-  };
-  std::sort(discs.begin(), discs.end(),
-            [&](const FlatDisc& a, const FlatDisc& b) { return distance(a) < distance(b); });
-  double x = start_x, y = start_y, best = 0;
-  for (double step = limit / 8; step > limit * (best > 0 ? 1e-8 : 1e-14);) {
-    const int ways = best > 0 ? 12 : 96;
+// Hops to where there is more room, in ever smaller steps and over discs too: a hole may be wide far from the
+// start, or another one be wider.
+Step hop(const Surroundings& around, const Step& start, double limit) {
+  constexpr int kWays = 24;
+  Step place = start;
+  double best = 0;
+  for (double step = limit / 4; step > limit / 200;) {
     bool better = false;
-    for (int i = 0; i < ways && !better; ++i) {
-      const double angle = 2 * M_PI * i / ways;
-      const double to_x = x + step * std::cos(angle), to_y = y + step * std::sin(angle);
-      const double there = clearance(discs, to_x, to_y, best);
-      if (there <= best || std::hypot(to_x - start_x, to_y - start_y) > limit) continue;
+    for (int i = 0; i < kWays && !better; ++i) {
+      const double angle = 2 * M_PI * i / kWays;
+      const Step to{place.x + step * std::cos(angle), place.y + step * std::sin(angle)};
+      const double there = rough_clearance(around, to.x, to.y, best);
+      if (there <= best || std::hypot(to.x - start.x, to.y - start.y) > limit) continue;
       best = there;
-      x = to_x;
-      y = to_y;
+      place = to;
       better = true;
     }
     if (!better) step /= 2;
   }
-  return {x, y, best};
+  return place;
 }
 
-FlatPoint centre_in_plane(const Shadow& shadow, const HolePoint& hole, const Frame& frame) {
-  const auto start = frame.coordinates(hole.offset);
-  // Of one disc and its translates the point is the one furthest from all centres already.
-  if (shadow.discs.size() == 1) return {start[0], start[1], std::hypot(start[0], start[1]) - 1};
-  // No point is further from all centres than half |b1| + |b2|: within twice that is all that matters.
-  const Z r = shadow.discs[0].radius, b11 = dot(shadow.basis[0].p, shadow.basis[0].p),
-          b22 = dot(shadow.basis[1].p, shadow.basis[1].p);
-  const Z reach = 2 * ceil_sqrt(ceil_div(2 * (b11 + b22), shadow.along2)) + 2 * r;
+// No disc is nearer than its tangent there, so a step away from the tangents is one away from the discs; near
+// the farthest place the steps converge as Newton's do. No further than `limit` from the start.
+template <class Place>
+Place climb(Place place, double limit) {
+  constexpr int kMostSteps = 400;
+  const double start_x = place.x(), start_y = place.y();
+  double best = clearance_at(place), longest = limit;
+  for (int i = 0; i < kMostSteps && longest > 1e-3 * best; ++i) {
+    const double dx = place.x() - start_x, dy = place.y() - start_y;
+    const auto low = [&](double at) { return -std::min(longest, std::max(0.0, limit + at)); };
+    const auto high = [&](double at) { return std::min(longest, std::max(0.0, limit - at)); };
+    const Step step = widest_step(place.walls(), {low(dx), high(dx), low(dy), high(dy)});
+    Place next = place.moved(step);
+    const double there = clearance_at(next);
+    if (!(there > best)) {
+      longest /= 4;
+      continue;
+    }
+    const bool arrived = there - best < 1e-12 * there;
+    place = std::move(next);
+    best = there;
+    if (arrived) break;
+  }
+  return place;
+}
+
+// Nearest first.
+Surroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const Z& reach) {
+  Surroundings result{shadow, Frame(shadow, hole.bits), {}, {}};
   ZVec<3> whole, point;
   for (std::size_t k = 0; k < 3; ++k) {
-    mpz_fdiv_q_2exp(whole[k].get_mpz_t(), hole.offset[k].get_mpz_t(), kFineBits);
+    mpz_fdiv_q_2exp(whole[k].get_mpz_t(), hole.offset[k].get_mpz_t(), hole.bits);
     point[k] = shadow.discs[hole.disc].centre[k] + whole[k];
   }
-  std::vector<FlatDisc> discs;
-  for (const Disc& disc : shadow.discs_around(point, reach, false)) {
-    ZVec<3> fine;
-    for (std::size_t k = 0; k < 3; ++k) fine[k] = shifted_left(disc.centre[k] + whole[k], kFineBits);
-    const auto [x, y] = frame.coordinates(fine);
-    discs.push_back({x, y, quotient(disc.radius, r)});
+  for (Disc disc : shadow.discs_around(point, reach, false)) {
+    for (std::size_t k = 0; k < 3; ++k) disc.centre[k] = shifted_left(disc.centre[k] + whole[k], hole.bits);
+    result.discs.push_back(std::move(disc));
   }
-  return climb(discs, start[0], start[1], quotient(reach, r) / 2);
+  const auto [x, y] = result.frame.coordinates(hole.offset);
+  result.sort_by_distance(x, y);
+  return result;
+}
+
+// Back from X = x cross g: the projection is (g cross X) / g^2.
+Vec offset_of(const Frame& frame, double x, double y) {
+  const auto first = frame.direction(0), second = frame.direction(1);
+  Vec offset;
+  for (int k = 0; k < 3; ++k) offset[k] = x * second[k] - y * first[k];
+  return offset;
+}
+
+// Of one disc and its translates the point is the one furthest from all centres already, and its distance
+// from them the circumradius of 0, b1, b2: |b1| |b2| |b1 - b2| / (4 area |g|).
+HoleCentre centre_of_largest(const Shadow& shadow, const HolePoint& hole) {
+  const Frame frame(shadow, hole.bits);
+  const auto [x, y] = frame.coordinates(hole.offset);
+  const ZVec<3>&b1 = shadow.basis[0].p, b2 = shadow.basis[1].p;
+  const Z g11 = dot(b1, b1), g12 = dot(b1, b2), g22 = dot(b2, b2), g33 = g11 + g22 - 2 * abs(g12);
+  const Z square = g11 * g22 * g33, over = 4 * (g11 * g22 - g12 * g12) * shadow.along2;
+  return {offset_of(frame, x, y), {-shadow.discs[0].radius * over, +1, square * over, over, 0}};
 }
 
 }  // namespace
 
 HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
-  const Frame frame(shadow);
-  const FlatPoint point = centre_in_plane(shadow, hole, frame);
-  // Back from X = x cross g: the projection is (g cross X) / g^2.
-  const auto first = frame.direction(0), second = frame.direction(1);
-  HoleCentre result;
-  for (int k = 0; k < 3; ++k) result.offset[k] = point.x * second[k] - point.y * first[k];
-  result.clearance = point.clearance;
-  return result;
+  if (shadow.discs.size() == 1) return centre_of_largest(shadow, hole);
+  // No point is further from all centres than half |b1| + |b2|: within twice that is all that matters.
+  const Z r = shadow.discs[0].radius, b11 = dot(shadow.basis[0].p, shadow.basis[0].p),
+          b22 = dot(shadow.basis[1].p, shadow.basis[1].p);
+  const Z reach = 2 * ceil_sqrt(ceil_div(2 * (b11 + b22), shadow.along2)) + 2 * r;
+  const double limit = quotient(reach, r) / 3;
+  Surroundings around = surroundings_of(shadow, hole, reach);
+  const auto [x, y] = around.frame.coordinates(hole.offset);
+  const Step hopped = hop(around, {x, y}, limit);
+  const RoughPlace rough = climb(RoughPlace(around, hopped.x, hopped.y), limit);
+  constexpr double kWide = 1e-5;  // what binary64 finds well
+  const bool wide = clearance_at(rough) > kWide;
+  if (wide) around.sort_by_distance(rough.x(), rough.y(), 2 * clearance_at(rough));
+  const ExactPlace start(around, hole.offset);
+  const ExactPlace place = wide ? start.moved({rough.x() - x, rough.y() - y}) : climb(start, limit);
+  return {offset_of(around.frame, place.x(), place.y()), place.clearance()};
 }
 
 }  // namespace lorentz::oracle

@@ -165,9 +165,10 @@ double tail_constant(const Scene& scene, const std::vector<Channel>& channels) {
 }
 
 template <std::size_t D>
-Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders) {
+Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
+                   const SearchProgress& progress) {
   const ChannelScene<D> exact(scene, min_width);
-  Slabs<D> slabs = free_slabs(exact);
+  Slabs<D> slabs = free_slabs(exact, progress);
   if (!slabs.refusal.empty()) throw TooManyChannels(slabs.refusal);
   Horizon horizon;
   horizon.dimension = scene.dimension;
@@ -185,8 +186,11 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders) {
                  length_b = std::hypot(b.vector[0], b.vector[1], b.vector[2]);
     return std::tuple(-a.width, length_a, b.vector) < std::tuple(-b.width, length_b, a.vector);
   });
-  horizon.no_tail_constant = min_width > 0 ? "not with a least width" : no_simple_volume(scene);
-  if (horizon.no_tail_constant.empty()) {
+  const bool none = min_width <= 0 && horizon.channels.empty() && horizon.undecided.empty();
+  horizon.no_tail_constant = none ? "" : min_width > 0 ? "not with a least width" : no_simple_volume(scene);
+  if (none) {
+    horizon.tail_constant = 0;
+  } else if (horizon.no_tail_constant.empty()) {
     horizon.tail_constant = tail_constant(scene, horizon.channels);
     if (!std::isfinite(*horizon.tail_constant)) {
       horizon.tail_constant.reset();
@@ -195,7 +199,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders) {
   }
   if (D == 3 && !with_cylinders) horizon.no_cylinders = "not asked for";
   if constexpr (D == 3)
-    if (with_cylinders) find_cylinders(exact, horizon);
+    if (with_cylinders) find_cylinders(exact, horizon, progress);
   return horizon;
 }
 
@@ -210,9 +214,10 @@ bool Horizon::is_finite() const {
   return !is_infinite() && undecided.empty() && families.empty() && no_cylinders.empty();
 }
 
-Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders) {
-  return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false)
-                              : horizon_in<3>(scene, min_width, with_cylinders);
+Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
+                   const SearchProgress& progress) {
+  return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false, progress)
+                              : horizon_in<3>(scene, min_width, with_cylinders, progress);
 }
 
 }  // namespace lorentz::oracle

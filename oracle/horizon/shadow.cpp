@@ -51,11 +51,11 @@ int sign_at(const CirclePoint& p, const Z& u, const Z& v) {
   return sign_of(u, p.sign * (sgn(v) < 0 ? -1 : 1), v * v * p.delta);
 }
 
-HolePoint fixed_point(std::size_t disc, const CirclePoint& p) {
-  const Z root = p.sign * floor_sqrt(shifted_left(p.delta, 2 * kFineBits));
-  HolePoint result{disc, {}};
+HolePoint fixed_point(std::size_t disc, const CirclePoint& p, unsigned long bits) {
+  const Z root = p.sign * floor_sqrt(shifted_left(p.delta, 2 * bits));
+  HolePoint result{disc, {}, bits};
   for (std::size_t k = 0; k < 3; ++k)
-    result.offset[k] = round_div(shifted_left(p.a[k], kFineBits) + root * p.b[k], p.q);
+    result.offset[k] = round_div(shifted_left(p.a[k], bits) + root * p.b[k], p.q);
   return result;
 }
 
@@ -70,7 +70,7 @@ class Circle {
         work_(work) {}
 
   // A point of the circle that borders on a hole.
-  std::optional<HolePoint> border() {
+  std::optional<HolePoint> border(unsigned long bits) {
     const Z& own = shadow_.discs[index_].radius;
     std::vector<std::size_t> meeting;
     for (std::size_t j = 0; j < neighbours_.size(); ++j) {
@@ -83,13 +83,13 @@ class Circle {
       }
       if (distance2 > 0) meeting.push_back(j);
     }
-    if (meeting.empty()) return fixed_point(index_, anywhere());
+    if (meeting.empty()) return fixed_point(index_, anywhere(), bits);
     for (std::size_t j = 0; j < neighbours_.size(); ++j) order_.push_back(j);
     for (std::size_t j : meeting)
       for (int sign : {1, -1}) {
         const CirclePoint point = intersection(neighbours_[j], sign);
         if (sign < 0 && point.delta == 0) continue;
-        if (borders_on_hole(point, j)) return fixed_point(index_, point);
+        if (borders_on_hole(point, j)) return fixed_point(index_, point, bits);
       }
     return std::nullopt;
   }
@@ -188,7 +188,7 @@ std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, boo
 
 // In a reduced basis with b1.b2 >= 0 the triangle 0, b1, b2 has no obtuse angle: the centre of its
 // circumcircle is furthest from all lattice points.
-std::optional<HolePoint> hole_of_largest(const Shadow& shadow) {
+std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bits) {
   const ZVec<3>& b1 = shadow.basis[0].p;
   ZVec<3> b2 = shadow.basis[1].p;
   if (dot(b1, b2) < 0) b2 = times(-1, b2);
@@ -196,16 +196,16 @@ std::optional<HolePoint> hole_of_largest(const Shadow& shadow) {
   const Z area2 = g11 * g22 - g12 * g12, r = shadow.discs[0].radius;
   if (g11 * g22 * g33 <= 4 * area2 * r * r * shadow.along2) return std::nullopt;
   const Z k1 = g22 * (g11 - g12), k2 = g11 * (g22 - g12);
-  HolePoint result{0, {}};
+  HolePoint result{0, {}, bits};
   for (std::size_t k = 0; k < 3; ++k)
-    result.offset[k] = round_div(shifted_left(k1 * b1[k] + k2 * b2[k], kFineBits), 2 * area2);
+    result.offset[k] = round_div(shifted_left(k1 * b1[k] + k2 * b2[k], bits), 2 * area2);
   return result;
 }
 
-std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work) {
+std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work, unsigned long bits) {
   for (std::size_t i = 0; i < shadow.discs.size(); ++i) {
     work += shadow.discs.size();
-    if (auto point = Circle(shadow, i, work).border()) return point;
+    if (auto point = Circle(shadow, i, work).border(bits)) return point;
   }
   return std::nullopt;
 }

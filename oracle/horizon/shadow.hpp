@@ -37,19 +37,20 @@ struct Shadow {
   std::vector<Disc> discs_around(const ZVec<3>& point, const Z& reach, bool add_radius) const;
 };
 
-/// A point of the plane: (X - centre of disc `disc`) * 2^kFineBits, rounded. Only signs are decided exactly,
-/// and they have been when there is one.
+/// A point of the plane: (X - centre of disc `disc`) * 2^bits, rounded. Only signs are decided exactly, and
+/// they have been when there is one.
 inline constexpr unsigned long kFineBits = 64;
 struct HolePoint {
   std::size_t disc;
   ZVec<3> offset;
+  unsigned long bits = kFineBits;
 };
 
 /// Would the largest disc alone leave a hole? Then the point furthest from all of its centres.
-std::optional<HolePoint> hole_of_largest(const Shadow& shadow);
+std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bits = kFineBits);
 
 /// A point on the boundary of a hole, if there is one. Adds to `work` the number of points and discs
 /// compared.
-std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work);
+std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work, unsigned long bits = kFineBits);
 
 }  // namespace lorentz::oracle

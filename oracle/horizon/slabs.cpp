@@ -9,9 +9,9 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr double kMostCandidates = 2e6;        // normals
-constexpr std::size_t kMostWork = 20'000'000;  // blocks
-constexpr double kMostCopies = 1e5;            // blocks in a common period
+constexpr std::size_t kMostCandidates = 2'000'000;  // normals: pairs of points
+constexpr std::size_t kMostWork = 20'000'000;       // blocks
+constexpr double kMostCopies = 1e5;                 // blocks in a common period
 
 // A ball of reciprocal lattice points that holds the normal of every slab.
 template <std::size_t D>
@@ -19,7 +19,7 @@ struct Candidates {
   const ObstacleLattice<D>* lattice;
   Basis<D> basis;
   Z bound2;
-  double log2_count = 0;
+  std::size_t points = 0;  ///< in the ball, counted no further than to more than 2 kMostCandidates
 };
 
 template <std::size_t D>
@@ -30,10 +30,8 @@ Candidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::arra
     const ZVec<D> cofactor = b.p;
     for (std::size_t i = 0; i < D; ++i) b.p[i] = dot(axes[i], cofactor);
   }
-  // Points in a ball: its volume over the cell's. Half of them, for +-n are one.
-  const double ball = D == 2 ? 1.6514961294723187 : 2.0664457551999353;  // log2 of pi, of 4 pi / 3
-  result.log2_count =
-      ball + (static_cast<double>(D) * log2_of(bound2)) / 2 - log2_of(determinant<D>(result.basis)) - 1;
+  // Counted, not estimated by a volume: in a slender cell the ball holds a few planes full of points.
+  result.points = points_in_ball<D>(result.basis, bound2, 2 * kMostCandidates);
   return result;
 }
 
@@ -68,7 +66,7 @@ Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
     }
   }
   return *std::min_element(all.begin(), all.end(),
-                           [](const auto& a, const auto& b) { return a.log2_count < b.log2_count; });
+                           [](const auto& a, const auto& b) { return a.points < b.points; });
 }
 
 // The lattices whose planes are equally far apart, taken together, or a superposition of such.
@@ -245,29 +243,28 @@ struct Search {
 }  // namespace
 
 template <std::size_t D>
-Slabs<D> free_slabs(const ChannelScene<D>& scene) {
+Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress) {
   Search<D> search{scene, {}, 0};
   const Candidates<D> candidates = fewest_candidates(scene);
-  bool complete = candidates.log2_count < std::log2(kMostCandidates);
-  if (complete) {
-    // The points come as their images: back to normals by their coefficients.
-    complete =
-        visit_primitive<D>(candidates.basis, candidates.bound2, static_cast<std::size_t>(4 * kMostCandidates),
-                           [&](const LatticePoint<D>& point) {
-                             LatticePoint<D> normal;
-                             for (std::size_t i = 0; i < D; ++i)
-                               normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
-                             search.look_along(normal);
-                           }) &&
-        search.work <= kMostWork;
-  }
+  // The points come as their images: back to normals by their coefficients.
+  const auto look_at = [&](const LatticePoint<D>& point) {
+    LatticePoint<D> normal;
+    for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
+    search.look_along(normal);
+  };
+  const auto step = [&](std::size_t done, std::size_t total) {
+    if (progress && done % 64 == 0) progress(D == 2 ? "directions" : "planes", done / 2, total / 2);
+  };
+  const bool complete =
+      visit_primitive<D>(candidates.basis, candidates.bound2, 2 * kMostCandidates, look_at, step) &&
+      search.work <= kMostWork;
   if (!complete)
     search.result.refusal = D == 2 ? "too many directions could leave a corridor open"
                                    : "too many planes could leave a channel open";
   return search.result;
 }
 
-template Slabs<2> free_slabs(const ChannelScene<2>&);
-template Slabs<3> free_slabs(const ChannelScene<3>&);
+template Slabs<2> free_slabs(const ChannelScene<2>&, const SearchProgress&);
+template Slabs<3> free_slabs(const ChannelScene<3>&, const SearchProgress&);
 
 }  // namespace lorentz::oracle

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/horizon.hpp>
 #include "oracle/horizon/channel_scene.hpp"
 
 namespace lorentz::oracle {
@@ -25,6 +26,6 @@ struct Slabs {
 
 /// All slabs, or those at least scene.unit wide if that is above 0.
 template <std::size_t D>
-Slabs<D> free_slabs(const ChannelScene<D>& scene);
+Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress);
 
 }  // namespace lorentz::oracle

@@ -1,6 +1,9 @@
 // The subcommands about scenes, `scene` and `horizon`, as their users call them.
 #include <catch2/catch.hpp>
 
+#include <pty.h>
+#include <unistd.h>
+
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -171,6 +174,84 @@ TEST_CASE("scene draw: flights end at the exact first hit", "[cli][scene_command
                  "first scene"));
   CHECK(folder.lorentz("scene draw --queries " + folder.write("q4", kScene + "bad\n" + kGood)).status == 2);
   CHECK(folder.lorentz("scene draw --queries " + folder.write("q5", kGood)).status == 2);
+}
+
+namespace {
+
+// What the program prints if a terminal listens on stdout and stderr.
+std::string on_terminal(const std::string& arguments) {
+  int terminal = 0;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", (std::string("exec ") + LORENTZ_PROGRAM + " " + arguments).c_str(), nullptr);
+    _exit(127);
+  }
+  std::string out;
+  char buffer[4096];
+  for (ssize_t size = 0; (size = read(terminal, buffer, sizeof buffer)) > 0;)
+    out.append(buffer, static_cast<std::size_t>(size));
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(terminal);
+  return out;
+}
+
+const std::string kSlender =
+    "dimension = 3\nlattices = [{vectors = [[1, 0, 0], [0, 1, 0], [0.3, 0.7, 1e-9]], atoms = [{position = "
+    "[0, 0, 0], radius = 1e-4}]}]\n";
+
+}  // namespace
+
+TEST_CASE("horizon and scene show: a search that is too long is refused before it begins",
+          "[cli][scene_command]") {
+  const Folder folder;
+  const auto slender = folder.write("slender.toml", kSlender);
+  const std::string lorentz = std::string("timeout 20 ") + LORENTZ_PROGRAM;
+  const Run refused = folder.run(lorentz + " horizon --no-cylinders " + slender);
+  CHECK(refused.status == 2);
+  CHECK(refused.out.empty());
+  CHECK(contains(refused.err, "too many planes could leave a channel open; --min-width W restricts"));
+  CHECK(folder.run(lorentz + " horizon --min-width 0.1 " + slender).status == 0);
+  const Run shown = folder.run(lorentz + " scene show " + slender);
+  CHECK(shown.status == 0);
+  CHECK(contains(shown.out, "cell volume  1e-09"));
+  CHECK(contains(shown.out, "horizon        not searched: too many planes"));
+
+  // Nor is one that would take long begun where it is not wanted.
+  const Run left_out = folder.run(lorentz + " scene show square --radius 4.5e-4 --no-horizon");
+  CHECK(left_out.status == 0);
+  CHECK(contains(left_out.out, "mean free path"));
+  CHECK(contains(left_out.out, "horizon        not searched, as asked for"));
+  CHECK(contains(folder.lorentz("scene show square --no-horizon --json").out, R"("horizon":null})"));
+}
+
+TEST_CASE("horizon: a search of seconds is seen on a terminal, and nowhere else", "[cli][scene_command]") {
+  const Folder folder;
+  const std::string slow = "horizon square --radius 9e-4 --limit 1";
+  const std::string seen = on_terminal(slow);
+  INFO(seen);
+  CHECK(contains(seen, "\rdirections ["));
+  CHECK(contains(seen, "\r\033[Kinfinite horizon: "));
+  const Run piped = folder.lorentz(slow);
+  CHECK(piped.err.empty());
+  CHECK(piped.out.starts_with("infinite horizon: "));
+  CHECK_FALSE(contains(on_terminal("horizon square"), "directions ["));
+}
+
+TEST_CASE("horizon: the tail, or that there is none", "[cli][scene_command]") {
+  const Folder folder;
+  CHECK(contains(folder.lorentz("horizon triangular").out, "tail: none, the free path is bounded\n"));
+  CHECK(
+      contains(folder.lorentz("horizon overlapping-pockets").out, "tail: none, the free path is bounded\n"));
+  CHECK(contains(folder.lorentz("horizon cesium-chloride").out,
+                 "tail: P(free path > t) falls faster than 1/t"));
+  CHECK(contains(folder.lorentz("horizon square").out, "tail: P(free path > t) ~ C / t"));
+  const Run wide = folder.lorentz("horizon square --min-width 0.9");
+  CHECK(contains(wide.out, "not with a least width"));
+  CHECK_FALSE(contains(wide.out, "tail: none"));
+  // A hole of 6e-17 is no hole of 0.
+  CHECK(contains(folder.lorentz("horizon cubic --radius 0.7071067811865475").out, "6.26858e-17"));
 }
 
 TEST_CASE("horizon: verdicts, tables, JSON and refusals", "[cli][scene_command]") {

@@ -314,3 +314,24 @@ TEST_CASE("Ten thousand atoms are checked in seconds; what would take too long i
   needle.lattices[0].atoms.push_back({{0.5, 0.5}, 0, {Vec{1e8, 1}, Vec{-1e-9, 1e-9}}});
   CHECK(contacts_in(needle, 10).end == SearchEnd::complete);
 }
+
+TEST_CASE("Contacts: a ball written as semiaxes is found to be one, and costs no more",
+          "[oracle][contacts]") {
+  // 3-4-5: (0, 3, 4) / 16, (0, 4, -3) / 16 and 5 / 16.
+  const Axes turned{{0, 0.1875, 0.25}, {-0.3125, 0, 0}, {0, 0.25, -0.1875}};
+  Scene balls = unit_scene(3, 0.5), written;
+  balls.lattices[0].atoms.push_back({{0.5, 0.5, 0.125}, 0.3125, {}});
+  written = balls;
+  written.lattices[0].atoms[1] = {{0.5, 0.5, 0.125}, 0, turned};
+  const auto all = contacts_in(balls, 100);
+  REQUIRE(all.found.size() > 5);
+  long least = 1;
+  while (contacts_in(balls, 100, oracle::Pairs::all, least).end != SearchEnd::complete) ++least;
+  const auto same = contacts_in(written, 100, oracle::Pairs::all, least);
+  CHECK(same.end == SearchEnd::complete);
+  REQUIRE(same.found.size() == all.found.size());
+  for (std::size_t i = 0; i < all.found.size(); ++i) {
+    CHECK(same.found[i].cell == all.found[i].cell);
+    CHECK(same.found[i].overlap == all.found[i].overlap);
+  }
+}

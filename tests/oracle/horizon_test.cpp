@@ -582,3 +582,137 @@ TEST_CASE("Horizon: what is not done is said, and nothing hangs", "[oracle][hori
   two.lattices[1].atoms[0].semiaxes = {Vec{0.2, 0, 0}, Vec{0, 0.2, 0}, Vec{0, 0, 0.3}};
   CHECK_FALSE(horizon_of(two).no_cylinders.empty());
 }
+
+namespace {
+
+// Directions and radii of the cylinders.
+std::vector<std::pair<std::string, double>> cylinders_of(const Horizon& horizon) {
+  std::vector<std::pair<std::string, double>> result;
+  for (const auto& cylinder : horizon.cylinders)
+    result.push_back({key_of(cylinder.direction), cylinder.radius});
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells too", "[oracle][horizon]") {
+  // The ball of candidates has a volume of some hundred cells, and four million points in one plane.
+  const Scene slender = scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0.3, 0.7, 1e-9}}, {{{}, 1e-4, {}}});
+  std::size_t steps = 0;
+  const auto count = [&](const std::string&, std::size_t, std::size_t) { ++steps; };
+  CHECK_THROWS_AS(horizon_of(slender, 0, false, count), oracle::TooManyChannels);
+  CHECK_THROWS_AS(horizon_of(slender, 0, true, count), oracle::TooManyChannels);
+  CHECK(steps == 0);
+  const Horizon wide = horizon_of(slender, 0.2);
+  CHECK(wide.normals == 1);
+  CHECK_FALSE(wide.no_cylinders.empty());
+
+  // A search that is begun is heard of, to its end.
+  std::size_t last = 0, total = 0;
+  horizon_of(unit_scene(2, 0.01), 0, true, [&](const std::string& what, std::size_t done, std::size_t all) {
+    CHECK(what == "directions");
+    CHECK(done >= last);
+    last = done, total = all;
+  });
+  CHECK(total > 3700);  // pi / (4 r^2) / 2, and those on the axis
+  CHECK(total < 4100);
+  CHECK(last + 64 > total);
+}
+
+TEST_CASE("Horizon: semiaxes in any order, with any signs, or turned among themselves are one shape",
+          "[oracle][horizon]") {
+  const Vec a{0.25, 0.125, 0}, b{-0.0625, 0.375, 0.125}, c{0, 0.125, 0.4375};
+  const auto minus = [](const Vec& v) { return Vec{-v[0], -v[1], -v[2]}; };
+  const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  const auto with = [&](std::vector<Vec> first, std::vector<Vec> second) {
+    return horizon_of(
+        scene_with(3, unit, {{{}, 0, std::move(first)}, {{0.5, 0.5, 0.5}, 0, std::move(second)}}));
+  };
+  const Horizon same = with({a, b, c}, {a, b, c});
+  REQUIRE(same.no_cylinders.empty());
+  REQUIRE(same.cylinders.size() > 5);
+  for (const auto& second :
+       {std::vector{b, c, a}, std::vector{b, a, c}, std::vector{minus(c), b, minus(a)}}) {
+    const Horizon other = with({a, b, c}, second), both = with(second, second);
+    CHECK(other.no_cylinders.empty());
+    REQUIRE(other.cylinders.size() == same.cylinders.size());
+    REQUIRE(both.cylinders.size() == same.cylinders.size());
+    for (std::size_t i = 0; i < same.cylinders.size(); ++i) {
+      CHECK(cylinders_of(other)[i].first == cylinders_of(same)[i].first);
+      CHECK(cylinders_of(other)[i].second == Approx(cylinders_of(same)[i].second));
+      CHECK(cylinders_of(both)[i].first == cylinders_of(same)[i].first);
+    }
+    for (const auto& cylinder : other.cylinders) CHECK(cylinder.inside);
+  }
+  // Nearly the same is another shape.
+  CHECK_FALSE(with({a, b, c}, {b, a, {0, 0.125, std::nextafter(0.4375, 1)}}).no_cylinders.empty());
+
+  // Balls of radius 5/16, the second one written with 3-4-5 semiaxes.
+  const std::vector<Vec> turned{{0, 0.1875, -0.25}, {-0.3125, 0, 0}, {0, 0.25, 0.1875}};
+  const Horizon balls = horizon_of(
+      scene_with(3, unit, {{{}, 0.375, {}}, {{0.5, 0.5, 0.5}, 0.3125, {}}, {{0.5, 0, 0}, 0.0625, {}}}));
+  const Horizon written = horizon_of(
+      scene_with(3, unit, {{{}, 0.375, {}}, {{0.5, 0.5, 0.5}, 0, turned}, {{0.5, 0, 0}, 0.0625, {}}}));
+  CHECK(written.no_cylinders.empty());
+  CHECK(written.cylinders.size() > 10);
+  CHECK(cylinders_of(written) == cylinders_of(balls));
+}
+
+TEST_CASE("Horizon: the radius of a cylinder is above 0 however small the hole", "[oracle][horizon]") {
+  // Between four balls of a square: sqrt(1/2) - r. A second ball in each line of sight changes nothing.
+  const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  const double r = 0.7071067811865475;
+  const __float128 rest = 0.5 - static_cast<__float128>(r) * r;
+  const double expected = static_cast<double>(rest / (2 * static_cast<__float128>(r) + rest / 1.5));
+  const Horizon one = horizon_of(unit_scene(3, r));
+  REQUIRE(one.cylinders.size() == 3);
+  for (const auto& cylinder : one.cylinders) CHECK(cylinder.radius == Approx(expected).epsilon(1e-14));
+  const Horizon two =
+      horizon_of(scene_with(3, unit, {{{}, r, {}}, {{0, 0, 0.5}, r, {}}, {{0.25, 0.25, 0.25}, 0.0625, {}}}));
+  REQUIRE(two.cylinders.size() == 1);
+  CHECK(two.cylinders[0].radius == Approx(expected).epsilon(1e-9));
+  CHECK(two.cylinders[0].inside);
+
+  // Four discs of radius 5 about the point (3, 4), one of them moved away by 5 e: next to two discs that
+  // touch there, the cusp has room for a circle of radius (5 e)^2 / 10, or, around the corner, less yet.
+  const double e = 0x1p-100;
+  const Horizon cusp = horizon_of(scene_with(
+      3, {Vec{14, 2, 0}, Vec{-2, 14, 0}, Vec{0, 0, 1}},
+      {{{-3 * e, -4 * e, 0}, 5, {}}, {{7, 1, 0}, 5, {}}, {{-1, 7, 0}, 5, {}}, {{6, 8, 0}, 5, {}}}));
+  REQUIRE(cusp.cylinders.size() == 1);
+  CHECK(cusp.cylinders[0].radius > 0);
+  CHECK(cusp.cylinders[0].radius < 3 * e * e);
+
+  // A cylinder of that radius fits: no ball is nearer to the line, as binary64 sees it.
+  Draw draw(80);
+  std::size_t seen = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Scene scene = short_scene(draw, 3, 3, 0.3, 0.5);
+    const auto& u = scene.lattices[0].vectors;
+    for (const auto& cylinder : horizon_of(scene).cylinders) {
+      const Vec& g = cylinder.vector;
+      double least = 1e9;
+      for (const Atom& atom : scene.lattices[0].atoms)
+        for (int n = 0; n < 9 * 9 * 9; ++n) {
+          Vec arm{};
+          for (int k = 0; k < 3; ++k)
+            arm[k] = atom.position[k] + (n % 9 - 4) * u[0][k] + (n / 9 % 9 - 4) * u[1][k] +
+                     (n / 81 - 4) * u[2][k] - cylinder.point[k];
+          const Vec across = cross(arm, g);
+          least = std::min(least, std::sqrt(dot(across, across) / dot(g, g)) - atom.radius);
+        }
+      CHECK(least >= cylinder.radius - 1e-14);
+      seen += least < cylinder.radius + 1e-9;
+    }
+  }
+  CHECK(seen > 500);
+}
+
+TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {
+  CHECK(horizon_of(unit_scene(2, 0.5)).tail_constant == 0.0);
+  CHECK(horizon_of(unit_scene(3, 0.5)).tail_constant == 0.0);   // touching planes
+  CHECK(horizon_of(unit_scene(3, 0.55)).tail_constant == 0.0);  // cylinders; overlaps are no matter
+  CHECK_FALSE(horizon_of(unit_scene(2, 0.5), 0.1).tail_constant.has_value());
+  CHECK_FALSE(horizon_of(unit_scene(2, 0.25), 0.9).tail_constant.has_value());
+}

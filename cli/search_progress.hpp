@@ -1,0 +1,22 @@
+// How far a search of the horizon is, on a terminal's stderr.
+#pragma once
+
+#include <memory>
+
+#include <lorentz/horizon.hpp>
+#include "cli/progress.hpp"
+
+namespace lorentz::cli {
+
+/// Draws from the first second on, if stderr is a terminal. What is drawn goes when the last copy of it does.
+inline oracle::SearchProgress search_progress() {
+  if (isatty(STDERR_FILENO) != 1) return {};
+  return [bar = std::make_shared<std::unique_ptr<Progress>>()](const std::string& what, std::size_t done,
+                                                               std::size_t total) {
+    if (!*bar || (*bar)->what() != what || (*bar)->total() != total)
+      *bar = std::make_unique<Progress>(what, total, 1);
+    (*bar)->at(done);
+  };
+}
+
+}  // namespace lorentz::cli

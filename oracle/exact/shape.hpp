@@ -1,0 +1,34 @@
+// The shape of an ellipsoid { p + A y : |y| < 1 } apart from where it stands and how it is written: A A^T.
+// Semiaxes in another order, with other signs, or otherwise turned among themselves are another A (A Q, Q
+// orthogonal) of the same shape. Private to oracle/.
+#pragma once
+
+#include <optional>
+
+#include "oracle/exact/exact_problem.hpp"
+
+namespace lorentz::oracle {
+
+/// A A^T, `axes` the columns of A: equal for two ellipsoids iff one is a translate of the other.
+template <std::size_t D>
+ZMatrix<D> shape_of(const std::array<ZVec<D>, D>& axes) {
+  ZMatrix<D> shape;
+  for (const ZVec<D>& axis : axes)
+    for (std::size_t i = 0; i < D; ++i)
+      for (std::size_t k = 0; k < D; ++k) shape[i][k] += axis[i] * axis[k];
+  return shape;
+}
+
+/// The radius, if this is the shape of a ball whose radius is an integer. (In 3D that of all balls is: its
+/// square and its cube, |det A|, are.)
+template <std::size_t D>
+std::optional<Z> ball_radius(const ZMatrix<D>& shape) {
+  const Z& square = shape[0][0];
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k)
+      if (shape[i][k] != (i == k ? square : Z(0))) return std::nullopt;
+  const Z root = floor_sqrt(square);
+  return root * root == square ? std::optional<Z>(root) : std::nullopt;
+}
+
+}  // namespace lorentz::oracle
