@@ -1,6 +1,9 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
 #include "cli/horizon_verdict.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
@@ -62,8 +65,13 @@ std::string rest_of(std::size_t all, std::size_t shown) {
   return all > shown ? fmt::format("... and {} more (--limit {} shows them)\n", all - shown, all) : "";
 }
 
-// A * behind points that rounding took out of the channel.
-std::string point_text(const Vec& point, bool inside, int dimension) {
+// A * behind points that rounding took out of the channel. What is nothing but the rounding of another
+// component shows as 0.
+std::string point_text(Vec point, bool inside, int dimension) {
+  double largest = 0;
+  for (const double component : point) largest = std::max(largest, std::fabs(component));
+  for (double& component : point)
+    if (std::fabs(component) < 0x1p-50 * largest) component = 0;
   return text_of(point, dimension) + (inside ? "" : " *");
 }
 

@@ -1,6 +1,4 @@
-// lorentz scene: the catalogue, what is known of a scene, and its picture.
-#include <cerrno>
-#include <cstring>
+// lorentz scene: the catalogue, and what is known of a scene.
 #include <fstream>
 
 #include <lorentz/exchange.hpp>
@@ -11,24 +9,18 @@
 #include "cli/horizon_verdict.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
-#include "cli/query_stream.hpp"
+#include "cli/scene_draw.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
 #include "cli/table.hpp"
-#include "compare/registry.hpp"
-#include "pictures/scene_drawing.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
-using namespace pictures;
-
 namespace {
 
 struct Options {
-  std::optional<std::string> scene, radius, queries;
-  std::string output = "-";
+  std::optional<std::string> scene, radius;
   bool json = false, no_horizon = false;
 };
 
@@ -247,76 +239,6 @@ int show(const Options& options) {
   return kDone;
 }
 
-// The flights of a query stream, up to the first query of another scene than the first one's.
-std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
-  constexpr std::size_t kMostFlights = 1000;
-  std::vector<Flight> flights;
-  FirstHit first_hit;
-  std::size_t refused = 0;
-  std::string reason;
-  for (StreamItem item; stream.next(item);) {
-    if (item.kind == StreamItem::Kind::scene) {
-      if (!flights.empty() || refused > 0) {
-        say("the picture shows the first scene of the queries; what follows the second is left out");
-        break;
-      }
-      scene = item.scene;
-      first_hit = nullptr;
-    } else if (item.kind == StreamItem::Kind::query) {
-      if (flights.size() >= kMostFlights) {
-        say("the picture shows the first {} flights", kMostFlights);
-        break;
-      }
-      if (!first_hit) first_hit = make_first_hit("certified", *scene);
-      Flight flight{item.query, {}};
-      first_hit(item.query, {}, flight.answer);
-      if (flight.answer.outcome == Outcome::error) {
-        ++refused;
-        reason = flight.answer.message;
-      } else {
-        flights.push_back(std::move(flight));
-      }
-    }
-  }
-  if (refused > 0) say("flights left out: {} ({})", refused, reason);
-  return flights;
-}
-
-void write_to(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    print(text);
-    return;
-  }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw FileError(file + ": " + std::strerror(errno));
-}
-
-int draw(const Options& options) {
-  const auto radius = positive_number(options.radius, "--radius");
-  if (!options.scene && !options.queries)
-    throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
-  if (radius && !options.scene)
-    throw InputError("--radius: needs a scene (those of a stream say their radii themselves)");
-  std::optional<Scene> scene;
-  std::string title = options.scene.value_or(options.queries.value_or(""));
-  if (options.scene) scene = load_scene(*options.scene, radius);
-  if (radius) title += " --radius " + *options.radius;
-  std::vector<Flight> flights;
-  bool bad = false;
-  if (options.queries) {
-    QueryStream stream(*options.queries, scene, UnknownKeys::warned);
-    flights = flights_of(stream, scene);
-    bad = stream.had_bad_input();
-  }
-  if (!scene) throw InputError(*options.queries + ": has no scene; give one by name or file");
-  const Drawing drawing = draw_scene(*scene, title, flights);
-  for (const std::string& remark : drawing.remarks) say("{}", remark);
-  write_to(options.output, drawing.svg);
-  return bad ? kBadInput : kDone;
-}
-
 }  // namespace
 
 void add_scene(CLI::App& app, Action& action) {
@@ -341,20 +263,7 @@ void add_scene(CLI::App& app, Action& action) {
   show_command->callback([options, &action] { action = [options] { return show(*options); }; });
   show_command->footer("Example:\n  lorentz scene show fcc --radius 0.35");
 
-  CLI::App* draw_command =
-      command->add_subcommand("draw", "A picture (SVG), with flights if queries are given.");
-  draw_command->add_option("scene", options->scene,
-                           "a name of the catalogue, or a file; without it, the first scene of the queries");
-  draw_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  draw_command->add_option(
-      "--queries", options->queries,
-      "query stream (NDJSON): its flights to their first hits, exactly; - is standard input");
-  draw_command->add_option("-o,--output", options->output, "file to write; - is standard output")
-      ->capture_default_str();
-  draw_command->callback([options, &action] { action = [options] { return draw(*options); }; });
-  draw_command->footer(
-      "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "
-      "flights.svg");
+  add_scene_draw(*command, action);
 }
 
 }  // namespace lorentz::cli

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pictures/scene_drawing.hpp"
@@ -14,7 +16,7 @@
 namespace lorentz::pictures {
 
 inline constexpr std::size_t kMostDrawn = 5000;  ///< obstacles in one picture
-inline constexpr double kLongestFlight = 40;     ///< in lengths of a cell; the rest is an arrow
+inline constexpr double kLongestFlight = 40;  ///< in lengths of a cell; the rest is an arrow, if not before
 
 struct Box {
   Vec low{}, high{};
@@ -44,9 +46,13 @@ struct Line {
   const Flight* flight = nullptr;
 };
 
-/// Flights with their ends; those whose start is too far from the others to share a picture are left out.
+/// Flights with their ends. Those whose start is too far from the others to share a picture are left out;
+/// those much longer than nearly all others are cut, for one of them would shrink the rest to a corner.
 std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
                            std::vector<std::string>& remarks);
+
+/// The same for a given window: none is left out, and none is cut that may end there.
+std::vector<Line> lines_in_window(const Scene& scene, const std::vector<Flight>& flights);
 
 /// The obstacles that the flights hit or start in, each once.
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines);
@@ -56,6 +62,11 @@ double cell_size(const Scene& scene);
 
 /// The lower corner of the first lattice's cell that holds the point.
 Vec cell_at(const Scene& scene, const Vec& point);
+/// The same of cells with these vectors.
+Vec cell_at(const std::array<Vec, 3>& vectors, int dimension, const Vec& point);
+
+/// A short basis of the lattice.
+std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension);
 
 /// Number of an atom among all of the scene, which chooses its colour.
 std::size_t colour_index(const Scene& scene, const Placed& obstacle);
@@ -70,17 +81,40 @@ inline constexpr const char* kFlightColour = "#c0182b";
 /// What an obstacle is called, e.g. "lattice 0, atom 1: radius 0.28".
 std::string name_of(const Scene& scene, const Placed& obstacle);
 
+/// What a picture shows, and its legend explains.
+struct Legend {
+  std::set<std::pair<int, int>> atoms;  ///< by lattice and number
+  std::string cell;                     ///< what the cell is called; empty: none is drawn
+  bool hits = false, inside = false, goes_on = false, never = false;  ///< of flights
+  std::vector<std::size_t> ways;                                      ///< by number
+  std::vector<std::string> notes;
+};
+
 /// The legend from `top` downwards; returns its lower end.
-double add_legend(Svg& svg, const Scene& scene, double top, bool flights,
-                  const std::vector<std::string>& notes);
+double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend, double top);
+
+/// Where on the paper there is room for the picture itself.
+struct Page {
+  double top = 0, width = 0, height = 0;
+
+  /// `legend` is about what will be drawn: it takes its room.
+  Page(const Scene& scene, const DrawOptions& options, const Legend& legend, double tallest);
+};
+
+/// The title, what was drawn on the page until now, and the legend from `bottom` on.
+std::string finished(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
+                     double bottom);
+
+/// The colour of a free way.
+const char* way_colour(std::size_t number);
 
 /// { M y : |y| <= 1 } for the matrix with rows m1, m2, as an ellipse (a projection of an ellipsoid is one).
 EllipseShape ellipse_of(const Vec& m1, const Vec& m2);
 
-inline constexpr double kPictureWidth = 800, kMargin = 24, kTitleHeight = 40;
+inline constexpr double kMargin = 24;
 
 /// Pictures by dimension.
-Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights);
-Drawing draw_scene_3d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights);
+Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights);
+Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights);
 
 }  // namespace lorentz::pictures

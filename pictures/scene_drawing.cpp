@@ -13,9 +13,8 @@
 #include "pictures/drawing_parts.hpp"
 
 namespace lorentz::pictures {
-namespace {
 
-// A short basis of the lattice, so that few cells are looked at: pairs are reduced until none gets shorter.
+// So that few cells are looked at: pairs are reduced until none gets shorter.
 std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
   std::array<Vec, 3> u = lattice.vectors;
   constexpr int kMostSteps = 10'000;
@@ -35,6 +34,8 @@ std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
   }
   return u;
 }
+
+namespace {
 
 double reach_of(const Atom& atom, int dimension) {
   return principal_semiaxes(atom, dimension)[0];
@@ -128,47 +129,91 @@ double cell_size(const Scene& scene) {
 }
 
 Vec cell_at(const Scene& scene, const Vec& point) {
-  const auto& u = scene.lattices[0].vectors;
-  const auto rows = dual_of(u, scene.dimension);
+  return cell_at(scene.lattices[0].vectors, scene.dimension, point);
+}
+
+Vec cell_at(const std::array<Vec, 3>& u, int dimension, const Vec& point) {
+  const auto rows = dual_of(u, dimension);
   Vec corner{};
-  for (int i = 0; i < scene.dimension; ++i)
+  for (int i = 0; i < dimension; ++i)
     for (int k = 0; k < 3; ++k) corner[k] += std::floor(dot(rows[i], point)) * u[i][k];
   return corner;
 }
 
+namespace {
+
+double speed_of(const Query& query) {
+  return std::hypot(query.v[0], query.v[1], query.v[2]);
+}
+
+double length_of(const Flight& flight) {
+  return flight.answer.outcome == Outcome::hit ? flight.answer.time.value_or(0) * speed_of(flight.query) : 0;
+}
+
+// So long a flight is drawn to its end: nine of ten are, and those that are not much longer than these.
+double longest_drawn(const std::vector<Flight>& flights, double cell) {
+  const double most = kLongestFlight * cell;
+  std::vector<double> lengths;
+  for (const Flight& flight : flights)
+    if (flight.answer.outcome == Outcome::hit) lengths.push_back(length_of(flight));
+  constexpr std::size_t kFew = 4;
+  if (lengths.size() < kFew) return most;
+  std::sort(lengths.begin(), lengths.end());
+  const double usual = std::max(4 * cell, 1.5 * lengths[lengths.size() * 9 / 10 - 1]);
+  const auto end = std::upper_bound(lengths.begin(), lengths.end(), std::min(usual, most));
+  return end == lengths.begin() ? most : *(end - 1);
+}
+
+// To its hit, or cut there; one that never ends is three cells long.
+Line line_of(const Flight& flight, double longest, double cell) {
+  const Query& query = flight.query;
+  Line line{query.x, query.x, true, &flight};
+  double length = length_of(flight);
+  if (!(length <= longest)) {
+    line.ends = false;
+    length = longest;
+  } else if (flight.answer.outcome == Outcome::never) {
+    line.ends = false;
+    length = 3 * cell;
+  }
+  for (int k = 0; k < 3; ++k) line.to[k] += length * (query.v[k] / speed_of(query));
+  return line;
+}
+
+}  // namespace
+
 std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
                            std::vector<std::string>& remarks) {
-  const double longest = kLongestFlight * cell_size(scene);
+  const double cell = cell_size(scene), longest = longest_drawn(flights, cell);
   std::vector<Line> lines;
   std::size_t far = 0, cut = 0;
+  double most = 0;
   for (const Flight& flight : flights) {
-    const Query& query = flight.query;
-    Line line{query.x, query.x, true, &flight};
     Vec arm{};
-    for (int k = 0; k < 3; ++k) arm[k] = query.x[k] - flights[0].query.x[k];
-    if (!(std::sqrt(dot(arm, arm)) <= longest)) {
+    for (int k = 0; k < 3; ++k) arm[k] = flight.query.x[k] - flights[0].query.x[k];
+    if (!(length(arm) <= kLongestFlight * cell)) {
       ++far;
       continue;
     }
-    const double speed = std::hypot(query.v[0], query.v[1], query.v[2]);
-    double length = flight.answer.time.value_or(0) * speed;
-    if (flight.answer.outcome == Outcome::hit && !(length <= longest)) {
-      ++cut;
-      line.ends = false;
-      length = longest;
-    } else if (flight.answer.outcome == Outcome::never) {
-      line.ends = false;
-      length = 3 * cell_size(scene);
-    }
-    for (int k = 0; k < 3; ++k) line.to[k] += length * (query.v[k] / speed);
-    lines.push_back(line);
+    lines.push_back(line_of(flight, longest, cell));
+    if (lines.back().ends || flight.answer.outcome != Outcome::hit) continue;
+    ++cut;
+    most = std::max(most, length_of(flight));
   }
   if (cut > 0)
     remarks.push_back(
-        fmt::format("flights longer than {} cells end in an arrow there: {}", kLongestFlight, cut));
+        fmt::format("flights that go on beyond the picture: {}, the longest for {:.4g}", cut, most));
   if (far > 0)
     remarks.push_back(fmt::format("flights left out, for they start more than {} cells from the first: {}",
                                   kLongestFlight, far));
+  return lines;
+}
+
+std::vector<Line> lines_in_window(const Scene& scene, const std::vector<Flight>& flights) {
+  constexpr double kFar = 1e12;  // cells: beyond any window with obstacles in it
+  std::vector<Line> lines;
+  for (const Flight& flight : flights)
+    lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));
   return lines;
 }
 
@@ -225,57 +270,137 @@ std::string name_of(const Scene& scene, const Placed& obstacle) {
                                       : fmt::format("semiaxes {:.4g}, {:.4g}, {:.4g}", a, b, c));
 }
 
-double add_legend(Svg& svg, const Scene& scene, double top, bool flights,
-                  const std::vector<std::string>& notes) {
-  constexpr std::size_t kMostEntries = 12;
-  constexpr double kRow = 22, kLetter = 7;
-  std::vector<Placed> entries;
-  std::size_t atoms = 0, longest = 24, slot = 0;
-  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
-    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
-      if (++atoms > kMostEntries) continue;
-      entries.push_back({l, a, {}});
-      longest = std::max(longest, name_of(scene, entries.back()).size());
-    }
-  const double space = kPictureWidth - 2 * kMargin;
-  const auto columns = static_cast<std::size_t>(space / (28 + kLetter * static_cast<double>(longest)));
-  const auto place = [&] {
-    const Point at{kMargin + 8 + static_cast<double>(slot % columns) * space / static_cast<double>(columns),
-                   top + 8 + static_cast<double>(slot / columns) * kRow};
-    ++slot;
-    return at;
-  };
-  const auto label = [&](Point at, const std::string& words) { svg.text({at.x + 16, at.y + 4.5}, words); };
-  for (const Placed& obstacle : entries) {
-    const Colour& c = colour(colour_index(scene, obstacle));
-    const Point at = place();
-    svg.ellipse(at, {7, 7, 0}, fmt::format("fill=\"{}\" stroke=\"{}\"", c.fill, c.dark));
-    label(at, name_of(scene, obstacle));
+namespace {
+
+// Entries side by side in columns, row by row.
+class Columns {
+ public:
+  Columns(double top, double space, std::size_t longest_label)
+      : top_(top),
+        space_(space),
+        columns_(std::max<std::size_t>(
+            1, static_cast<std::size_t>(space / (28 + kLetter * static_cast<double>(longest_label))))) {}
+
+  Point next() {
+    const double row = static_cast<double>(slot_ / columns_), column = static_cast<double>(slot_ % columns_);
+    ++slot_;
+    return {kMargin + 8 + column * space_ / static_cast<double>(columns_), top_ + 8 + row * kRow};
   }
-  if (atoms > kMostEntries) label(place(), fmt::format("and {} more atoms", atoms - kMostEntries));
-  const Point cell = place();
-  svg.polygon({{cell.x - 7, cell.y + 5},
-               {cell.x + 3, cell.y + 5},
-               {cell.x + 7, cell.y - 5},
-               {cell.x - 3, cell.y - 5}},
-              "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\"");
-  label(cell, scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell");
-  if (flights) {
-    const Point at = place();
+  double bottom() const { return top_ + 8 + static_cast<double>((slot_ + columns_ - 1) / columns_) * kRow; }
+
+ private:
+  static constexpr double kRow = 22, kLetter = 7;
+  double top_, space_;
+  std::size_t columns_, slot_ = 0;
+};
+
+void add_label(Svg& svg, Point at, const std::string& words) {
+  svg.text({at.x + 16, at.y + 4.5}, words);
+}
+
+void add_flight_entries(Svg& svg, Columns& columns, const Legend& legend) {
+  if (legend.hits) {
+    const Point at = columns.next();
     svg.polyline({{at.x - 8, at.y}, {at.x + 6, at.y}},
                  fmt::format("stroke=\"{}\" stroke-width=\"1.6\"", kFlightColour));
     svg.ellipse({at.x + 6, at.y}, {2.6, 2.6, 0}, fmt::format("fill=\"{}\"", kFlightColour));
-    label(at, "flight to its first hit");
-    const Point goes_on = place();
-    svg.arrow({goes_on.x - 9, goes_on.y}, {goes_on.x + 9, goes_on.y}, 9, kFlightColour, 1.6);
-    label(goes_on, "goes on, or never hits");
+    add_label(svg, at, "flight to its first hit");
   }
-  double bottom = top + 8 + static_cast<double>((slot + columns - 1) / columns) * kRow;
-  for (const std::string& note : notes) {
+  if (legend.goes_on || legend.never) {
+    const Point at = columns.next();
+    svg.arrow({at.x - 9, at.y}, {at.x + 9, at.y}, 9, kFlightColour, 1.6);
+    add_label(svg, at, !legend.never ? "goes on" : legend.goes_on ? "goes on, or never hits" : "never hits");
+  }
+  if (legend.inside) {
+    const Point at = columns.next();
+    svg.ellipse(at, {2.6, 2.6, 0}, fmt::format("fill=\"{}\"", kFlightColour));
+    add_label(svg, at, "starts inside");
+  }
+}
+
+void add_way_entries(Svg& svg, Columns& columns, const Legend& legend, const std::vector<FreeWay>& ways) {
+  for (const std::size_t number : legend.ways) {
+    const Point at = columns.next();
+    svg.polygon({{at.x - 8, at.y - 6}, {at.x + 8, at.y - 6}, {at.x + 8, at.y + 6}, {at.x - 8, at.y + 6}},
+                fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\"", way_colour(number)));
+    add_label(svg, at, ways[number].name);
+  }
+}
+
+std::size_t longest_label(const Scene& scene, const DrawOptions& options, const Legend& legend) {
+  std::size_t longest = std::max<std::size_t>(24, legend.cell.size());
+  for (const auto& [lattice, atom] : legend.atoms)
+    longest = std::max(longest, name_of(scene, {lattice, atom, {}}).size());
+  for (const std::size_t number : legend.ways) longest = std::max(longest, options.ways[number].name.size());
+  return longest;
+}
+
+}  // namespace
+
+double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
+                  double top) {
+  constexpr std::size_t kMostEntries = 12;
+  Columns columns(top, options.width - 2 * kMargin, longest_label(scene, options, legend));
+  std::size_t atoms = 0;
+  for (const auto& [lattice, atom] : legend.atoms) {
+    if (++atoms > kMostEntries) continue;
+    const Placed obstacle{lattice, atom, {}};
+    const Colour& c = colour(colour_index(scene, obstacle));
+    const Point at = columns.next();
+    svg.ellipse(at, {7, 7, 0}, fmt::format("fill=\"{}\" stroke=\"{}\"", c.fill, c.dark));
+    add_label(svg, at, name_of(scene, obstacle));
+  }
+  if (atoms > kMostEntries)
+    add_label(svg, columns.next(), fmt::format("and {} more atoms", atoms - kMostEntries));
+  if (!legend.cell.empty()) {
+    const Point at = columns.next();
+    svg.polygon({{at.x - 7, at.y + 5}, {at.x + 3, at.y + 5}, {at.x + 7, at.y - 5}, {at.x - 3, at.y - 5}},
+                "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\"");
+    add_label(svg, at, legend.cell);
+  }
+  add_flight_entries(svg, columns, legend);
+  add_way_entries(svg, columns, legend, options.ways);
+  double bottom = columns.bottom();
+  for (const std::string& note : legend.notes) {
     svg.text({kMargin, bottom + 4}, note, "fill=\"#555555\" font-size=\"12\"");
     bottom += 18;
   }
   return bottom;
+}
+
+namespace {
+
+constexpr double kLegendGap = 14, kBottomMargin = 6;
+
+double title_height(const DrawOptions& options) {
+  return options.title.empty() ? kMargin / 2 : 40;
+}
+
+}  // namespace
+
+Page::Page(const Scene& scene, const DrawOptions& options, const Legend& legend, double tallest)
+    : top(title_height(options)), width(options.width - 2 * kMargin), height(tallest * options.width / 800) {
+  if (options.height <= 0) return;
+  Svg scratch;
+  constexpr double kOneNote = 18, kLeast = 40;
+  const double below =
+      options.legend ? add_legend(scratch, scene, options, legend, kLegendGap) + kOneNote : kMargin / 2;
+  height = std::max(kLeast, options.height - top - below - kBottomMargin);
+}
+
+std::string finished(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
+                     double bottom) {
+  if (!options.title.empty()) svg.text({kMargin, 25}, options.title, "font-size=\"16\" font-weight=\"bold\"");
+  bottom =
+      options.legend ? add_legend(svg, scene, options, legend, bottom + kLegendGap) : bottom + kMargin / 2;
+  const double height =
+      options.height > 0 ? std::min(options.height, bottom + kBottomMargin) : bottom + kBottomMargin;
+  return svg.document(options.width, height, options.title);
+}
+
+const char* way_colour(std::size_t number) {
+  static constexpr const char* kColours[] = {"#1b9e5a", "#7a5cc8", "#d98a00", "#0f8fb3", "#b0467f"};
+  return kColours[number % std::size(kColours)];
 }
 
 // M M^T = [[p, q], [q, s]] has the squared semiaxes as eigenvalues.
@@ -288,8 +413,9 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
   return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
 }
 
-Drawing draw_scene(const Scene& scene, const std::string& title, const std::vector<Flight>& flights) {
-  return scene.dimension == 2 ? draw_scene_2d(scene, title, flights) : draw_scene_3d(scene, title, flights);
+Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+  return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
+                              : draw_scene_3d(scene, options, flights);
 }
 
 }  // namespace lorentz::pictures

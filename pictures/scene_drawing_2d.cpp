@@ -8,60 +8,72 @@
 namespace lorentz::pictures {
 namespace {
 
-constexpr double kTallest = 1000;
-
 // The plane on paper: y upwards.
 struct Window {
   Box box;
   double scale = 1;  // pixels per unit of length
+  double left = kMargin, top = 0;
 
   Point operator()(const Vec& p) const {
-    return {kMargin + scale * (p[0] - box.low[0]), kTitleHeight + scale * (box.high[1] - p[1])};
+    return {left + scale * (p[0] - box.low[0]), top + scale * (box.high[1] - p[1])};
   }
   double width() const { return scale * (box.high[0] - box.low[0]); }
   double height() const { return scale * (box.high[1] - box.low[1]); }
+
+  // As large as the page has room for, in its middle.
+  void fit(const Page& page) {
+    scale = std::min(page.width / (box.high[0] - box.low[0]), page.height / (box.high[1] - box.low[1]));
+    left = kMargin + (page.width - width()) / 2;
+    top = page.top;
+  }
 };
 
 Vec plus(const Vec& a, const Vec& b, double share = 1) {
   return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
 }
 
-// About 4 by 4 cells around `corner`'s, smaller if that held too many obstacles, and all of the flights.
-Window window_for(const Scene& scene, const Vec& corner, const std::vector<Line>& lines) {
+std::array<Vec, 4> corners_of(const Scene& scene, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
+  return {corner, plus(corner, u[0]), plus(plus(corner, u[0]), u[1]), plus(corner, u[1])};
+}
+
+// About 4 by 4 cells around `corner`'s, smaller if that held too many obstacles.
+double half_width(const Scene& scene) {
   const double cell = cell_size(scene);
   double expected = 0;
   for (const Lattice& lattice : scene.lattices)
     expected += static_cast<double>(lattice.atoms.size()) * 16 * cell * cell / cell_volume(lattice, 2);
-  const double half = 2 * cell * std::min(1.0, std::sqrt(static_cast<double>(kMostDrawn) / expected));
+  return 2 * cell * std::min(1.0, std::sqrt(static_cast<double>(kMostDrawn) / expected));
+}
+
+// Those cells, or all flights that end; those that go on do so beyond the picture, unless there are no
+// others.
+Box box_for(const Scene& scene, const Vec& corner, const std::vector<Line>& lines) {
+  const auto& u = scene.lattices[0].vectors;
+  const double cell = cell_size(scene);
   const Vec diagonal = plus(u[0], u[1]);
   const bool needle =
       std::hypot(diagonal[0], diagonal[1]) > 6 * cell;  // the cell reaches far beyond the picture
   const Vec middle = plus(corner, diagonal, needle ? 0 : 0.5);
-  Window window;
-  window.box = {middle, middle};
-  if (lines.empty())
-    window.box.include(middle, half);
-  else
-    window.box.include(middle, 0.75 * cell);
-  for (const Vec& p : {corner, plus(corner, u[0]), plus(corner, u[1]), plus(plus(corner, u[0]), u[1])})
-    if (std::hypot(p[0] - middle[0], p[1] - middle[1]) < 3.01 * cell) window.box.include(p, 0.1 * cell);
+  Box box{middle, middle};
+  box.include(middle, lines.empty() ? half_width(scene) : 0.75 * cell);
+  for (const Vec& p : corners_of(scene, corner))
+    if (std::hypot(p[0] - middle[0], p[1] - middle[1]) < 3.01 * cell) box.include(p, 0.1 * cell);
+  const bool any_ends = std::any_of(lines.begin(), lines.end(), [](const Line& line) { return line.ends; });
   for (const Line& line : lines) {
-    window.box.include(line.from, 0.6 * cell);
-    window.box.include(line.to, 0.6 * cell);
+    box.include(line.from, 0.6 * cell);
+    if (line.ends || !any_ends) box.include(line.to, 0.6 * cell);
   }
   // No thinner than 1 : 4.
-  const double wide = window.box.high[0] - window.box.low[0], tall = window.box.high[1] - window.box.low[1];
+  const double wide = box.high[0] - box.low[0], tall = box.high[1] - box.low[1];
   for (const int k : {0, 1}) {
     const double lacking = (k == 0 ? tall : wide) / 4 - (k == 0 ? wide : tall);
     if (lacking <= 0) continue;
-    window.box.low[k] -= lacking / 2;
-    window.box.high[k] += lacking / 2;
+    box.low[k] -= lacking / 2;
+    box.high[k] += lacking / 2;
   }
-  window.box.low[2] = window.box.high[2] = 0;
-  window.scale = std::min((kPictureWidth - 2 * kMargin) / (window.box.high[0] - window.box.low[0]),
-                          kTallest / (window.box.high[1] - window.box.low[1]));
-  return window;
+  box.low[2] = box.high[2] = 0;
+  return box;
 }
 
 // The first lattice's cells, faint, unless there are too many to tell apart.
@@ -104,71 +116,170 @@ void add_obstacle(Svg& svg, const Scene& scene, const Window& window, const Plac
                                 c.fill, c.dark, line));
 }
 
-void add_cell(Svg& svg, const Scene& scene, const Window& window, const Vec& corner) {
-  const auto& u = scene.lattices[0].vectors;
-  svg.polygon({window(corner), window(plus(corner, u[0])), window(plus(plus(corner, u[0]), u[1])),
-               window(plus(corner, u[1]))},
-              "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
-}
-
-// Where the ray from `from` towards `to` leaves the window.
-Vec leaving(const Window& window, const Vec& from, const Vec& to) {
-  double share = 1e300;
+// The part of a segment that is in the box, as its shares; false if there is none.
+bool part_in(const Box& box, const Vec& from, const Vec& to, double& first, double& last) {
+  first = 0, last = 1;
   for (const int k : {0, 1}) {
     const double step = to[k] - from[k];
-    if (step != 0)
-      share = std::min(share, ((step > 0 ? window.box.high[k] : window.box.low[k]) - from[k]) / step);
+    if (step == 0) {
+      if (from[k] < box.low[k] || from[k] > box.high[k]) return false;
+      continue;
+    }
+    const double a = (box.low[k] - from[k]) / step, b = (box.high[k] - from[k]) / step;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
   }
-  return plus(from, plus(to, from, -1), std::max(share, 0.0));
+  return first <= last;
 }
 
-void add_flight(Svg& svg, const Window& window, const Line& line) {
-  const std::string stroke = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour);
-  const Point from = window(line.from);
-  if (!line.ends) {
-    svg.arrow(from, window(leaving(window, line.from, line.to)), 11, kFlightColour, 1.4);
-  } else {
-    svg.polyline({from, window(line.to)}, stroke);
-    svg.ellipse(window(line.to), {2.6, 2.6, 0}, fmt::format("fill=\"{}\"", kFlightColour));
+// What of a flight is in the window: an arrow if it goes on beyond.
+void add_flight(Svg& svg, const Window& window, const Line& line, Legend& legend) {
+  const Box& box = window.box;
+  Vec to = line.to;
+  if (!line.ends) {  // to somewhere beyond
+    const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+    const Vec& v = line.flight->query.v;
+    const Vec start = plus(line.from, box.centre(), -1);
+    const double speed = std::hypot(v[0], v[1]), reach = 2 * size + std::hypot(start[0], start[1]);
+    to = plus(line.from, {v[0] / speed, v[1] / speed, 0}, reach);
   }
-  svg.ellipse(from, {3, 3, 0}, fmt::format("fill=\"white\" {}", stroke));
+  double first = 0, last = 1;
+  if (!part_in(box, line.from, to, first, last)) return;
+  const Vec way = plus(to, line.from, -1);
+  const Point start = window(plus(line.from, way, first)), end = window(plus(line.from, way, last));
+  const std::string stroke = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour);
+  if (last < 1 || !line.ends) {
+    svg.arrow(start, end, 11, kFlightColour, 1.4);
+    (line.flight->answer.outcome == Outcome::never ? legend.never : legend.goes_on) = true;
+  } else {
+    svg.polyline({start, end}, stroke);
+    svg.ellipse(end, {2.6, 2.6, 0}, fmt::format("fill=\"{}\"", kFlightColour));
+    (line.flight->answer.outcome == Outcome::inside ? legend.inside : legend.hits) = true;
+  }
+  if (first == 0) svg.ellipse(start, {3, 3, 0}, fmt::format("fill=\"white\" {}", stroke));
+}
+
+// A corridor, with its translates if these come from one lattice: strips, one every area / |vector|.
+bool add_corridor(Svg& svg, const Scene& scene, const Window& window, const FreeWay& way,
+                  const char* colour) {
+  const double length = std::hypot(way.vector[0], way.vector[1]);
+  const Vec along{way.vector[0] / length, way.vector[1] / length, 0}, across{-along[1], along[0], 0};
+  const Box& box = window.box;
+  const Vec arm = plus(box.centre(), way.point, -1);
+  const double reach = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]) / 2;
+  const double reach_across = (std::fabs(across[0]) * (box.high[0] - box.low[0]) +
+                               std::fabs(across[1]) * (box.high[1] - box.low[1]) + way.width) /
+                              2;
+  const double period = scene.lattices.size() == 1 ? cell_volume(scene.lattices[0], 2) / length : 0;
+  constexpr double kMostStrips = 60;
+  double first = 0, last = 0;
+  if (period > 0 && 2 * reach / period < kMostStrips) {
+    first = std::ceil((dot(arm, across) - reach_across) / period);
+    last = std::floor((dot(arm, across) + reach_across) / period);
+  }
+  for (double n = first; n <= last; ++n) {
+    const Vec middle = plus(plus(way.point, across, n * period), along, dot(arm, along));
+    const auto corner = [&](double share, double side) {
+      return window(plus(plus(middle, along, share * reach), across, side * way.width / 2));
+    };
+    svg.polygon({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
+                fmt::format("fill=\"{0}\" fill-opacity=\"0.2\" stroke=\"{0}\" stroke-opacity=\"0.6\" "
+                            "stroke-width=\"0.8\"",
+                            colour));
+  }
+  return first < last || std::fabs(dot(arm, across) - first * period) < reach_across;
+}
+
+class Picture {
+ public:
+  Picture(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+      : scene_(scene), options_(options) {
+    lines_ = options.window ? lines_in_window(scene, flights) : lines_of(scene, flights, drawing_.remarks);
+    if (options.window) {
+      const auto [x0, y0, x1, y1] = *options.window;
+      window_.box = {{x0, y0, 0}, {x1, y1, 0}};
+      corner_ = cell_at(scene, window_.box.centre());
+    } else {
+      corner_ = lines_.empty() ? Vec{} : cell_at(scene, lines_[0].from);
+      window_.box = box_for(scene, corner_, lines_);
+    }
+    choose_obstacles();
+    for (const Vec& p : corners_of(scene, corner_))
+      if (window_.box.contains(p, 0))
+        legend_.cell = scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell";
+  }
+
+  Drawing draw();
+
+ private:
+  void choose_obstacles();
+  void add_contents();
+
+  const Scene& scene_;
+  const DrawOptions& options_;
+  Drawing drawing_;
+  Svg svg_;
+  Legend legend_;
+  std::vector<Line> lines_;
+  std::vector<Placed> obstacles_, hits_;
+  Window window_;
+  Vec corner_{};
+  bool enlarged_ = false;
+};
+
+void Picture::choose_obstacles() {
+  bool cut = false;
+  obstacles_ = obstacles_in(scene_, window_.box, cut);
+  const bool from_middle = lines_.empty() || options_.window;
+  thin_out(obstacles_, from_middle ? window_.box.centre() : lines_[0].from, drawing_.remarks);
+  if (cut) drawing_.remarks.push_back("some lattices are too fine for this picture and left out");
+  for (const Placed& hit : hits_of(scene_, lines_)) {
+    const Atom& atom = scene_.lattices[hit.lattice].atoms[hit.atom];
+    if (window_.box.contains(hit.centre, principal_semiaxes(atom, 2)[0])) hits_.push_back(hit);
+  }
+  for (const auto* some : {&obstacles_, &hits_})
+    for (const Placed& obstacle : *some) legend_.atoms.insert({obstacle.lattice, obstacle.atom});
+}
+
+void Picture::add_contents() {
+  add_grid(svg_, scene_, window_, corner_);
+  for (std::size_t i = 0; i < options_.ways.size(); ++i)
+    if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
+  for (const Placed& obstacle : obstacles_) add_obstacle(svg_, scene_, window_, obstacle, false, enlarged_);
+  for (const Placed& obstacle : hits_) add_obstacle(svg_, scene_, window_, obstacle, true, enlarged_);
+  const auto corners = corners_of(scene_, corner_);
+  if (!legend_.cell.empty())
+    svg_.polygon({window_(corners[0]), window_(corners[1]), window_(corners[2]), window_(corners[3])},
+                 "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
+  for (const Line& line : lines_) add_flight(svg_, window_, line, legend_);
+}
+
+Drawing Picture::draw() {
+  constexpr double kTallest = 1000;
+  legend_.notes = drawing_.remarks;
+  Legend about = legend_;  // with all that may come
+  about.hits = about.goes_on = !lines_.empty();
+  for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
+  window_.fit(Page(scene_, options_, about, kTallest));
+  const Point low = window_({window_.box.low[0], window_.box.high[1], 0});
+  svg_.raw(
+      fmt::format("<clipPath id=\"window\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
+                  "height=\"{:.2f}\"/></clipPath>\n",
+                  low.x, low.y, window_.width(), window_.height()));
+  svg_.open("clip-path=\"url(#window)\"");
+  add_contents();
+  svg_.close();
+  const double right = low.x + window_.width(), bottom = low.y + window_.height();
+  svg_.polygon({low, {right, low.y}, {right, bottom}, {low.x, bottom}}, "fill=\"none\" stroke=\"#aaaaaa\"");
+  if (enlarged_) legend_.notes.push_back("The obstacles are smaller than they are drawn.");
+  drawing_.svg = finished(svg_, scene_, options_, legend_, bottom);
+  return std::move(drawing_);
 }
 
 }  // namespace
 
-Drawing draw_scene_2d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights) {
-  Drawing drawing;
-  const std::vector<Line> lines = lines_of(scene, flights, drawing.remarks);
-  const Vec corner = lines.empty() ? Vec{} : cell_at(scene, lines[0].from);
-  const Window window = window_for(scene, corner, lines);
-  bool cut = false, enlarged = false;
-  std::vector<Placed> obstacles = obstacles_in(scene, window.box, cut);
-  thin_out(obstacles, lines.empty() ? window.box.centre() : lines[0].from, drawing.remarks);
-  if (cut) drawing.remarks.push_back("some lattices are too fine for this picture and left out");
-  Svg svg;
-  svg.text({kMargin, 25}, title, "font-size=\"16\" font-weight=\"bold\"");
-  svg.raw(
-      fmt::format("<clipPath id=\"window\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
-                  "height=\"{:.2f}\"/></clipPath>\n",
-                  kMargin, kTitleHeight, window.width(), window.height()));
-  svg.open("clip-path=\"url(#window)\"");
-  add_grid(svg, scene, window, corner);
-  for (const Placed& obstacle : obstacles) add_obstacle(svg, scene, window, obstacle, false, enlarged);
-  for (const Placed& obstacle : hits_of(scene, lines))
-    add_obstacle(svg, scene, window, obstacle, true, enlarged);
-  add_cell(svg, scene, window, corner);
-  for (const Line& line : lines) add_flight(svg, window, line);
-  svg.close();
-  svg.polygon(
-      {window({window.box.low[0], window.box.low[1], 0}), window({window.box.high[0], window.box.low[1], 0}),
-       window({window.box.high[0], window.box.high[1], 0}),
-       window({window.box.low[0], window.box.high[1], 0})},
-      "fill=\"none\" stroke=\"#aaaaaa\"");
-  std::vector<std::string> notes = drawing.remarks;
-  if (enlarged) notes.push_back("The obstacles are smaller than they are drawn.");
-  const double bottom = add_legend(svg, scene, kTitleHeight + window.height() + 14, !lines.empty(), notes);
-  drawing.svg = svg.document(kPictureWidth, bottom + 6, title);
-  return drawing;
+Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+  return Picture(scene, options, flights).draw();
 }
 
 }  // namespace lorentz::pictures

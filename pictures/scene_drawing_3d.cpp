@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "pictures/conventional_cell.hpp"
 #include "pictures/drawing_parts.hpp"
+#include "pictures/free_ways_3d.hpp"
 
 namespace lorentz::pictures {
 namespace {
@@ -41,26 +43,50 @@ struct Seen {
 
 class Picture {
  public:
-  Picture(const Scene& scene, const std::vector<Flight>& flights) : scene_(scene) {
+  Picture(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+      : scene_(scene),
+        options_(options),
+        cell_(shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
     lines_ = lines_of(scene, flights, drawing_.remarks);
-    if (!lines_.empty()) corner_ = cell_at(scene, lines_[0].from);
+    if (!lines_.empty()) corner_ = cell_at(cell_.vectors, 3, lines_[0].from);
     choose_obstacles();
+    explain();
     fit();
   }
 
-  Drawing draw(const std::string& title);
+  Drawing draw();
 
  private:
   void choose_obstacles();
+  void explain();
   void fit();
+  void add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets);
+  void add_cylinders();
+  void add_cell();
+  void add_flight(const Line& line);
+  Block block() const {
+    return {corner_,
+            {scaled(cell_.vectors[0], cells_), scaled(cell_.vectors[1], cells_),
+             scaled(cell_.vectors[2], cells_)}};
+  }
   void add_obstacle(const Seen& seen);
-  void add_line(const Vec& from, const Vec& to, const std::string& colour, double width, bool arrow);
+  struct Pen {
+    std::string colour;
+    double width;
+    bool arrow = false;
+    std::string seen, hidden = " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"";
+  };
+  void add_line(const Vec& from, const Vec& to, const Pen& pen);
   bool is_hidden(const Vec& point) const;
   Point at(const Vec& view) const {
-    return {kMargin + scale_ * (view[0] - box_.low[0]), kTitleHeight + scale_ * (box_.high[1] - view[1])};
+    return {kMargin + scale_ * (view[0] - box_.low[0]), top_ + scale_ * (box_.high[1] - view[1])};
   }
 
   const Scene& scene_;
+  const DrawOptions& options_;
+  ShownCell cell_;
+  double cells_ = 1;  ///< of these along each edge of the block
+  Legend legend_;
   Eye eye_;
   Drawing drawing_;
   Svg svg_;
@@ -69,17 +95,18 @@ class Picture {
   std::vector<Seen> seen_;
   std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // of each atom's matrix, as rows
   Box box_;                                                // of the picture, seen from the eye
-  double scale_ = 1;
+  double scale_ = 1, top_ = 0;
 };
 
-// The obstacles with centres in a block of 2 x 2 x 2 cells or on its boundary, and those that are hit.
+// The obstacles with centres in a block of 2 x 2 x 2 primitive cells, or in a cube, or on its boundary, and
+// those that are hit.
 void Picture::choose_obstacles() {
-  const auto& u = scene_.lattices[0].vectors;
+  const auto& u = cell_.vectors;
   double expected = 0;
   for (const Lattice& lattice : scene_.lattices)
     expected += static_cast<double>(lattice.atoms.size()) * 27 * cell_volume(scene_.lattices[0], 3) /
                 cell_volume(lattice, 3);
-  const double cells = expected > 300 ? 1 : 2;
+  const double cells = cells_ = expected > 300 || cell_.primitive_cells > 1 ? 1 : 2;
   Box box{corner_, corner_};
   for (int n = 0; n < 8; ++n) {
     Vec p = corner_;
@@ -127,6 +154,36 @@ void Picture::choose_obstacles() {
   }
 }
 
+// What the legend will have to say.
+void Picture::explain() {
+  for (const Seen& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
+  legend_.cell = cell_.primitive_cells > 1
+                     ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
+                 : scene_.lattices.size() > 1 ? "a cell of lattice 0"
+                                              : "a primitive cell";
+  for (const Line& line : lines_) {
+    const Outcome outcome = line.flight->answer.outcome;
+    legend_.never |= outcome == Outcome::never;
+    legend_.inside |= outcome == Outcome::inside;
+    (line.ends ? legend_.hits : legend_.goes_on) |= outcome == Outcome::hit;
+  }
+  for (std::size_t i = 0; i < options_.ways.size(); ++i) {
+    const FreeWay& way = options_.ways[i];
+    const bool there = way.kind == FreeWay::Kind::cylinder ? axis_of(scene_, way, block()).has_value()
+                                                           : !faces_of(scene_, way, i, block()).empty();
+    if (there) legend_.ways.push_back(i);
+  }
+  legend_.notes = drawing_.remarks;
+  if (!lines_.empty())
+    legend_.notes.push_back("Of the obstacles beyond the block of cells, only those that are hit are drawn.");
+}
+
+// Beyond the block at both ends: one sees that it goes through.
+Axis longer(const Axis& axis) {
+  const Vec more = scaled(plus(axis.to, axis.from, -1), 0.15);
+  return {plus(axis.from, more, -1), plus(axis.to, more)};
+}
+
 void Picture::fit() {
   box_.low = box_.high = eye_(corner_);
   for (const Seen& seen : seen_) {
@@ -142,21 +199,28 @@ void Picture::fit() {
     box_.include(eye_(line.from));
     box_.include(eye_(line.to));
   }
-  const auto& u = scene_.lattices[0].vectors;
+  const double reach = options_.ways.empty() ? 1 : cells_;
   for (int n = 0; n < 8; ++n) {
     Vec p = corner_;
     for (int i = 0; i < 3; ++i)
-      if (n >> i & 1) p = plus(p, u[i]);
+      if (n >> i & 1) p = plus(p, cell_.vectors[i], reach);
     box_.include(eye_(p));
   }
+  for (const std::size_t number : legend_.ways)
+    if (options_.ways[number].kind == FreeWay::Kind::cylinder) {
+      const Axis axis = longer(*axis_of(scene_, options_.ways[number], block()));
+      for (const Vec& end : {axis.from, axis.to}) box_.include(eye_(end), options_.ways[number].width / 2);
+    }
   const double margin = 0.02 * (box_.high[0] - box_.low[0]);
   for (int k = 0; k < 2; ++k) {
     box_.low[k] -= margin;
     box_.high[k] += margin;
   }
   const double wide = box_.high[0] - box_.low[0], tall = box_.high[1] - box_.low[1];
-  scale_ = std::min((kPictureWidth - 2 * kMargin) / wide, kTallest / tall);
-  const double spare = (kPictureWidth - 2 * kMargin) / scale_ - wide;  // a tall picture stands in the middle
+  const Page page(scene_, options_, legend_, kTallest);
+  top_ = page.top;
+  scale_ = std::min(page.width / wide, page.height / tall);
+  const double spare = page.width / scale_ - wide;  // a tall picture stands in the middle
   box_.low[0] -= spare / 2;
   box_.high[0] += spare / 2;
 }
@@ -181,7 +245,7 @@ bool Picture::is_hidden(const Vec& point) const {
 }
 
 // In pieces: full where it can be seen, faint where not.
-void Picture::add_line(const Vec& from, const Vec& to, const std::string& colour, double width, bool arrow) {
+void Picture::add_line(const Vec& from, const Vec& to, const Pen& pen) {
   const Vec way = plus(to, from, -1);
   const double length = scale_ * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
   const int pieces = std::clamp(static_cast<int>(length / 3), 8, lines_.size() > 50 ? 100 : 600);
@@ -192,11 +256,11 @@ void Picture::add_line(const Vec& from, const Vec& to, const std::string& colour
     int end = i + 1;
     while (end < pieces && hidden_in(end) == hidden) ++end;
     svg_.polyline({at(eye_(point(i))), at(eye_(point(end)))},
-                  fmt::format("stroke=\"{}\" stroke-width=\"{}\"{}", colour, width,
-                              hidden ? " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"" : ""));
+                  fmt::format("stroke=\"{}\" stroke-width=\"{:.4g}\"{}", pen.colour, pen.width,
+                              hidden ? pen.hidden : pen.seen));
     i = end;
   }
-  if (arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, colour, width);
+  if (pen.arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, pen.colour, pen.width);
 }
 
 void Picture::add_obstacle(const Seen& seen) {
@@ -209,8 +273,7 @@ void Picture::add_obstacle(const Seen& seen) {
                            seen.hit ? kFlightColour : colour(index).dark, seen.hit ? 2.2 : 0.7));
 }
 
-Drawing Picture::draw(const std::string& title) {
-  svg_.text({kMargin, 25}, title, "font-size=\"16\" font-weight=\"bold\"");
+std::string shades() {
   std::string shades = "<defs>\n";
   for (std::size_t i = 0; i < 10; ++i)
     shades += fmt::format(
@@ -219,38 +282,90 @@ Drawing Picture::draw(const std::string& title) {
         "stop-color=\"{}\"/><stop offset=\"0.6\" stop-color=\"{}\"/><stop offset=\"1\" "
         "stop-color=\"{}\"/></radialGradient>\n",
         i, colour(i).light, colour(i).fill, colour(i).dark);
-  svg_.raw(shades + "</defs>\n");
-  for (const Seen& seen : seen_) add_obstacle(seen);
-  const auto& u = scene_.lattices[0].vectors;
+  return shades + "</defs>\n";
+}
+
+// No obstacle crosses a face of a free layer: those beyond it first, then the face, then those before it. The
+// other faces are cut in two by it.
+void Picture::add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets) {
+  if (facets.empty()) {
+    for (const Seen& seen : obstacles) add_obstacle(seen);
+    return;
+  }
+  const Facet face = facets.back();
+  facets.pop_back();
+  const int nearer = dot(face.normal, eye_.towards) > 0 ? 1 : -1;
+  for (const int side : {-nearer, nearer}) {
+    std::vector<Seen> some;
+    for (const Seen& seen : obstacles)
+      if ((side * (dot(face.normal, seen.placed.centre) - face.level) >= 0)) some.push_back(seen);
+    std::vector<Facet> parts;
+    for (const Facet& other : facets) {
+      Facet part = part_beside(other, face.normal, face.level, side);
+      if (part.corners.size() > 2) parts.push_back(std::move(part));
+    }
+    add_contents(some, std::move(parts));
+    if (side == nearer) break;
+    std::vector<Point> outline;
+    for (const Vec& corner : face.corners) outline.push_back(at(eye_(corner)));
+    svg_.polygon(outline,
+                 fmt::format("fill=\"{0}\" fill-opacity=\"0.28\" stroke=\"{0}\" stroke-width=\"0.8\"",
+                             way_colour(face.way)));
+  }
+}
+
+void Picture::add_cylinders() {
+  for (const std::size_t number : legend_.ways) {
+    const FreeWay& way = options_.ways[number];
+    if (way.kind != FreeWay::Kind::cylinder) continue;
+    const Axis axis = longer(*axis_of(scene_, way, block()));
+    add_line(axis.from, axis.to,
+             {way_colour(number), std::max(1.5, scale_ * way.width), false, " stroke-opacity=\"0.6\"",
+              " stroke-opacity=\"0.15\""});
+  }
+}
+
+void Picture::add_cell() {
+  const auto& u = cell_.vectors;
   for (int i = 0; i < 3; ++i)
     for (int n = 0; n < 4; ++n) {
       Vec from = corner_;
       if (n & 1) from = plus(from, u[(i + 1) % 3]);
       if (n & 2) from = plus(from, u[(i + 2) % 3]);
-      add_line(from, plus(from, u[i]), "#111111", 1.6, false);
+      add_line(from, plus(from, u[i]), {"#111111", 1.6});
     }
-  for (const Line& line : lines_) {
-    add_line(line.from, line.to, kFlightColour, 2, !line.ends);
-    svg_.ellipse(at(eye_(line.from)), {3.2, 3.2, 0},
-                 fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour));
-    if (line.ends)
-      svg_.ellipse(
-          at(eye_(line.to)), {2.8, 2.8, 0},
-          fmt::format("fill=\"{}\" fill-opacity=\"{}\"", kFlightColour, is_hidden(line.to) ? 0.3 : 1.0));
-  }
-  std::vector<std::string> notes = drawing_.remarks;
-  if (!lines_.empty())
-    notes.push_back("Of the obstacles beyond the block of cells, only those that are hit are drawn.");
+}
+
+void Picture::add_flight(const Line& line) {
+  add_line(line.from, line.to, {kFlightColour, 2, !line.ends});
+  svg_.ellipse(at(eye_(line.from)), {3.2, 3.2, 0},
+               fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour));
+  if (line.ends)
+    svg_.ellipse(
+        at(eye_(line.to)), {2.8, 2.8, 0},
+        fmt::format("fill=\"{}\" fill-opacity=\"{}\"", kFlightColour, is_hidden(line.to) ? 0.3 : 1.0));
+}
+
+Drawing Picture::draw() {
+  svg_.raw(shades());
+  std::vector<Facet> facets;
+  for (const std::size_t number : legend_.ways)
+    if (options_.ways[number].kind == FreeWay::Kind::layer)
+      for (Facet& face : faces_of(scene_, options_.ways[number], number, block()))
+        facets.push_back(std::move(face));
+  add_contents(seen_, std::move(facets));
+  add_cylinders();
+  add_cell();
+  for (const Line& line : lines_) add_flight(line);
   const double height = scale_ * (box_.high[1] - box_.low[1]);
-  const double bottom = add_legend(svg_, scene_, kTitleHeight + height + 14, !lines_.empty(), notes);
-  drawing_.svg = svg_.document(kPictureWidth, bottom + 6, title);
+  drawing_.svg = finished(svg_, scene_, options_, legend_, top_ + height);
   return std::move(drawing_);
 }
 
 }  // namespace
 
-Drawing draw_scene_3d(const Scene& scene, const std::string& title, const std::vector<Flight>& flights) {
-  return Picture(scene, flights).draw(title);
+Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+  return Picture(scene, options, flights).draw();
 }
 
 }  // namespace lorentz::pictures

@@ -6,10 +6,16 @@
 namespace lorentz::pictures {
 namespace {
 
+// What would be printed as -0.00 is 0.
+double plain(double value) {
+  return std::fabs(value) < 0.005 ? 0 : value;
+}
+
 // Two decimals are a hundredth of a pixel.
 std::string path_of(const std::vector<Point>& points) {
   std::string out;
-  for (const Point& p : points) out += fmt::format("{}{:.2f},{:.2f}", out.empty() ? "" : " ", p.x, p.y);
+  for (const Point& p : points)
+    out += fmt::format("{}{:.2f},{:.2f}", out.empty() ? "" : " ", plain(p.x), plain(p.y));
   return out;
 }
 
@@ -41,7 +47,7 @@ void Svg::ellipse(Point centre, const EllipseShape& shape, const std::string& st
   } else {
     body_ += fmt::format(
         "<ellipse rx=\"{:.2f}\" ry=\"{:.2f}\" transform=\"translate({:.2f} {:.2f}) rotate({:.2f})\" {}",
-        shape.rx, shape.ry, centre.x, centre.y, shape.angle * 180 / std::numbers::pi, style);
+        shape.rx, shape.ry, centre.x, centre.y, plain(shape.angle * 180 / std::numbers::pi), style);
   }
   body_ += hint.empty()
                ? "/>\n"

@@ -254,6 +254,76 @@ TEST_CASE("horizon: the tail, or that there is none", "[cli][scene_command]") {
   CHECK(contains(folder.lorentz("horizon cubic --radius 0.7071067811865475").out, "6.26858e-17"));
 }
 
+TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz(
+      "scene draw square --radius 0.2 --window=-0.5,-0.5,2.5,2.5 --size 600x500 --title 'Three & three' "
+      "--channels 1");
+  CHECK(run.status == 0);
+  CHECK(is_well_formed(run.out));
+  CHECK(contains(run.out, "viewBox=\"0 0 600 "));
+  CHECK(contains(run.out, "Three &amp; three"));
+  CHECK(contains(run.out, "corridor [1 0]: width 0.6"));
+  CHECK_FALSE(contains(run.out, "corridor [0 1]"));
+  CHECK(times(run.out, "<circle") == 9 + 1);
+  CHECK(times(folder.lorentz("scene draw square --no-legend --title ''").out, "<text") == 0);
+  const Run solid = folder.lorentz("scene draw fcc --channels 1");
+  CHECK(is_well_formed(solid.out));
+  CHECK(contains(solid.out, "channel (1 1 1): width 0.01735"));
+  CHECK(contains(solid.out, "cylinder ["));
+  CHECK(contains(folder.lorentz("scene draw triangular --channels 1").err,
+                 "no channels are drawn: none is known to be open"));
+  CHECK_FALSE(
+      contains(folder.lorentz("scene draw bcc --radius 0.3 --channels 1").out, "e-17"));  // 0.3 as a binary64
+  const Run fine = folder.lorentz("scene draw square --radius 1e-9 --channels 1");
+  CHECK(fine.status == 0);
+  CHECK(contains(fine.err, "no channels are drawn: too many directions"));
+  for (const char* bad : {"square --window 0,0,1", "square --window 1,0,0,1", "square --window 0,0,x,1",
+                          "cubic --window 0,0,1,1", "square --size 10", "square --size 300x",
+                          "square --size x", "square --size 300x300x3", "square --channels 0"}) {
+    INFO(bad);
+    CHECK(folder.lorentz(std::string("scene draw ") + bad).status == 2);
+  }
+  // Nothing of the paper's 89 flights is in a corner.
+  const Run paper = folder.lorentz("scene draw --queries " + std::string(LORENTZ_SOURCE_DIR) +
+                                   "/data/examples/paper-89-directions.queries.ndjson");
+  CHECK(contains(paper.err, "flights that go on beyond the picture: 6"));
+  CHECK(times(paper.out, "<circle") < 2 * 89 + 300);
+}
+
+TEST_CASE("scene draw -o: whole or not at all, and over nothing but a picture", "[cli][scene_command]") {
+  const Folder folder;
+  const auto list = folder.write("queries.ndjson", kScene + kGood);
+  const Run refused = folder.lorentz("scene draw square -o " + list);
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, "queries.ndjson: is no SVG, and is left as it is"));
+  CHECK(folder.read("queries.ndjson") == kScene + kGood);
+  // An empty file, an older picture, a link to it: its mode stays, and nothing else is left in the folder.
+  const auto picture = folder.write("p.svg", "");
+  CHECK(folder.lorentz("scene draw square -o " + picture).status == 0);
+  fs::permissions(picture, fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink(picture, folder.file("link.svg"));
+  CHECK(folder.lorentz("scene draw triangular -o " + folder.file("link.svg")).status == 0);
+  CHECK(fs::is_symlink(folder.file("link.svg")));
+  CHECK(contains(folder.read("p.svg"), "triangular"));
+  CHECK(fs::status(picture).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  std::size_t files = 0;
+  for (const auto& file : fs::directory_iterator(folder.file(""))) files += contains(file.path(), "p.svg");
+  CHECK(files == 1);
+  // No room for the new one, and the old one stands. (A limit of 4 blocks of 512 bytes; the signal is
+  // ignored.)
+  const std::string before = folder.read("p.svg");
+  CHECK(folder
+            .run("trap '' XFSZ; ulimit -f 4; exec " + std::string(LORENTZ_PROGRAM) +
+                 " scene draw kagome -o " + picture)
+            .status == 3);
+  CHECK(folder.read("p.svg") == before);
+  CHECK(folder.run("ulimit -f 4; exec " + std::string(LORENTZ_PROGRAM) + " scene draw kagome -o " + picture)
+            .status != 0);  // killed by the signal
+  CHECK(folder.read("p.svg") == before);
+  CHECK(folder.lorentz("scene draw square -o /dev/null").status == 0);
+}
+
 TEST_CASE("horizon: verdicts, tables, JSON and refusals", "[cli][scene_command]") {
   const Folder folder;
   const Run square = folder.lorentz("horizon square --radius 0.4");

@@ -3,7 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <lorentz/geometry.hpp>
+#include "pictures/conventional_cell.hpp"
 #include "pictures/drawing_parts.hpp"
+#include "pictures/free_ways_3d.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -25,19 +28,19 @@ TEST_CASE("3D: the farthest obstacle first; the eye is in front of the cell, on 
           "[pictures][scene_drawing]") {
   Scene scene = unit_scene(3, 0.1);
   scene.lattices[0].atoms = {{{0, 0.25, 0}, 0.1, {}}, {{0, 0.75, 0}, 0.1, {}}};
-  const std::string svg = draw_scene(scene, "", {}).svg;
+  const std::string svg = draw_scene(scene, {}, {}).svg;
   const std::string kShade = "fill=\"url(#shade";
   CHECK(svg.substr(svg.find(kShade) + kShade.size(), 1) == "1");
   CHECK(svg.substr(svg.rfind(kShade) + kShade.size(), 1) == "0");
 }
 
 TEST_CASE("3D: what is in or behind an obstacle is drawn faint", "[pictures][scene_drawing]") {
-  CHECK(times(draw_scene(unit_scene(3, 1e-4), "", {}).svg, kHidden) == 0);
-  CHECK(times(draw_scene(unit_scene(3, 1e-4), "", {}).svg, kSeen) == 12);
-  const std::string half = draw_scene(unit_scene(3, 0.25), "", {}).svg;
+  CHECK(times(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kHidden) == 0);
+  CHECK(times(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kSeen) == 12);
+  const std::string half = draw_scene(unit_scene(3, 0.25), {}, {}).svg;
   CHECK(times(half, kHidden) >= 24);  // 24 seen; both ends of each edge
   CHECK(times(half, kSeen) >= 8);     // 12 seen
-  CHECK(times(draw_scene(unit_scene(3, 0.55), "", {}).svg, kSeen) == 0);
+  CHECK(times(draw_scene(unit_scene(3, 0.55), {}, {}).svg, kSeen) == 0);
 }
 
 TEST_CASE("The outline of a projected ellipsoid", "[pictures][scene_drawing]") {
@@ -53,9 +56,163 @@ TEST_CASE("No picture holds more than a few thousand obstacles", "[pictures][sce
   scene.lattices[0].atoms.clear();
   for (int i = 0; i < 120 * 120; ++i)
     scene.lattices[0].atoms.push_back({{i % 120 / 120.0, i / 120 / 120.0}, 0.001, {}});
-  CHECK(times(draw_scene(scene, "", {}).svg, "<circle") <= kMostDrawn + 20);
+  CHECK(times(draw_scene(scene, {}, {}).svg, "<circle") <= kMostDrawn + 20);
   Flight flight{{{0.5, 0.5}, {1, 1e-9}, {}}, Answer::hit({0, 0, {}}, 30)};
-  const Drawing drawing = draw_scene(scene, "", {flight});
+  const Drawing drawing = draw_scene(scene, {}, {flight});
   CHECK(times(drawing.svg, "<circle") <= kMostDrawn + 20);
   CHECK(drawing.remarks.size() == 1);
+}
+
+namespace {
+
+// The square lattice, r = 1/10, and flights upwards from (1/2, 1/2) that hit after these lengths.
+Drawing with_flights(const std::vector<double>& lengths, const DrawOptions& options = {}) {
+  std::vector<Flight> flights;
+  for (const double length : lengths)
+    flights.push_back({{{0.5, 0.5}, {0, 2}, {}}, Answer::hit({0, 0, {}}, length / 2)});
+  return draw_scene(unit_scene(2, 0.1), options, flights);
+}
+
+// The height of the window in cells: the discs of a column.
+double cells_high(const std::string& svg) {
+  double x1 = 0, x2 = 0, low = 0, high = 0;
+  const auto cell = svg.find("<polygon points=\""), clip = svg.find("<rect x=");
+  REQUIRE(std::sscanf(svg.c_str() + cell, "<polygon points=\"%lf,%*f %lf", &x1, &x2) == 2);
+  REQUIRE(std::sscanf(svg.c_str() + clip, "<rect x=\"%*f\" y=\"%lf\" width=\"%*f\" height=\"%lf", &low,
+                      &high) == 2);
+  return high / (x2 - x1);
+}
+
+}  // namespace
+
+TEST_CASE("2D: one long flight does not shrink the others", "[pictures][scene_drawing]") {
+  std::vector<double> lengths(20, 3.0);
+  const double without = cells_high(with_flights(lengths).svg);
+  lengths.push_back(35);
+  const Drawing with = with_flights(lengths);
+  CHECK(cells_high(with.svg) == Approx(without));
+  CHECK(times(with.svg, "stroke-width=\"1.4\"/>\n<polygon") == 1);  // an arrow, to the window's edge
+  REQUIRE(with.remarks.size() == 1);
+  CHECK(with.remarks[0] == "flights that go on beyond the picture: 1, the longest for 35");
+  // One alone is shown to its end, and so are two of very different length.
+  CHECK(cells_high(with_flights({35}).svg) > 35);
+  CHECK(cells_high(with_flights({3, 35}).svg) > 35);
+  CHECK(with_flights({3, 35}).remarks.empty());
+  CHECK(with_flights({3, 45}).remarks.size() == 1);
+}
+
+TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pictures][scene_drawing]") {
+  DrawOptions options;
+  options.window = {{-0.25, -0.5, 2.75, 1}};
+  const std::string svg = draw_scene(unit_scene(2, 0.2), options, {}).svg;
+  CHECK(svg.find("viewBox=\"0 0 800 ") != std::string::npos);
+  CHECK(times(svg, "height=\"376.00\"") == 1);  // (800 - 2 * 24) / 2
+  CHECK(times(svg, "<circle") == 3 * 2 + 1);    // and one in the legend
+  options.width = 500;
+  options.height = 300;
+  const std::string small = draw_scene(unit_scene(2, 0.2), options, {}).svg;
+  CHECK(small.find("viewBox=\"0 0 500 ") != std::string::npos);
+  double height = 0;
+  REQUIRE(std::sscanf(small.c_str() + small.find("viewBox"), "viewBox=\"0 0 500 %lf", &height) == 1);
+  CHECK(height <= 300);
+  CHECK(height > 270);
+  // A flight through the window: neither its start nor its end is there.
+  options.window = {{0.9, 0.2, 1.1, 0.4}};
+  const Flight flight{{{0.3, 0.3}, {1, 0}, {}}, Answer::hit({0, 0, {}}, 30)};
+  const std::string through = draw_scene(unit_scene(2, 0.05), options, {flight}).svg;
+  CHECK(times(through, "<circle") == 0);
+  CHECK(through.find("goes on") != std::string::npos);
+  CHECK(through.find("first hit") == std::string::npos);
+  CHECK(through.find("cell") == std::string::npos);
+  CHECK(through.find("atom 0") == std::string::npos);
+}
+
+TEST_CASE("The legend explains what is there, and nothing else; or is left out",
+          "[pictures][scene_drawing]") {
+  const std::string plain = draw_scene(unit_scene(2, 0.2), {}, {}).svg;
+  for (const char* word : {"flight", "goes on", "never", "inside", "corridor"})
+    CHECK(plain.find(word) == std::string::npos);
+  const Flight never{{{0.5, 0.5}, {1, 0}, {}}, Answer::never()};
+  const std::string flies = draw_scene(unit_scene(2, 0.2), {}, {never}).svg;
+  CHECK(flies.find(">never hits<") != std::string::npos);
+  CHECK(flies.find("first hit") == std::string::npos);
+  DrawOptions options;
+  options.legend = false;
+  options.title = "Only a title";
+  const std::string bare = draw_scene(unit_scene(3, 0.2), options, {}).svg;
+  CHECK(times(bare, "<text") == 1);
+  CHECK(times(bare, "Only a title") == 2);  // and the document's
+}
+
+TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
+          "[pictures][scene_drawing]") {
+  const auto cell_of = [](const std::array<Vec, 3>& vectors) {
+    const Lattice lattice{vectors, {{{}, 0.1, {}}}};
+    return shown_cell(lattice, short_vectors(lattice, 3));
+  };
+  const std::array<Vec, 3> fcc{Vec{0, 0.5, 0.5}, Vec{0.5, 0, 0.5}, Vec{0.5, 0.5, 0}},
+      bcc{Vec{-0.5, 0.5, 0.5}, Vec{0.5, -0.5, 0.5}, Vec{0.5, 0.5, -0.5}},
+      unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  CHECK(cell_of(fcc).primitive_cells == 4);
+  CHECK(cell_of(fcc).vectors == unit);
+  CHECK(cell_of(bcc).primitive_cells == 2);
+  CHECK(cell_of(bcc).vectors == unit);
+  CHECK(cell_of(unit).primitive_cells == 1);
+  // In a skewed basis, and turned by 3-4-5 about z.
+  CHECK(cell_of({fcc[0], sum(fcc[1], scaled(fcc[0], 2)), sum(fcc[2], scaled(fcc[1], -3))}).vectors == unit);
+  auto turned = bcc;
+  for (Vec& u : turned) u = {0.6 * u[0] - 0.8 * u[1], 0.8 * u[0] + 0.6 * u[1], u[2]};
+  const ShownCell cube = cell_of(turned);
+  CHECK(cube.primitive_cells == 2);
+  for (const Vec& edge : cube.vectors) CHECK(length(edge) == Approx(1));
+  // Hexagonal, and face-centred but a thousandth too long.
+  CHECK(cell_of({Vec{1, 0, 0}, Vec{-0.5, std::sqrt(0.75), 0}, Vec{0, 0, 1.6}}).primitive_cells == 1);
+  CHECK(cell_of({Vec{0, 0.5, 0.5005}, Vec{0.5, 0, 0.5005}, Vec{0.5, 0.5, 0}}).primitive_cells == 1);
+  // In the picture: the corners and the middles of the faces; of bcc, the middle.
+  Scene scene = unit_scene(3, 0.1);
+  scene.lattices[0].vectors = fcc;
+  CHECK(times(draw_scene(scene, {}, {}).svg, "url(#shade") == 14);
+  CHECK(draw_scene(scene, {}, {}).svg.find("the cube of 4 primitive cells") != std::string::npos);
+  scene.lattices[0].vectors = bcc;
+  CHECK(times(draw_scene(scene, {}, {}).svg, "url(#shade") == 9);
+}
+
+TEST_CASE("Corridors, layers and cylinders, where they are", "[pictures][scene_drawing]") {
+  DrawOptions options;
+  options.window = {{0, 0, 3, 3}};
+  options.ways = {{FreeWay::Kind::corridor, {0, 0.5}, {1, 0}, 0.6, "corridor [1 0]"}};
+  const std::string flat = draw_scene(unit_scene(2, 0.2), options, {}).svg;
+  CHECK(times(flat, std::string("fill=\"") + way_colour(0) + "\" fill-opacity=\"0.2\"") == 3);
+  CHECK(times(flat, "corridor [1 0]") == 1);
+  // The rows between the discs, 752 pixels for 3 cells.
+  double y1 = 0, y2 = 0;
+  const auto strip = flat.rfind("<polygon points=", flat.find("fill-opacity=\"0.2\""));
+  REQUIRE(std::sscanf(flat.c_str() + strip, "<polygon points=\"%*f,%lf %*f,%*f %*f,%lf", &y1, &y2) == 2);
+  CHECK(std::fabs(y1 - y2) == Approx(0.6 * 752 / 3).margin(0.02));
+
+  // Half way between the planes of the cubic lattice; beyond it obstacles are drawn first, then nearer ones.
+  const Scene cubic = unit_scene(3, 0.2);
+  const Block block{{}, {Vec{2, 0, 0}, Vec{0, 2, 0}, Vec{0, 0, 2}}};
+  const FreeWay layer{FreeWay::Kind::layer, {0, -3.5, 0}, {0, 1, 0}, 0.6, "layer"};
+  const auto faces = faces_of(cubic, layer, 0, block);
+  REQUIRE(faces.size() == 2);
+  CHECK(faces[1].level - faces[0].level == Approx(0.6));
+  CHECK((faces[0].level == Approx(0.2) || faces[0].level == Approx(1.2)));
+  CHECK(faces[0].corners.size() == 4);
+  for (const Vec& corner : faces[0].corners) CHECK(block.edges[0][0] >= corner[0] - 1e-12);
+  options = {};
+  options.ways = {layer};
+  const std::string solid = draw_scene(cubic, options, {}).svg;
+  CHECK(times(solid, "fill-opacity=\"0.28\"") == 2);
+  const auto first = solid.find("fill-opacity=\"0.28\"");
+  const std::size_t behind = times(solid.substr(0, first), "url(#shade");
+  CHECK((behind == 9 || behind == 18));
+
+  const FreeWay cylinder{FreeWay::Kind::cylinder, {0.5, 7, -20.5}, {0, 1, 0}, 0.4, "cylinder"};
+  const auto axis = axis_of(cubic, cylinder, block);
+  REQUIRE(axis);
+  CHECK(length(sum(axis->to, scaled(axis->from, -1))) == Approx(2));
+  CHECK(axis->from[0] == Approx(std::floor(axis->from[0]) + 0.5));
+  CHECK(axis->from[2] > 0);
+  CHECK(axis->from[2] < 2);
 }

@@ -1,0 +1,214 @@
+// lorentz scene draw: the picture of a scene, with flights and free ways.
+#include "cli/scene_draw.hpp"
+
+#include <charconv>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/geometry.hpp>
+#include <lorentz/horizon.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/query_stream.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/search_progress.hpp"
+#include "cli/write_whole.hpp"
+#include "compare/registry.hpp"
+#include "pictures/scene_drawing.hpp"
+
+namespace lorentz::cli {
+
+using namespace compare;
+using namespace pictures;
+
+namespace {
+
+struct Options {
+  std::optional<std::string> scene, radius, queries, window, title, channels;
+  std::string output = "-", size = "800";
+  bool no_legend = false;
+};
+
+// The flights of a query stream, up to the first query of another scene than the first one's.
+std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
+  constexpr std::size_t kMostFlights = 1000;
+  std::vector<Flight> flights;
+  FirstHit first_hit;
+  std::size_t refused = 0;
+  std::string reason;
+  for (StreamItem item; stream.next(item);) {
+    if (item.kind == StreamItem::Kind::scene) {
+      if (!flights.empty() || refused > 0) {
+        say("the picture shows the first scene of the queries; what follows the second is left out");
+        break;
+      }
+      scene = item.scene;
+      first_hit = nullptr;
+    } else if (item.kind == StreamItem::Kind::query) {
+      if (flights.size() >= kMostFlights) {
+        say("the picture shows the first {} flights", kMostFlights);
+        break;
+      }
+      if (!first_hit) first_hit = make_first_hit("certified", *scene);
+      Flight flight{item.query, {}};
+      first_hit(item.query, {}, flight.answer);
+      if (flight.answer.outcome == Outcome::error) {
+        ++refused;
+        reason = flight.answer.message;
+      } else {
+        flights.push_back(std::move(flight));
+      }
+    }
+  }
+  if (refused > 0) say("flights left out: {} ({})", refused, reason);
+  return flights;
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == at)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+std::optional<std::array<double, 4>> window_of(const Options& options) {
+  if (!options.window) return std::nullopt;
+  const std::vector<std::string> parts = split(*options.window, ',');
+  std::array<double, 4> window{};
+  bool good = parts.size() == 4;
+  for (std::size_t i = 0; good && i < 4; ++i) try {
+      window[i] = parse_number(parts[i]);
+    } catch (const InputError&) {
+      good = false;
+    }
+  if (!good || !(window[0] < window[2]) || !(window[1] < window[3]))
+    throw InputError(
+        fmt::format("--window: {} is no X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", json_quoted(*options.window)));
+  if (!(window[2] - window[0] < 1e300) || !(window[3] - window[1] < 1e300))
+    throw InputError("--window: is too large");
+  return window;
+}
+
+// W, or WxH.
+void read_size(const Options& options, DrawOptions& drawing) {
+  const std::vector<std::string> parts = split(options.size, 'x');
+  if (parts.size() > 2) throw InputError(fmt::format("--size: {} is no W or WxH", json_quoted(options.size)));
+  drawing.width = static_cast<double>(whole_number(parts[0], "--size", 200, 20'000));
+  if (parts.size() == 2) drawing.height = static_cast<double>(whole_number(parts[1], "--size", 200, 20'000));
+}
+
+std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
+  std::string out;
+  for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
+  return out;
+}
+
+// The widest corridors, or planar channels and, as many again, cylinders. Those that only the rounding of a
+// radius leaves open are too narrow to be seen.
+std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
+  std::vector<FreeWay> ways;
+  try {
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, true, search_progress());
+    const bool flat = scene.dimension == 2;
+    const double narrow = 1e-6 * length(scene.lattices[0].vectors[0]);
+    for (std::size_t i = 0; i < std::min(most, horizon.channels.size()); ++i) {
+      const oracle::Channel& channel = horizon.channels[i];
+      if (channel.width < narrow) break;
+      const std::string indices = indices_of(channel.indices, scene.dimension);
+      const std::string name = flat ? "corridor [" + indices + "]" : "channel (" + indices + ")";
+      ways.push_back({flat ? FreeWay::Kind::corridor : FreeWay::Kind::layer, channel.point, channel.vector,
+                      channel.width, fmt::format("{}: width {:.4g}", name, channel.width)});
+    }
+    for (std::size_t i = 0; i < std::min(most, horizon.cylinders.size()); ++i) {
+      const oracle::Cylinder& cylinder = horizon.cylinders[i];
+      if (cylinder.radius < narrow) break;
+      ways.push_back(
+          {FreeWay::Kind::cylinder, cylinder.point, cylinder.vector, 2 * cylinder.radius,
+           fmt::format("cylinder [{}]: radius {:.4g}", indices_of(cylinder.direction, 3), cylinder.radius)});
+    }
+    if (ways.empty()) say("no channels are drawn: none is known to be open, or none is wide enough");
+  } catch (const oracle::TooManyChannels& error) {
+    say("no channels are drawn: {}", error.what());
+  }
+  return ways;
+}
+
+std::string title_of(const Options& options) {
+  if (options.title) return *options.title;
+  std::string title = options.scene.value_or(options.queries.value_or(""));
+  if (options.radius) title += " --radius " + *options.radius;
+  return title;
+}
+
+int draw(const Options& options) {
+  const auto radius = positive_number(options.radius, "--radius");
+  if (!options.scene && !options.queries)
+    throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
+  if (radius && !options.scene)
+    throw InputError("--radius: needs a scene (those of a stream say their radii themselves)");
+  DrawOptions drawing_options;
+  drawing_options.title = title_of(options);
+  drawing_options.legend = !options.no_legend;
+  drawing_options.window = window_of(options);
+  read_size(options, drawing_options);
+  const std::size_t most = options.channels ? whole_number(*options.channels, "--channels", 1, 100) : 0;
+  if (options.output != "-" && is_other_than_svg(options.output))
+    throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
+  std::optional<Scene> scene;
+  if (options.scene) scene = load_scene(*options.scene, radius);
+  std::vector<Flight> flights;
+  bool bad = false;
+  if (options.queries) {
+    QueryStream stream(*options.queries, scene);
+    flights = flights_of(stream, scene);
+    bad = stream.had_bad_input();
+  }
+  if (!scene) throw InputError(*options.queries + ": has no scene; give one by name or file");
+  if (drawing_options.window && scene->dimension != 2)
+    throw InputError("--window: is for scenes in the plane; this one has 3 dimensions");
+  if (most > 0) drawing_options.ways = ways_of(*scene, most);
+  const Drawing drawing = draw_scene(*scene, drawing_options, flights);
+  for (const std::string& remark : drawing.remarks) say("{}", remark);
+  if (options.output == "-")
+    print(drawing.svg);
+  else
+    write_whole(options.output, drawing.svg);
+  return bad ? kBadInput : kDone;
+}
+
+}  // namespace
+
+void add_scene_draw(CLI::App& scene, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = scene.add_subcommand("draw", "A picture (SVG), with flights if queries are given.");
+  command->add_option("scene", options->scene,
+                      "a name of the catalogue, or a file; without it, the first scene of the queries");
+  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  command->add_option("--queries", options->queries,
+                      "query stream (NDJSON): its flights to their first hits, exactly; - is standard input");
+  command
+      ->add_option("--channels", options->channels,
+                   "draw the N widest corridors (2D), planar channels and cylinders (3D)")
+      ->type_name("N");
+  command->add_option("--window", options->window, "2D: the part of the plane to show")
+      ->type_name("X0,Y0,X1,Y1");
+  command->add_option("--size", options->size, "in pixels: the width, or what the picture is to fit into")
+      ->capture_default_str()
+      ->type_name("W[xH]");
+  command->add_option("--title", options->title, "instead of the scene's name; \"\" for none");
+  command->add_flag("--no-legend", options->no_legend, "leave out the legend, and the notes under it");
+  command
+      ->add_option("-o,--output", options->output,
+                   "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
+                   "standard output")
+      ->capture_default_str();
+  command->callback([options, &action] { action = [options] { return draw(*options); }; });
+  command->footer(
+      "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "
+      "flights.svg");
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,21 @@
+// The cube that shows what a centred cubic lattice is, which its primitive cell does not. Private to
+// pictures/.
+#pragma once
+
+#include <array>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::pictures {
+
+/// The cell that is drawn of a lattice.
+struct ShownCell {
+  std::array<Vec, 3> vectors{};
+  int primitive_cells = 1;  ///< in it: 1, or of a cube 2 (bcc) or 4 (fcc)
+};
+
+/// The cube of a body-centred or face-centred cubic lattice (3D; rounded vectors will do), or the primitive
+/// cell.
+ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors);
+
+}  // namespace lorentz::pictures

@@ -1,0 +1,40 @@
+// Layers and cylinders that are free for ever, cut to a block of cells. Private to pictures/.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pictures/drawing_parts.hpp"
+
+namespace lorentz::pictures {
+
+/// A parallelepiped.
+struct Block {
+  Vec corner{};
+  std::array<Vec, 3> edges{};
+
+  Vec centre() const;
+};
+
+/// A flat piece of { x : normal.x = level }.
+struct Facet {
+  std::vector<Vec> corners;
+  Vec normal{};
+  double level = 0;
+  std::size_t way = 0;  ///< its number
+};
+
+/// The two faces of a layer in the block, of its translates the nearest to the block's middle; fewer if they
+/// miss it.
+std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number, const Block& block);
+
+/// The part of the facet where sign * (normal.x - level) >= 0.
+Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign);
+
+/// Where a cylinder's middle line runs through the block, of its translates along that which does so longest.
+struct Axis {
+  Vec from{}, to{};
+};
+std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const Block& block);
+
+}  // namespace lorentz::pictures
