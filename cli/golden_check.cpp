@@ -383,7 +383,8 @@ void add_golden_check(CLI::App& golden, Action& action) {
   command->add_flag("--markdown", options->markdown, "a page of documentation: who fails what");
   command->footer(
       "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
-      "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 generic-3d");
+      "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
+      "generic-3d");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

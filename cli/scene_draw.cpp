@@ -1,7 +1,11 @@
 // lorentz scene draw: the picture of a scene, with flights and free ways.
 #include "cli/scene_draw.hpp"
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
@@ -12,7 +16,7 @@
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
-#include "cli/write_whole.hpp"
+#include "cli/whole_file.hpp"
 #include "compare/registry.hpp"
 #include "pictures/scene_drawing.hpp"
 
@@ -28,6 +32,21 @@ struct Options {
   std::string output = "-", size = "800";
   bool no_legend = false;
 };
+
+// Is the file there and begins like no SVG, so that overwriting it would lose something else? An empty one is
+// nobody's loss.
+bool is_other_than_svg(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FileError(file + ": " + std::strerror(errno));
+  std::string start(4096, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  if (start.empty()) return false;
+  const auto first = start.find_first_not_of("\xef\xbb\xbf \t\r\n");
+  return first == std::string::npos || start[first] != '<' || start.find("<svg") == std::string::npos;
+}
 
 // The flights of a query stream, up to the first query of another scene than the first one's.
 std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
@@ -162,7 +181,7 @@ int draw(const Options& options) {
   std::vector<Flight> flights;
   bool bad = false;
   if (options.queries) {
-    QueryStream stream(*options.queries, scene);
+    QueryStream stream(*options.queries, scene, UnknownKeys::warned);
     flights = flights_of(stream, scene);
     bad = stream.had_bad_input();
   }
@@ -172,10 +191,13 @@ int draw(const Options& options) {
   if (most > 0) drawing_options.ways = ways_of(*scene, most);
   const Drawing drawing = draw_scene(*scene, drawing_options, flights);
   for (const std::string& remark : drawing.remarks) say("{}", remark);
-  if (options.output == "-")
+  if (options.output == "-") {
     print(drawing.svg);
-  else
-    write_whole(options.output, drawing.svg);
+  } else {
+    WholeFile file(options.output);
+    file.write(drawing.svg);
+    file.commit();
+  }
   return bad ? kBadInput : kDone;
 }
 

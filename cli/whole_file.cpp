@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 WholeFile::WholeFile(const std::string& path) : path_(path), place_(path), beside_(path) {
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
+  if (fs::is_regular_file(there) && ::access(path.c_str(), W_OK) != 0)  // renaming would not mind
+    throw FileError(path_ + ": " + std::strerror(errno));
   if (!fs::exists(there) || fs::is_regular_file(there)) {
     if (fs::is_symlink(fs::symlink_status(path, error))) {
       const fs::path target = fs::weakly_canonical(path, error);
@@ -39,6 +41,7 @@ void WholeFile::write(std::string_view text) {
 
 void WholeFile::commit() {
   if (std::fflush(file_) != 0 || std::ferror(file_)) fail();
+  if (beside_ != path_ && ::fsync(::fileno(file_)) != 0) fail();  // or a crash could leave an empty file
   std::FILE* const file = file_;
   file_ = nullptr;
   if (std::fclose(file) != 0) fail();
