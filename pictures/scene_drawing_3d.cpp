@@ -74,7 +74,7 @@ class Picture {
     std::string colour;
     double width;
     bool arrow = false;
-    std::string seen, hidden = " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"";
+    std::string seen = "", hidden = " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"";
   };
   void add_line(const Vec& from, const Vec& to, const Pen& pen);
   bool is_hidden(const Vec& point) const;
