@@ -51,7 +51,6 @@ struct Summary {
   std::string conclusion() const {
     if (all.queries == 0) return fmt::format("{}: too slow for every cell of this table", engine);
     std::string text = fmt::format("{}\n  {:.0f} to {:.0f} ns", verdict_of(all), fastest, slowest);
-    if (all.undecided > 0) text += fmt::format("; says 'undecided' in {} of {}", all.undecided, all.queries);
     text += fmt::format("; times at worst {:.3g} ulps off", all.max_ulp);
     if (skipped > 0) text += fmt::format("; too slow for {} cells", skipped);
     return text;
