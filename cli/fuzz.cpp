@@ -169,11 +169,15 @@ int run_campaign(const Options& options, const fuzz::Plan& plan, const fuzz::Mak
     report.tallies.push_back(store.tally(campaign, target->name()));
     resumed |= report.tallies.back().next > 0;
   }
+  std::vector<fuzz::Finding> unshrunk;
+  for (const fuzz::Stored& one : store.findings())
+    if (one.campaign == campaign && one.finding.shrinking != fuzz::Shrinking::done)
+      unshrunk.push_back(one.finding);
   if (resumed) say("{}: goes on with campaign {}", store.path(), campaign);
   bool failed = false;
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size());
-    failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks);
+    failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks, unshrunk);
   }
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign) report.findings.push_back(std::move(one));

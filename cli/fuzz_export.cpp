@@ -23,18 +23,8 @@ struct Options {
 // A shrunk case and what it is an example of.
 struct Example {
   const Stored* stored;
-  Scene scene;
-  Query query;
+  fuzz::ReadCase shrunk;
 };
-
-// What the store holds was written by append_..._line.
-StreamItem parsed(ExchangeReader& reader, const std::string& line, const Scene* scene) {
-  const std::string padded = line + std::string(LineReader::kPadding, ' ');
-  StreamItem item;
-  reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
-  if (item.kind == StreamItem::Kind::bad) throw FileError("the store holds an invalid line: " + line);
-  return item;
-}
 
 // The simplest finding of each cause, or all; those of one scene together.
 std::vector<Example> examples_in(const std::vector<Stored>& findings, bool all) {
@@ -46,13 +36,8 @@ std::vector<Example> examples_in(const std::vector<Stored>& findings, bool all) 
   std::stable_sort(chosen.begin(), chosen.end(), [](const Stored* a, const Stored* b) {
     return a->finding.shrunk.scene < b->finding.shrunk.scene;
   });
-  ExchangeReader reader;
   std::vector<Example> examples;
-  for (const Stored* one : chosen) {
-    Example example{one, parsed(reader, one->finding.shrunk.scene, nullptr).scene, {}};
-    example.query = parsed(reader, one->finding.shrunk.query, &example.scene).query;
-    examples.push_back(std::move(example));
-  }
+  for (const Stored* one : chosen) examples.push_back({one, fuzz::case_in(one->finding.shrunk)});
   return examples;
 }
 
@@ -94,9 +79,9 @@ void print_golden_set(const std::vector<Example>& examples, golden::Header heade
   std::optional<golden::Maker> maker;
   for (const Example& one : examples) {
     const fuzz::Finding& finding = one.stored->finding;
-    if (finding.shrunk.scene != scene_line) maker.emplace(one.scene);
-    golden::Record record =
-        maker->make(golden::question_of(one.query, one.scene.dimension), one.query).record;
+    if (finding.shrunk.scene != scene_line) maker.emplace(one.shrunk.scene);
+    const auto& [scene, query] = one.shrunk;
+    golden::Record record = maker->make(golden::question_of(query, scene.dimension), query).record;
     if (!ids.insert(record.id).second) continue;
     record.tags = {finding.target, tag_of(finding.kind)};
     if (const cases::Target* target = cases::target_named(finding.target))
@@ -104,7 +89,7 @@ void print_golden_set(const std::vector<Example>& examples, golden::Header heade
     tags.emplace(record.tags[1], "what was found: an answer of the kind `" + finding.kind + "`");
     if (finding.shrunk.scene != scene_line) lines += finding.shrunk.scene + '\n';
     scene_line = finding.shrunk.scene;
-    golden::append_record_line(lines, record, one.scene.dimension);
+    golden::append_record_line(lines, record, scene.dimension);
   }
   header.count = ids.size();
   header.tags.assign(tags.begin(), tags.end());

@@ -162,15 +162,17 @@ std::string table_of(const std::vector<Cause>& causes) {
 std::string json_of(const fuzz::Stored& stored) {
   const fuzz::Finding& f = stored.finding;
   const auto lines = [](const fuzz::CaseText& text) {
-    return fmt::format("{{\"scene_line\":{},\"query_line\":{},\"given\":{},\"exact\":{}}}", text.scene,
-                       text.query, text.given, text.exact);
+    return fmt::format(
+        "{{\"scene_line\":{},\"query_line\":{},\"given\":{},\"exact\":{},\"departs\":{},\"margin\":{}}}",
+        text.scene, text.query, text.given, text.exact, number(text.departs),
+        text.margin ? number(*text.margin) : "null");
   };
+  constexpr const char* kShrinking[] = {"due", "cut short", "done"};
   return fmt::format(
-      "{{\"id\":{},\"words\":{},\"kind\":{},\"cause\":{},\"departs\":{},\"margin\":{},\"bits\":{},\"tries\":{"
-      "},"
+      "{{\"id\":{},\"words\":{},\"kind\":{},\"cause\":{},\"shrinking\":{},\"bits\":{},\"tries\":{},"
       "\"case\":{},\"shrunk\":{}}}",
       json_quoted(stored.label()), f.words.empty() ? "null" : json_quoted(f.words), json_quoted(f.kind),
-      json_quoted(f.cause), number(f.departs), f.margin ? number(*f.margin) : "null", f.bits, f.tries,
+      json_quoted(f.cause), json_quoted(kShrinking[static_cast<int>(f.shrinking)]), f.bits, f.tries,
       lines(f.text), lines(f.shrunk));
 }
 

@@ -39,7 +39,8 @@ std::string finding_table(const std::vector<Stored>& findings) {
   table.with_prose();
   for (const Stored& one : findings)
     table.add({one.label(), std::to_string(one.finding.bits),
-               one.finding.margin ? fmt::format("{:.2g}", *one.finding.margin) : "-", one.finding.cause});
+               one.finding.text.margin ? fmt::format("{:.2g}", *one.finding.text.margin) : "-",
+               one.finding.cause});
   return table.text();
 }
 
@@ -60,27 +61,33 @@ int list(const Options& options) {
   return kDone;
 }
 
-std::string lines_of(const char* heading, const fuzz::CaseText& text) {
-  return fmt::format("{}\n{}\n{}\nsays  {}\ntruth {}\n", heading, text.scene, text.query, text.given,
-                     text.exact);
+std::string lines_of(const std::string& heading, const fuzz::CaseText& text) {
+  std::string out = fmt::format("\n{}\n{}\n{}\nsays  {}\ntruth {}\n", heading, text.scene, text.query,
+                                text.given, text.exact);
+  if (text.departs > 0) out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
+  if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
+  return out;
+}
+
+std::string heading_of_shrunk(const fuzz::Finding& f) {
+  const std::string so_far = fmt::format("shrunk to {} bits a number ({} tries", f.bits, f.tries);
+  return so_far + (f.shrinking == fuzz::Shrinking::cut_short ? ", cut short by the time):" : "):");
+}
+
+std::string text_of(const std::string& id, const fuzz::Finding& f) {
+  std::string out = fmt::format("{}: {}\ncause: {}\n", id, f.kind, f.cause);
+  if (!f.words.empty()) out += fmt::format("in other words: {}\n", f.words);
+  if (f.shrinking == fuzz::Shrinking::due)
+    return out + "not shrunk yet: the campaign does so when it is gone on with\n" +
+           lines_of("as found:", f.text);
+  return out + lines_of(heading_of_shrunk(f), f.shrunk) + lines_of("as found:", f.text);
 }
 
 int show(const Options& options, const std::string& id) {
   const Store store(options.store, Store::Access::read);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
-    if (options.json) {
-      print(json_of(one) + '\n');
-      return kDone;
-    }
-    const fuzz::Finding& f = one.finding;
-    print(fmt::format("{}: {}\ncause: {}\n", id, f.kind, f.cause));
-    if (!f.words.empty()) print(fmt::format("in other words: {}\n", f.words));
-    if (f.departs > 0) print(fmt::format("departs by {:.3g} ulps at least\n", f.departs));
-    if (f.margin) print(fmt::format("margin of the exact answer: {:.3g} ulps\n", *f.margin));
-    print(
-        lines_of(fmt::format("\nshrunk to {} bits a number ({} tries):", f.bits, f.tries).c_str(), f.shrunk));
-    print(lines_of("\nas found:", f.text));
+    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",

@@ -1,6 +1,7 @@
 #include "fuzz/campaign/batch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <set>
@@ -45,12 +46,10 @@ bool is_sane(const Scene& scene) {
 // Does a case fail as another one did: in kind, and in both outcomes?
 class SameFailure {
  public:
-  SameFailure(Subject& subject, const Plan& plan, const std::atomic<bool>& stop, const Examined& like,
-              LimitAt limit)
-      : subject_(subject), plan_(plan), stop_(stop), like_(like), limit_(limit) {}
+  SameFailure(Subject& subject, const Plan& plan, const Examined& like, LimitAt limit)
+      : subject_(subject), plan_(plan), like_(like), limit_(limit) {}
 
   bool operator()(const Scene& scene, const Query& query) {
-    if (stop_ || work_ > kShrinkWork || subject_.failed()) return false;
     if (!examiner_ || examiner_->scene() != scene) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
       examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
@@ -63,6 +62,9 @@ class SameFailure {
            last_.exact.outcome == like_.exact.outcome;
   }
 
+  // No more is to be asked: it took too much work, or there is nobody to ask.
+  bool is_over() const { return work_ > kShrinkWork || subject_.failed(); }
+
   double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
 
   // Whatever is left to spend.
@@ -73,13 +75,27 @@ class SameFailure {
  private:
   Subject& subject_;
   const Plan& plan_;
-  const std::atomic<bool>& stop_;
   const Examined& like_;
   const LimitAt limit_;
   std::optional<Examiner> examiner_;
   Examined last_;
   double work_ = 0, speed_ = 0;
 };
+
+std::optional<double> margin_of(const oracle::Margins& margins, const Query& query, const Answer& exact) {
+  const auto decision = margins.hardest_decision(query, exact);
+  return decision ? std::optional(decision->margin) : std::nullopt;
+}
+
+// The simplest case of a finding that is known.
+void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, const Examined& examined,
+                     std::optional<double> margin) {
+  finding.shrunk = text_of(label_of(finding), scene, query, examined);
+  finding.shrunk.margin = margin;
+  finding.cause = cause_of(scene, query, examined);
+  finding.bits = most_bits(scene, query);
+  finding.complexity = complexity(scene, query);
+}
 
 }  // namespace
 
@@ -154,12 +170,15 @@ std::optional<BatchResult> BatchRunner::run(const Batch& batch,
   BatchResult result;
   result.met = questions.met;
   take(questions, known, result);
-  if (subject_->failed()) {
-    subject_failed_ = true;
-    subject_ = make_subject_();
-  }
+  replace_broken_subject();
   if (stop_) return std::nullopt;
   return result;
+}
+
+void BatchRunner::replace_broken_subject() {
+  if (!subject_->failed()) return;
+  subject_failed_ = true;
+  subject_ = make_subject_();
 }
 
 // Makes the cases and variants, with their exact answers, and asks the subject.
@@ -284,26 +303,37 @@ Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const 
   finding.kind = name_of(examined.kind);
   finding.sort = sort;
   finding.text = text_of(label_of(finding), scene, one.question.query, examined);
-  finding.departs = examined.departs;
-  if (const auto decision = one.context->margins().hardest_decision(one.question.query, examined.exact))
-    finding.margin = decision->margin;
-  shrink_into(finding, one, examined);
+  finding.text.margin = margin_of(one.context->margins(), one.question.query, examined.exact);
+  take_for_shrunk(finding, scene, one.question.query, examined, finding.text.margin);
+  if (one.misread) finding.cause = kMisreading;
+  if (one.misread || subject_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }
 
-void BatchRunner::shrink_into(Finding& finding, const Case& one, const Examined& examined) {
-  Shrunk shrunk{one.context->examiner.scene(), one.question.query};
-  Examined after = examined;
-  if (!subject_->failed() && !one.misread) {
-    SameFailure fails(*subject_, plan_, stop_, examined, one.question.limit);
-    shrunk = shrink(shrunk.scene, shrunk.query, std::ref(fails), [&] { return fails.flight(); });
-    if (!stop_ && !subject_->failed()) after = fails.examine(shrunk.scene, shrunk.query);
+std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto is_late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; };
+  const auto [scene, query] = case_in(finding.text);
+  const LimitAt limit = limit_in(finding.words);
+  const Examined examined = Examiner(*subject_, scene, plan_.counts.ulps, plan_.truth).examine(query, limit);
+  finding.shrinking = Shrinking::done;
+  if (!subject_->failed() && name_of(examined.kind) == finding.kind) {
+    SameFailure fails(*subject_, plan_, examined, limit);
+    const auto is_up = [&] { return stop_ || fails.is_over() || is_late(); };
+    const Shrunk shrunk =
+        fuzz::shrink(scene, query, std::ref(fails), [&] { return fails.flight(); }, {kShrinkTries, is_up});
+    if (is_late()) finding.shrinking = Shrinking::cut_short;
+    finding.tries = shrunk.tries;
+    if (!stop_ && !subject_->failed()) {
+      const Examined after = fails.examine(shrunk.scene, shrunk.query);
+      take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
+                      margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
+    }
   }
-  finding.shrunk = text_of(label_of(finding), shrunk.scene, shrunk.query, after);
-  finding.cause = cause_of(shrunk.scene, shrunk.query, after);
-  finding.bits = most_bits(shrunk.scene, shrunk.query);
-  finding.complexity = complexity(shrunk.scene, shrunk.query);
-  finding.tries = shrunk.tries;
+  replace_broken_subject();
+  if (stop_) return std::nullopt;
+  return finding;
 }
 
 std::string label_of(const Finding& finding) {

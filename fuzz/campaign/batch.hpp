@@ -1,4 +1,5 @@
-// A batch: consecutive cases of a target, worked through by one thread.
+// A batch: consecutive cases of a target, worked through by one thread. What it finds is shrunk later, one
+// finding at a time.
 #pragma once
 
 #include <atomic>
@@ -35,10 +36,14 @@ class BatchRunner {
   /// earlier indices: those beyond the plan's `keep` are counted only.
   std::optional<BatchResult> run(const Batch& batch, const std::map<std::string, std::uint64_t>& known);
 
+  /// A finding that is due, shrunk for so many seconds at the most; without these it is the same whoever does
+  /// it. One that does not fail again stays as it was found. Nothing if it was stopped.
+  std::optional<Finding> shrink(Finding finding, double seconds);
+
   /// The subject broke at least once. (It was made anew.)
   bool subject_failed() const { return subject_failed_; }
 
-  /// How many cases a batch should have.
+  /// How many cases a batch should have, if they do not take long.
   std::uint64_t batch_size() const { return subject_->batch_size(); }
 
  private:
@@ -51,7 +56,7 @@ class BatchRunner {
   void ask(Questions& questions);
   void take(Questions& questions, const std::map<std::string, std::uint64_t>& known, BatchResult& result);
   Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
-  void shrink_into(Finding& finding, const Case& one, const Examined& examined);
+  void replace_broken_subject();
 
   const Plan& plan_;
   const MakeSubject& make_subject_;

@@ -44,9 +44,10 @@ void TargetTally::add(const TargetTally& other) {
 }
 
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
-         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks) {
+         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks,
+         const std::vector<Finding>& unshrunk) {
   const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
-  Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal);
+  Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal, unshrunk);
   Workers workers(plan, make_subject, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);

@@ -52,7 +52,8 @@ class Journal {
  public:
   virtual ~Journal() = default;
 
-  /// The tally of a target after some more of its work, and the findings kept of this.
+  /// The tally of a target after some more of its work, and the findings kept of this. A finding comes when
+  /// it is found, and again when it is shrunk.
   virtual void record(const cases::Target& target, const TargetTally& tally,
                       const std::vector<Finding>& kept) = 0;
 
@@ -67,14 +68,19 @@ struct Bounds {
   unsigned jobs = 1;
   bool first = false;                       ///< also as soon as a finding is recorded
   const std::atomic<bool>* stop = nullptr;  ///< set by somebody else, to stop early
+
+  bool limits_time() const { return seconds < std::numeric_limits<double>::infinity(); }
 };
 
 class Ranks;
 
-/// Goes on from the tallies (one for each target of the plan), which it brings up to date. Threads get equal
-/// times for each target. Work that is unfinished when the time is up is dropped: at most the few cases that
-/// each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other processes help.
+/// Goes on from the tallies (one for each target of the plan), which it brings up to date, and from the
+/// findings of these that are not shrunk to the end. Threads get equal times for each target, shrinking
+/// included. Work that is unfinished when the time is up is dropped: at most the few cases, or the one
+/// finding, that each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other
+/// processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
-         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr);
+         std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr,
+         const std::vector<Finding>& unshrunk = {});
 
 }  // namespace lorentz::fuzz

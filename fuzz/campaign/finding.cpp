@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
 
 namespace lorentz::fuzz {
@@ -76,6 +77,17 @@ std::string_view without_line_end(const std::string& line) {
   return std::string_view(line).substr(0, line.size() - 1);
 }
 
+// What text_of() wrote.
+StreamItem read(const std::string& line, const Scene* scene) {
+  static thread_local ExchangeReader reader;
+  const std::string padded = line + std::string(LineReader::kPadding, ' ');
+  StreamItem item;
+  reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
+  if (item.kind != (scene ? StreamItem::Kind::query : StreamItem::Kind::scene))
+    throw FileError("the store holds an invalid line: " + line);
+  return item;
+}
+
 std::string answer_text(const std::string& id, const Answer& answer, int dimension) {
   std::string line;
   append_answer_line(line, id, answer, dimension);
@@ -89,9 +101,28 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
   std::string scene_line, query_line;
   append_scene_line(scene_line, scene);
   append_query_line(query_line, quoted, query, scene.dimension);
-  return {std::string(without_line_end(scene_line)), std::string(without_line_end(query_line)),
+  return {std::string(without_line_end(scene_line)),
+          std::string(without_line_end(query_line)),
           answer_text(quoted, examined.given, scene.dimension),
-          answer_text(quoted, examined.exact, scene.dimension)};
+          answer_text(quoted, examined.exact, scene.dimension),
+          examined.departs,
+          {}};
+}
+
+ReadCase case_in(const CaseText& text) {
+  ReadCase one{read(text.scene, nullptr).scene, {}};
+  one.query = read(text.query, &one.scene).query;
+  return one;
+}
+
+int rank_of(std::string_view kind) {
+  constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided, Kind::slow};
+  int rank = 0;
+  for (const Kind one : kInOrder) {
+    if (name_of(one) == kind) break;
+    ++rank;
+  }
+  return rank;
 }
 
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <lorentz/problem.hpp>
 #include "fuzz/examine/examiner.hpp"
@@ -13,6 +14,15 @@ namespace lorentz::fuzz {
 /// A case in words: one line each, without the line end. The answers are as in answer streams.
 struct CaseText {
   std::string scene, query, given, exact;
+  double departs = 0;            ///< as in oracle::Judgement
+  std::optional<double> margin;  ///< of the exact answer
+};
+
+/// How far a finding is on its way to the simplest case.
+enum class Shrinking {
+  due,        ///< nobody has begun
+  cut_short,  ///< as far as the time allowed
+  done        ///< as far as it goes, or it cannot be shrunk
 };
 
 struct Finding {
@@ -23,15 +33,28 @@ struct Finding {
   std::string kind;   ///< name_of(Kind)
   std::string sort;   ///< what of each target only the first few are kept of (sort_of)
   std::string cause;  ///< of the shrunk case (cause_of)
-  CaseText text, shrunk;
-  double departs = 0;
-  std::optional<double> margin;  ///< of the exact answer, before shrinking
-  int bits = 0;                  ///< the most that a number of the shrunk case has
-  long complexity = 0;           ///< of the shrunk case
-  int tries = 0;                 ///< that shrinking took
+  CaseText text;      ///< as found
+  CaseText shrunk;    ///< the same until shrinking begins
+  Shrinking shrinking = Shrinking::due;
+  int bits = 0;         ///< the most that a number of the shrunk case has
+  long complexity = 0;  ///< of the shrunk case
+  int tries = 0;        ///< that shrinking took
 };
 
+/// Kinds in the order in which they matter: `wrong` first, then wrong time, error, undecided, slow. They are
+/// shrunk and listed in this order.
+int rank_of(std::string_view kind);
+
 CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined);
+
+/// A case as its lines say it.
+struct ReadCase {
+  Scene scene;
+  Query query;
+};
+
+/// Throws FileError if these are no lines of text_of().
+ReadCase case_in(const CaseText& text);
 
 /// What is plain from a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit for hit,
 /// leaving".
@@ -43,8 +66,11 @@ std::string sort_of(const Scene& scene, const Query& query, const Examined& exam
 ///   even meet it) or after it (then the true one was passed over); of others: both outcomes;
 /// - the dimension, and the scene: unit lattice, lattice, several atoms, several lattices, with ellipsoids;
 /// - of the query: leaving (`from` matters), along an axis, in a plane of axes (3D), a far start, numbers
-/// near
-///   the ends of the range.
+///   near the ends of the range.
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined);
+
+/// The cause of all that is read back otherwise than it was written: what a reader does wrong in one notation
+/// shows in others, and in scenes of every kind.
+inline constexpr std::string_view kMisreading = "error, read otherwise than written";
 
 }  // namespace lorentz::fuzz

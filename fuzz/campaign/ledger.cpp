@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace lorentz::fuzz {
 namespace {
@@ -9,57 +10,120 @@ namespace {
 // How many batches of a target may be under way for each thread.
 constexpr std::size_t kAhead = 64;
 
-// What a case is taken to cost before the first of its target is done, in seconds.
-constexpr double kUsual = 0.025;
+// What a case, or shrinking, is taken to cost before the first of its target is done, in seconds.
+constexpr double kUsual = 0.025, kUsualShrinking = 0.1;
 
 // Batches of cheap cases are made longer, as long as they take no longer than this: handing out and recording
 // is to cost nothing to speak of, and going home in the middle of a batch is to lose little. Far away there
-// is the way there and back.
-constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05;
+// is the way there and back. Somebody who likes many cases at once gets as many as take no longer than
+// kSecondsOfMany: another program's answers are waited for once in a batch.
+constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05, kSecondsOfMany = 0.25;
 constexpr std::uint64_t kMostCases = 1024;
+
+// Up to these shares of a target's time go into shrinking, while there are cases: of what is wrong in some
+// way, and of all.
+constexpr double kShareOfWrong = 0.5, kShareOfOthers = 0.25;
+
+// Where the time of a campaign is limited, so is that for one finding: to this share of the time of its
+// target, so that no target falls behind for long, and to so many seconds.
+constexpr double kShareOfOne = 0.125, kMostSecondsOfOne = 10;
+
+double most_shrinking(const Plan& plan, const Bounds& bounds, std::size_t threads) {
+  if (!bounds.limits_time()) return std::numeric_limits<double>::infinity();
+  const double of_target =
+      bounds.seconds * static_cast<double>(threads) / static_cast<double>(plan.targets.size());
+  return std::min(kShareOfOne * of_target, kMostSecondsOfOne);
+}
+
+bool is_wrong(int rank) {
+  return rank < rank_of(name_of(Kind::undecided));
+}
 
 }  // namespace
 
 Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
-               Journal& journal)
+               Journal& journal, const std::vector<Finding>& unshrunk)
     : plan_(plan),
       count_(bounds.count),
       first_(bounds.first),
+      interrupted_(bounds.stop),
       most_ahead_(kAhead * threads),
+      most_shrinking_(most_shrinking(plan, bounds, threads)),
       tallies_(tallies),
       journal_(journal) {
-  for (const TargetTally& tally : tallies) {
-    tracks_.emplace_back().tally = tally;
-    tracks_.back().handed_out = tally.next;
+  for (std::size_t t = 0; t < tallies.size(); ++t) {
+    Track& track = tracks_.emplace_back();
+    track.tally = tallies[t];
+    track.handed_out = tallies[t].next;
+    for (const Finding& one : unshrunk) {
+      // What was cut short would be again, unless there is time without end.
+      const bool is_due =
+          one.shrinking == Shrinking::due || (one.shrinking == Shrinking::cut_short && !bounds.limits_time());
+      if (is_due && one.target == plan.targets[t]->name()) track.due.emplace(rank_of(one.kind), one);
+    }
   }
 }
 
 // ---- handing out
 
-// Of the targets that have work, the one that had the least time, counting what is in work as usual.
+bool Ledger::has_cases(const Track& track) const {
+  return !is_closing_ && track.handed_out < count_ && track.in_work < most_ahead_;
+}
+
+double Ledger::usual_shrinking(const Track& track) const {
+  return track.shrinkings ? track.shrinking_seconds / static_cast<double>(track.shrinkings)
+                          : std::min(kUsualShrinking, most_shrinking_);
+}
+
+// What it had, and what it will have had when all is back that is under way.
+double Ledger::time_of(const Track& track) const {
+  return track.seconds + track.usual.value_or(kUsual) * static_cast<double>(track.pending) +
+         usual_shrinking(track) * static_cast<double>(track.in_shrinking);
+}
+
+// Of the targets that have work, the one that had the least time.
 Ledger::Track* Ledger::next_track() {
   Track* next = nullptr;
-  double least = 0;
   for (Track& track : tracks_) {
-    if (track.handed_out >= count_ || track.in_work >= most_ahead_) continue;
-    const double usual = track.cases ? track.seconds / static_cast<double>(track.cases) : kUsual;
-    const double time = track.seconds + usual * static_cast<double>(track.pending);
-    if (!next || time < least) next = &track, least = time;
+    if (!has_cases(track) && track.due.empty()) continue;
+    if (!next || time_of(track) < time_of(*next)) next = &track;
   }
   return next;
 }
 
-bool Ledger::all_handed_out() const {
-  return std::all_of(tracks_.begin(), tracks_.end(),
-                     [&](const Track& track) { return track.handed_out >= count_; });
+bool Ledger::shrinks_next(const Track& track) const {
+  if (track.due.empty() || !has_cases(track)) return !track.due.empty();
+  const double spent =
+      track.shrinking_seconds + usual_shrinking(track) * static_cast<double>(track.in_shrinking);
+  const double share = is_wrong(track.due.begin()->first) ? kShareOfWrong : kShareOfOthers;
+  return spent <= share * time_of(track);
 }
 
-// Ends on a multiple of its length, so that batches share a scene where cases do.
 Assignment Ledger::assign(Track& track, std::uint64_t batch_size, double seconds) {
+  return shrinks_next(track) ? assign_shrinking(track) : assign_cases(track, batch_size, seconds);
+}
+
+Assignment Ledger::assign_shrinking(Track& track) {
+  Assignment one{{static_cast<std::size_t>(&track - tracks_.data()), 0, 0}};
+  const auto first = track.due.begin();
+  one.due = std::move(first->second);
+  one.most_seconds = most_shrinking_;
+  track.due.erase(first);
+  ++track.in_shrinking;
+  return one;
+}
+
+// One case until it is known what one takes. Ends on a multiple of its length, so that batches share a scene
+// where cases do.
+Assignment Ledger::assign_cases(Track& track, std::uint64_t batch_size, double seconds) {
   const std::uint64_t begin = track.handed_out;
-  const double each = track.cases ? track.seconds / static_cast<double>(track.cases) : kUsual;
-  std::uint64_t cases = batch_size;
-  while (2 * cases <= kMostCases && 2 * static_cast<double>(cases) * each <= seconds) cases *= 2;
+  std::uint64_t cases = 1;
+  const auto double_until = [&](std::uint64_t most, double most_seconds) {
+    while (track.usual && 2 * cases <= most && 2 * static_cast<double>(cases) * *track.usual <= most_seconds)
+      cases *= 2;
+  };
+  double_until(batch_size, kSecondsOfMany);
+  double_until(kMostCases, seconds);
   track.handed_out = std::min((begin / cases + 1) * cases, count_);
   ++track.in_work;
   track.pending += track.handed_out - begin;
@@ -68,12 +132,11 @@ Assignment Ledger::assign(Track& track, std::uint64_t batch_size, double seconds
 
 std::optional<Assignment> Ledger::take(std::uint64_t batch_size) {
   std::unique_lock lock(mutex_);
-  for (;;) {
-    if (stop_) return std::nullopt;
+  while (!stop_) {
     if (Track* track = next_track()) return assign(*track, batch_size, kSecondsOfBatch);
-    if (all_handed_out()) return std::nullopt;
     changed_.wait_for(lock, std::chrono::milliseconds(50));
   }
+  return std::nullopt;
 }
 
 std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_size) {
@@ -89,14 +152,24 @@ std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_
 
 // ---- taking back
 
+// After an interruption nothing counts: another program that answers may have been interrupted, too.
 void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
   Track& track = tracks_[done.batch.target];
-  const std::uint64_t cases = done.batch.end - done.batch.begin;
+  const bool counts = !(interrupted_ && *interrupted_);
   track.seconds += done.seconds;
-  track.cases += cases;
-  track.pending -= cases;
-  if (done.result) track.ready.emplace(done.batch.begin, std::pair(done.batch, std::move(*done.result)));
+  if (const std::uint64_t cases = done.batch.end - done.batch.begin) {
+    const double each = done.seconds / static_cast<double>(cases);
+    track.usual = track.usual ? (*track.usual + each) / 2 : each;
+    track.pending -= cases;
+    if (done.result && counts)
+      track.ready.emplace(done.batch.begin, std::pair(done.batch, std::move(*done.result)));
+  } else {
+    track.shrinking_seconds += done.seconds;
+    ++track.shrinkings;
+    --track.in_shrinking;
+    if (done.shrunk && counts) track.shrunk.push_back(std::move(*done.shrunk));
+  }
   changed_.notify_all();
 }
 
@@ -122,34 +195,46 @@ void Ledger::stop_all() {
 bool Ledger::record() {
   const std::lock_guard lock(mutex_);
   if (failure_) std::rethrow_exception(failure_);
-  bool complete = true;
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    Track& track = tracks_[t];
-    std::vector<Finding> kept;
-    const std::uint64_t before = track.tally.next;
-    for (auto first = track.ready.begin(); first != track.ready.end() && first->first == track.tally.next;
-         first = track.ready.begin()) {
-      if (first_ && found_) break;
-      record(track, first->second.first, first->second.second, kept);
-      track.ready.erase(first);
-    }
-    if (track.tally.next != before) journal_.record(*plan_.targets[t], track.tally, kept);
-    tallies_[t] = track.tally;
-    complete &= track.tally.next >= count_;
-  }
+  bool has_new = false;
+  for (std::size_t t = 0; t < tracks_.size(); ++t) has_new |= record(t);
+  if (has_new) changed_.notify_all();
+  const bool complete =
+      std::all_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return is_complete(track); });
   return !complete && !stop_;
+}
+
+bool Ledger::is_complete(const Track& track) const {
+  return (is_closing_ || track.tally.next >= count_) && track.due.empty() && track.in_shrinking == 0;
+}
+
+// Returns whether there is something new to be shrunk.
+bool Ledger::record(std::size_t target) {
+  Track& track = tracks_[target];
+  std::vector<Finding> news = std::exchange(track.shrunk, {});
+  const std::size_t due_before = track.due.size();
+  const std::uint64_t before = track.tally.next;
+  for (auto first = track.ready.begin(); first != track.ready.end() && first->first == track.tally.next;
+       first = track.ready.begin()) {
+    if (is_closing_) break;
+    record(track, first->second.first, first->second.second, news);
+    track.ready.erase(first);
+  }
+  if (track.tally.next != before || !news.empty()) journal_.record(*plan_.targets[target], track.tally, news);
+  tallies_[target] = track.tally;
+  return track.due.size() != due_before;
 }
 
 // Only now it is certain how many findings of each sort come before.
 void Ledger::record(Track& track, const Batch& batch, BatchResult& result, std::vector<Finding>& kept) {
-  for (BatchResult::Kept& one : result.kept)
-    if (track.tally.sorts[one.finding.sort] + one.ordinal <= plan_.keep)
-      kept.push_back(std::move(one.finding));
+  for (BatchResult::Kept& one : result.kept) {
+    if (track.tally.sorts[one.finding.sort] + one.ordinal > plan_.keep) continue;
+    if (one.finding.shrinking == Shrinking::due) track.due.emplace(rank_of(one.finding.kind), one.finding);
+    kept.push_back(std::move(one.finding));
+  }
   track.tally.add(result.met);
   track.tally.next = batch.end;
   --track.in_work;
-  found_ |= !result.met.sorts.empty();
-  if (first_ && found_) stop_ = true;
+  is_closing_ |= first_ && !result.met.sorts.empty();
 }
 
 }  // namespace lorentz::fuzz

@@ -1,5 +1,6 @@
 // Who does which indices of a campaign, and what came of them: hands out batches, and records their results
-// in the order of the indices, so that it does not matter who did them, or when.
+// in the order of the indices, so that it does not matter who did them, or when. Hands out the findings that
+// were recorded, too, to be shrunk.
 #pragma once
 
 #include <condition_variable>
@@ -12,9 +13,9 @@ namespace lorentz::fuzz {
 
 class Ledger final : public WorkSource {
  public:
-  /// `threads`: of all processes together.
+  /// `threads`: of all processes together. `unshrunk`: findings from before that are not shrunk to the end.
   Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
-         Journal& journal);
+         Journal& journal, const std::vector<Finding>& unshrunk = {});
 
   std::optional<Assignment> take(std::uint64_t batch_size) override;
   void hand_in(Done done) override;
@@ -22,12 +23,11 @@ class Ledger final : public WorkSource {
   void fail(std::exception_ptr failure) override;
   const std::atomic<bool>& stop() const override { return stop_; }
 
-  /// Up to `most` batches that are there without waiting: for somebody far away.
+  /// Up to `most` assignments that are there without waiting: for somebody far away.
   std::vector<Assignment> take_some(std::size_t most, std::uint64_t batch_size);
 
   /// Records what is ready. Returns whether there may be more. Throws what somebody failed with.
   bool record();
-
   void stop_all();
   bool had_failing_subject() const { return subject_failed_; }
 
@@ -37,26 +37,41 @@ class Ledger final : public WorkSource {
     TargetTally tally;                                             // of what is recorded
     std::uint64_t handed_out = 0;                                  // the first index that nobody has
     std::size_t in_work = 0;                                       // batches handed out and not recorded
-    double seconds = 0;                                            // of all threads,
-    std::uint64_t cases = 0;                                       // for so many indices
+    double seconds = 0;                                            // of all threads, shrinking included
+    std::optional<double> usual;                                   // seconds that a case took, of late
     std::uint64_t pending = 0;                                     // indices handed out and not handed in
     std::map<std::uint64_t, std::pair<Batch, BatchResult>> ready;  // by first index: done, not recorded
+
+    std::multimap<int, Finding> due;  // to be shrunk, by rank_of()
+    std::size_t in_shrinking = 0;     // handed out and not handed in
+    double shrinking_seconds = 0;     // of `seconds`,
+    std::uint64_t shrinkings = 0;     // for so many findings
+    std::vector<Finding> shrunk;      // not recorded
   };
 
   Track* next_track();
   Assignment assign(Track& track, std::uint64_t batch_size, double seconds);
+  Assignment assign_cases(Track& track, std::uint64_t batch_size, double seconds);
+  Assignment assign_shrinking(Track& track);
+  bool has_cases(const Track& track) const;
+  bool shrinks_next(const Track& track) const;
+  double usual_shrinking(const Track& track) const;
+  double time_of(const Track& track) const;
+  bool is_complete(const Track& track) const;
+  bool record(std::size_t target);
   void record(Track& track, const Batch& batch, BatchResult& result, std::vector<Finding>& kept);
-  bool all_handed_out() const;
 
   const Plan& plan_;
   const std::uint64_t count_;
   const bool first_;
+  const std::atomic<bool>* const interrupted_;
   const std::size_t most_ahead_;
+  const double most_shrinking_;  // seconds, of one finding
   std::vector<TargetTally>& tallies_;
   Journal& journal_;
   std::vector<Track> tracks_;
   std::atomic<bool> stop_ = false, subject_failed_ = false;
-  bool found_ = false;  // a finding is recorded
+  bool is_closing_ = false;  // the first finding is recorded, and the last one: no more cases
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;

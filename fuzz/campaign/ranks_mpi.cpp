@@ -54,13 +54,13 @@ void serialize(Archive& archive, TargetTally& a, unsigned) {
 }
 template <class Archive>
 void serialize(Archive& archive, CaseText& t, unsigned) {
-  archive& t.scene& t.query& t.given& t.exact;
+  archive& t.scene& t.query& t.given& t.exact& t.departs;
+  transfer(archive, t.margin);
 }
 template <class Archive>
 void serialize(Archive& archive, Finding& f, unsigned) {
-  archive& f.target& f.index& f.step& f.words& f.kind& f.sort& f.cause& f.text& f.shrunk& f.departs;
-  transfer(archive, f.margin);
-  archive& f.bits& f.complexity& f.tries;
+  archive& f.target& f.index& f.step& f.words& f.kind& f.sort& f.cause& f.text& f.shrunk;
+  archive& f.shrinking& f.bits& f.complexity& f.tries;
 }
 template <class Archive>
 void serialize(Archive& archive, BatchResult::Kept& k, unsigned) {
@@ -74,10 +74,12 @@ template <class Archive>
 void serialize(Archive& archive, Done& d, unsigned) {
   archive& d.batch& d.seconds;
   transfer(archive, d.result);
+  transfer(archive, d.shrunk);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& a, unsigned) {
-  archive& a.batch& a.known;
+  archive& a.batch& a.known& a.most_seconds;
+  transfer(archive, a.due);
 }
 namespace {
 

@@ -20,7 +20,7 @@ using namespace cases;
 namespace {
 
 constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
-constexpr int kFormat = 2;                // 1 had no questions in other words
+constexpr int kFormat = 3;                // 2 had no findings that are still to be shrunk
 constexpr const char* kMemory = ":memory:";
 
 constexpr const char* kSchema = R"sql(
@@ -43,14 +43,15 @@ constexpr const char* kSchema = R"sql(
     words TEXT NOT NULL, kind TEXT NOT NULL, sort TEXT NOT NULL, cause TEXT NOT NULL,
     scene TEXT NOT NULL, query TEXT NOT NULL, given TEXT NOT NULL, exact TEXT NOT NULL,
     shrunk_scene TEXT NOT NULL, shrunk_query TEXT NOT NULL, shrunk_given TEXT NOT NULL,
-    shrunk_exact TEXT NOT NULL, departs REAL NOT NULL, margin REAL, bits INTEGER NOT NULL,
-    complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
+    shrunk_exact TEXT NOT NULL, departs REAL NOT NULL, margin REAL, shrunk_departs REAL NOT NULL,
+    shrunk_margin REAL, shrinking INTEGER NOT NULL, bits INTEGER NOT NULL, complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
     PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
 )sql";
 
 constexpr const char* kFindingColumns =
     "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
-    "shrunk_query, shrunk_given, shrunk_exact, departs, margin, bits, complexity, tries";
+    "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
+    "bits, complexity, tries";
 
 // Held by whoever writes, beside the store; the system lets go of it however the process ends. (A lock on the
 // store itself would get in the way of SQLite's own.)
@@ -221,8 +222,11 @@ std::vector<Stored> Store::findings() const {
          {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
           &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
       *text = row.text();
-    f.departs = row.real();
-    f.margin = row.real_or_null();
+    for (fuzz::CaseText* text : {&f.text, &f.shrunk}) {
+      text->departs = row.real();
+      text->margin = row.real_or_null();
+    }
+    f.shrinking = static_cast<Shrinking>(row.integer());
     f.bits = static_cast<int>(row.integer());
     f.complexity = static_cast<long>(row.integer());
     f.tries = static_cast<int>(row.integer());
@@ -256,14 +260,14 @@ void Store::put(std::int64_t campaign, const Finding& f) {
   impl_->begin();
   Statement row(impl_->connection,
                 std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
-                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
   for (const std::string* text :
        {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
         &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
     row.bind(*text);
-  row.bind(f.departs)
-      .bind(f.margin)
+  for (const fuzz::CaseText* text : {&f.text, &f.shrunk}) row.bind(text->departs).bind(text->margin);
+  row.bind(static_cast<int>(f.shrinking))
       .bind(f.bits)
       .bind(static_cast<std::int64_t>(f.complexity))
       .bind(f.tries)

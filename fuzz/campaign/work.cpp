@@ -20,7 +20,11 @@ void Workers::work() {
     BatchRunner runner(plan_, make_subject_, source_.stop());
     while (const auto assignment = source_.take(runner.batch_size())) {
       const auto start = Clock::now();
-      Done done{assignment->batch, runner.run(assignment->batch, assignment->known), 0};
+      Done done{assignment->batch};
+      if (assignment->due)
+        done.shrunk = runner.shrink(*assignment->due, assignment->most_seconds);
+      else
+        done.result = runner.run(assignment->batch, assignment->known);
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
       source_.hand_in(std::move(done));
     }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <exception>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,15 +15,19 @@
 namespace lorentz::fuzz {
 
 /// A batch for somebody, and how many findings of each sort its target has for certain from earlier indices.
+/// Or, with an empty batch, a finding of its target that is to be shrunk.
 struct Assignment {
   Batch batch;
-  std::map<std::string, std::uint64_t> known;
+  std::map<std::string, std::uint64_t> known = {};
+  std::optional<Finding> due = {};
+  double most_seconds = std::numeric_limits<double>::infinity();  ///< for that
 };
 
-/// A batch that was done; without a result if it was stopped in between.
+/// What was done; without a result, or the finding, if it was stopped in between.
 struct Done {
   Batch batch;
-  std::optional<BatchResult> result;
+  std::optional<BatchResult> result = {};
+  std::optional<Finding> shrunk = {};
   double seconds = 0;
 };
 
@@ -31,8 +36,8 @@ class WorkSource {
  public:
   virtual ~WorkSource() = default;
 
-  /// The next batch for somebody who likes to be asked at least `batch_size` cases at once; waits for one if
-  /// there may be some later. Nothing: there is no more.
+  /// The next work for somebody who likes to be asked at least `batch_size` cases at once; waits until there
+  /// is some. Nothing: all is done, or stopped.
   virtual std::optional<Assignment> take(std::uint64_t batch_size) = 0;
   virtual void hand_in(Done done) = 0;
 

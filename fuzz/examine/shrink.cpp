@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <unordered_set>
 #include <vector>
 
@@ -77,18 +78,19 @@ struct Candidate {
 
 class Shrinker {
  public:
-  Shrinker(Candidate start, const StillFails& still_fails, const FlightLength& length, int tries)
+  Shrinker(Candidate start, const StillFails& still_fails, const FlightLength& length,
+           const ShrinkBudget& budget)
       : best_(std::move(start)),
         still_fails_(still_fails),
         length_(length),
-        tries_left_(tries),
-        tries_(tries) {
+        budget_(budget),
+        tries_left_(budget.tries) {
     score_ = complexity(best_.scene, best_.query);
     seen_.insert(hash_of(best_));
   }
 
   Shrunk run() {
-    for (long before = -1; before != score_ && tries_left_ > 0;) {
+    for (long before = -1; before != score_ && !is_spent();) {
       before = score_;
       round_everything();
       simplify_scene();
@@ -97,7 +99,7 @@ class Shrinker {
       simplify_numbers();
       if (before == score_) shorten();
     }
-    return {best_.scene, best_.query, tries_ - tries_left_};
+    return {best_.scene, best_.query, tries_};
   }
 
  private:
@@ -331,14 +333,15 @@ class Shrinker {
   /// flight no simpler is needed, but a shorter flight.
   template <class Change>
   bool offer(const Change& change, double shorter_than = -1) {
-    if (tries_left_ <= 0) return false;
+    if (is_spent()) return false;
     Candidate one = best_;
     change(one);
     for_each_number(one.scene, one.query, [](double& x) { x = x + 0.0; });  // no -0
     const long score = complexity(one.scene, one.query);
     if (shorter_than >= 0 ? score > score_ : score >= score_) return false;
     if (!seen_.insert(hash_of(one)).second) return false;
-    --tries_left_;
+    tries_left_ -= price(one.scene, one.query);
+    ++tries_;
     if (!still_fails_(one.scene, one.query)) return false;
     const double flight = length_ ? length_() : -1;
     if (shorter_than >= 0 && !(flight < shorter_than)) return false;
@@ -347,6 +350,8 @@ class Shrinker {
     flight_ = flight;
     return true;
   }
+
+  bool is_spent() const { return tries_left_ <= 0 || (budget_.is_up && budget_.is_up()); }
 
   static std::uint64_t hash_of(Candidate& one) {
     std::uint64_t hash = 0xcbf29ce484222325;
@@ -366,7 +371,9 @@ class Shrinker {
   Candidate best_;
   const StillFails& still_fails_;
   const FlightLength& length_;
-  int tries_left_, tries_;
+  const ShrinkBudget& budget_;
+  double tries_left_;
+  int tries_ = 0;
   long score_ = 0;
   double flight_ = -1;  // of the best case; not known of the one given
   std::unordered_set<std::uint64_t> seen_;
@@ -385,6 +392,17 @@ int most_bits(const Scene& scene, const Query& query) {
   return most;
 }
 
+double price(const Scene& scene, const Query& query) {
+  int highest = std::numeric_limits<int>::min(), lowest = std::numeric_limits<int>::max();
+  for_each_number(scene, query, [&](const double& x) {
+    if (x == 0 || !std::isfinite(x)) return;
+    highest = std::max(highest, std::ilogb(x));
+    lowest = std::min(lowest, exponent_of_lowest_bit(x));
+  });
+  const double share = highest < lowest ? 0 : static_cast<double>(highest - lowest + 1) / kOrdinarySpread;
+  return std::max(1.0, share * share);
+}
+
 long complexity(const Scene& scene, const Query& query) {
   long sum = query.from ? 60 : 0;
   for (const Lattice& lattice : scene.lattices) {
@@ -399,8 +417,8 @@ long complexity(const Scene& scene, const Query& query) {
 }
 
 Shrunk shrink(const Scene& scene, const Query& query, const StillFails& still_fails,
-              const FlightLength& length, int tries) {
-  return Shrinker({scene, query}, still_fails, length, tries).run();
+              const FlightLength& length, const ShrinkBudget& budget) {
+  return Shrinker({scene, query}, still_fails, length, budget).run();
 }
 
 }  // namespace lorentz::fuzz

@@ -24,7 +24,19 @@ int most_bits(const Scene& scene, const Query& query);
 /// each number, and a little for exponents and signs.
 long complexity(const Scene& scene, const Query& query);
 
+/// How many tries it takes to ask about a case, in money of ordinary ones: 1 where the numbers of the case
+/// spread over up to kOrdinarySpread bits, from the highest to the lowest. Exact answers take integers of
+/// several times that, and a time that grows with its square.
+double price(const Scene& scene, const Query& query);
+inline constexpr int kOrdinarySpread = 512;
+
 inline constexpr int kShrinkTries = 3000;
+
+/// When shrinking has cost enough.
+struct ShrinkBudget {
+  double tries = kShrinkTries;       ///< by their price()
+  std::function<bool()> is_up = {};  ///< what else there is to say about it
+};
 
 struct Shrunk {
   Scene scene;
@@ -33,9 +45,9 @@ struct Shrunk {
 };
 
 /// The simplest case found by greedy steps, each of which makes complexity() smaller (or the flight shorter
-/// at no greater complexity) and keeps the failure. Asks about `tries` cases at the most, of none twice; the
-/// same for the same answers. The case itself must fail.
+/// at no greater complexity) and keeps the failure. Asks about no case twice, and about none beyond the
+/// budget; the same for the same answers. The case itself must fail.
 Shrunk shrink(const Scene& scene, const Query& query, const StillFails& still_fails,
-              const FlightLength& length = {}, int tries = kShrinkTries);
+              const FlightLength& length = {}, const ShrinkBudget& budget = {});
 
 }  // namespace lorentz::fuzz

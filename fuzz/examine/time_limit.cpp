@@ -26,6 +26,12 @@ std::string_view words_of(LimitAt limit) {
   return kWords[static_cast<int>(limit)];
 }
 
+LimitAt limit_in(std::string_view words) {
+  for (const LimitAt limit : {LimitAt::time, LimitAt::below, LimitAt::above, LimitAt::half, LimitAt::twice})
+    if (words.ends_with(words_of(limit))) return limit;
+  return LimitAt::none;
+}
+
 LimitAt drawn_limit(Random& random, Subject::Limits limits, const Answer& exact) {
   if (limits == Subject::Limits::none || exact.outcome == Outcome::error) return LimitAt::none;
   if (exact.outcome == Outcome::hit && !(std::isfinite(*exact.time) && *exact.time > 0)) return LimitAt::none;

@@ -14,6 +14,9 @@ enum class LimitAt { none, time, below, above, half, twice };
 /// Like "limit at the time"; empty for none.
 std::string_view words_of(LimitAt limit);
 
+/// The one that such words end with; none of other words.
+LimitAt limit_in(std::string_view words);
+
 /// One that the subject can be asked with at this exact answer; where its time is not finite, none.
 LimitAt drawn_limit(cases::Random& random, Subject::Limits limits, const Answer& exact);
 

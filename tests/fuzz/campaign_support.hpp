@@ -45,10 +45,14 @@ inline std::string text_of(const fuzz::Stored& stored) {
   const fuzz::Finding& f = stored.finding;
   std::ostringstream out;
   out << stored.label() << '\n'
-      << f.words << '|' << f.kind << '|' << f.sort << '|' << f.cause << '|' << f.departs << '|'
-      << f.margin.value_or(-1) << '|' << f.bits << '|' << f.complexity << '|' << f.tries << '\n';
+      << f.words << '|' << f.kind << '|' << f.sort << '|' << f.cause << '|' << static_cast<int>(f.shrinking)
+      << '|' << f.bits << '|' << f.complexity << '|' << f.tries << '\n';
   for (const fuzz::CaseText* text : {&f.text, &f.shrunk})
-    out << text->scene << '\n' << text->query << '\n' << text->given << '\n' << text->exact << '\n';
+    out << text->scene << '\n'
+        << text->query << '\n'
+        << text->given << '\n'
+        << text->exact << '\n'
+        << text->departs << ' ' << text->margin.value_or(-1) << '\n';
   return out.str();
 }
 

@@ -36,7 +36,8 @@ Plan plan_of(std::initializer_list<const char*> names) {
 
 // A campaign up to a number of cases, in a store.
 void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
-            const fuzz::MakeSubject& subjects = skewed_subjects()) {
+            const fuzz::MakeSubject& subjects = skewed_subjects(),
+            double seconds = std::numeric_limits<double>::infinity()) {
   fuzz::Manifest manifest{"1",
                           "skewed",
                           "",
@@ -53,7 +54,10 @@ void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned 
   fuzz::Bounds bounds;
   bounds.count = count;
   bounds.jobs = jobs;
-  fuzz::run(plan, bounds, subjects, tallies, journal);
+  bounds.seconds = seconds;
+  std::vector<fuzz::Finding> unshrunk;
+  for (const fuzz::Stored& one : store.findings()) unshrunk.push_back(one.finding);
+  fuzz::run(plan, bounds, subjects, tallies, journal, nullptr, unshrunk);
 }
 
 std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
@@ -208,6 +212,33 @@ TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on fro
     for (const std::uint64_t number : tally.kinds) judged += number;
     CHECK(judged == tally.cases + tally.variants + tally.reworded);
   }
+}
+
+TEST_CASE("What the time cut short is shrunk to the end when there is time", "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  const Plan plan = plan_of({"leaving", "boundary"});
+  // As SkewedSubject, and slow: its findings are not shrunk in the time.
+  class Slow final : public fuzz::Subject {
+   public:
+    void ask(const Query& query) override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      skewed_.ask(query);
+    }
+    std::vector<fuzz::Reply> replies() override { return skewed_.replies(); }
+
+   private:
+    void change_scene(const Scene& scene) override { skewed_.set_scene(scene); }
+    SkewedSubject skewed_;
+  };
+  fuzz::Store store(":memory:", fuzz::Store::Access::write);
+  run_in(
+      store, plan, 150, 2, [] { return std::make_unique<Slow>(); }, 1.5);
+  std::map<fuzz::Shrinking, int> states;
+  for (const fuzz::Stored& one : store.findings()) ++states[one.finding.shrinking];
+  CHECK(states[fuzz::Shrinking::cut_short] > 0);  // 3 seen
+  CHECK(store.tally(1, "leaving").next < 150);
+  run_in(store, plan, 150, 2);
+  CHECK(text_of(store) == one_run(plan, 150, 1));
 }
 
 TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {

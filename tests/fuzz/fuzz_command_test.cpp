@@ -58,6 +58,19 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(show.status == 0);
   CHECK(contains(show.out, "as found:\n{\"scene\":"));
   CHECK(contains(show.out, "\"x\":[-0.04390243902439024,0.1951219512195122],\"v\":[9,5]"));
+  // What is said of a case stands with the case: the shrunk one first.
+  const std::size_t found = show.out.find("as found:"), departs = show.out.find("departs by"),
+                    margin = show.out.find("margin of the exact answer");
+  CHECK(show.out.find("shrunk to") < departs);
+  CHECK(departs < margin);
+  CHECK(margin < found);
+  CHECK(show.out.find("departs by", found) != std::string::npos);
+  CHECK(show.out.find("margin of the exact answer", found) != std::string::npos);
+  const Run as_json = folder.lorentz("fuzz show 1/published-faults/0 --json" + store);
+  const std::size_t shrunk = as_json.out.find("\"shrunk\":");
+  CHECK(as_json.out.find("\"departs\":") < shrunk);
+  CHECK(as_json.out.find("\"departs\":", shrunk) != std::string::npos);
+  CHECK(contains(as_json.out, "\"shrinking\":\"done\""));
   const Run again =
       folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
   CHECK(contains(again.err, "goes on with campaign 1"));

@@ -28,8 +28,9 @@ Shrunk shrink_published(const Scene& scene, const Query& query, Kind kind, int t
     return fuzz::Examiner(*subject, s, 4).examine(q).kind;
   };
   REQUIRE(kind_of(scene, query) == kind);
-  const Shrunk shrunk = fuzz::shrink(
-      scene, query, [&](const Scene& s, const Query& q) { return kind_of(s, q) == kind; }, {}, tries);
+  const Shrunk shrunk =
+      fuzz::shrink(scene, query, [&](const Scene& s, const Query& q) { return kind_of(s, q) == kind; }, {},
+                   {double(tries), {}});
   CHECK(kind_of(shrunk.scene, shrunk.query) == kind);
   CHECK(shrunk.tries <= tries);
   return shrunk;
@@ -121,8 +122,28 @@ TEST_CASE("Tries are bounded, and no case is tried twice", "[fuzz][shrink]") {
   CHECK(all.tries == static_cast<int>(seen.size()));
   CHECK(all.tries < fuzz::kShrinkTries);
   seen.clear();
-  CHECK(fuzz::shrink(scene, query, never, {}, 7).tries == 7);
+  CHECK(fuzz::shrink(scene, query, never, {}, {7, {}}).tries == 7);
   CHECK(seen.size() == 7);
+}
+
+TEST_CASE("Numbers that spread over thousands of bits cost many tries each", "[fuzz][shrink]") {
+  Scene scene = unit_scene(2, 0.3);
+  const Query plain{{0.3, 0.1}, {0.123, 0.7}, {}}, wide{{0.3, 0.1}, {0.123, 0x1.8p-1000}, {}};
+  CHECK(fuzz::price(scene, plain) == 1);
+  CHECK(fuzz::price(scene, wide) > 3.8);
+  CHECK(fuzz::price(scene, wide) < 4);
+  const auto wide_ones = [&](const Scene& s, const Query& q) { return fuzz::price(s, q) > 3; };
+  const Shrunk shrunk = fuzz::shrink(scene, wide, wide_ones, {}, {40, {}});
+  CHECK(shrunk.tries >= 10);
+  CHECK(shrunk.tries < 40);  // 17 seen: some of them plain
+}
+
+TEST_CASE("Shrinking ends where somebody says that it is enough", "[fuzz][shrink]") {
+  const Query query{{0.3, 0.1}, {0.123, 0.7}, {}};
+  int asked = 0;
+  const auto never = [&](const Scene&, const Query&) { return ++asked < 0; };
+  CHECK(fuzz::shrink(unit_scene(2, 0.3), query, never, {}, {3000, [&] { return asked == 5; }}).tries == 5);
+  CHECK(asked == 5);
 }
 
 TEST_CASE("A shorter flight, where it is as simple", "[fuzz][shrink]") {

@@ -27,10 +27,14 @@ fuzz::Finding finding() {
   f.kind = "wrong";
   f.sort = "wrong, 2D";
   f.cause = "a cause";
-  f.text = {"scene", "query '\"", "given", "exact"};
-  f.shrunk = {"s", "q", "g", "e"};
-  f.departs = std::numeric_limits<double>::infinity();
-  f.margin = 0x1.23456789abcdep-300;
+  f.text = {"scene",
+            "query '\"",
+            "given",
+            "exact",
+            std::numeric_limits<double>::infinity(),
+            0x1.23456789abcdep-300};
+  f.shrunk = {"s", "q", "g", "e", 12.5, {}};
+  f.shrinking = fuzz::Shrinking::cut_short;
   f.bits = 12;
   f.complexity = 3210;
   f.tries = 99;

@@ -1,0 +1,161 @@
+// The ledger: equal times for all targets however slow the engine, and what is shrunk when.
+#include "fuzz/campaign/ledger.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/fuzz/campaign_support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Shrinking;
+
+namespace {
+
+constexpr std::uint64_t kManyAtOnce = 256;  // what a cmd: engine likes
+
+class NoJournal final : public fuzz::Journal {
+  void record(const cases::Target&, const fuzz::TargetTally&, const std::vector<fuzz::Finding>&) override {}
+  void tick() override {}
+};
+
+fuzz::Plan plan_of(std::initializer_list<const char*> names) {
+  fuzz::Plan plan;
+  for (const char* name : names) plan.targets.push_back(cases::target_named(name));
+  return plan;
+}
+
+fuzz::Finding finding_of(const char* target, const char* kind, std::uint64_t index) {
+  fuzz::Finding one;
+  one.target = target;
+  one.kind = one.sort = kind;
+  one.index = index;
+  return one;
+}
+
+// A batch that was done, with findings of these kinds.
+fuzz::Done done_with(const fuzz::Batch& batch, double seconds,
+                     std::initializer_list<const char*> kinds = {}) {
+  fuzz::Done done{batch, fuzz::BatchResult{}, {}, seconds};
+  done.result->met.cases = batch.end - batch.begin;
+  for (const char* kind : kinds) {
+    ++done.result->met.sorts[kind];
+    done.result->kept.push_back({finding_of("generic", kind, batch.begin), 1});
+  }
+  return done;
+}
+
+// Somebody who answers, on a clock of its own: seconds for each target when the time is up.
+std::vector<double> times_of(const std::vector<double>& seconds_a_case, double seconds,
+                             std::initializer_list<const char*> kinds = {}) {
+  const fuzz::Plan plan = plan_of({"generic", "grazing", "leaving", "tie"});
+  fuzz::Bounds bounds;
+  bounds.seconds = seconds;
+  std::vector<fuzz::TargetTally> tallies(4);
+  NoJournal journal;
+  fuzz::Ledger ledger(plan, bounds, 1, tallies, journal);
+  std::vector<double> times(4);
+  for (double now = 0; now < seconds;) {
+    const fuzz::Assignment next = *ledger.take(kManyAtOnce);
+    const std::size_t t = next.batch.target;
+    double took = static_cast<double>(next.batch.end - next.batch.begin) * seconds_a_case[t];
+    fuzz::Done done;
+    if (next.due) {
+      took = next.most_seconds;  // it would go on and on
+      done = {next.batch, {}, next.due, took};
+    } else {
+      done = done_with(next.batch, took, t == 0 ? kinds : std::initializer_list<const char*>{});
+    }
+    now += took;
+    if (now < seconds) times[t] += took;
+    ledger.hand_in(std::move(done));
+    ledger.record();
+  }
+  return times;
+}
+
+void check_fair(const std::vector<double>& times, double factor = 2) {
+  const auto [least, most] = std::minmax_element(times.begin(), times.end());
+  INFO(times[0] << ' ' << times[1] << ' ' << times[2] << ' ' << times[3]);
+  CHECK(*least > 0);
+  CHECK(*most <= factor * *least);
+}
+
+}  // namespace
+
+TEST_CASE("Targets get equal times from engines that are slow, or slow at some of them", "[fuzz][ledger]") {
+  check_fair(times_of({0.0175, 0.0175, 0.0175, 0.0175}, 30));
+  check_fair(times_of({0.0175, 0.0175, 0.0175, 0.0175}, 3));
+  check_fair(times_of({1e-6, 1e-3, 0.02, 0.5}, 30));
+  check_fair(times_of({0.4, 0.4, 0.4, 0.4}, 30));
+}
+
+TEST_CASE("Shrinking is of a target's own time, and has its share of that", "[fuzz][ledger]") {
+  check_fair(times_of({0.0175, 0.0175, 0.0175, 0.0175}, 30, {"wrong", "undecided", "slow", "error"}), 1.3);
+  check_fair(times_of({0.001, 0.5, 0.001, 0.001}, 60, {"wrong", "error"}), 1.3);
+}
+
+TEST_CASE("A batch is one case at first, and as long as it was quick then", "[fuzz][ledger]") {
+  const fuzz::Plan plan = plan_of({"generic"});
+  std::vector<fuzz::TargetTally> tallies(1);
+  NoJournal journal;
+  const auto second_batch = [&](double seconds, std::uint64_t liked) {
+    fuzz::Ledger ledger(plan, {}, 1, tallies, journal);
+    const fuzz::Assignment first = *ledger.take(liked);
+    CHECK(first.batch.end - first.batch.begin == 1);
+    ledger.hand_in(done_with(first.batch, seconds));
+    const fuzz::Assignment next = *ledger.take(liked);
+    return next.batch.end;
+  };
+  CHECK(second_batch(0.0175, kManyAtOnce) == 8);
+  CHECK(second_batch(0.5, kManyAtOnce) == 2);
+  CHECK(second_batch(1e-5, kManyAtOnce) == kManyAtOnce);
+  CHECK(second_batch(1e-5, 1) == 128);
+  CHECK(second_batch(1e-8, 1) == 1024);
+}
+
+TEST_CASE("What is wrong is shrunk first, and what was cut short when there is time", "[fuzz][ledger]") {
+  const fuzz::Plan plan = plan_of({"generic"});
+  std::vector<fuzz::TargetTally> tallies(1);
+  NoJournal journal;
+  fuzz::Bounds bounds;
+  bounds.count = 0;  // no more cases
+  std::vector<fuzz::Finding> unshrunk;
+  for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"})
+    unshrunk.push_back(finding_of("generic", kind, unshrunk.size()));
+  unshrunk.push_back(finding_of("grazing", "wrong", 77));  // no target of the plan
+  unshrunk.push_back(finding_of("generic", "wrong", 99));
+  unshrunk.back().shrinking = Shrinking::cut_short;
+  const auto order = [&] {
+    fuzz::Ledger ledger(plan, bounds, 1, tallies, journal, unshrunk);
+    std::vector<std::uint64_t> indices;
+    for (const fuzz::Assignment& one : ledger.take_some(10, 1)) {
+      REQUIRE(one.due);
+      CHECK((one.most_seconds < 1e9) == bounds.limits_time());
+      indices.push_back(one.due->index);
+      CHECK(ledger.record());
+      ledger.hand_in({one.batch, {}, one.due, 0.1});
+    }
+    CHECK_FALSE(ledger.record());
+    return indices;
+  };
+  CHECK(order() == std::vector<std::uint64_t>{4, 99, 3, 2, 1, 0});
+  bounds.seconds = 60;
+  CHECK(order() == std::vector<std::uint64_t>{4, 3, 2, 1, 0});
+}
+
+TEST_CASE("What comes after an interruption does not count", "[fuzz][ledger]") {
+  const fuzz::Plan plan = plan_of({"generic"});
+  std::vector<fuzz::TargetTally> tallies(1);
+  NoJournal journal;
+  std::atomic<bool> interrupted = false;
+  fuzz::Bounds bounds;
+  bounds.stop = &interrupted;
+  fuzz::Ledger ledger(plan, bounds, 1, tallies, journal);
+  const fuzz::Assignment first = *ledger.take(1), second = *ledger.take(1);
+  ledger.hand_in(done_with(first.batch, 1));
+  interrupted = true;
+  ledger.hand_in(done_with(second.batch, 1, {"error"}));
+  ledger.record();
+  CHECK(tallies[0].next == 1);
+  CHECK(tallies[0].sorts.empty());
+}
