@@ -7,6 +7,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
+#include "compare/registry.hpp"
 #include "golden/maker.hpp"
 
 namespace lorentz::cli {
@@ -57,6 +58,13 @@ std::string tag_of(const std::string& kind) {
   return tag;
 }
 
+// What a set has to say of its tags: where there are no findings, what was aimed at.
+void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std::string, std::string>& tags) {
+  for (const fuzz::Campaign& campaign : campaigns)
+    for (const std::string& name : compare::names_in({campaign.manifest.targets}))
+      if (const cases::Target* target = cases::target_named(name)) tags.emplace(name, target->description());
+}
+
 golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   golden::Header header;
   header.name = "findings";
@@ -72,7 +80,8 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
 }
 
 // Findings that shrank to the same question are one record.
-void print_golden_set(const std::vector<Example>& examples, golden::Header header) {
+void print_golden_set(const std::vector<Example>& examples, const std::vector<fuzz::Campaign>& campaigns) {
+  golden::Header header = header_of(campaigns);
   std::string lines, scene_line;
   std::set<std::string> ids;
   std::map<std::string, std::string> tags;
@@ -91,6 +100,7 @@ void print_golden_set(const std::vector<Example>& examples, golden::Header heade
     scene_line = finding.shrunk.scene;
     golden::append_record_line(lines, record, scene.dimension);
   }
+  if (examples.empty()) explain_targets(campaigns, tags);
   header.count = ids.size();
   header.tags.assign(tags.begin(), tags.end());
   std::string first;
@@ -105,7 +115,7 @@ int act(const Options& options) {
   if (options.queries)
     print_queries(examples);
   else
-    print_golden_set(examples, header_of(store.campaigns()));
+    print_golden_set(examples, store.campaigns());
   return kDone;
 }
 

@@ -14,8 +14,9 @@ namespace lorentz::fuzz {
 
 class Connection {
  public:
-  Connection(const std::string& path, int flags) : path_(path) {
-    const int status = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+  /// `name`: what SQLite is to call the path.
+  Connection(const std::string& path, const std::string& name, int flags) : path_(path) {
+    const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
     if (status != SQLITE_OK) {
       const std::string why = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
       sqlite3_close(handle_);

@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "fuzz/campaign/batch.hpp"
 #include "fuzz/campaign/sqlite.hpp"
@@ -53,37 +55,84 @@ constexpr const char* kFindingColumns =
     "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
     "bits, complexity, tries";
 
-// Held by whoever writes, beside the store; the system lets go of it however the process ends. (A lock on the
-// store itself would get in the way of SQLite's own.)
+// Held by whoever writes, beside the store, and gone with him; the system lets go of it however the process
+// ends. (A lock on the store itself would get in the way of SQLite's own.) Who only wants nobody to write
+// makes no file: none that is there is none that is held.
 class LockFile {
  public:
-  explicit LockFile(const std::string& store) {
-    const std::string path = store + ".lock";
-    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) throw FileError(path + ": " + std::strerror(errno));
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(file_);
-    throw FileError(store +
-                    ": another process is running a campaign on this store; wait for it, stop it, or "
-                    "use another store (shards have one each, `lorentz fuzz merge` joins them)");
+  LockFile(const std::string& store, Store::Access access)
+      : path_(store + ".lock"), writes_(access == Store::Access::write) {
+    do {
+      close();
+      file_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
+      if (file_ < 0 && !writes_) return;
+      if (file_ < 0) throw FileError(path_ + ": " + std::strerror(errno));
+      if (::flock(file_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
+        close();
+        throw FileError(store +
+                        ": another process is running a campaign on this store; wait for it, stop it, or "
+                        "use another store (shards have one each, `lorentz fuzz merge` joins them)");
+      }
+    } while (!is_the_one_there());
   }
-  ~LockFile() { ::close(file_); }
+  ~LockFile() {
+    if (writes_) ::unlink(path_.c_str());
+    close();
+  }
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
 
  private:
-  int file_;
+  // Not one that somebody took away between our opening and locking it.
+  bool is_the_one_there() const {
+    struct stat ours {
+    }, there{};
+    return ::fstat(file_, &ours) == 0 && ::stat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino;
+  }
+  void close() {
+    if (file_ >= 0) ::close(file_);
+    file_ = -1;
+  }
+
+  const std::string path_;
+  const bool writes_;
+  int file_ = -1;
 };
 
-int flags_of(Store::Access access) {
-  return SQLITE_OPEN_READWRITE | (access == Store::Access::write ? SQLITE_OPEN_CREATE : 0);
+// How SQLite is to open a store.
+struct Opening {
+  std::string name;
+  int flags;
+};
+
+// A path as SQLite takes it in a URI.
+std::string uri_of(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path) {
+    char escape[4];
+    std::snprintf(escape, sizeof escape, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    uri += c == '%' || c == '?' || c == '#' ? std::string(escape) : std::string(1, c);
+  }
+  return uri;
 }
 
-std::string existing(const std::string& path, Store::Access access) {
-  struct stat status {};
-  if (access != Store::Access::write && ::stat(path.c_str(), &status) != 0)
-    throw FileError(path + ": " + std::strerror(errno));
-  return path;
+// A store is written ahead while a campaign writes it, and a plain file otherwise. SQLite reads either
+// without writing, but for one that is to be written ahead and whose files for that are missing (a copy of
+// the file alone): that it must be told to take as it is.
+Opening reading(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path + ": " + std::strerror(errno));
+  char header[20] = {};
+  file.read(header, sizeof header);
+  struct stat ahead {};
+  const bool is_plain = header[19] != 2;
+  if (is_plain || ::stat((path + "-wal").c_str(), &ahead) == 0) return {path, SQLITE_OPEN_READONLY};
+  return {uri_of(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI};
+}
+
+Opening opening(const std::string& path, Store::Access access) {
+  if (path != kMemory && access != Store::Access::write) return reading(path);
+  return {path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
 }
 
 }  // namespace
@@ -94,22 +143,33 @@ std::string Stored::label() const {
 
 struct Store::Impl {
   Impl(const std::string& path, Access access)
-      : lock(path == kMemory || access == Access::read ? nullptr
-                                                       : std::make_unique<LockFile>(existing(path, access))),
-        connection(existing(path == kMemory ? kMemory : path, path == kMemory ? Access::write : access),
-                   flags_of(access)) {
-    set_up(access);
+      : path(path),
+        writes(access == Access::write),
+        lock(path == kMemory || access == Access::read ? nullptr : std::make_unique<LockFile>(path, access)),
+        connection(path, opening(path, access).name, opening(path, access).flags) {
+    set_up();
   }
+  ~Impl() {
+    if (!writes || path == kMemory) return;
+    // A plain file from here on, unless somebody is reading it.
+    if (in_transaction) sqlite3_exec(connection.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+    if (is_set_up)
+      sqlite3_exec(connection.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
-  void set_up(Access access) {
+  void set_up() {
     const auto pragma = [&](const char* sql) {
       Statement statement(connection, sql);
       return statement.step() ? statement.integer() : 0;
     };
     const bool is_empty = pragma("SELECT count(*) FROM sqlite_master") == 0;
-    if (!is_empty || access != Access::write) check(pragma);
+    if (!is_empty || !writes) check(pragma);
+    if (!writes) return connection.run("BEGIN");  // all that is read is of one moment
+    is_set_up = true;
     connection.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
-    if (is_empty && access == Access::write) {
+    if (is_empty) {
       const std::string mark = "BEGIN; PRAGMA application_id = " + std::to_string(kApplication) +
                                "; PRAGMA user_version = " + std::to_string(kFormat) + ';';
       connection.run((mark + kSchema + "COMMIT;").c_str());
@@ -132,9 +192,11 @@ struct Store::Impl {
     in_transaction = true;
   }
 
+  const std::string path;
+  const bool writes;
   std::unique_ptr<LockFile> lock;
   Connection connection;
-  bool in_transaction = false;
+  bool is_set_up = false, in_transaction = false;
 };
 
 Store::Store(const std::string& path, Access access) : impl_(std::make_unique<Impl>(path, access)) {}

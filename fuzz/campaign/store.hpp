@@ -1,5 +1,5 @@
-// Where campaigns are kept: one SQLite file, written ahead, so that whoever is killed loses at most what was
-// not yet committed, and never the file.
+// Where campaigns are kept: one SQLite file, written ahead while a campaign writes it, so that whoever is
+// killed loses at most what was not yet committed, and never the file.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,8 @@ class Store {
  public:
   enum class Access {
     write,    ///< makes the file if there is none; nobody else may write
-    read,     ///< while another process may write
-    settled,  ///< to read what nobody else may be writing
+    read,     ///< changes and makes no file; another process may write meanwhile
+    settled,  ///< the same, of what nobody else may be writing
   };
 
   /// The path ":memory:" is a store that goes with this object.
@@ -88,7 +88,7 @@ class StoreJournal final : public Journal {
 
 /// Puts the campaigns of some shards together in an empty store. If the shards are all there and equally far,
 /// the result is what one run would have stored, and can be gone on with. Throws InputError, naming the
-/// stores, if they are not shards of the same campaigns.
+/// stores, if they are not shards of the same campaigns, or one is named twice.
 void merge(const std::vector<std::string>& paths, Store& into);
 
 }  // namespace lorentz::fuzz

@@ -1,6 +1,7 @@
 // Shards put together: tallies add up, and of the findings of each sort the first are kept, as one run would
 // have kept them.
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <tuple>
@@ -42,6 +43,16 @@ std::string difference(const Manifest& a, const Manifest& b) {
   if (number_of_shards(a.shard) != number_of_shards(b.shard) || number_of_shards(a.shard).empty())
     return "shard " + a.shard + " and " + b.shard;
   return {};
+}
+
+// By whatever names: links count.
+void check_names(const std::vector<std::string>& paths) {
+  std::error_code error;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::filesystem::equivalent(paths[i], paths[j], error))
+        throw InputError(paths[i] == paths[j] ? paths[i] + ": is given twice"
+                                              : paths[j] + " and " + paths[i] + " are the same store");
 }
 
 void check(const std::vector<Shard>& shards) {
@@ -86,6 +97,7 @@ std::vector<Finding> kept_of(const std::vector<Shard>& shards, std::size_t c) {
 }  // namespace
 
 void merge(const std::vector<std::string>& paths, Store& into) {
+  check_names(paths);
   if (!into.campaigns().empty()) throw InputError(into.path() + ": is not empty; merge into a new store");
   std::vector<Shard> shards;
   std::vector<std::unique_ptr<Store>> stores;

@@ -97,7 +97,7 @@ TEST_CASE("What a campaign found is exported as a golden set, which check and ve
   CHECK(set.status == 0);
   CHECK(contains(set.out, "\"generator\":\"lorentz fuzz --engine published --seed 20161115"));
   CHECK(contains(set.out, "\"tags\":[\"published-faults\",\"wrong\"]"));
-  const std::string file = folder.write("set.ndjson", set.out);
+  const std::string file = folder.write("findings.ndjson", set.out);
   const Run verify = folder.lorentz("golden verify --walk " + file);
   INFO(verify.out << verify.err);
   CHECK(verify.status == 0);
@@ -107,6 +107,16 @@ TEST_CASE("What a campaign found is exported as a golden set, which check and ve
       folder.run(std::string(LORENTZ_PYTHON) + " " + LORENTZ_SOURCE_DIR + "/data/check.py " + file);
   CHECK(check_py.status == 0);
   CHECK(contains(check_py.out, "all verified"));
+  const Run all = folder.lorentz("fuzz export --all" + store);
+  folder.lorentz("fuzz -e certified -t grazing,tie --count 1 --store " + folder.file("none"));
+  const Run none = folder.lorentz("fuzz export --store " + folder.file("none"));
+  for (const std::string& lines : {set.out, all.out, none.out}) {
+    const std::string written = folder.write("findings.ndjson", lines);
+    const Run schema = folder.run(std::string(LORENTZ_DEBIAN_PYTHON) + " " + LORENTZ_SOURCE_DIR +
+                                  "/tests/golden/golden_schema_test.py " + written);
+    INFO(schema.out << schema.err);
+    CHECK(schema.status == 0);
+  }
 }
 
 TEST_CASE("It says which layers decided, and who judged", "[fuzz][fuzz_command]") {

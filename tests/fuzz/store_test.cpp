@@ -2,8 +2,10 @@
 #include "fuzz/campaign/store.hpp"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include <lorentz/errors.hpp>
 #include "tests/fuzz/campaign_support.hpp"
@@ -39,6 +41,12 @@ fuzz::Finding finding() {
   f.complexity = 3210;
   f.tries = 99;
   return f;
+}
+
+std::set<std::string> names_in(const Folder& folder) {
+  std::set<std::string> names;
+  for (const auto& one : fs::directory_iterator(folder.file(""))) names.insert(one.path().filename());
+  return names;
 }
 
 std::string message_of(const std::function<void()>& act) {
@@ -106,6 +114,98 @@ TEST_CASE("Two writers are refused, with what to do; also another process", "[fu
     CHECK(folder.lorentz("fuzz list --store " + path).status == 0);
   }
   CHECK(folder.lorentz("fuzz -t grazing --count 1 --store " + path).status == 0);
+  const Store settled(path, Store::Access::settled);
+  CHECK(names_in(folder) == std::set<std::string>{"err", "out", "store"});
+}
+
+TEST_CASE("A store that nobody writes is one file, and stays as it is when it is read", "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store");
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+    store.put(1, finding());
+    store.commit();
+    CHECK(names_in(folder) == std::set<std::string>{"store", "store-shm", "store-wal", "store.lock"});
+  }
+  CHECK(names_in(folder) == std::set<std::string>{"store"});
+  const std::string before = folder.read("store");
+  CHECK(before.substr(18, 2) == "\1\1");  // SQLite: not to be written ahead
+  for (const auto access : {Store::Access::read, Store::Access::settled})
+    CHECK(Store(path, access).findings().size() == 1);
+  CHECK(folder.read("store") == before);
+  CHECK(names_in(folder) == std::set<std::string>{"store"});
+}
+
+TEST_CASE("What a killed campaign left is read, and left", "[fuzz][store]") {
+  const Folder folder;
+  Store store(folder.file("store"), Store::Access::write);
+  store.open_campaign(manifest());
+  store.put(1, finding());
+  store.commit();
+  for (const std::string end : {"", "-wal", "-shm"}) fs::copy(store.path() + end, folder.file("left" + end));
+  const auto before = names_in(folder);
+  const std::string ahead = folder.read("left-wal");
+  REQUIRE(ahead.size() > 1000);
+  CHECK(Store(folder.file("left"), Store::Access::read).findings().size() == 1);
+  CHECK(names_in(folder) == before);
+  CHECK(folder.read("left-wal") == ahead);
+}
+
+TEST_CASE("A store that is to be written ahead is read without the files for that", "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("a ?#% b");
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+  }
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(path.c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+  CHECK(Store(path, Store::Access::read).campaigns().size() == 1);
+  CHECK(names_in(folder) == std::set<std::string>{"a ?#% b"});
+}
+
+TEST_CASE("A store is read where nothing may be written", "[fuzz][store]") {
+  const Folder folder;
+  const std::string inner = folder.file("inner"), path = inner + "/store";
+  fs::create_directory(inner);
+  const auto is_read = [&] {
+    const auto all = fs::perms::all;
+    fs::permissions(inner + "/..", fs::perms(0755));
+    for (const auto& one : fs::directory_iterator(inner)) fs::permissions(one, fs::perms(0444));
+    fs::permissions(inner, fs::perms(0555));
+    const uid_t user = geteuid();
+    if (user == 0) REQUIRE(seteuid(65534) == 0);  // who may write everywhere would prove nothing
+    const std::string message = message_of([&] {
+      if (Store(path, Store::Access::read).findings().size() != 1)
+        throw std::runtime_error("nothing is in it");
+    });
+    if (user == 0) REQUIRE(seteuid(user) == 0);
+    fs::permissions(inner, all);
+    for (const auto& one : fs::directory_iterator(inner)) fs::permissions(one, fs::perms(0644));
+    return message;
+  };
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+    store.put(1, finding());
+    store.commit();
+    CHECK(is_read() == "nothing was thrown");  // while a campaign writes
+  }
+  CHECK(is_read() == "nothing was thrown");
+}
+
+TEST_CASE("What is no store leaves nothing beside it", "[fuzz][store]") {
+  const Folder folder;
+  const std::string text = folder.write("text", "this is no database " + std::string(2000, 'x'));
+  CHECK(folder.lorentz("fuzz --count 1 -t grazing --store " + text).status == 3);
+  CHECK(folder.lorentz("fuzz list --store " + text).status == 3);
+  CHECK(folder.lorentz("fuzz list --store " + folder.file("absent")).status == 3);
+  CHECK(folder.lorentz("fuzz merge " + text + " -o " + folder.file("merged")).status == 3);
+  CHECK(folder.lorentz("fuzz merge " + folder.file("absent") + " -o " + folder.file("merged")).status == 3);
+  CHECK(names_in(folder) == std::set<std::string>{"err", "out", "text"});
 }
 
 TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
@@ -156,6 +256,10 @@ TEST_CASE("Only shards of one campaign are merged", "[fuzz][store]") {
   CHECK(contains(message(store_with("f", manifest("1/3"))), "shard 0/2 and 1/3"));
   CHECK(contains(message(store_with("g", manifest("0/2"))), "are the same shard, 0/2"));
   CHECK(message(store_with("h", manifest("1/2"))) == "nothing was thrown");
+  CHECK(contains(message(first), first + ": is given twice"));
+  fs::create_symlink(first, folder.file("link"));
+  CHECK(
+      contains(message(folder.file("link")), first + " and " + folder.file("link") + " are the same store"));
   { Store empty(folder.file("i"), Store::Access::write); }
   CHECK(contains(message(folder.file("i")), "different campaigns"));
 }
