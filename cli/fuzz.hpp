@@ -21,11 +21,19 @@ struct FuzzReport {
   std::vector<std::string> targets;
   std::vector<fuzz::TargetTally> tallies;  ///< one for each target
   std::vector<fuzz::Stored> findings;      ///< of this campaign
+  bool is_stored = true;                   ///< else text() has all that will be left of the findings
 
   std::uint64_t total(fuzz::Kind kind) const;
   std::string text() const;
   std::string json() const;
+
+  /// The parts of both that say what was asked, and how much of it.
+  std::string target_table() const;
+  std::string json_of_targets() const;  ///< the members, without braces
 };
+
+/// A campaign as it stands in the store, with its findings.
+FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);
 
 /// The findings of one cause: how many, of which targets, and the simplest of them.
 struct Cause {
@@ -35,10 +43,13 @@ struct Cause {
   const fuzz::Stored* simplest = nullptr;
 };
 
-/// By cause, in the order of their names.
+/// By cause: what is wrong first (fuzz::rank_of), then in the order of their names.
 std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings);
 
 std::string table_of(const std::vector<Cause>& causes);
+
+/// A case in lines, with what is said of it.
+std::string text_of(const fuzz::CaseText& text);
 
 /// A finding as one JSON object; its lines are in it as they stand in streams.
 std::string json_of(const fuzz::Stored& finding);

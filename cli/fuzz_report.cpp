@@ -19,8 +19,9 @@ std::uint64_t number_of(const TargetTally& tally, Kind kind) {
   return tally.kinds[static_cast<std::size_t>(kind)];
 }
 
-constexpr Kind kCounted[] = {Kind::wrong, Kind::wrong_time, Kind::undecided,
-                             Kind::slow,  Kind::error,      Kind::unsupported};
+// As in fuzz::rank_of.
+constexpr Kind kCounted[] = {Kind::wrong,     Kind::wrong_time, Kind::error,
+                             Kind::undecided, Kind::slow,       Kind::unsupported};
 
 // Cases, without variants, that it answered in some way: the ones of which a rate can be said.
 std::uint64_t answered(const TargetTally& tally) {
@@ -32,25 +33,6 @@ std::string number(double value) {
   std::string out;
   append_number(out, value);
   return out;
-}
-
-std::string target_table(const FuzzReport& report) {
-  Table table({"target", "cases", "variants", "reworded", "wrong", "times", "undecided", "slow", "error",
-               "unsupported", "smallest margin"});
-  TargetTally all;
-  const auto add = [&](const std::string& name, const TargetTally& tally) {
-    std::vector<std::string> row{name, std::to_string(tally.cases), std::to_string(tally.variants),
-                                 std::to_string(tally.reworded)};
-    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(tally, kind)));
-    row.push_back(std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-");
-    table.add(std::move(row));
-  };
-  for (std::size_t t = 0; t < report.targets.size(); ++t) {
-    add(report.targets[t], report.tallies[t]);
-    all.add(report.tallies[t]);
-  }
-  if (report.targets.size() > 1) add("all", all);
-  return table.text();
 }
 
 // Which layers of the engine's ladder decided, where it tells: cases and variants.
@@ -82,28 +64,63 @@ std::string bounds(const FuzzReport& report) {
 
 }  // namespace
 
+FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
+  FuzzReport report;
+  report.manifest = campaign.manifest;
+  report.targets = compare::names_in({campaign.manifest.targets});
+  for (const std::string& target : report.targets) report.tallies.push_back(store.tally(campaign.id, target));
+  for (fuzz::Stored& one : store.findings())
+    if (one.campaign == campaign.id) report.findings.push_back(std::move(one));
+  return report;
+}
+
 std::uint64_t FuzzReport::total(Kind kind) const {
   std::uint64_t sum = 0;
   for (const TargetTally& tally : tallies) sum += number_of(tally, kind);
   return sum;
 }
 
-std::string FuzzReport::text() const {
-  std::string out =
-      fmt::format("{}, seed {}{}: cases, and variants of some, judged by {}\n\n{}\n{}{}", manifest.engine,
-                  manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
-                  manifest.options.ends_with("judged by certified") ? "certified" : "the oracle",
-                  target_table(*this), layers(*this), bounds(*this));
-  if (findings.empty()) return out + "no findings\n";
-  return out + table_of(causes_of(findings));
+std::string FuzzReport::target_table() const {
+  Table table({"target", "cases", "variants", "reworded", "wrong", "times", "error", "undecided", "slow",
+               "unsupported", "smallest margin"});
+  TargetTally all;
+  const auto add = [&](const std::string& name, const TargetTally& tally) {
+    std::vector<std::string> row{name, std::to_string(tally.cases), std::to_string(tally.variants),
+                                 std::to_string(tally.reworded)};
+    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(tally, kind)));
+    row.push_back(std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-");
+    table.add(std::move(row));
+  };
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    add(targets[t], tallies[t]);
+    all.add(tallies[t]);
+  }
+  if (targets.size() > 1) add("all", all);
+  return table.text();
 }
 
-std::string FuzzReport::json() const {
+std::string FuzzReport::text() const {
+  std::string out = fmt::format(
+      "{}, seed {}{}: cases, and variants of some, judged by {}\n\n{}\n{}{}", manifest.engine, manifest.seed,
+      manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
+      manifest.options.find("judged by certified") != std::string::npos ? "certified" : "the oracle",
+      target_table(), layers(*this), bounds(*this));
+  if (findings.empty()) return out + "no findings\n";
+  out += table_of(causes_of(findings));
+  if (is_stored) return out;
+  out += "\nthe simplest finding of each cause (--store FILE keeps all):\n";
+  for (const Cause& cause : causes_of(findings))
+    out += fmt::format("\n{}: {}\n{}", cause.simplest->label(), cause.name,
+                       text_of(cause.simplest->finding.shrunk));
+  return out;
+}
+
+std::string FuzzReport::json_of_targets() const {
   const auto seed = [](std::uint64_t n) {
     return n <= 1ull << 53 ? std::to_string(n) : json_quoted(std::to_string(n));
   };
   std::string out =
-      fmt::format("{{\"version\":{},\"engine\":{},\"seed\":{},\"shard\":{},\"options\":{},\"targets\":[",
+      fmt::format("\"version\":{},\"engine\":{},\"seed\":{},\"shard\":{},\"options\":{},\"targets\":[",
                   json_quoted(manifest.version), json_quoted(manifest.engine), seed(manifest.seed),
                   json_quoted(manifest.shard), json_quoted(manifest.options));
   for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -125,7 +142,11 @@ std::string FuzzReport::json() const {
     out += number_of(a, Kind::wrong) == 0 && n > 0 ? number(3.0 / static_cast<double>(n)) : "null";
     out += '}';
   }
-  out += "],\"causes\":[";
+  return out + ']';
+}
+
+std::string FuzzReport::json() const {
+  std::string out = '{' + json_of_targets() + ",\"causes\":[";
   for (const Cause& cause : causes_of(findings))
     out += fmt::format("{}{{\"cause\":{},\"findings\":{},\"simplest\":{},\"bits\":{}}}",
                        out.back() == '[' ? "" : ",", json_quoted(cause.name), cause.findings,
@@ -147,6 +168,9 @@ std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings) {
   }
   std::vector<Cause> all;
   for (auto& [name, cause] : causes) all.push_back(std::move(cause));
+  std::stable_sort(all.begin(), all.end(), [](const Cause& a, const Cause& b) {
+    return fuzz::rank_of(a.simplest->finding.kind) < fuzz::rank_of(b.simplest->finding.kind);
+  });
   return all;
 }
 
@@ -157,6 +181,14 @@ std::string table_of(const std::vector<Cause>& causes) {
     table.add({cause.simplest->label(), std::to_string(cause.simplest->finding.bits),
                std::to_string(cause.findings), std::to_string(cause.targets.size()), cause.name});
   return table.text();
+}
+
+std::string text_of(const fuzz::CaseText& text) {
+  std::string out =
+      fmt::format("{}\n{}\nsays  {}\ntruth {}\n", text.scene, text.query, text.given, text.exact);
+  if (text.departs > 0) out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
+  if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
+  return out;
 }
 
 std::string json_of(const fuzz::Stored& stored) {

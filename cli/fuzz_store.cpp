@@ -44,16 +44,30 @@ std::string finding_table(const std::vector<Stored>& findings) {
   return table.text();
 }
 
+std::string json_of_list(const Store& store, const std::vector<Stored>& findings) {
+  std::string out = "{\"campaigns\":[";
+  for (const fuzz::Campaign& campaign : store.campaigns())
+    out += fmt::format("{}{{\"campaign\":{},{}}}", out.back() == '[' ? "" : ",", campaign.id,
+                       report_of(store, campaign).json_of_targets());
+  out += "],\"findings\":[";
+  for (const Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
+  return out + "]}\n";
+}
+
 int list(const Options& options) {
   const Store store(options.store, Store::Access::read);
-  const std::vector<Stored> findings = store.findings();
+  std::vector<Stored> findings = store.findings();
+  std::stable_sort(findings.begin(), findings.end(), [](const Stored& a, const Stored& b) {
+    return fuzz::rank_of(a.finding.kind) < fuzz::rank_of(b.finding.kind);
+  });
   if (options.json) {
-    std::string out = "{\"findings\":[";
-    for (const Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
-    print(out + "]}\n");
+    print(json_of_list(store, findings));
     return kDone;
   }
-  print(campaign_table(store) + '\n');
+  print(campaign_table(store));
+  for (const fuzz::Campaign& campaign : store.campaigns())
+    print(fmt::format("\ncampaign {}\n{}", campaign.id, report_of(store, campaign).target_table()));
+  print("\n");
   if (findings.empty())
     print("no findings\n");
   else
@@ -62,11 +76,7 @@ int list(const Options& options) {
 }
 
 std::string lines_of(const std::string& heading, const fuzz::CaseText& text) {
-  std::string out = fmt::format("\n{}\n{}\n{}\nsays  {}\ntruth {}\n", heading, text.scene, text.query,
-                                text.given, text.exact);
-  if (text.departs > 0) out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
-  if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
-  return out;
+  return '\n' + heading + '\n' + text_of(text);
 }
 
 std::string heading_of_shrunk(const fuzz::Finding& f) {
@@ -124,10 +134,11 @@ std::shared_ptr<Options> add_options(CLI::App* command) {
 }  // namespace
 
 void add_fuzz_store(CLI::App& fuzz, Action& action) {
-  CLI::App* command = fuzz.add_subcommand("list", "What a store holds: campaigns, and findings by cause.");
+  CLI::App* command = fuzz.add_subcommand(
+      "list", "What a store holds: campaigns, with the counters of their targets, and findings by cause.");
   auto options = add_options(command);
   command->add_flag("--all", options->all, "every finding");
-  command->add_flag("--json", options->json, "one JSON object with every finding");
+  command->add_flag("--json", options->json, "one JSON object with all campaigns and findings");
   command->callback([options, &action] { action = [options] { return list(*options); }; });
 
   command = fuzz.add_subcommand("show", "One finding: shrunk, and as it was found.");

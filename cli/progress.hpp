@@ -25,14 +25,22 @@ class Progress {
 
   /// `done` of the total are done; draws a few times a second, from the first second on.
   void at(std::size_t done) {
+    at(done, [] { return std::string(); });
+  }
+
+  /// With a note beside the bar, which is asked for when it is drawn.
+  template <class Note>
+  void at(std::size_t done, const Note& note) {
     if (!shown_ || done % stride_ != 0) return;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(200);
     constexpr std::size_t kWidth = 40;
-    const std::size_t full = total_ ? kWidth * done / total_ : kWidth;
-    std::fprintf(stderr, "\r%s [%s%s] %zu of %zu", what_.c_str(), std::string(full, '#').c_str(),
-                 std::string(kWidth - full, ' ').c_str(), done, total_);
+    const std::size_t full = total_ && done < total_ ? kWidth * done / total_ : kWidth;
+    std::string beside = note();
+    if (!beside.empty()) beside = ", " + beside;
+    std::fprintf(stderr, "\r%s [%s%s] %zu of %zu%s\033[K", what_.c_str(), std::string(full, '#').c_str(),
+                 std::string(kWidth - full, ' ').c_str(), done, total_, beside.c_str());
     drawn_ = true;
   }
 

@@ -187,6 +187,7 @@ void BatchRunner::pose(const Batch& batch, Questions& questions) {
   for (std::uint64_t index = batch.begin; index < batch.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index);
+    if (!plan_.scope.admits(base.scene)) continue;
     if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
       questions.as_made = &questions.add_context(*subject_, base.scene, plan_);
     SceneContext& context = *questions.as_made;
@@ -222,6 +223,7 @@ void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std:
     }
     const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
     auto& [rewording, context] = questions.other_words(plan_, *subject_, one, number);
+    if (!plan_.scope.admits(context->examiner.scene())) continue;
     auto reworded = rewording.reword(random, one.question.query);
     if (!reworded) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
@@ -245,6 +247,7 @@ std::optional<BatchRunner::Case> BatchRunner::in_other_digits(Random& random, co
   if (!misread) return std::nullopt;
   Examined examined;
   examined.kind = Kind::error;
+  examined.is_misreading = true;
   examined.given = Answer::error("read back otherwise: " + misread->line);
   examined.exact = one.question.exact;
   return Case{one.target, one.index, one.step, one.question, one.context, misread->notation, examined};
@@ -305,7 +308,6 @@ Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const 
   finding.text = text_of(label_of(finding), scene, one.question.query, examined);
   finding.text.margin = margin_of(one.context->margins(), one.question.query, examined.exact);
   take_for_shrunk(finding, scene, one.question.query, examined, finding.text.margin);
-  if (one.misread) finding.cause = kMisreading;
   if (one.misread || subject_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }

@@ -32,6 +32,20 @@ void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) 
 
 }  // namespace
 
+bool Scope::admits(const Scene& scene) const {
+  if (dimension != 0 && scene.dimension != dimension) return false;
+  if (scenes == Scenes::unit) return is_unit_scene(scene);
+  return scenes == Scenes::any || (scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
+                                   scene.lattices[0].atoms[0].is_ball());
+}
+
+bool Scope::meets(const Target& target, std::uint64_t seed) const {
+  constexpr std::uint64_t kScenes = 64;
+  for (std::uint64_t number = 0; number < kScenes; ++number)
+    if (admits(target.make(seed, number * kCasesPerScene).scene)) return true;
+  return false;
+}
+
 void TargetTally::add(const TargetTally& other) {
   cases += other.cases;
   variants += other.variants;

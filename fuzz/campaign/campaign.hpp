@@ -19,9 +19,26 @@
 
 namespace lorentz::fuzz {
 
+/// Which scenes a campaign keeps to: what an engine can do.
+struct Scope {
+  enum class Scenes {
+    any,
+    lattice,  ///< one lattice, with one ball
+    unit      ///< the same, square or cubic with spacing 1, the ball at the origin (is_unit_scene)
+  };
+  Scenes scenes = Scenes::any;
+  int dimension = 0;  ///< 2 or 3; 0: both
+
+  bool admits(const Scene& scene) const;
+  bool is_all() const { return scenes == Scenes::any && dimension == 0; }
+  /// Whether some of the first scenes of a target are within.
+  bool meets(const cases::Target& target, std::uint64_t seed) const;
+};
+
 /// All that findings depend on, but for the subject.
 struct Plan {
   std::vector<const cases::Target*> targets;
+  Scope scope;  ///< cases beyond are left out, and other words that lead there; shrinking stays within
   std::uint64_t seed = 0;
   std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
   Counts counts;

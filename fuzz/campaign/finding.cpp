@@ -132,6 +132,7 @@ std::string sort_of(const Scene& scene, const Query& query, const Examined& exam
 
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined) {
   std::string text(name_of(examined.kind));
+  if (examined.is_misreading) return text + ", read otherwise than written";
   const Answer &given = examined.given, &exact = examined.exact;
   if (examined.kind == Kind::wrong && given.outcome == Outcome::hit && exact.outcome == Outcome::hit)
     text += !given.time                 ? ", another obstacle"

@@ -67,10 +67,8 @@ std::string sort_of(const Scene& scene, const Query& query, const Examined& exam
 /// - the dimension, and the scene: unit lattice, lattice, several atoms, several lattices, with ellipsoids;
 /// - of the query: leaving (`from` matters), along an axis, in a plane of axes (3D), a far start, numbers
 ///   near the ends of the range.
+/// What is read back otherwise than it was written is one cause: a fault of the reader shows in one notation
+/// as in another, and in scenes of every kind.
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined);
-
-/// The cause of all that is read back otherwise than it was written: what a reader does wrong in one notation
-/// shows in others, and in scenes of every kind.
-inline constexpr std::string_view kMisreading = "error, read otherwise than written";
 
 }  // namespace lorentz::fuzz

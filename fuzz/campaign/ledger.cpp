@@ -46,7 +46,6 @@ Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std:
     : plan_(plan),
       count_(bounds.count),
       first_(bounds.first),
-      interrupted_(bounds.stop),
       most_ahead_(kAhead * threads),
       most_shrinking_(most_shrinking(plan, bounds, threads)),
       tallies_(tallies),
@@ -152,23 +151,20 @@ std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_
 
 // ---- taking back
 
-// After an interruption nothing counts: another program that answers may have been interrupted, too.
 void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
   Track& track = tracks_[done.batch.target];
-  const bool counts = !(interrupted_ && *interrupted_);
   track.seconds += done.seconds;
   if (const std::uint64_t cases = done.batch.end - done.batch.begin) {
     const double each = done.seconds / static_cast<double>(cases);
     track.usual = track.usual ? (*track.usual + each) / 2 : each;
     track.pending -= cases;
-    if (done.result && counts)
-      track.ready.emplace(done.batch.begin, std::pair(done.batch, std::move(*done.result)));
+    if (done.result) track.ready.emplace(done.batch.begin, std::pair(done.batch, std::move(*done.result)));
   } else {
     track.shrinking_seconds += done.seconds;
     ++track.shrinkings;
     --track.in_shrinking;
-    if (done.shrunk && counts) track.shrunk.push_back(std::move(*done.shrunk));
+    if (done.shrunk) track.shrunk.push_back(std::move(*done.shrunk));
   }
   changed_.notify_all();
 }

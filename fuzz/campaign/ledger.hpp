@@ -64,7 +64,6 @@ class Ledger final : public WorkSource {
   const Plan& plan_;
   const std::uint64_t count_;
   const bool first_;
-  const std::atomic<bool>* const interrupted_;
   const std::size_t most_ahead_;
   const double most_shrinking_;  // seconds, of one finding
   std::vector<TargetTally>& tallies_;

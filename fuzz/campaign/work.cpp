@@ -26,9 +26,9 @@ void Workers::work() {
       else
         done.result = runner.run(assignment->batch, assignment->known);
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      if (runner.subject_failed()) source_.subject_failed();
       source_.hand_in(std::move(done));
     }
-    if (runner.subject_failed()) source_.subject_failed();
   } catch (...) {
     source_.fail(std::current_exception());
   }

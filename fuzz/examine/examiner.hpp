@@ -61,6 +61,7 @@ struct Examined {
   double departs = 0;  ///< as in oracle::Judgement
   std::optional<double> work;
   std::optional<Stage> stage;
+  bool is_misreading = false;  ///< an error of the reader: nobody was asked
 };
 
 /// One scene and a subject in it.

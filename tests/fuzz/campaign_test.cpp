@@ -241,6 +241,81 @@ TEST_CASE("What the time cut short is shrunk to the end when there is time", "[f
   CHECK(text_of(store) == one_run(plan, 150, 1));
 }
 
+TEST_CASE("Nobody is asked about scenes beyond the scope: cases, other words, shrinking",
+          "[fuzz][campaign]") {
+  INFO("seed " << kSeed);
+  static fuzz::Scope scope;
+  static std::atomic<int> asked, beyond;
+  // Gives up, so that there is something to shrink.
+  class Careful final : public fuzz::Subject {
+   public:
+    void ask(const Query&) override {
+      ++asked;
+      if (!is_within_) ++beyond;
+      replies_.push_back({Answer::undecided(), {}});
+    }
+    std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+   private:
+    void change_scene(const Scene& scene) override { is_within_ = scope.admits(scene); }
+    bool is_within_ = true;
+    std::vector<fuzz::Reply> replies_;
+  };
+  using Scenes = fuzz::Scope::Scenes;
+  for (const auto& [scenes, dimension] :
+       {std::pair{Scenes::unit, 0}, {Scenes::lattice, 2}, {Scenes::any, 3}, {Scenes::unit, 2}}) {
+    Plan plan = plan_of({"generic", "mixture", "crystals"});
+    plan.scope = scope = {scenes, dimension};
+    fuzz::Store store(":memory:", fuzz::Store::Access::write);
+    asked = beyond = 0;
+    run_in(store, plan, 256, 2, [] { return std::make_unique<Careful>(); });
+    std::uint64_t cases = 0, reworded = 0;
+    for (const cases::Target* target : plan.targets) {
+      CHECK(store.tally(1, target->name()).next == 256);
+      cases += store.tally(1, target->name()).cases;
+      reworded += store.tally(1, target->name()).reworded;
+    }
+    CHECK(cases >= 64);
+    CHECK(cases < 3 * 256);
+    CHECK(reworded > 0);
+    CHECK(asked > 500);
+    CHECK(beyond == 0);
+    CHECK(store.findings().size() > 3);
+  }
+}
+
+TEST_CASE("What scopes admit", "[fuzz][campaign]") {
+  using Scenes = fuzz::Scope::Scenes;
+  Scene two = unit_scene(3, 0.2), stretched = unit_scene(2, 0.2);
+  two.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
+  stretched.lattices[0].vectors[0] = {2, 0};
+  const auto admitted = [&](const fuzz::Scope& scope) {
+    std::string text;
+    for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), stretched, two})
+      text += scope.admits(scene) ? '1' : '0';
+    return text;
+  };
+  CHECK(admitted({}) == "1111");
+  CHECK(admitted({Scenes::any, 3}) == "0101");
+  CHECK(admitted({Scenes::lattice, 0}) == "1110");
+  CHECK(admitted({Scenes::unit, 0}) == "1100");
+  CHECK(admitted({Scenes::unit, 3}) == "0100");
+}
+
+TEST_CASE("What is misread is of one cause, whatever it is", "[fuzz][campaign]") {
+  fuzz::Examined misread;
+  misread.kind = Kind::error;
+  misread.is_misreading = true;
+  const std::string cause = fuzz::cause_of(unit_scene(2, 0.2), {{0.5, 0}, {1, 0}, {}}, misread);
+  CHECK(cause == "error, read otherwise than written");
+  Scene other = unit_scene(3, 0.2);
+  other.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
+  const Query query{{0.5, 1e200, 0}, {1, 2, 3}, ObstacleId{}};
+  CHECK(fuzz::cause_of(other, query, misread) == cause);
+  misread.is_misreading = false;
+  CHECK(fuzz::cause_of(other, query, misread) != cause);
+}
+
 TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   Folder folder;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "cli/fuzz.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
 
@@ -20,22 +21,44 @@ std::string stored(const std::string& path) {
   return text_of(Store(path, Store::Access::read));
 }
 
-// Starts the program and kills it after a time, whatever it is at.
-void killed_after(std::chrono::milliseconds time, const std::vector<std::string>& arguments) {
+// Starts the program, and sends it a signal after a time, so many times, whatever it is at.
+Run signalled_after(const Folder& folder, std::chrono::milliseconds time, int signal,
+                    const std::vector<std::string>& arguments, int times = 1) {
+  const std::string out = folder.file("signalled.out"), err = folder.file("signalled.err");
   const pid_t child = fork();
   if (child == 0) {
+    setpgid(0, 0);
     std::vector<char*> argv{const_cast<char*>(LORENTZ_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    if (!std::freopen("/dev/null", "w", stdout)) _exit(126);
-    if (!std::freopen("/dev/null", "w", stderr)) _exit(126);
+    if (!std::freopen(out.c_str(), "w", stdout)) _exit(126);
+    if (!std::freopen(err.c_str(), "w", stderr)) _exit(126);
     execv(LORENTZ_PROGRAM, argv.data());
     _exit(127);
   }
-  std::this_thread::sleep_for(time);
-  kill(child, SIGKILL);
+  for (int i = 0; i < times; ++i) {
+    std::this_thread::sleep_for(time);
+    kill(-child, signal);
+  }
   int status = 0;
   waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder.read("signalled.out"),
+          folder.read("signalled.err")};
+}
+
+// Not if it has ended, though nobody may have asked yet how.
+bool is_running(int pid) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  std::string number, name, state;
+  std::ifstream("/proc/" + std::to_string(pid) + "/stat") >> number >> name >> state;
+  return !state.empty() && state != "Z";
+}
+
+// How often a text has a part.
+int number_of(const std::string& part, const std::string& text) {
+  int number = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++number;
+  return number;
 }
 
 }  // namespace
@@ -54,6 +77,14 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   const Run list = folder.lorentz("fuzz list --all" + store);
   CHECK(list.status == 0);
   CHECK(contains(list.out, "1/published-faults/0 "));
+  CHECK(contains(list.out, "campaign 1\ntarget "));
+  CHECK(contains(list.out, "published-faults     32 "));
+  const int findings = number_of("\n1/", list.out);
+  CHECK(findings > 3);
+  const Run list_json = folder.lorentz("fuzz list --json" + store);
+  CHECK(contains(list_json.out, "{\"campaigns\":[{\"campaign\":1,\"version\":\""));
+  CHECK(contains(list_json.out, "{\"target\":\"published-faults\",\"next\":32,\"cases\":32,"));
+  CHECK(number_of("\"id\":\"1/", list_json.out) == findings);
   const Run show = folder.lorentz("fuzz show 1/published-faults/0" + store);
   CHECK(show.status == 0);
   CHECK(contains(show.out, "as found:\n{\"scene\":"));
@@ -82,10 +113,8 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   const Run compare =
       folder.lorentz("compare --json -e published,oracle --queries " + folder.file("queries"));
   CHECK(compare.status == 1);
-  CHECK(contains(compare.out,
-                 "\"engine\":\"published\",\"queries\":" + std::to_string(lines(list.out) - 6) + ","));
-  CHECK(
-      contains(compare.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":" + std::to_string(lines(list.out) - 6)));
+  CHECK(contains(compare.out, "\"engine\":\"published\",\"queries\":" + std::to_string(findings) + ","));
+  CHECK(contains(compare.out, "\"agree\":0,\"ill_posed\":0,\"wrong\":" + std::to_string(findings)));
 }
 
 TEST_CASE("What a campaign found is exported as a golden set, which check and verify take",
@@ -215,7 +244,7 @@ TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had nev
   with_store.insert(with_store.end(), {"--store", folder.file("killed")});
   std::uint64_t next = 0;
   for (const int milliseconds : {600, 30, 700}) {
-    killed_after(std::chrono::milliseconds(milliseconds), with_store);
+    signalled_after(folder, std::chrono::milliseconds(milliseconds), SIGKILL, with_store);
     const Store store(folder.file("killed"), Store::Access::read);
     const std::uint64_t now = store.tally(1, "leaving").next;
     CHECK(now >= next);
@@ -225,6 +254,95 @@ TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had nev
   WARN("killed at " << next << " of 2500");
   folder.lorentz(line + "--store " + folder.file("killed"));
   CHECK(stored(folder.file("killed")) == once);
+}
+
+TEST_CASE("Interrupted, a campaign reports what it has, and says how to go on", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string store = folder.file("a store");
+  const Run run = signalled_after(folder, std::chrono::milliseconds(1500), SIGINT,
+                                  {"fuzz", "-e", "published", "-t", "published-faults", "--ulps", "8",
+                                   "--no-undecided", "--time", "20", "--store", store});
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "wrong, an obstacle passed over"));
+  const std::string before = "interrupted; this goes on: lorentz ";
+  REQUIRE(contains(run.err, before));
+  std::string command = run.err.substr(run.err.find(before) + before.size());
+  CHECK(command ==
+        "fuzz --engine published --target published-faults --time 20 --ulps 8 --no-undecided "
+        "--store '" +
+            store + "'\n");
+  command.replace(command.find("--time 20"), 9, "--time 0.1");
+  const Run again = folder.lorentz(command.substr(0, command.size() - 1));
+  CHECK(contains(again.err, "goes on with campaign 1"));
+
+  // A second Ctrl-C does not wait for an engine that is silent, and leaves none behind.
+  const std::string note = folder.file("pid");
+  const Run silent = signalled_after(
+      folder, std::chrono::milliseconds(1000), SIGINT,
+      {"fuzz", "-t", "grazing", "--time", "20", "-e", "cmd:echo $$ > " + note + "; exec sleep 60"}, 2);
+  CHECK(silent.status == -1);
+  REQUIRE(std::stoi(folder.read("pid")) > 1);
+  CHECK_FALSE(is_running(std::stoi(folder.read("pid"))));
+}
+
+TEST_CASE("Where stderr is no terminal a line there says now and then how it goes", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = "fuzz -e certified -t grazing,tie --time 1";
+  const Run run = folder.lorentz(what + " --progress 0.3");
+  INFO(run.err);
+  CHECK(lines(run.err) >= 2);
+  CHECK(lines(run.err) <= 3);
+  CHECK(contains(run.err, "lorentz: 1 of 1 s: "));
+  CHECK(contains(run.err, " cases, 0 findings, 2 of 2 targets\n"));
+  CHECK(folder.lorentz(what).err.empty());  // one a minute
+}
+
+TEST_CASE("What is wrong comes first; without a store the simplest of each cause is printed",
+          "[fuzz][fuzz_command]") {
+  std::vector<fuzz::Stored> findings;
+  for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"}) {
+    findings.push_back({1, {}});
+    findings.back().finding.kind = kind;
+    findings.back().finding.cause = kind;
+  }
+  findings.push_back(findings.back());
+  findings.back().finding.cause = "another cause";
+  std::vector<std::string> names;
+  for (const cli::Cause& cause : cli::causes_of(findings)) names.push_back(cause.name);
+  CHECK(names ==
+        std::vector<std::string>{"another cause", "wrong", "wrong time", "error", "undecided", "slow"});
+
+  const Folder folder;
+  const std::string what = "fuzz -e published -t published-faults --count 32 --no-undecided";
+  const Run without = folder.lorentz(what);
+  const Run with = folder.lorentz(what + " --store " + folder.file("store"));
+  CHECK(without.out.find(with.out) == 0);
+  CHECK(number_of("\n1/", without.out) == 2 * number_of("\n1/", with.out));
+  CHECK(number_of("\n{\"scene\":", without.out) == number_of("\n1/", with.out));
+  CHECK(number_of("\nsays  {", without.out) == number_of("\n1/", with.out));
+  CHECK(number_of("\ntruth {", without.out) == number_of("\n1/", with.out));
+}
+
+TEST_CASE("A campaign keeps to the scenes that it is for, and is another one for others",
+          "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string what = "fuzz -e published --count 64 --no-undecided --store " + folder.file("store");
+  const Run first = folder.lorentz(what + " -t leaving,generic --scenes unit --dimension 2 --json");
+  CHECK(contains(folder.lorentz(what + " -t leaving,generic --dimension 2 --scenes unit").err,
+                 "goes on with campaign 1"));
+  CHECK(contains(first.out, ", 2D, scenes unit"));
+  CHECK(folder.lorentz(what + " -t leaving,generic --scenes lattice").err.empty());
+  const Run list = folder.lorentz("fuzz list --json --store " + folder.file("store"));
+  CHECK(contains(list.out, ", 2D, scenes unit\""));
+  CHECK(contains(list.out, ", scenes lattice\""));
+  CHECK(contains(list.out, "\"campaign\":2,"));
+  const Run plane = folder.lorentz("fuzz -e certified --count 64 -t generic --dimension 2 --json");
+  CHECK(contains(plane.out, R"("target":"generic","next":64,"cases":32,)"));  // the others are in space
+  // Of all targets those that have such scenes.
+  const Run all = folder.lorentz("fuzz -e published --count 1 --scenes unit --no-undecided --json");
+  CHECK(contains(all.out, "\"target\":\"leaving\""));
+  CHECK_FALSE(contains(all.out, "\"target\":\"superpositions\""));
 }
 
 TEST_CASE("Shards merged on the command line are one run", "[fuzz][fuzz_command]") {
@@ -320,6 +438,10 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--judge nobody", "--judge: \"nobody\" is none; there are oracle and certified");
   refused("--judge certified -e reduction", "certified rests on reduction, and is no judge of either");
   refused("--timeout 0", "--timeout: must be above zero");
+  refused("--dimension 4", "--dimension: \"4\" is no whole number from 2 to 3");
+  refused("--scenes cubes",
+          "--scenes: there are no scenes called \"cubes\"; there are unit, lattice and any");
+  refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");
   refused("list", "--store is required");
   refused("list --store " + folder.file("absent"), folder.file("absent") + ": No such file", 3);

@@ -142,20 +142,3 @@ TEST_CASE("What is wrong is shrunk first, and what was cut short when there is t
   bounds.seconds = 60;
   CHECK(order() == std::vector<std::uint64_t>{4, 3, 2, 1, 0});
 }
-
-TEST_CASE("What comes after an interruption does not count", "[fuzz][ledger]") {
-  const fuzz::Plan plan = plan_of({"generic"});
-  std::vector<fuzz::TargetTally> tallies(1);
-  NoJournal journal;
-  std::atomic<bool> interrupted = false;
-  fuzz::Bounds bounds;
-  bounds.stop = &interrupted;
-  fuzz::Ledger ledger(plan, bounds, 1, tallies, journal);
-  const fuzz::Assignment first = *ledger.take(1), second = *ledger.take(1);
-  ledger.hand_in(done_with(first.batch, 1));
-  interrupted = true;
-  ledger.hand_in(done_with(second.batch, 1, {"error"}));
-  ledger.record();
-  CHECK(tallies[0].next == 1);
-  CHECK(tallies[0].sorts.empty());
-}

@@ -1,0 +1,250 @@
+// lorentz fuzz: its options, and what they say.
+#include "cli/fuzz_options.hpp"
+
+#include <algorithm>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "compare/answerer.hpp"
+#include "compare/registry.hpp"
+
+namespace lorentz::cli {
+
+using namespace compare;
+
+namespace {
+
+fuzz::Scope scope_of(const FuzzOptions& options) {
+  using Scenes = fuzz::Scope::Scenes;
+  fuzz::Scope scope;
+  if (options.dimension)
+    scope.dimension = static_cast<int>(whole_number(*options.dimension, "--dimension", 2, 3));
+  if (options.scenes == "any") return scope;
+  if (options.scenes != "lattice" && options.scenes != "unit")
+    throw InputError(fmt::format("--scenes: there are no scenes called {}; there are unit, lattice and any",
+                                 json_quoted(options.scenes)));
+  scope.scenes = options.scenes == "unit" ? Scenes::unit : Scenes::lattice;
+  return scope;
+}
+
+std::string name_of(fuzz::Scope::Scenes scenes) {
+  return scenes == fuzz::Scope::Scenes::unit ? "unit" : "lattice";
+}
+
+// Of those that are named each must have such scenes; of all, those that have.
+std::vector<const cases::Target*> within(const fuzz::Scope& scope, std::uint64_t seed, bool are_named,
+                                         std::vector<const cases::Target*> targets) {
+  if (scope.is_all()) return targets;
+  std::vector<const cases::Target*> kept;
+  for (const cases::Target* target : targets) {
+    if (scope.meets(*target, seed))
+      kept.push_back(target);
+    else if (are_named)
+      throw InputError(
+          fmt::format("--target: {} has no such scenes as --scenes and --dimension ask for", target->name()));
+  }
+  if (kept.empty()) throw InputError("no target has such scenes as --scenes and --dimension ask for");
+  return kept;
+}
+
+std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
+  std::vector<std::string> names;
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
+  std::vector<const cases::Target*> targets;
+  for (const std::string& name : names_in(options.targets)) {
+    const cases::Target* target = cases::target_named(name);
+    if (!target)
+      throw InputError(fmt::format("--target: no target is called {}; there are {}", json_quoted(name),
+                                   fmt::join(names, ", ")));
+    if (std::find(targets.begin(), targets.end(), target) != targets.end())
+      throw InputError(fmt::format("--target: {} is named twice", name));
+    targets.push_back(target);
+  }
+  if (targets.empty())
+    for (const cases::Target& target : cases::targets()) targets.push_back(&target);
+  return targets;
+}
+
+void set_shard(const std::string& text, fuzz::Plan& plan) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos)
+    throw InputError(
+        fmt::format("--shard: {} is not I/N, like 0/4 for the first of four", json_quoted(text)));
+  plan.shards = whole_number(text.substr(slash + 1), "--shard", 1, 1'000'000);
+  plan.shard = whole_number(text.substr(0, slash), "--shard", 0, plan.shards - 1);
+}
+
+fuzz::Truth truth_of(const FuzzOptions& options) {
+  if (options.judge == "oracle") return fuzz::Truth::oracle;
+  if (options.judge != "certified")
+    throw InputError(
+        fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(options.judge)));
+  if (traits_of(options.engine).uses_reduction)
+    throw InputError("--judge: certified rests on reduction, and is no judge of either; use oracle");
+  return fuzz::Truth::certified;
+}
+
+}  // namespace
+
+fuzz::Plan plan_of(const FuzzOptions& options) {
+  fuzz::Plan plan;
+  plan.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  plan.scope = scope_of(options);
+  plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));
+  set_shard(options.shard, plan);
+  plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
+  plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
+  plan.reword = whole_number(options.reword, "--reword", 0, 1'000'000'000);
+  plan.truth = truth_of(options);
+  plan.counts.times = options.times;
+  plan.counts.undecided =
+      options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
+  plan.counts.ulps = tolerance(options.ulps);
+  return plan;
+}
+
+fuzz::Bounds bounds_of(const FuzzOptions& options) {
+  fuzz::Bounds bounds;
+  if (options.count) bounds.count = whole_number(*options.count, "--count", 1, kMostCases);
+  const auto seconds = positive_number(options.seconds, "--time");
+  if (seconds || !options.count) bounds.seconds = seconds.value_or(kDefaultSeconds);
+  bounds.first = options.first;
+  bounds.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  return bounds;
+}
+
+fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
+  fuzz::Manifest manifest;
+  manifest.version = LORENTZ_VERSION;
+  manifest.engine = engine;
+  for (const cases::Target* target : plan.targets)
+    manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
+  manifest.seed = plan.seed;
+  manifest.keep = plan.keep;
+  // Words of a store: another text would be another campaign, and "mutants" is what variants were called.
+  manifest.options =
+      fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.counts.ulps,
+                  plan.mutate, plan.reword, plan.keep, plan.counts.times ? ", times" : "",
+                  plan.counts.undecided ? "" : ", without undecided",
+                  plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
+  if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
+  if (plan.scope.scenes != fuzz::Scope::Scenes::any)
+    manifest.options += ", scenes " + name_of(plan.scope.scenes);
+  manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
+  return manifest;
+}
+
+std::string command_of(const FuzzOptions& o) {
+  const FuzzOptions usual;
+  std::string command = "lorentz fuzz";
+  const auto add = [&](const char* option, const std::string& value) {
+    command += fmt::format(" {} {}", option, shell_quoted(value));
+  };
+  const auto add_if = [&](const char* option, const std::optional<std::string>& value) {
+    if (value) add(option, *value);
+  };
+  const auto add_unless = [&](const char* option, const std::string& value, const std::string& by_default) {
+    if (value != by_default) add(option, value);
+  };
+  const auto add_flag = [&](const char* option, bool is_set) {
+    if (is_set) command += fmt::format(" {}", option);
+  };
+  add("--engine", o.engine);
+  for (const std::string& target : o.targets) add("--target", target);
+  add_if("--dimension", o.dimension);
+  add_unless("--scenes", o.scenes, usual.scenes);
+  add_if("--time", o.seconds);
+  add_if("--count", o.count);
+  add_unless("--seed", o.seed, usual.seed);
+  add_unless("--jobs", o.jobs, usual.jobs);
+  add_unless("--shard", o.shard, usual.shard);
+  add_unless("--keep", o.keep, usual.keep);
+  add_unless("--mutate", o.mutate, usual.mutate);
+  add_unless("--reword", o.reword, usual.reword);
+  add_unless("--judge", o.judge, usual.judge);
+  add_if("--ulps", o.ulps);
+  add_if("--timeout", o.timeout);
+  add_if("--progress", o.progress);
+  add_flag("--first", o.first);
+  add_flag("--times", o.times);
+  add_flag("--undecided", o.undecided);
+  add_flag("--no-undecided", o.no_undecided);
+  add_flag("--json", o.json);
+  add_if("--store", o.store);
+  return command;
+}
+
+void add_options(CLI::App* command, FuzzOptions& options) {
+  std::vector<std::string> names;
+  for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
+  command
+      ->add_option("-t,--target", options.targets,
+                   fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")))
+      ->type_name("T");
+  command
+      ->add_option("--dimension", options.dimension, "only scenes in the plane, or in space (default: both)")
+      ->type_name("2|3");
+  command
+      ->add_option("--scenes", options.scenes,
+                   "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
+                   "ball), lattice (one, with one ball), any")
+      ->capture_default_str()
+      ->type_name("S");
+  command->add_option("-e,--engine", options.engine, names_for_help())->capture_default_str()->type_name("E");
+  command->add_option("--time", options.seconds, "how long (default: 60, or until --count)")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--count", options.count,
+                   "until each target has had so many cases, its variants not counted, those that --scenes "
+                   "leaves out counted")
+      ->type_name("N");
+  command->add_option("--seed", options.seed, "of the cases")->capture_default_str()->type_name("N");
+  command
+      ->add_option("--jobs", options.jobs,
+                   "threads (of each process, under mpirun); the findings are the same")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--store", options.store, "where findings are kept and campaigns gone on with")
+      ->type_name("FILE");
+  command->add_option("--shard", options.shard, "only the indices I modulo N")
+      ->capture_default_str()
+      ->type_name("I/N");
+  command->add_option("--keep", options.keep, "findings of one sort that are kept and shrunk, of each target")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--mutate", options.mutate,
+                   "climb to smaller margins from one in so many cases; 0: from none")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--reword", options.reword,
+                   "ask one in so many cases, and its variants, in other words, too; 0: none")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option(
+          "--judge", options.judge,
+          "whose answers are the truth: oracle, or certified, which is faster and rests on reduction")
+      ->capture_default_str()
+      ->type_name("J");
+  command->add_flag("--first", options.first, "stop at the first finding");
+  command
+      ->add_option("--ulps", options.ulps,
+                   "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other")
+      ->type_name("K");
+  command->add_option("--timeout", options.timeout, kTimeoutHelp)->type_name("SECONDS");
+  command->add_flag("--times", options.times, "wrong times are findings, too");
+  CLI::Option* undecided = command->add_flag("--undecided", options.undecided,
+                                             "`undecided` is a finding (the default, but for reduction)");
+  command->add_flag("--no-undecided", options.no_undecided, "`undecided` is no finding")->excludes(undecided);
+  command
+      ->add_option("--progress", options.progress,
+                   "where stderr is no terminal: a line there each so many seconds (default: 60)")
+      ->type_name("SECONDS");
+  command->add_flag("--json", options.json, "one JSON object instead of tables");
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,36 @@
+// Private to cli/fuzz*.cpp: what the options of a campaign say.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/sampling.hpp"
+#include "fuzz/campaign/store.hpp"
+
+namespace lorentz::cli {
+
+inline constexpr double kDefaultSeconds = 60;
+inline constexpr std::uint64_t kMostCases = 1'000'000'000'000;
+
+struct FuzzOptions {
+  std::vector<std::string> targets;
+  std::optional<std::string> seconds, count, store, ulps, timeout, dimension, progress;
+  std::string engine = "reduction", seed = std::to_string(compare::kDefaultSeed), jobs = "1", shard = "0/1",
+              keep = "3", mutate = "32", reword = "1", judge = "oracle", scenes = "any";
+  bool json = false, first = false, times = false, undecided = false, no_undecided = false;
+};
+
+void add_options(CLI::App* command, FuzzOptions& options);
+
+/// What the options say. Each throws InputError, naming the option, if they say nothing.
+fuzz::Plan plan_of(const FuzzOptions& options);
+fuzz::Bounds bounds_of(const FuzzOptions& options);
+fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
+
+/// The command with these options, as a shell takes it.
+std::string command_of(const FuzzOptions& options);
+
+}  // namespace lorentz::cli
