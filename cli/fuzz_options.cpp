@@ -6,6 +6,7 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
 #include "compare/registry.hpp"
@@ -56,8 +57,8 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
   for (const std::string& name : names_in(options.targets)) {
     const cases::Target* target = cases::target_named(name);
     if (!target)
-      throw InputError(fmt::format("--target: no target is called {}; there are {}", json_quoted(name),
-                                   fmt::join(names, ", ")));
+      throw InputError(fmt::format("--target: no target is called {}{}; there are {}", json_quoted(name),
+                                   did_you_mean(name, names), fmt::join(names, ", ")));
     if (std::find(targets.begin(), targets.end(), target) != targets.end())
       throw InputError(fmt::format("--target: {} is named twice", name));
     targets.push_back(target);

@@ -6,6 +6,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
+#include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "compare/registry.hpp"
 
@@ -183,12 +184,27 @@ std::string table_of(const std::vector<Cause>& causes) {
   return table.text();
 }
 
+namespace {
+
+// By how much the obstacle in question is met or missed, where two answers stand against each other.
+std::string reason_in(const fuzz::CaseText& text) {
+  const fuzz::ReadCase one = fuzz::case_in(text);
+  const auto says_what = [](const Answer& answer) {
+    return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
+           answer.outcome == Outcome::never;
+  };
+  if (!says_what(one.given) || !says_what(one.exact)) return "";
+  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given, "");
+}
+
+}  // namespace
+
 std::string text_of(const fuzz::CaseText& text) {
   std::string out =
       fmt::format("{}\n{}\nsays  {}\ntruth {}\n", text.scene, text.query, text.given, text.exact);
   if (text.departs > 0) out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
   if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
-  return out;
+  return out + reason_in(text);
 }
 
 std::string json_of(const fuzz::Stored& stored) {

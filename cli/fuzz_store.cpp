@@ -139,6 +139,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   auto options = add_options(command);
   command->add_flag("--all", options->all, "every finding");
   command->add_flag("--json", options->json, "one JSON object with all campaigns and findings");
+  command->footer("Example:\n  lorentz fuzz list --store published.campaign");
   command->callback([options, &action] { action = [options] { return list(*options); }; });
 
   command = fuzz.add_subcommand("show", "One finding: shrunk, and as it was found.");
@@ -146,6 +147,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   auto id = std::make_shared<std::string>();
   command->add_option("ID", *id, "CAMPAIGN/TARGET/INDEX, as in the list")->required();
   command->add_flag("--json", options->json, "one JSON object");
+  command->footer("Example:\n  lorentz fuzz show 1/leaving/98.1 --store published.campaign");
   command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
 
   add_fuzz_export(fuzz, action);
@@ -154,6 +156,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   auto merging = std::make_shared<MergeOptions>();
   command->add_option("STORE", merging->stores, "stores of shards of one campaign")->required();
   command->add_option("-o,--output", merging->output, "the new store")->required()->type_name("FILE");
+  command->footer("Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign");
   command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });
 }
 

@@ -316,7 +316,9 @@ std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto is_late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; };
-  const auto [scene, query] = case_in(finding.text);
+  const ReadCase found = case_in(finding.text);
+  const Scene& scene = found.scene;
+  const Query& query = found.query;
   const LimitAt limit = limit_in(finding.words);
   const Examined examined = Examiner(*subject_, scene, plan_.counts.ulps, plan_.truth).examine(query, limit);
   finding.shrinking = Shrinking::done;

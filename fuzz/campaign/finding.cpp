@@ -88,6 +88,21 @@ StreamItem read(const std::string& line, const Scene* scene) {
   return item;
 }
 
+Answer read_answer(const std::string& line) {
+  static thread_local ExchangeReader reader;
+  const std::string padded = line + std::string(LineReader::kPadding, ' ');
+  Id id;
+  Answer answer;
+  std::size_t components;
+  try {
+    reader.read_answer_line({std::string_view(padded).substr(0, line.size()), 1, false}, id, answer,
+                            components);
+  } catch (const InputError&) {
+    throw FileError("the store holds an invalid answer: " + line);
+  }
+  return answer;
+}
+
 std::string answer_text(const std::string& id, const Answer& answer, int dimension) {
   std::string line;
   append_answer_line(line, id, answer, dimension);
@@ -110,8 +125,11 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
 }
 
 ReadCase case_in(const CaseText& text) {
-  ReadCase one{read(text.scene, nullptr).scene, {}};
+  ReadCase one;
+  one.scene = read(text.scene, nullptr).scene;
   one.query = read(text.query, &one.scene).query;
+  one.given = read_answer(text.given);
+  one.exact = read_answer(text.exact);
   return one;
 }
 

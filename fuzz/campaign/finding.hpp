@@ -51,6 +51,7 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
 struct ReadCase {
   Scene scene;
   Query query;
+  Answer given, exact;
 };
 
 /// Throws FileError if these are no lines of text_of().
