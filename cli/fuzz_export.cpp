@@ -89,7 +89,8 @@ void print_golden_set(const std::vector<Example>& examples, const std::vector<fu
   for (const Example& one : examples) {
     const fuzz::Finding& finding = one.stored->finding;
     if (finding.shrunk.scene != scene_line) maker.emplace(one.shrunk.scene);
-    const auto& [scene, query] = one.shrunk;
+    const Scene& scene = one.shrunk.scene;
+    const Query& query = one.shrunk.query;
     golden::Record record = maker->make(golden::question_of(query, scene.dimension), query).record;
     if (!ids.insert(record.id).second) continue;
     record.tags = {finding.target, tag_of(finding.kind)};

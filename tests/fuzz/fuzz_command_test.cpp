@@ -95,6 +95,7 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(show.out.find("shrunk to") < departs);
   CHECK(departs < margin);
   CHECK(margin < found);
+  CHECK(contains(show.out, " of its radii, and enters it first\n"));
   CHECK(show.out.find("departs by", found) != std::string::npos);
   CHECK(show.out.find("margin of the exact answer", found) != std::string::npos);
   const Run as_json = folder.lorentz("fuzz show 1/published-faults/0 --json" + store);
