@@ -5,8 +5,8 @@
 // U is no short number, n itself is off in the last bits of the quotient: near the boundary between two cells
 // by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour's. So:
 // radii within 2^-1 to 2^-40 of half the cell, starts midway between two neighbours or on an obstacle's edge
-// towards the next, the other coordinates exactly or nearly those of a row of centres; and every other time
-// just so far out that a quotient errs by about the gap between the obstacles.
+// towards the next, the other coordinates exactly or nearly those of a row of centres; and mostly just so far
+// out that a quotient errs by about the gap between the obstacles.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ namespace {
 Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   const int dimension = drawn.one_in(3) ? 2 : 3;
   const double size = drawn.one_in(2) ? drawn.between(0.5, 2) : drawn.octave(-20, 20);
-  const bool box = drawn.one_in(2);
+  const bool box = !drawn.one_in(4);
   tags.push_back(box ? "box" : "crystal");
   if (!box) {
     Scene scene = drawn_crystal(drawn, dimension).scene;
@@ -74,12 +74,12 @@ Case make_far_start(Source& source) {
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   const Vec& u = lattice.vectors[along];
   const double gap = gap_along(u, atom);
-  const bool matching = random.one_in(2);
+  const bool matching = !random.one_in(4);
   if (matching) made.tags.push_back("matching");
   const auto bits =
       static_cast<int>(matching ? matching_distance(gap) + random.integer(-1, 0) : random.integer(10, 50));
   const IntVec cell = drawn_cell(random, dimension, along, bits, made.tags);
-  const bool midway = random.one_in(2) || !atom.is_ball();
+  const bool midway = !random.one_in(4) || !atom.is_ball();
   made.tags.push_back(midway ? "midway" : "edge");
   const double off = random.one_in(4)   ? 0
                      : random.one_in(4) ? random.octave(-40, -6)
