@@ -54,7 +54,7 @@ std::string others_of(const Tally& t) {
   add(t.ill_posed, "ill-posed");
   add(t.undecided, "undecided");
   add(t.unsupported, "unsupported");
-  add(t.error, "errors");
+  add(t.error, t.error == 1 ? "error" : "errors");
   add(t.missing, "missing");
   return text;
 }
@@ -71,13 +71,13 @@ std::string verdict_of(const Tally& t) {
   text += others_of(t);
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
-  return text +
-         fmt::format(
-             "\n  {} wrong times of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} "
-             "(largest);\n"
-             "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
-             t.wrong_time, at(t.wrong_ulps, 0.5), at(t.wrong_ulps, 0.99), at(t.wrong_ulps, 1),
-             at(t.wrong_conditions, 0.5), at(t.wrong_conditions, 0.99), at(t.wrong_conditions, 1));
+  return text + fmt::format(
+                    "\n  {} of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} "
+                    "(largest);\n"
+                    "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
+                    t.wrong_time == 1 ? "1 wrong time" : fmt::format("{} wrong times", t.wrong_time),
+                    at(t.wrong_ulps, 0.5), at(t.wrong_ulps, 0.99), at(t.wrong_ulps, 1),
+                    at(t.wrong_conditions, 0.5), at(t.wrong_conditions, 0.99), at(t.wrong_conditions, 1));
 }
 
 }  // namespace lorentz::cli

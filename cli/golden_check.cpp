@@ -255,11 +255,11 @@ std::string troubles(const Tally& t) {
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
   };
   add(t.wrong, "wrong");
-  add(t.wrong_time, "wrong times");
+  add(t.wrong_time, t.wrong_time == 1 ? "wrong time" : "wrong times");
   add(t.ill_posed, "ill-posed");
   add(t.undecided, "undecided");
   add(t.unsupported, "unsupported");
-  add(t.error, "errors");
+  add(t.error, t.error == 1 ? "error" : "errors");
   return text;
 }
 

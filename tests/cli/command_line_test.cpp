@@ -343,7 +343,7 @@ TEST_CASE("compare: a wrong time has its own column, and counts with --times onl
   CHECK(
       contains(json.out, R"("wrong_time":1,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
   CHECK(contains(logged(late, "").out, "mine: no wrong answer in 1 "));
-  CHECK(contains(logged(late, "").out, "  1 wrong times of right obstacles: off by "));
+  CHECK(contains(logged(late, "").out, "  1 wrong time of right obstacles: off by "));
   // Another quantity, such as the time to the obstacle's far side, is no time of that collision.
   const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
   CHECK(logged(through, "").status == 1);
