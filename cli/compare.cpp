@@ -226,7 +226,7 @@ int exit_status(const std::vector<Tally>& tallies, const Options& options, bool 
   if (bad_input) return kBadInput;
   for (const Tally& t : tallies)
     if (t.wrong > 0 || (options.times && t.wrong_time > 0) ||
-        (options.strict && t.ill_posed + t.undecided > 0))
+        (options.strict && t.ill_posed + t.undecided + t.error + t.missing > 0))
       return kDisagreement;
   return kDone;
 }
@@ -387,8 +387,9 @@ void add_compare(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("N");
   command->add_flag("--times", options->times, "wrong times count: exit status 1, and in --disagreements");
-  command->add_flag("--strict", options->strict,
-                    "exit status 1 also for ill-posed and undecided answers; unknown keys are errors");
+  command->add_flag(
+      "--strict", options->strict,
+      "exit status 1 also for ill-posed, undecided, missing answers and errors; unknown keys are errors");
   command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
   command->footer(
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/numbers.hpp"
 #include "cli/table.hpp"
 
@@ -64,10 +66,10 @@ std::string others_of(const Tally& t) {
 std::string verdict_of(const Tally& t) {
   const std::size_t answers = t.agree + t.ill_posed + t.wrong;
   if (answers == 0) return fmt::format("{}: no answer to judge{}", t.name, others_of(t));
-  std::string text = t.wrong
-                         ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
-                         : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)",
-                                       t.name, answers, 300.0 / static_cast<double>(answers));
+  std::string text =
+      t.wrong ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
+              : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)", t.name,
+                            answers, 100 * (1 - std::pow(0.05, 1.0 / static_cast<double>(answers))));
   text += others_of(t);
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };

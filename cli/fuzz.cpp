@@ -85,6 +85,14 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
   report.findings = findings_of(store, campaign);
   print(options.json ? report.json() : report.text());
   if (Interrupt::came()) say_how_to_go_on(options);
+  std::uint64_t cases = 0, indices = 0;
+  for (const fuzz::TargetTally& tally : report.tallies) cases += tally.cases, indices += tally.next;
+  if (cases == 0 && indices > 0 && !plan.scope.is_all()) {
+    say("no case was asked: none of the first indices has a scene for --dimension and --scenes; take a "
+        "larger "
+        "--count");
+    return kBadInput;
+  }
   return exit_status(report, options.times, failed);
 }
 

@@ -202,7 +202,10 @@ std::string reason_in(const fuzz::CaseText& text) {
 std::string text_of(const fuzz::CaseText& text) {
   std::string out =
       fmt::format("{}\n{}\nsays  {}\ntruth {}\n", text.scene, text.query, text.given, text.exact);
-  if (text.departs > 0) out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
+  if (std::isinf(text.departs))
+    out += "no error in the inputs explains it\n";
+  else if (text.departs > 0)
+    out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
   if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
   return out + reason_in(text);
 }

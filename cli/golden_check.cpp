@@ -47,7 +47,8 @@ struct SetTally {
   std::vector<std::pair<std::string, std::string>> notes;  // on the tags
   Tally all;
   std::map<std::string, Tally> by_tag;
-  bool failed = false;  // the program broke
+  bool failed = false;    // the program broke
+  bool given_up = false;  // so often that the sets after this one are not asked
 };
 
 // The right answer to an invalid query is `error`.
@@ -98,6 +99,7 @@ class Examination {
     }
     answerer_->drain();
     tally_.failed = answerer_->failed();
+    tally_.given_up = answerer_->given_up();
     return std::move(tally_);
   }
 
@@ -198,7 +200,7 @@ std::string describe(const Failure& failure) {
                      failure.id, shell_quoted(failure.set));
 }
 
-std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies) {
+std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies, std::size_t not_asked) {
   std::string out = fmt::format("{{\"engine\":{},\"sets\":[", json_quoted(engine));
   const auto counts = [](const Tally& t) {
     return fmt::format(
@@ -217,7 +219,7 @@ std::string json_of(const std::string& engine, const std::vector<SetTally>& tall
     }
     out += "}}";
   }
-  return out + "]}\n";
+  return out + fmt::format("],\"not_asked\":{}}}\n", not_asked);
 }
 
 // Of all sets together.
@@ -228,12 +230,13 @@ Tally total_of(const std::vector<SetTally>& tallies) {
 }
 
 void show(const std::string& engine, const std::vector<SetTally>& tallies,
-          const std::vector<Failure>& failures) {
+          const std::vector<Failure>& failures, std::size_t not_asked) {
   Table table(kColumns);
   for (const SetTally& set : tallies) {
     table.add(cells_of(set.all.name, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
+  if (not_asked > 0) table.add(cells_of(fmt::format("{} sets not asked", not_asked), "", {}));
   Tally total = total_of(tallies);
   table.add(cells_of("total", "", total));
   print(fmt::format("{}\n\n{}\n", engine, table.text()));
@@ -333,17 +336,17 @@ int act(const Options& options) {
     for (const std::string& file : files) {
       tallies.push_back(examination.run(file, options.id, first));
       records += tallies.back().all.queries;
-      if (!tallies.back().failed) continue;
+      if (!tallies.back().given_up) continue;
       if (tallies.size() < files.size())
-        say("{}: it broke; {} sets were not asked", engine, files.size() - tallies.size());
+        say("{}: given up; {} sets were not asked", engine, files.size() - tallies.size());
       break;
     }
     examination.finish();
     status = std::max(status, status_of(tallies, options.strict, options.times));
     if (options.json)
-      print(json_of(engine, tallies));
+      print(json_of(engine, tallies, files.size() - tallies.size()));
     else if (!options.markdown)
-      show(engine, tallies, examination.failures());
+      show(engine, tallies, examination.failures(), files.size() - tallies.size());
     else
       pages += faults_page(engine, tallies, examination.failures());
     all_tallies.push_back(std::move(tallies));

@@ -43,7 +43,19 @@ void report(const golden::Order& order, const golden::RecordCounts& counts) {
         answered, counts.walked);
 }
 
+// A file that is no golden set is not overwritten: it would be somebody's loss.
+void check_place(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
+  const std::string_view kBeginning = "{\"golden\"";
+  std::string start(kBeginning.size(), ' ');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != kBeginning)
+    throw InputError(path + ": is no golden set, and is left as it is; remove it, or name another file");
+}
+
 golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
+  check_place(path);
   Progress progress(order.set->name.c_str(), order.count, 1);
   return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
 }

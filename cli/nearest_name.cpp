@@ -22,6 +22,13 @@ std::size_t mistakes_between(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+std::string lower_case(std::string_view text) {
+  std::string small(text);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names) {
@@ -29,8 +36,9 @@ std::string nearest_name(std::string_view typed, const std::vector<std::string>&
   std::string nearest;
   std::size_t fewest = typed.size() / 3 + 1;
   if (typed.size() > kLongest) return nearest;
+  const std::string small = lower_case(typed);
   for (const std::string& name : names) {
-    const std::size_t mistakes = mistakes_between(typed, name);
+    const std::size_t mistakes = mistakes_between(small, lower_case(name));
     if (mistakes >= fewest && !(nearest.empty() && mistakes == 1 && typed.size() >= 2)) continue;
     fewest = mistakes;
     nearest = name;

@@ -64,6 +64,9 @@ class Answerer {
   /// stderr.
   virtual bool failed() const { return false; }
 
+  /// True if it broke so often that it is no longer asked about this scene.
+  virtual bool given_up() const { return false; }
+
  protected:
   void deliver(Answer& answer) { on_answer_(answer); }
 

@@ -40,6 +40,7 @@ class CommandEngine final : public Answerer {
   void finish() override;
   bool idle(int descriptor) override;
   bool failed() const override { return failed_; }
+  bool given_up() const override { return given_up_in_ != nullptr; }
 
  private:
   using Clock = std::chrono::steady_clock;

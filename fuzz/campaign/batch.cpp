@@ -331,8 +331,10 @@ std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
     finding.tries = shrunk.tries;
     if (!stop_ && !subject_->failed()) {
       const Examined after = fails.examine(shrunk.scene, shrunk.query);
-      take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
-                      margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
+      if (name_of(after.kind) ==
+          finding.kind)  // else it answers now like this, now like that: as it was found
+        take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
+                        margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
     }
   }
   replace_broken_subject();

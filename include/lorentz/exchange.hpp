@@ -18,8 +18,8 @@ namespace lorentz {
 using Id = std::string;
 
 /// Called with each key that the format does not have, as often as it comes; with its place if it is inside
-/// of another, "from.kell" or "lattices.atoms.colour". What it throws as an InputError makes the line, or the
-/// scene file, bad.
+/// of another, "from.kell" or "lattices.atoms.colour"; also with "a query in the line of a scene", where x, v
+/// and `from` mean nothing. What it throws as an InputError makes the line, or the scene file, bad.
 using OnUnknownKey = std::function<void(const std::string& key)>;
 
 /// What a line of a query stream turned out to be.

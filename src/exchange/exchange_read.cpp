@@ -229,6 +229,8 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
   close();
   if (!flaw.empty()) throw InputError(flaw);
   if (fields.scene) {
+    if (on_unknown_key && (fields.has_x || fields.has_v || fields.from))
+      on_unknown_key("a query in the line of a scene");
     item.scene = scene_from(*fields.scene, on_unknown_key);
     item.bad_scene = false;
     item.kind = StreamItem::Kind::scene;

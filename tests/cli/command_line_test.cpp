@@ -132,6 +132,11 @@ TEST_CASE("An unknown key is warned of once a stream; with --strict it is an err
       "compare --queries " + folder.write("g", kScene + kGood) + " --answers mine=" + answers;
   CHECK(contains(folder.lorentz(judged).err, "a:1: the key \"tiem\" is not known (did you mean time?)"));
   CHECK(folder.lorentz(judged + " --strict").status == 2);
+  const std::string both = kScene.substr(0, kScene.size() - 2) + R"(,"x":[0.5,0],"v":[1,0]})"
+                                                                 "\n";
+  CHECK(contains(folder.lorentz("first-hit " + folder.write("b", both)).err,
+                 "\"a query in the line of a scene\" is not known"));
+  CHECK(folder.lorentz("first-hit --strict " + folder.write("b", both)).status == 2);
   const auto scene = folder.write("s.toml", R"(dimension = 2
 lattices = [{vectors = [[1, 0], [0, 1]], atoms = [{position = [0, 0], radius = 0.25, raduis = 0.3}]}])");
   CHECK(

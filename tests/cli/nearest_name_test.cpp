@@ -11,6 +11,7 @@ TEST_CASE("The nearest name: one character too many, missing, wrong, or two exch
   for (const char* typed : {"compair", "comapre", "compre", "comparee", "conpare"})
     CHECK(nearest_name(typed, names) == "compare");
   CHECK(nearest_name("form", names) == "from");
+  CHECK(nearest_name("FROM", names) == "from");
   CHECK(nearest_name("godlen", names) == "golden");
   CHECK(nearest_name("convergent", names) == "convergents");
 }

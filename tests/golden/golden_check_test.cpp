@@ -124,7 +124,17 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   const Run sure = checked("a = {'id': a['id'], 'outcome': 'never'}", "bad-queries");
   CHECK(sure.status == 1);
   CHECK(contains(sure.out, "\"wrong\":115,"));
-  CHECK(folder.lorentz("golden check --engine 'cmd:exit 5' generic-2d --timeout 5").status == 3);
+  const Run dead = folder.lorentz("golden check --json --engine 'cmd:exit 5' generic-2d ties --timeout 5");
+  CHECK(dead.status == 3);
+  CHECK(contains(dead.err, "given up; 1 sets were not asked"));
+  CHECK(contains(dead.out, "\"not_asked\":1}"));
+  // One bad line is an error, and no reason to ask no further.
+  const Run once = checked("a = {'id': a['id'], 'outcome': 'nonsense'} if str(a['id']) == '3' else a",
+                           set + " ties --first 40");
+  CHECK(once.status == 3);
+  CHECK(contains(once.out, "\"error\":1"));
+  CHECK(contains(once.out, "\"set\":\"ties\""));
+  CHECK(contains(once.out, "\"not_asked\":0}"));
 }
 
 TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden][golden_check]") {
