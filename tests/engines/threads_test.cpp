@@ -38,7 +38,10 @@ struct Shared {
       answers.certified.push_back(certified.first_hit(query));
       answers.exact.push_back(oracle.first_hit(query));
       answers.walked.push_back(walk.first_hit(query));
-      answers.departs.push_back(judge.judge(query, answers.exact.back(), Answer::never()).departs);
+      // Whether there is a corridor nearby takes a thousand times as long as all of the above.
+      const bool asks_for_corridor = answers.exact.size() % 16 == 1;
+      const Answer other = asks_for_corridor ? Answer::never() : Answer::hit(ObstacleId{}, 1);
+      answers.departs.push_back(judge.judge(query, answers.exact.back(), other).departs);
     }
     return answers;
   }
