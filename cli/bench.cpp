@@ -37,10 +37,9 @@ constexpr int kRounds = 5;
 
 // What one engine did over all cells of the table, for the line that says what to conclude.
 struct Summary {
-  std::string engine;
+  Tally all;  // with the engine's name
   std::size_t skipped = 0;
   double fastest = 0, slowest = 0;
-  Tally all;
 
   void add(const Tally& t) {
     all.add(t);
@@ -49,7 +48,7 @@ struct Summary {
   }
 
   std::string conclusion() const {
-    if (all.queries == 0) return fmt::format("{}: too slow for every cell of this table", engine);
+    if (all.queries == 0) return fmt::format("{}: too slow for every cell of this table", all.name);
     std::string text = fmt::format("{}\n  {:.0f} to {:.0f} ns", verdict_of(all), fastest, slowest);
     text += fmt::format("; times at worst {:.3g} ulps off", all.max_ulp);
     if (skipped > 0) text += fmt::format("; too slow for {} cells", skipped);
@@ -67,10 +66,7 @@ class Report {
  public:
   explicit Report(const Options& options)
       : timeout_(positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout)) {
-    for (const std::string& name : names_in(options.engines)) {
-      Summary& summary = summaries_.emplace_back();
-      summary.engine = summary.all.name = name;
-    }
+    for (const std::string& name : names_in(options.engines)) summaries_.emplace_back().all.name = name;
   }
 
   // One cell: all engines over the same queries, as many as the slowest of them can do in the time.
@@ -78,23 +74,23 @@ class Report {
             const CaseSet& all) {
     bool first = true;
     for (Summary& summary : summaries_) {
-      const std::size_t count = affordable(all, summary.engine);
+      const std::size_t count = affordable(all, summary.all.name);
       const std::string what =
           first ? fmt::format("{}, r = {}, {}", scene_name, radius, name_of(difficulty)) : "";
       first = false;
       if (count < kFewest) {
         ++summary.skipped;
-        table_.add({what, summary.engine, "-", "too slow", "", "", "", "", "", "", ""});
+        table_.add({what, summary.all.name, "-", "too slow", "", "", "", "", "", "", ""});
         continue;
       }
       CaseSet set = all;
       set.cases.resize(count);
-      const Tally t = measure(set, exact_answers(set, terminal()), {summary.engine}, {},
+      const Tally t = measure(set, exact_answers(set, terminal()), {summary.all.name}, {},
                               {oracle::kDefaultUlps, kRounds, timeout_, terminal()})
                           .front();
       failed_ |= t.failed;
       summary.add(t);
-      table_.add({what, summary.engine, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
+      table_.add({what, summary.all.name, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
                   fmt::format("{:.0f}-{:.0f}", t.ns_low, t.ns_high), std::to_string(t.undecided),
                   std::to_string(t.wrong), std::to_string(t.wrong_time), fmt::format("{:.3g}", t.mean_ulp()),
                   fmt::format("{:.3g}", t.ulp_at(0.99)), fmt::format("{:.3g}", t.max_ulp)});

@@ -236,6 +236,7 @@ class Departures {
  public:
   Departures(const Options& options, const CaseSet& set)
       : times_(options.times),
+        is_json_(options.json),
         most_(static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000))),
         set_(set),
         file_(options.disagreements) {
@@ -246,7 +247,7 @@ class Departures {
            const oracle::Judgement& judgement) {
     if (judgement.wrong_time && !times_) return;
     file_.add(one, exact, name, given, judgement);
-    if (judgement.verdict != oracle::Verdict::wrong || listed_[name]++ >= most_) return;
+    if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
     const Scene& scene = set_.scenes[one.scene];
     text_[name] += description(one, exact, given, scene) +
                    reason_of(oracle::Margins(scene), scene, one.query, exact, given, "    ");
@@ -269,7 +270,7 @@ class Departures {
     return fmt::format("  {}    says  {}    truth {}", query, says, truth);
   }
 
-  const bool times_;
+  const bool times_, is_json_;
   const std::size_t most_;
   const CaseSet& set_;
   DisagreementFile file_;

@@ -45,13 +45,10 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
   return table.text();
 }
 
-namespace {
-
-// What it did not answer, or not as it is.
 std::string others_of(const Tally& t) {
   std::string text;
   const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) text += fmt::format("; {} {}", count, what);
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
   add(t.ill_posed, "ill-posed");
   add(t.undecided, "undecided");
@@ -61,16 +58,15 @@ std::string others_of(const Tally& t) {
   return text;
 }
 
-}  // namespace
-
 std::string verdict_of(const Tally& t) {
   const std::size_t answers = t.agree + t.ill_posed + t.wrong;
-  if (answers == 0) return fmt::format("{}: no answer to judge{}", t.name, others_of(t));
+  const std::string others = t.agree + t.wrong == t.queries ? "" : "; " + others_of(t);
+  if (answers == 0) return fmt::format("{}: no answer to judge{}", t.name, others);
   std::string text =
       t.wrong ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
               : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)", t.name,
                             answers, 100 * (1 - std::pow(0.05, 1.0 / static_cast<double>(answers))));
-  text += others_of(t);
+  text += others;
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
   return text + fmt::format(

@@ -11,6 +11,10 @@ namespace lorentz::cli {
 /// A table for people, one row a tally.
 std::string table_of(const std::vector<compare::Tally>& tallies, bool judged);
 
+/// "3 ill-posed, 2 undecided": what was not answered, or not as it is, but for what is wrong; empty if that
+/// is nothing.
+std::string others_of(const compare::Tally& tally);
+
 /// In a line what to make of a tally's answers: how many are wrong, and what its wrong times are worth.
 std::string verdict_of(const compare::Tally& tally);
 

@@ -253,17 +253,12 @@ void show(const std::string& engine, const std::vector<SetTally>& tallies,
 
 // "12 wrong, 3 ill-posed", or nothing if all agree.
 std::string troubles(const Tally& t) {
-  std::string text;
-  const auto add = [&](std::size_t n, const char* what) {
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
-  };
-  add(t.wrong, "wrong");
-  add(t.wrong_time, t.wrong_time == 1 ? "wrong time" : "wrong times");
-  add(t.ill_posed, "ill-posed");
-  add(t.undecided, "undecided");
-  add(t.unsupported, "unsupported");
-  add(t.error, t.error == 1 ? "error" : "errors");
-  return text;
+  std::vector<std::string> all;
+  if (t.wrong > 0) all.push_back(fmt::format("{} wrong", t.wrong));
+  if (t.wrong_time > 0)
+    all.push_back(fmt::format("{} {}", t.wrong_time, t.wrong_time == 1 ? "wrong time" : "wrong times"));
+  if (const std::string others = others_of(t); !others.empty()) all.push_back(others);
+  return fmt::format("{}", fmt::join(all, ", "));
 }
 
 std::string summary_page(const std::vector<std::string>& engines,
@@ -322,7 +317,8 @@ int act(const Options& options) {
   const double ulps = tolerance(options.ulps);
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
-  const auto most = static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000));
+  auto most = static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000));
+  if (options.json) most = 0;  // which counts only
   const std::uint64_t first = options.first ? whole_number(*options.first, "--first", 1, 1'000'000'000'000)
                                             : std::numeric_limits<std::uint64_t>::max();
   const std::vector<std::string> files = find_sets(options.sets);

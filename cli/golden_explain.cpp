@@ -60,32 +60,29 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
           passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
 }
 
-// The id that begins like this; of several none.
-std::string whole_id(const Options& options) {
+int act(const Options& options) {
+  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
   std::set<std::string> ids;
+  std::string place;  // the set of the first
   for (const std::string& path : find_sets(options.sets)) {
     golden::Reader reader(path);
-    for (golden::ReadRecord read; reader.next(read);)
-      if (read.record.id.starts_with(options.id)) ids.insert(read.record.id);
+    for (golden::ReadRecord read; reader.next(read);) {
+      if (!read.record.id.starts_with(options.id)) continue;
+      if (ids.empty()) place = path;
+      ids.insert(read.record.id);
+    }
   }
+  if (ids.empty()) throw InputError("no record has the id " + json_quoted(options.id));
   if (ids.size() > 1)
     throw InputError(fmt::format("{} records have ids that begin with {}; the first is {}", ids.size(),
                                  json_quoted(options.id), *ids.begin()));
-  return ids.empty() ? options.id : *ids.begin();
-}
-
-int act(const Options& options) {
-  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
-  const std::string id = whole_id(options);
-  for (const std::string& path : find_sets(options.sets)) {
-    golden::Reader reader(path);
-    for (golden::ReadRecord read; reader.next(read);)
-      if (read.record.id == id) {
-        explain(reader, read, most);
-        return kDone;
-      }
-  }
-  throw InputError("no record has the id " + json_quoted(options.id));
+  golden::Reader reader(place);
+  for (golden::ReadRecord read; reader.next(read);)
+    if (read.record.id.starts_with(options.id)) {
+      explain(reader, read, most);
+      break;
+    }
+  return kDone;
 }
 
 }  // namespace

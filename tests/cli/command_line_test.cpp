@@ -362,6 +362,25 @@ TEST_CASE("compare: a wrong time has its own column, and counts with --times onl
   CHECK(lines(folder.read("d")) == 1);  // the scene alone
 }
 
+TEST_CASE("compare: errors and missing answers count with --strict", "[cli][command_line]") {
+  const Folder folder;
+  const auto judged = [&](const std::string& answers, const std::string& more) {
+    return folder
+        .lorentz("compare --queries " + folder.write("q", kScene + kGood) +
+                 " --answers mine=" + folder.write("a", answers) + more)
+        .status;
+  };
+  const std::string error = R"({"id":"good","outcome":"error","message":"no"})"
+                            "\n";
+  CHECK(judged(error, "") == 0);
+  CHECK(judged(error, " --strict") == 1);
+  CHECK(judged(kGoodAnswer, " --strict") == 0);
+  const auto two = folder.write("two", kScene + kGood + R"({"id":2,"x":[0.5,0.1],"v":[1,0]})");
+  const std::string half = "compare --queries " + two + " --answers mine=" + folder.write("a", kGoodAnswer);
+  CHECK(folder.lorentz(half).status == 0);
+  CHECK(folder.lorentz(half + " --strict").status == 1);
+}
+
 TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][command_line]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood);

@@ -375,6 +375,19 @@ TEST_CASE("A program that is wrong on purpose is found", "[fuzz][fuzz_command]")
   CHECK(contains(run.out, "\"cell\":[0,2"));
 }
 
+TEST_CASE("An engine that answers now like this, now like that: a finding stays as it was found",
+          "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string script = folder.write("engine.sh", std::string(LORENTZ_PROGRAM) +
+                                                           " first-hit --engine certified | sed -u "
+                                                           "'7~7s/\"outcome\".*/\"outcome\":\"never\"}/'\n");
+  const Run run = folder.lorentz(
+      "fuzz -t generic-2d --count 128 --mutate 0 --reword 0 --json --engine 'cmd:sh " + script + "'");
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "\"kind\":\"wrong\""));
+  CHECK_FALSE(contains(run.out, "\"cause\":\"fine"));
+}
+
 TEST_CASE("The exit status where an engine only errs, or is wrong in times only", "[fuzz][fuzz_command]") {
   const Folder folder;
   const auto engine = [&](const std::string& edit) {

@@ -259,3 +259,15 @@ TEST_CASE("golden make: into regular files only, one run at a time", "[golden][g
   CHECK(folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set")).status == 0);
   CHECK(lines(folder.read("set")) == 5);
 }
+
+TEST_CASE("golden make overwrites golden sets, and nothing else", "[golden][golden_command]") {
+  const Folder folder;
+  const std::string make = "golden make --set ties --count 32 -o ";
+  const std::string notes = folder.write("notes.txt", "not to be lost\n");
+  const Run refused = folder.lorentz(make + notes);
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, "notes.txt: is no golden set, and is left as it is"));
+  CHECK(folder.read("notes.txt") == "not to be lost\n");
+  for (int twice = 0; twice < 2; ++twice) CHECK(folder.lorentz(make + folder.file("set")).status == 0);
+  CHECK(folder.lorentz(make + folder.write("empty", "")).status == 0);
+}

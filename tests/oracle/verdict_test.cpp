@@ -4,8 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include "tests/support/support.hpp"
 
@@ -303,6 +305,83 @@ TEST_CASE("A time that is off by a good part of itself is no rounding, and wrong
   const Query at_once{{0.75, 0}, {1, 0}, {}};
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).verdict == Verdict::agree);
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).verdict == Verdict::wrong);
+}
+
+namespace {
+
+// The same question in other units and with its axes in another order, some of them turned round: all inputs
+// and ulps go along, exactly.
+struct OtherWords {
+  int shift, exponent, slower;
+  double sign;
+
+  Vec operator()(const Vec& a, int dimension, int power) const {
+    Vec b{};
+    for (int i = 0; i < dimension; ++i)
+      b[(i + shift) % dimension] = std::ldexp(i == 0 ? sign * a[i] : a[i], power);
+    return b;
+  }
+  Scene operator()(Scene scene) const {
+    for (Lattice& lattice : scene.lattices) {
+      for (Vec& u : lattice.vectors) u = (*this)(u, scene.dimension, exponent);
+      for (Atom& atom : lattice.atoms) {
+        atom.position = (*this)(atom.position, scene.dimension, exponent);
+        atom.radius = std::ldexp(atom.radius, exponent);
+        for (Vec& a : atom.semiaxes) a = (*this)(a, scene.dimension, exponent);
+      }
+    }
+    return scene;
+  }
+  Query operator()(const Query& query, int dimension) const {
+    return {(*this)(query.x, dimension, exponent), (*this)(query.v, dimension, exponent - slower),
+            query.from};
+  }
+  Answer operator()(Answer answer) const {
+    if (answer.time) *answer.time = std::ldexp(*answer.time, slower);
+    return answer;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Verdicts, and by how many radii a line misses, are the same in other units and axes",
+          "[oracle][verdict]") {
+  Draw draw(301);
+  INFO("seed 301");
+  std::map<Verdict, int> met;
+  int wrong_times = 0;
+  for (int i = 0; i < 600; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    Scene scene = unit_scene(dimension, draw.between(0.05, 0.4));
+    for (int k = 0; k < dimension; ++k)
+      scene.lattices[0].vectors[k] = sum(scene.lattices[0].vectors[k], draw.vec(dimension, -0.1, 0.1));
+    const Query query{draw.vec(dimension, -2, 2), draw.vec(dimension, -1, 1), {}};
+    const Answer exact = oracle::Oracle(scene).first_hit(query);
+    if (exact.outcome != Outcome::hit) continue;
+    Answer given = exact;
+    if (draw.one_in(3))
+      given.obstacle.cell[0] = given.obstacle.cell[0].int64() + 1;
+    else
+      *given.time *= 1 + std::ldexp(draw.between(-1, 1), -static_cast<int>(draw.below(50)));
+    if (*given.time < 0) continue;
+    const OtherWords words{static_cast<int>(draw.below(static_cast<std::uint64_t>(dimension))),
+                           static_cast<int>(draw.below(400)) - 200, static_cast<int>(draw.below(400)) - 200,
+                           draw.one_in(2) ? -1.0 : 1.0};
+    const auto judgement = judged(scene, query, given),
+               other = judged(words(scene), words(query, dimension), words(given));
+    INFO(stream(scene, query) << line(given, dimension));
+    REQUIRE(judgement.verdict == other.verdict);
+    REQUIRE(judgement.wrong_time == other.wrong_time);
+    REQUIRE(judgement.departs == Approx(other.departs).epsilon(1e-9));
+    const auto near = oracle::Margins(scene).approach(query, given.obstacle),
+               far = oracle::Margins(words(scene)).approach(words(query, dimension), given.obstacle);
+    REQUIRE((near.gap == far.gap && near.start_gap == far.start_gap && near.ahead == far.ahead));
+    ++met[judgement.verdict];
+    wrong_times += judgement.wrong_time;
+  }
+  CHECK(met[Verdict::agree] > wrong_times);
+  CHECK(wrong_times > 20);
+  CHECK(met[Verdict::wrong] > 50);
 }
 
 TEST_CASE("Where no ulp is forgiven an answer is the exact one or wrong", "[oracle][verdict]") {

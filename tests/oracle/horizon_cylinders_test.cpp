@@ -1,0 +1,205 @@
+// Cylindrical channels: near close packing, in shadows whose discs just touch, in holes however small, among
+// ellipsoids however they are written.
+#include <lorentz/geometry.hpp>
+#include <lorentz/horizon.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <lorentz/oracle.hpp>
+#include "oracle/horizon/shadow.hpp"
+#include "tests/oracle/horizon_support.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using oracle::Horizon;
+using oracle::horizon_of;
+
+TEST_CASE("Horizon: simple, face-centred and body-centred cubic near close packing", "[oracle][horizon]") {
+  const std::array<Vec, 3> fcc{Vec{0, 0.5, 0.5}, Vec{0.5, 0, 0.5}, Vec{0.5, 0.5, 0}},
+      bcc{Vec{-0.5, 0.5, 0.5}, Vec{0.5, -0.5, 0.5}, Vec{0.5, 0.5, -0.5}};
+  const auto with = [](const std::array<Vec, 3>& vectors, double r) {
+    return horizon_of(scene_with(3, vectors, {{{}, r, {}}}));
+  };
+  // Planar channels: the widest planes are (100), sqrt(1/3), sqrt(1/2) apart.
+  CHECK(horizon_of(unit_scene(3, std::nextafter(0.5, 0))).channels.size() == 3);
+  CHECK(horizon_of(unit_scene(3, 0.5)).channels.empty());
+  CHECK(with(fcc, 0.2886).channels.size() == 4);
+  CHECK(with(fcc, 0.2887).channels.empty());
+  CHECK(with(bcc, 0.3535).channels.size() == 6);
+  CHECK(with(bcc, 0.3536).channels.empty());
+  // Cylindrical: fcc along <110> up to r = 3/8, <100> to sqrt(1/8); bcc along <100> to 1/2, <111> to
+  // sqrt(2)/3, <110> to sqrt(3)/4, where the balls touch.
+  CHECK(with(fcc, 0.35).cylinders.size() == 9);
+  CHECK(with(fcc, 0.3535).cylinders.size() == 9);
+  CHECK(with(fcc, 0.3536).cylinders.size() == 6);
+  CHECK(with(fcc, 0.375).is_finite());
+  CHECK(with(bcc, 0.433).cylinders.size() == 13);
+  CHECK(with(bcc, 0.4331).cylinders.size() == 7);
+  CHECK(with(bcc, 0.4715).cylinders.size() == 3);
+  CHECK(with(bcc, 0.5).is_finite());
+  // sc at r = 1/2: the planes touch, and infinitely many directions in them are open, ever less so.
+  const Horizon touching = horizon_of(unit_scene(3, 0.5));
+  CHECK(touching.families.size() == 3);
+  CHECK(touching.cylinders.empty());
+  CHECK(touching.is_infinite());
+  // A little more: very many, which are not all searched.
+  const Horizon nearly = horizon_of(unit_scene(3, 0.5 + 0x1p-40));
+  REQUIRE(nearly.families.size() == 3);
+  CHECK_FALSE(nearly.families[0].infinite);
+  CHECK(nearly.families[0].directions > 1e9);
+  CHECK(nearly.is_infinite());
+  CHECK(nearly.cylinders.size() > 2300);  // 2 937 seen
+  CHECK(horizon_of(unit_scene(3, std::sqrt(0.5))).is_finite());
+}
+
+TEST_CASE("Horizon: a shadow of equal discs has a hole where the circumradius says so", "[oracle][horizon]") {
+  Draw draw(78);
+  int holes = 0, covered = 0;
+  for (int round = 0; round < 400; ++round) {
+    Scene scene = short_scene(draw, 3, 1, 0.2, 1);
+    const oracle::ChannelScene<3> exact(scene, 0);
+    const auto& lattice = exact.lattices[0];
+    const auto &u = lattice.vectors[0], &v = lattice.vectors[1], &w = lattice.vectors[2];
+    const oracle::Shadow shadow(lattice, u, v, w);
+    std::size_t work = 0;
+    const bool by_radius = oracle::hole_of_largest(shadow).has_value();
+    CHECK(oracle::hole_of_all(shadow, work).has_value() == by_radius);
+    (by_radius ? holes : covered)++;
+  }
+  CHECK(holes > 220);   // 285 seen
+  CHECK(covered > 90);  // 115 seen
+}
+
+TEST_CASE("Horizon: shadows whose discs just touch, or just close", "[oracle][horizon]") {
+  const auto hole = [](std::array<Vec, 3> vectors, std::vector<Atom> atoms) {
+    const oracle::ChannelScene<3> exact(scene_with(3, vectors, std::move(atoms)), 0);
+    const auto& lattice = exact.lattices[0];
+    oracle::Shadow shadow(lattice, lattice.vectors[2], lattice.vectors[0], lattice.vectors[1]);
+    shadow.see(lattice, lattice.obstacles.size());
+    std::size_t work = 0;
+    return oracle::hole_of_all(shadow, work).has_value();
+  };
+  const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  // Between discs that touch there is a hole, all of whose corners are cusps.
+  CHECK(hole(unit, {{{}, 0.5, {}}}));
+  CHECK(hole(unit, {{{}, 0.25, {}}}));  // no two circles meet
+  // Circumradius 5: at r = 5 four circles meet in one free point, which is no hole.
+  const std::array<Vec, 3> seven{Vec{7, 1, 0}, Vec{-1, 7, 0}, Vec{0, 0, 1}};
+  CHECK_FALSE(hole(seven, {{{}, 5, {}}}));
+  CHECK(hole(seven, {{{}, std::nextafter(5.0, 0), {}}}));
+  // A smaller ball in that hole: it fills it, or not, or touches from within.
+  CHECK(hole(unit, {{{}, 0.5, {}}, {{0.5, 0.5, 0}, 0.25, {}}}));
+  CHECK_FALSE(hole(unit, {{{}, 0.5, {}}, {{0.5, 0.5, 0}, 0.5, {}}}));
+  CHECK_FALSE(hole(unit, {{{}, 0.75, {}}, {{0.25, 0, 0}, 0.5, {}}}));
+  CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}}));
+  // All corners of the hole are on three circles.
+  CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}, {{0, 0.25, 0}, 0.25, {}}}));
+  // The same ball twice in one line of sight.
+  CHECK(hole(unit, {{{}, 0.5, {}}, {{0, 0, 0.5}, 0.5, {}}}));
+  CHECK_FALSE(hole(seven, {{{}, 5, {}}, {{0, 0, 0.5}, 5, {}}}));
+}
+
+namespace {
+
+// Directions and radii of the cylinders.
+std::vector<std::pair<std::string, double>> cylinders_of(const Horizon& horizon) {
+  std::vector<std::pair<std::string, double>> result;
+  for (const auto& cylinder : horizon.cylinders)
+    result.push_back({key_of(cylinder.direction), cylinder.radius});
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Horizon: semiaxes in any order, with any signs, or turned among themselves are one shape",
+          "[oracle][horizon]") {
+  const Vec a{0.25, 0.125, 0}, b{-0.0625, 0.375, 0.125}, c{0, 0.125, 0.4375};
+  const auto minus = [](const Vec& v) { return Vec{-v[0], -v[1], -v[2]}; };
+  const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  const auto with = [&](std::vector<Vec> first, std::vector<Vec> second) {
+    return horizon_of(
+        scene_with(3, unit, {{{}, 0, std::move(first)}, {{0.5, 0.5, 0.5}, 0, std::move(second)}}));
+  };
+  const Horizon same = with({a, b, c}, {a, b, c});
+  REQUIRE(same.no_cylinders.empty());
+  REQUIRE(same.cylinders.size() > 5);
+  for (const auto& second :
+       {std::vector{b, c, a}, std::vector{b, a, c}, std::vector{minus(c), b, minus(a)}}) {
+    const Horizon other = with({a, b, c}, second), both = with(second, second);
+    CHECK(other.no_cylinders.empty());
+    REQUIRE(other.cylinders.size() == same.cylinders.size());
+    REQUIRE(both.cylinders.size() == same.cylinders.size());
+    for (std::size_t i = 0; i < same.cylinders.size(); ++i) {
+      CHECK(cylinders_of(other)[i].first == cylinders_of(same)[i].first);
+      CHECK(cylinders_of(other)[i].second == Approx(cylinders_of(same)[i].second));
+      CHECK(cylinders_of(both)[i].first == cylinders_of(same)[i].first);
+    }
+    for (const auto& cylinder : other.cylinders) CHECK(cylinder.inside);
+  }
+  // Nearly the same is another shape.
+  CHECK_FALSE(with({a, b, c}, {b, a, {0, 0.125, std::nextafter(0.4375, 1)}}).no_cylinders.empty());
+
+  // Balls of radius 5/16, the second one written with 3-4-5 semiaxes.
+  const std::vector<Vec> turned{{0, 0.1875, -0.25}, {-0.3125, 0, 0}, {0, 0.25, 0.1875}};
+  const Horizon balls = horizon_of(
+      scene_with(3, unit, {{{}, 0.375, {}}, {{0.5, 0.5, 0.5}, 0.3125, {}}, {{0.5, 0, 0}, 0.0625, {}}}));
+  const Horizon written = horizon_of(
+      scene_with(3, unit, {{{}, 0.375, {}}, {{0.5, 0.5, 0.5}, 0, turned}, {{0.5, 0, 0}, 0.0625, {}}}));
+  CHECK(written.no_cylinders.empty());
+  CHECK(written.cylinders.size() > 10);
+  CHECK(cylinders_of(written) == cylinders_of(balls));
+}
+
+TEST_CASE("Horizon: the radius of a cylinder is above 0 however small the hole", "[oracle][horizon]") {
+  // Between four balls of a square: sqrt(1/2) - r. A second ball in each line of sight changes nothing.
+  const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+  const double r = 0.7071067811865475;
+  const __float128 rest = 0.5 - static_cast<__float128>(r) * r;
+  const double expected = static_cast<double>(rest / (2 * static_cast<__float128>(r) + rest / 1.5));
+  const Horizon one = horizon_of(unit_scene(3, r));
+  REQUIRE(one.cylinders.size() == 3);
+  for (const auto& cylinder : one.cylinders) CHECK(cylinder.radius == Approx(expected).epsilon(1e-14));
+  const Horizon two =
+      horizon_of(scene_with(3, unit, {{{}, r, {}}, {{0, 0, 0.5}, r, {}}, {{0.25, 0.25, 0.25}, 0.0625, {}}}));
+  REQUIRE(two.cylinders.size() == 1);
+  CHECK(two.cylinders[0].radius == Approx(expected).epsilon(1e-9));
+  CHECK(two.cylinders[0].inside);
+
+  // Four discs of radius 5 about the point (3, 4), one of them moved away by 5 e: next to two discs that
+  // touch there, the cusp has room for a circle of radius (5 e)^2 / 10, or, around the corner, less yet.
+  const double e = 0x1p-100;
+  const Horizon cusp = horizon_of(scene_with(
+      3, {Vec{14, 2, 0}, Vec{-2, 14, 0}, Vec{0, 0, 1}},
+      {{{-3 * e, -4 * e, 0}, 5, {}}, {{7, 1, 0}, 5, {}}, {{-1, 7, 0}, 5, {}}, {{6, 8, 0}, 5, {}}}));
+  REQUIRE(cusp.cylinders.size() == 1);
+  CHECK(cusp.cylinders[0].radius > 0);
+  CHECK(cusp.cylinders[0].radius < 3 * e * e);
+
+  // A cylinder of that radius fits: no ball is nearer to the line, as binary64 sees it.
+  Draw draw(80);
+  std::size_t seen = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Scene scene = short_scene(draw, 3, 3, 0.3, 0.5);
+    const auto& u = scene.lattices[0].vectors;
+    for (const auto& cylinder : horizon_of(scene).cylinders) {
+      const Vec& g = cylinder.vector;
+      double least = 1e9;
+      for (const Atom& atom : scene.lattices[0].atoms)
+        for (int n = 0; n < 9 * 9 * 9; ++n) {
+          Vec arm{};
+          for (int k = 0; k < 3; ++k)
+            arm[k] = atom.position[k] + (n % 9 - 4) * u[0][k] + (n / 9 % 9 - 4) * u[1][k] +
+                     (n / 81 - 4) * u[2][k] - cylinder.point[k];
+          const Vec across = cross(arm, g);
+          least = std::min(least, std::sqrt(dot(across, across) / dot(g, g)) - atom.radius);
+        }
+      CHECK(least >= cylinder.radius - 1e-14);
+      seen += least < cylinder.radius + 1e-9;
+    }
+  }
+  CHECK(seen > 500);
+}

@@ -1,0 +1,72 @@
+// What the search of the horizon does not do: it says so, and at once.
+#include <lorentz/horizon.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+
+#include <lorentz/oracle.hpp>
+#include "tests/oracle/horizon_support.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using oracle::Horizon;
+using oracle::horizon_of;
+
+TEST_CASE("Horizon: what is not done is said, and nothing hangs", "[oracle][horizon]") {
+  CHECK_THROWS_AS(horizon_of(unit_scene(2, 1e-9)), oracle::TooManyChannels);
+  CHECK_THROWS_AS(horizon_of(unit_scene(3, 1e-9)), oracle::TooManyChannels);
+  CHECK(horizon_of(unit_scene(2, 1e-9), 0.2).normals == 20);
+  const Horizon wide = horizon_of(unit_scene(3, 1e-9), 0.25);
+  CHECK(wide.normals > 85);  // 109 seen
+  for (const auto& channel : wide.channels) CHECK(channel.width >= 0.25);
+  CHECK_FALSE(wide.no_cylinders.empty());
+  for (const int d : {2, 3}) CHECK(horizon_of(unit_scene(d, 1e6)).is_finite());
+
+  // A least width equal to a channel's keeps it.
+  CHECK(horizon_of(unit_scene(2, 0.25), 0.5).channels.size() == 2);
+  CHECK(horizon_of(unit_scene(2, 0.25), std::nextafter(0.5, 1)).channels.empty());
+
+  Draw draw(79);
+  for (const int d : {2, 3}) {
+    Scene crowd = unit_scene(d, 0.01);
+    crowd.lattices[0].atoms.resize(10000);
+    for (Atom& atom : crowd.lattices[0].atoms) atom = {draw.vec(d, 0, 1), d == 2 ? 0.01 : 0.05, {}};
+    CHECK(horizon_of(crowd, 0, false).channels.empty());
+  }
+  const Scene sliver = scene_with(2, {Vec{1, 1}, Vec{1 + 0x1p-40, 1}}, {{{}, 0.1, {}}});
+  CHECK(horizon_of(sliver).channels.size() == 1);
+  Scene two = unit_scene(3, 0.2);
+  two.lattices.push_back(two.lattices[0]);
+  two.lattices[1].vectors[0] = {1, 0.5, 0};
+  CHECK_FALSE(horizon_of(two).no_cylinders.empty());
+  two.lattices[1].vectors[0] = {1, 0, 0};
+  CHECK(horizon_of(two).no_cylinders.empty());
+  two.lattices[1].atoms[0].semiaxes = {Vec{0.2, 0, 0}, Vec{0, 0.2, 0}, Vec{0, 0, 0.3}};
+  CHECK_FALSE(horizon_of(two).no_cylinders.empty());
+}
+
+TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells too", "[oracle][horizon]") {
+  // The ball of candidates has a volume of some hundred cells, and four million points in one plane.
+  const Scene slender = scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0.3, 0.7, 1e-9}}, {{{}, 1e-4, {}}});
+  std::size_t steps = 0;
+  const auto count = [&](const std::string&, std::size_t, std::size_t) { ++steps; };
+  CHECK_THROWS_AS(horizon_of(slender, 0, false, count), oracle::TooManyChannels);
+  CHECK_THROWS_AS(horizon_of(slender, 0, true, count), oracle::TooManyChannels);
+  CHECK(steps == 0);
+  const Horizon wide = horizon_of(slender, 0.2);
+  CHECK(wide.normals == 1);
+  CHECK_FALSE(wide.no_cylinders.empty());
+
+  // A search that is begun is heard of, to its end.
+  std::size_t last = 0, total = 0;
+  horizon_of(unit_scene(2, 0.01), 0, true, [&](const std::string& what, std::size_t done, std::size_t all) {
+    CHECK(what == "directions");
+    CHECK(done >= last);
+    last = done, total = all;
+  });
+  CHECK(total > 3700);  // pi / (4 r^2) / 2, and those on the axis
+  CHECK(total < 4100);
+  CHECK(last + 64 > total);
+}
