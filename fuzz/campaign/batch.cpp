@@ -331,8 +331,8 @@ std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
     finding.tries = shrunk.tries;
     if (!stop_ && !subject_->failed()) {
       const Examined after = fails.examine(shrunk.scene, shrunk.query);
-      if (name_of(after.kind) ==
-          finding.kind)  // else it answers now like this, now like that: as it was found
+      // Else the subject answers now like this, now like that, and the finding stays as it was found.
+      if (name_of(after.kind) == finding.kind)
         take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
                         margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
     }

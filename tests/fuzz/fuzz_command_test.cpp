@@ -375,6 +375,15 @@ TEST_CASE("A program that is wrong on purpose is found", "[fuzz][fuzz_command]")
   CHECK(contains(run.out, "\"cell\":[0,2"));
 }
 
+TEST_CASE("A campaign that asked nothing says so, and does not succeed", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string campaign = "fuzz -e reduction --dimension 3 -t generic --mutate 0 --reword 0 --count ";
+  const Run nothing = folder.lorentz(campaign + "20");  // the first 32 indices are in the plane
+  CHECK(nothing.status == 2);
+  CHECK(contains(nothing.err, "no case was asked"));
+  CHECK(folder.lorentz(campaign + "40").status == 0);
+}
+
 TEST_CASE("An engine that answers now like this, now like that: a finding stays as it was found",
           "[fuzz][fuzz_command]") {
   const Folder folder;
