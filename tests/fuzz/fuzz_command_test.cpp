@@ -389,9 +389,10 @@ TEST_CASE("An engine that answers now like this, now like that: a finding stays 
   const Folder folder;
   const std::string script = folder.write("engine.sh", std::string(LORENTZ_PROGRAM) +
                                                            " first-hit --engine certified | sed -u "
-                                                           "'7~7s/\"outcome\".*/\"outcome\":\"never\"}/'\n");
+                                                           "'2~2s/\"outcome\".*/\"outcome\":\"never\"}/'\n");
   const Run run = folder.lorentz(
-      "fuzz -t generic-2d --count 128 --mutate 0 --reword 0 --json --engine 'cmd:sh " + script + "'");
+      "fuzz -t generic-2d --count 128 --keep 20 --mutate 0 --reword 0 --json --engine 'cmd:sh " + script +
+      "'");
   CHECK(run.status == 1);
   CHECK(contains(run.out, "\"kind\":\"wrong\""));
   CHECK_FALSE(contains(run.out, "\"cause\":\"fine"));
