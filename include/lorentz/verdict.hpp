@@ -21,8 +21,9 @@ enum class Verdict {
 /// The tolerance k, in ulps of the inputs, unless told otherwise.
 inline constexpr double kDefaultUlps = 4;
 
-/// A time that is off by more than this part of itself times its condition is no rounded time of the
-/// collision but another quantity, and `wrong`.
+/// A time that is off by more than this part of itself times its condition (and by more than kDefaultUlps of
+/// its own ulps, which are that much among the subnormal numbers) is no rounded time of the collision but
+/// another quantity, and `wrong`.
 inline constexpr double kOtherQuantity = 0x1p-22;
 
 /// What an answer is worth beside the exact one.

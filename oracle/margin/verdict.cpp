@@ -168,7 +168,10 @@ struct Judge::Impl {
       const Real change = std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time)));
       judgement.departs = to_double(Real(far / change), kHuge);
       if (judgement.departs <= ulps) return judgement;
-      const bool other_quantity = far * Real(ulp(*exact.time)) > Real(kOtherQuantity) * time * change;
+      // (Among the subnormal numbers a rounding can be as large as the time.)
+      const bool rounding = judgement.ulps && *judgement.ulps <= kDefaultUlps;
+      const bool other_quantity =
+          !rounding && far * Real(ulp(*exact.time)) > Real(kOtherQuantity) * time * change;
       judgement.verdict = other_quantity ? Verdict::wrong : Verdict::agree;
       judgement.wrong_time = !other_quantity;
       return judgement;

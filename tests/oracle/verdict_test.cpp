@@ -307,6 +307,19 @@ TEST_CASE("A time that is off by a good part of itself is no rounding, and wrong
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).verdict == Verdict::wrong);
 }
 
+TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and still a rounding",
+          "[oracle][verdict]") {
+  const Scene scene = unit_scene(2, 0.1909099887142184);
+  const Query query{{-4.3436925586290234e-58, 0.19090998871421846}, {0, -2.247116418577895e+307}, {}};
+  const Answer exact = oracle::Oracle(scene).first_hit(query);
+  REQUIRE(exact.time == 0x1p-1074);
+  const auto judgement = [&](double time) { return judged(scene, query, Answer::hit(at(0, 0), time), 0); };
+  CHECK((judgement(0).verdict == Verdict::agree && judgement(0).wrong_time));
+  CHECK((judgement(5 * 0x1p-1074).verdict == Verdict::agree && judgement(5 * 0x1p-1074).wrong_time));
+  CHECK(judgement(6 * 0x1p-1074).verdict == Verdict::wrong);
+  CHECK(judgement(0x1p-1000).verdict == Verdict::wrong);
+}
+
 namespace {
 
 // The same question in other units and with its axes in another order, some of them turned round: all inputs
