@@ -18,8 +18,8 @@ struct LatticePoint {
 
   void add_multiple(const Z& k, const LatticePoint& other) {
     for (std::size_t i = 0; i < D; ++i) {
-      mpz_addmul(p[i].get_mpz_t(), k.get_mpz_t(), other.p[i].get_mpz_t());
-      mpz_addmul(n[i].get_mpz_t(), k.get_mpz_t(), other.n[i].get_mpz_t());
+      p[i].add_product(k, other.p[i]);
+      n[i].add_product(k, other.n[i]);
     }
   }
   void negate() {

@@ -81,8 +81,7 @@ namespace {
 using Estimate = long double;
 
 Estimate estimate(const Z& a) {
-  signed long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, a.get_mpz_t());
+  const auto [mantissa, exponent] = approximation(a);
   return std::ldexp(static_cast<Estimate>(mantissa), static_cast<int>(exponent));
 }
 

@@ -58,15 +58,9 @@ Floor floor_of(const Quadratic& n, const Z& factor, long binary_shift) {
   } else {
     q = shifted_left(q, -shift);
   }
-  Z root, rest;
-  mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), d.get_mpz_t());
-  const bool square = rest == 0;
-  Z numerator = n.sign > 0 ? Z(a + root) : Z(a - root - (square ? 0 : 1));
-  Floor result;
-  Z remainder;
-  mpz_fdiv_qr(result.value.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), q.get_mpz_t());
-  result.exact = square && remainder == 0;
-  return result;
+  const auto [root, square] = square_root(d);
+  auto [value, whole] = divide(n.sign > 0 ? a + root : a - root - (square ? 0 : 1), q, Z::Rounding::down);
+  return {std::move(value), square && whole};
 }
 
 // e with 2^(e-3) < number < 2^(e+3), for a number > 0. Where a and the root cancel, their difference is
@@ -88,8 +82,8 @@ Quadratic negated(Quadratic n) {
 // The integer nearest to floor + (half, rest): `twice` is floor(2 y), ties to even.
 Z round_half_even(const Floor& twice) {
   Z value = twice.value / 2;
-  const bool half = mpz_odd_p(twice.value.get_mpz_t());
-  if (half && (!twice.exact || mpz_odd_p(value.get_mpz_t()))) ++value;
+  const bool half = is_odd(twice.value);
+  if (half && (!twice.exact || is_odd(value))) ++value;
   return value;
 }
 
@@ -113,11 +107,8 @@ double rounded(long magnitude, FloorAt floor_at) {
 
 // floor(sqrt(y)) = floor(sqrt(floor(y))).
 Floor root_of(const Floor& square) {
-  Floor root;
-  Z rest;
-  mpz_sqrtrem(root.value.get_mpz_t(), rest.get_mpz_t(), square.value.get_mpz_t());
-  root.exact = square.exact && rest == 0;
-  return root;
+  auto [root, whole] = square_root(square.value);
+  return {std::move(root), square.exact && whole};
 }
 
 }  // namespace
@@ -139,9 +130,7 @@ double round_root_to_binary64(const Quadratic& square, int sign) {
 namespace {
 
 Z power_of_ten(long exponent) {
-  Z result;
-  mpz_ui_pow_ui(result.get_mpz_t(), 10, exponent);
-  return result;
+  return power(10, static_cast<unsigned long>(exponent));
 }
 
 // The number times 10^exponent.
