@@ -134,6 +134,7 @@ std::optional<ZVec<D>> smallest_on_row(LatticePoint<D> first, const LatticePoint
 template <std::size_t D>
 std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
                                        const ZVec<D>* from, long exponent) {
+  if (!view.near) return std::nullopt;
   // Few rows: look at all of them, in the short basis. A radius of many cells: take the rows in lexicographic
   // order, and the first point is the smallest. (Floating point here chooses the cheaper way, nothing more.)
   constexpr Estimate kFewRows = 64;

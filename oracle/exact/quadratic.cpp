@@ -50,7 +50,11 @@ struct Floor {
 };
 
 Floor floor_of(const Quadratic& n, const Z& factor, long binary_shift) {
-  Z a = n.a * factor, d = n.d * factor * factor, q = n.q;
+  Z a = n.a, d = n.d, q = n.q;
+  if (factor != 1) {
+    a *= factor;
+    d *= factor * factor;
+  }
   const long shift = n.exponent + binary_shift;
   if (shift >= 0) {
     a = shifted_left(a, shift);
@@ -91,6 +95,12 @@ Z round_half_even(const Floor& twice) {
 
 namespace {
 
+// floor(number / 2^bits).
+Floor cut(const Floor& whole, long bits) {
+  return {whole.value >> static_cast<unsigned long>(bits),
+          whole.exact && (whole.value == 0 || trailing_zeros(whole.value) >= bits)};
+}
+
 // The nearest binary64 to a number > 0, given `floor_at`: p -> floor(number / 2^p) and whether that is all,
 // and a guess of its exponent that is off by a few bits at most.
 template <class FloorAt>
@@ -98,9 +108,10 @@ double rounded(long magnitude, FloorAt floor_at) {
   // The unit of the last place is 2^p; the floor tells what the guess does not know.
   constexpr long kSmallest = -1074;
   long p = std::max(magnitude - 60, kSmallest - 1);
-  const long bits = bit_length(floor_at(p).value);
+  const Floor fine = floor_at(p);
+  const long at = p, bits = bit_length(fine.value);
   p = std::max(p + bits - 53, kSmallest);
-  const Z mantissa = round_half_even(floor_at(p - 1));
+  const Z mantissa = round_half_even(p - 1 >= at ? cut(fine, p - 1 - at) : floor_at(p - 1));
   if (bit_length(mantissa) + p > 1024) return std::numeric_limits<double>::infinity();
   return std::ldexp(mantissa.get_d(), static_cast<int>(p));  // mantissa <= 2^53: both steps are exact
 }

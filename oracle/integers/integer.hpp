@@ -23,6 +23,7 @@ inline Z ceil_div(const Z& a, const Z& b) {
 
 /// An integer nearest to a / b, for b > 0.
 inline Z round_div(const Z& a, const Z& b) {
+  if (bit_length(a) + 1 < bit_length(b)) return 0;
   return floor_div(2 * a + b, 2 * b);
 }
 

@@ -1,6 +1,7 @@
 #include "oracle/integers/z.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
@@ -188,10 +189,14 @@ void Z::multiply(Z& product, const Z& a, const Z& b) {
 Z& Z::add_product(const Z& a, const Z& b, int sign) {
   const std::size_t n = a.count(), m = b.count();
   if (n == 0 || m == 0) return *this;
+  const bool negative = ((a.size_ < 0) != (b.size_ < 0)) != (sign < 0);
+  if (n == 1 && a.limbs_[0] == 1) {  // often: from row to row, from plane to plane
+    add(*this, *this, b.limbs_, with_sign(m, negative));
+    return *this;
+  }
   Scratch product(n + m);
   const std::size_t size = multiply_any(product.limbs(), a.limbs_, n, b.limbs_, m);
-  const bool negative = (a.size_ < 0) != (b.size_ < 0);
-  add(*this, *this, product.limbs(), with_sign(size, negative != (sign < 0)));
+  add(*this, *this, product.limbs(), with_sign(size, negative));
   return *this;
 }
 
@@ -199,6 +204,42 @@ namespace {
 
 [[noreturn]] void refuse_division_by_zero() {
   throw std::domain_error("division by 0");
+}
+
+// The 64 leading bits.
+mp_limb_t leading_bits(const mp_limb_t* limbs, std::size_t n) {
+  const int zeros = __builtin_clzl(limbs[n - 1]);
+  return zeros == 0 ? limbs[n - 1] : limbs[n - 1] << zeros | limbs[n - 2] >> (GMP_NUMB_BITS - zeros);
+}
+
+// Quotients of less bits than this are off by one at most, if leading bits are divided in binary64.
+constexpr long kShortQuotient = 50;
+
+// floor(a / b) for n >= m >= 2 limbs, which is short; returns whether it is exact. Most quotients of a search
+// have few bits. They are guessed, and the guess is put right by the remainder, however far off it is.
+bool divide_short(const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::size_t m, mp_limb_t& quotient) {
+  const auto bits = [](const mp_limb_t* limbs, std::size_t k) {
+    return static_cast<int>(k) * GMP_NUMB_BITS - __builtin_clzl(limbs[k - 1]);
+  };
+  const double ratio = static_cast<double>(leading_bits(a, n)) / static_cast<double>(leading_bits(b, m));
+  quotient = static_cast<mp_limb_t>(std::ldexp(ratio, bits(a, n) - bits(b, m)));
+  const auto size = static_cast<mp_size_t>(m);
+  Scratch product(m + 1), rest(m + 1);
+  mp_limb_t *const p = product.limbs(), *const r = rest.limbs();
+  p[m] = mpn_mul_1(p, b, size, quotient);
+  std::copy_n(a, n, r);
+  if (n == m) r[m] = 0;
+  if (mpn_cmp(r, p, size + 1) >= 0) {
+    mpn_sub_n(r, r, p, size + 1);
+    while (r[m] != 0 || mpn_cmp(r, b, size) >= 0) {
+      r[m] -= mpn_sub_n(r, r, b, size);
+      ++quotient;
+    }
+    return without_zeros(r, m) == 0;
+  }
+  mpn_sub_n(r, p, r, size + 1);  // what is missing
+  for (--quotient; r[m] != 0 || mpn_cmp(r, b, size) > 0; --quotient) r[m] -= mpn_sub_n(r, r, b, size);
+  return mpn_cmp(r, b, size) == 0;
 }
 
 }  // namespace
@@ -214,6 +255,9 @@ Z::Division divide(const Z& a, const Z& b, Z::Rounding rounding) {
   } else if (n == 1) {
     result.quotient.limbs_[0] = a.limbs_[0] / b.limbs_[0];
     result.exact = a.limbs_[0] % b.limbs_[0] == 0;
+    size = result.quotient.limbs_[0] != 0;
+  } else if (m > 1 && bit_length(a) - bit_length(b) < kShortQuotient) {
+    result.exact = divide_short(a.limbs_, n, b.limbs_, m, result.quotient.limbs_[0]);
     size = result.quotient.limbs_[0] != 0;
   } else {
     size = n - m + 1;

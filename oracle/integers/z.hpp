@@ -120,6 +120,11 @@ class Z {
   }
   /// Negative, 0 or positive as a < b, a = b or a > b.
   friend int cmp(const Z& a, const Z& b) { return compare(a, b); }
+  /// The same of |a| and |b|.
+  friend int compare_sizes(const Z& a, const Z& b) {
+    const std::size_t n = a.count(), m = b.count();
+    return n != m ? (n < m ? -1 : 1) : n == 0 ? 0 : mpn_cmp(a.limbs_, b.limbs_, static_cast<mp_size_t>(n));
+  }
   /// -1, 0 or +1
   friend int sgn(const Z& a) { return a.size_ < 0 ? -1 : a.size_ > 0; }
   friend Z abs(const Z& a) {
@@ -223,6 +228,9 @@ struct Z::Root {
   bool exact = false;
 };
 
+// Above, and here for who names them in full or calls them with built-in integers.
+long bit_length(const Z& a);
+Z abs(const Z& a);
 /// a 2^bits
 Z shifted_left(const Z& a, unsigned long bits);
 
