@@ -15,8 +15,7 @@ namespace {
 // - A row along v is a strip of constant width: the entries increase along the flight, and the first is the
 // one
 //   next to t = 0.
-template <std::size_t D>
-std::optional<Z> index_near_first(const Row<D>& row, const Z& rho2) {
+std::optional<Z> index_near_first(const Row<3>& row, const Z& rho2) {
   if (row.A == 0) {
     const Z d = rho2 - row.C;
     if (d <= 0) return std::nullopt;
@@ -29,6 +28,18 @@ std::optional<Z> index_near_first(const Row<D>& row, const Z& rho2) {
   if (inside > 0) return floor_div(-row.cg, row.gg);
   // dt/dk = 0: A k + B = -sign(sg) sqrt(sg^2 strip / gg).
   return floor_surd(-row.B * row.gg, -sgn(row.sg), row.sg * row.sg * strip * row.gg, row.A * row.gg);
+}
+
+// The same in the plane, where A = h_g^2, B = h0 h_g and C = h0^2 make shorter numbers of it.
+std::optional<Z> index_near_first(const FlightPoint& start, const FlightPoint& step, const Z& rho2) {
+  if (step.h == 0) {
+    const Z d = rho2 - start.h * start.h;
+    if (d <= 0) return std::nullopt;
+    return step.s > 0 ? floor_surd(-start.s, +1, d, step.s) : floor_surd(start.s, -1, d, -step.s);
+  }
+  const Z gg = step.s * step.s + step.h * step.h, off = minor_of(start.s, start.h, step.s, step.h);
+  if (off * off < gg * rho2) return floor_div(-(start.s * step.s + start.h * step.h), gg);
+  return floor_surd(-sgn(step.h) * start.h * gg, -sgn(step.s), step.s * step.s * rho2 * gg, gg * abs(step.h));
 }
 
 // Offers the entry at t >= 0 into the obstacle n + k step, if there is one.
@@ -47,13 +58,22 @@ void offer_entry(const Search<D>& search, Z s, Z d, const ZVec<D>& n, const Z& k
 }
 
 // However many obstacles of the row are met.
-template <std::size_t D>
-void offer_first_of_many(const Search<D>& search, const Row<D>& row, const ZVec<D>& n, const ZVec<D>& step) {
+void offer_first_of_many(const Search<2>& search, const FlightPoint& start, const FlightPoint& step) {
+  const std::optional<Z> near = index_near_first(start, step, search.rho2);
+  if (!near) return;
+  for (int i = -1; i <= 2; ++i) {
+    const Z k = *near + i, h = start.h + k * step.h;
+    offer_entry(search, start.s + k * step.s, search.rho2 - h * h, start.n, k, step.n);
+  }
+}
+
+void offer_first_of_many(const Search<3>& search, const LatticePoint<3>& start, const LatticePoint<3>& step) {
+  const Row<3> row(search.velocity, start, step);
   const std::optional<Z> near = index_near_first(row, search.rho2);
   if (!near) return;
   for (int i = -1; i <= 2; ++i) {
-    const Z k = *near + i;
-    offer_entry(search, row.s0 + k * row.sg, search.rho2 - (row.C + k * (2 * row.B + k * row.A)), n, k, step);
+    const Z k = *near + i, d = search.rho2 - (row.C + k * (2 * row.B + k * row.A));
+    offer_entry(search, row.s0 + k * row.sg, d, start.n, k, step.n);
   }
 }
 
@@ -68,22 +88,11 @@ void FlightPoint::negate() {
   for (Z& component : n) component = -component;
 }
 
-template <>
-Row<2>::Row(const FlightPoint& start, const FlightPoint& step)
-    : cc(start.s * start.s + start.h * start.h),
-      cg(start.s * step.s + start.h * step.h),
-      gg(step.s * step.s + step.h * step.h),
-      s0(start.s),
-      sg(step.s),
-      A(step.h * step.h),
-      B(start.h * step.h),
-      C(start.h * start.h) {}
-
 RowsInPlane::RowsInPlane(const Search<2>& search, const FlightPoint& step)
     : search_(search), step_(step), gap_(abs(step.h)), short_(2 * search.rho < kFew * gap_) {}
 
 void RowsInPlane::offer_first(const FlightPoint& start) const {
-  if (!short_) return offer_first_of_many(search_, Row<2>(start, step_), start.n, step_.n);
+  if (!short_) return offer_first_of_many(search_, start, step_);
   // |h + k h_g| <= rho
   const bool rises = step_.h > 0;
   Z k = rises ? ceil_div(-search_.rho - start.h, gap_) : ceil_div(start.h - search_.rho, gap_);
@@ -109,7 +118,7 @@ RowsInSpace::RowsInSpace(const Search<3>& search, const LatticePoint<3>& step)
 
 void RowsInSpace::offer_first(const LatticePoint<3>& start) const {
   const Velocity<3>& velocity = search_.velocity;
-  if (!short_) return offer_first_of_many(search_, Row<3>(velocity, start, step_), start.n, step_.n);
+  if (!short_) return offer_first_of_many(search_, start, step_);
   if (compare_sizes(dot(h_g_, start.p), most_beside_) > 0) return;
   const Z s0 = dot(velocity.v, start.p);
   const Z B = velocity.v2 * dot(start.p, step_.p) - s0 * sg_;

@@ -95,7 +95,6 @@ struct Row {
         A(gg - sg * sg),
         B(cg - s0 * sg),
         C(cc - s0 * s0) {}
-  Row(const FlightPoint& start, const FlightPoint& step);  ///< in the plane
 };
 
 /// The rows with one step, in the plane. Of a row, start + k step for any integer k, offers the earliest

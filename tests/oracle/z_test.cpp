@@ -101,7 +101,11 @@ TEST_CASE("Z: sums, products, quotients and orders are those of mpz_class", "[or
     const mpz_class b = draw.one_in(8)   ? mpz_class(a + static_cast<long>(draw.below(3)) - 1)
                         : draw.one_in(8) ? mpz_class(-a)
                                          : drawn(draw);
-    const mpz_class c = draw.one_in(8) && b != 0 ? mpz_class(a * b) : drawn(draw);
+    // Often a multiple of b or beside one, with a quotient of few bits or many.
+    const mpz_class times = draw.one_in(2) ? a : mpz_class(draw.below(1ull << draw.below(55)));
+    const mpz_class c = draw.one_in(3)   ? mpz_class(times * b)
+                        : draw.one_in(2) ? mpz_class(times * b + static_cast<long>(draw.below(3)) - 1)
+                                         : drawn(draw);
     const Z x = z_of(a), y = z_of(b), w = z_of(c);
     ++limbs[static_cast<int>(mpz_size(a.get_mpz_t()))];
     INFO("a " << a << " b " << b << " c " << c);
