@@ -17,8 +17,6 @@ set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lore
 set(LORENTZ_ORACLE_HEADERS oracle walk certified verdict margin horizon scene_check continued_fraction certificate
   certificate_check prover)
 
-set_target_properties(lorentz_integers PROPERTIES EXPORT_NAME integers)
-
 function(lorentz_install_component component)
   string(TOUPPER ${component} upper)
   install(TARGETS ${LORENTZ_${upper}_TARGETS} EXPORT lorentz-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -32,7 +30,6 @@ function(lorentz_install_pkg_config component requires)
   string(TOUPPER ${component} upper)
   set(libs "")
   set(targets ${LORENTZ_${upper}_TARGETS})
-  list(REMOVE_ITEM targets lorentz_integers)  # headers
   list(REVERSE targets)
   foreach(target ${targets})
     string(APPEND libs " -l${target}")

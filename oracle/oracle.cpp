@@ -84,6 +84,9 @@ class Problem {
  private:
   // The smallest obstacle that contains x, or nothing and the views of all atoms, in order.
   std::optional<ObstacleId> smallest_around(const ExactQuery<D>& exact, std::vector<View<D>>& views) const {
+    std::size_t atoms = 0;
+    for (const ExactLattice<D>& lattice : scene_.lattices) atoms += lattice.atoms.size();
+    views.reserve(atoms);
     for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
       for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
         views.push_back(exact.view(scene_, l, a));

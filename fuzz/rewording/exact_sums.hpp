@@ -19,12 +19,11 @@ inline constexpr int kDigits = 53, kLeastExponent = -1074, kLargestExponent = 10
 /// mantissa 2^exponent, if a binary64 is that.
 inline std::optional<double> to_binary64(Z mantissa, long exponent) {
   if (mantissa == 0) return 0.0;
-  const auto zeros = static_cast<long>(mpz_scan1(mantissa.get_mpz_t(), 0));
+  const auto zeros = trailing_zeros(mantissa);
   const long bits = oracle::bit_length(mantissa);
   if (bits - zeros > kDigits || exponent + zeros < kLeastExponent || exponent + bits - 1 > kLargestExponent)
     return std::nullopt;
-  mpz_fdiv_q_2exp(mantissa.get_mpz_t(), mantissa.get_mpz_t(), static_cast<unsigned long>(zeros));
-  return std::ldexp(mantissa.get_d(), static_cast<int>(exponent + zeros));
+  return std::ldexp((mantissa >> zeros).get_d(), static_cast<int>(exponent + zeros));
 }
 
 /// a + n_1 u_1 + n_2 u_2 + n_3 u_3, if binary64 values are that.

@@ -20,7 +20,7 @@ namespace lorentz::oracle {
 ///
 /// Units: as in Query: lengths are the scene's, times are such that x + t v is the particle's place.
 /// Cost: that of the fast engine and some 100 ns for the time; where it is not certain, and for scenes
-/// beyond it, that of the oracle (10 us and more). On drawn queries that is one in some thousand
+/// beyond it, that of the oracle (5 us and more). On drawn queries that is one in some thousand
 /// (docs/speed.md).
 class Certified {
  public:

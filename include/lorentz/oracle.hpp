@@ -36,7 +36,7 @@ struct Request {
 ///
 /// Units: as in Query: lengths are the scene's, times are such that x + t v is the particle's place.
 ///
-/// Cost: 7 to 9 us (2D) and 30 to 60 us (3D) for each atom of the scene at ordinary radii; it grows with
+/// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii; it grows with
 /// the logarithms of 1/r, of the distance and of the numbers' range (docs/speed.md). The exception: which
 /// of very many obstacles around x is the smallest (10^10 of them, in a lattice both dense and skewed)
 /// can take long. Allocates.

@@ -37,7 +37,7 @@ class Ends {
     Z mantissa = upwards ? ceil_div(numerator, denominator) : floor_div(numerator, denominator);
     long exponent = unit_;
     if (mantissa == 0) return {};
-    const long zeros = static_cast<long>(mpz_scan1(mantissa.get_mpz_t(), 0));
+    const long zeros = trailing_zeros(mantissa);
     return {to_integer(mantissa >> zeros), exponent + zeros};
   }
 
@@ -52,17 +52,6 @@ ZVec<D> primitive_vector(ZVec<D> n) {
   for (const Z& component : n) divisor = gcd(divisor, component);
   for (Z& component : n) component /= divisor;
   return n;
-}
-
-struct Bezout {
-  Z gcd, x, y;  // a x + b y = gcd
-};
-
-Bezout bezout(const Z& a, const Z& b) {
-  Bezout result;
-  mpz_gcdext(result.gcd.get_mpz_t(), result.x.get_mpz_t(), result.y.get_mpz_t(), a.get_mpz_t(),
-             b.get_mpz_t());
-  return result;
 }
 
 // Bases of Z^d that begin with n, a vector without a common divisor.

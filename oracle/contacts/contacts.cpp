@@ -315,7 +315,7 @@ class Boxes {
       std::array<long, D> box;
       for (std::size_t i = 0; i < D; ++i) {
         const Z place = floor_div(sgn(det) * count_[i] * dot(across[i], bodies[index].position), size);
-        box[i] = static_cast<long>(mpz_fdiv_ui(place.get_mpz_t(), static_cast<unsigned long>(count_[i])));
+        box[i] = Z(place - count_[i] * floor_div(place, count_[i])).get_si();
       }
       box_of_.push_back(box);
       inside_[box].push_back(index);

@@ -4,6 +4,16 @@
 #include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::oracle {
+namespace {
+
+// a / b in lowest terms, for b > 0.
+std::string fraction(const Z& a, const Z& b) {
+  const Z divisor = gcd(a, b), denominator = b / divisor;
+  const std::string numerator = Z(a / divisor).get_str();
+  return denominator == 1 ? numerator : numerator + "/" + denominator.get_str();
+}
+
+}  // namespace
 
 std::vector<Convergent> convergents(double rise, double run, std::size_t limit) {
   CommonExponent common;
@@ -26,10 +36,8 @@ std::vector<Convergent> convergents(double rise, double run, std::size_t limit) 
     denominator = rest;
 
     const Z remainder = q * height - p * whole;  // over `whole`
-    mpq_class exact(remainder, whole);
-    exact.canonicalize();
     result.push_back({to_integer(a), to_integer(p), to_integer(q),
-                      round_to_binary64({remainder, +1, 0, whole, 0}), exact.get_str()});
+                      round_to_binary64({remainder, +1, 0, whole, 0}), fraction(remainder, whole)});
   }
   return result;
 }

@@ -30,9 +30,10 @@ class Earliest {
   bool found() const { return entry_.has_value(); }
   const Entry<D>& entry() const { return *entry_; }
 
-  /// True if an entry at (s - sqrt(d)) / v2 would come after the earliest one.
-  bool beats(const Z& s, const Z& d, const Z& v2) const {
-    return entry_ && compare_entries(entry_->s, entry_->d, entry_->v2, s, d, v2) < 0;
+  /// Negative, 0 or positive as an entry at (s - sqrt(d)) / v2 would come before the earliest one, with it or
+  /// after it.
+  int order_of(const Z& s, const Z& d, const Z& v2) const {
+    return entry_ ? compare_entries(s, d, v2, entry_->s, entry_->d, entry_->v2) : -1;
   }
 
   /// No obstacle whose centre has an s above this, in a view with this v2, can be entered before or with the
@@ -41,11 +42,9 @@ class Earliest {
     return (v2 == entry_->v2 ? entry_->s : ceil_div(entry_->s * v2, entry_->v2)) + rho_above;
   }
 
-  void offer(Entry<D> other) {
-    if (entry_) {
-      const int order = compare_entries(other.s, other.d, other.v2, entry_->s, entry_->d, entry_->v2);
-      if (order > 0 || (order == 0 && key(*entry_) <= key(other))) return;
-    }
+  /// `order` is that of its time, and not positive.
+  void offer(Entry<D> other, int order) {
+    if (order == 0 && key(*entry_) <= key(other)) return;
     entry_ = std::move(other);
   }
 
@@ -66,26 +65,67 @@ struct Search {
   Earliest<D>& earliest;
 };
 
+/// A vector of the plane as the flight sees it: v^2 |c|^2 = s^2 + h^2.
+struct FlightPoint {
+  Z s, h;
+  ZVec<2> n;
+
+  FlightPoint(const Velocity<2>& velocity, const LatticePoint<2>& point)
+      : s(dot(velocity.v, point.p)), h(cross(velocity.v, point.p)), n(point.n) {}
+  void add_multiple(const Z& k, const FlightPoint& other) {
+    s.add_product(k, other.s);
+    h.add_product(k, other.h);
+    for (std::size_t i = 0; i < 2; ++i) n[i].add_product(k, other.n[i]);
+  }
+  void negate();
+};
+
 /// The quadratic functions of k along a row, c(k) = start + k step:
-///   |c|^2 = cc + 2 k cg + k^2 gg,   s = s0 + k sg,   |h|^2 = C + 2 k B + k^2 A.
+///   v^2 |c|^2 = cc + 2 k cg + k^2 gg,   s = s0 + k sg,   |h|^2 = C + 2 k B + k^2 A.
 template <std::size_t D>
 struct Row {
   Z cc, cg, gg, s0, sg, A, B, C;
 
   Row(const Velocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step)
-      : cc(dot(start.p, start.p)),
-        cg(dot(start.p, step.p)),
-        gg(dot(step.p, step.p)),
+      : cc(velocity.v2 * dot(start.p, start.p)),
+        cg(velocity.v2 * dot(start.p, step.p)),
+        gg(velocity.v2 * dot(step.p, step.p)),
         s0(dot(velocity.v, start.p)),
         sg(dot(velocity.v, step.p)),
-        A(velocity.v2 * gg - sg * sg),
-        B(velocity.v2 * cg - s0 * sg),
-        C(velocity.v2 * cc - s0 * s0) {}
+        A(gg - sg * sg),
+        B(cg - s0 * sg),
+        C(cc - s0 * s0) {}
 };
 
-/// Offers the earliest entry at t >= 0 among the obstacles at start + k step, k any integer. x must lie in
-/// none of them but `from`. Costs the same for two obstacles and for 2^1000.
-template <std::size_t D>
-void offer_first_on_row(const Search<D>& search, const LatticePoint<D>& start, const LatticePoint<D>& step);
+/// The rows with one step, in the plane. Of a row, start + k step for any integer k, offers the earliest
+/// entry at t >= 0. x must lie in none of its obstacles but `from`. Costs the same for two obstacles and for
+/// 2^1000.
+class RowsInPlane {
+ public:
+  RowsInPlane(const Search<2>& search, const FlightPoint& step);
+  void offer_first(const FlightPoint& start) const;
+
+ private:
+  const Search<2>& search_;
+  const FlightPoint& step_;
+  const Z gap_;       // |h| of the step
+  const bool short_;  // a row has a few places within rho of the line at most
+};
+
+/// The same in space.
+class RowsInSpace {
+ public:
+  RowsInSpace(const Search<3>& search, const LatticePoint<3>& step);
+  void offer_first(const LatticePoint<3>& start) const;
+
+ private:
+  const Search<3>& search_;
+  const LatticePoint<3>& step_;
+  const Z sg_, A_;     // as in Row
+  const ZVec<3> h_g_;  // v x step
+  Z most_along_;       // |A k + B| <= this, and ..
+  Z most_beside_;      // .. |h_g . start| <= this, if any obstacle of the row is met
+  bool short_;         // so few k come into question
+};
 
 }  // namespace lorentz::oracle

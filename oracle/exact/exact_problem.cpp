@@ -14,15 +14,16 @@ Z determinant<3>(const Basis<3>& basis) {
   return dot(cross(basis[0].p, basis[1].p), basis[2].p);
 }
 
-ZVec<2> cramer(const Basis<2>& b, const ZVec<2>& p) {
-  return {cross(p, b[1].p), cross(b[0].p, p)};
-}
-
-ZVec<3> cramer(const Basis<3>& b, const ZVec<3>& p) {
-  return {dot(p, cross(b[1].p, b[2].p)), dot(p, cross(b[2].p, b[0].p)), dot(p, cross(b[0].p, b[1].p))};
-}
-
 namespace {
+
+// The rows of det(b) b^-1.
+ZMatrix<2> dual_of(const Basis<2>& b) {
+  return {ZVec<2>{b[1].p[1], -b[1].p[0]}, ZVec<2>{-b[0].p[1], b[0].p[0]}};
+}
+
+ZMatrix<3> dual_of(const Basis<3>& b) {
+  return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
+}
 
 ZMatrix<2> adjugate(const ZMatrix<2>& columns) {
   const auto& [a, b] = columns;
@@ -40,12 +41,36 @@ Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
   return basis;
 }
 
+}  // namespace
+
+ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p) {
+  return dual_of(basis) * p;
+}
+
+ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p) {
+  return dual_of(basis) * p;
+}
+
+template <std::size_t D>
+DualBasis<D>::DualBasis(const Basis<D>& basis, const Z& r)
+    : dual(dual_of(basis)), det(determinant<D>(basis)) {
+  if (det < 0) {
+    det = -det;
+    for (ZVec<D>& row : dual)
+      for (Z& component : row) component = -component;
+  }
+  for (std::size_t i = 0; i < D; ++i) reach[i] = ceil_sqrt(r * r * dot(dual[i], dual[i]));
+}
+
+namespace {
+
 template <std::size_t D>
 ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent) {
   ExactAtom<D> exact;
   exact.position = scaled_vector<D>(atom.position, exponent);
   if (atom.is_ball()) {
     exact.radius = scaled(atom.radius, exponent);
+    exact.home = DualBasis<D>(reduced, exact.radius);
     return exact;
   }
   ZMatrix<D> columns;
@@ -54,6 +79,7 @@ ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent
   exact.radius = abs(dot(frame.to_ball[0], columns[0]));
   frame.reduced = mapped(frame.to_ball, reduced);
   reduce(frame.reduced, EuclideanForm<D>{});
+  exact.home = DualBasis<D>(frame.reduced, exact.radius);
   exact.frame = std::move(frame);
   return exact;
 }
@@ -127,12 +153,20 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
     view.velocity = velocity;
   }
   // Bring the offset home: subtract the lattice vector nearest to it (by rounding; any near one will do).
-  const Z det = determinant<D>(view.basis);
-  const ZVec<D> coordinates = cramer(view.basis, view.offset.p);
+  const DualBasis<D>& home = obstacle.home;
+  const Z det = shifted_left(home.det, shift);
   for (std::size_t i = 0; i < D; ++i) {
-    const Z k = det > 0 ? round_div(coordinates[i], det) : round_div(-coordinates[i], -det);
-    if (k != 0) view.offset.add_multiple(-k, view.basis[i]);
+    Z coordinate = dot(home.dual[i], view.offset.p);
+    const Z k = round_div(coordinate, det);
+    if (k != 0) {
+      view.offset.add_multiple(-k, view.basis[i]);
+      coordinate.subtract_product(k, det);
+    }
+    // The centres stand at this coordinate plus multiples of det: at the least of these in size, or beyond.
+    const Z reach = shifted_left(home.reach[i], shift);
+    if (compare_sizes(coordinate, reach) >= 0 && det - abs(coordinate) >= reach) view.near = false;
   }
+  view.volume_bits = bit_length(home.det) + static_cast<long>(D) * shift;
   return view;
 }
 

@@ -18,8 +18,8 @@ struct LatticePoint {
 
   void add_multiple(const Z& k, const LatticePoint& other) {
     for (std::size_t i = 0; i < D; ++i) {
-      mpz_addmul(p[i].get_mpz_t(), k.get_mpz_t(), other.p[i].get_mpz_t());
-      mpz_addmul(n[i].get_mpz_t(), k.get_mpz_t(), other.n[i].get_mpz_t());
+      p[i].add_product(k, other.p[i]);
+      n[i].add_product(k, other.n[i]);
     }
   }
   void negate() {
@@ -61,11 +61,24 @@ struct BallFrame {
   Basis<D> reduced;    ///< a short basis of the lattice there
 };
 
+/// The coordinates of p in a basis: dual p / det.
+template <std::size_t D>
+struct DualBasis {
+  ZMatrix<D> dual;
+  Z det;  ///< > 0
+  /// Smallest integers >= r |dual_i|: a point within r of p has dual coordinates that differ by less.
+  ZVec<D> reach;
+
+  DualBasis() = default;
+  DualBasis(const Basis<D>& basis, const Z& r);
+};
+
 template <std::size_t D>
 struct ExactAtom {
   ZVec<D> position;
   Z radius;                           ///< in the frame's coordinates, if there is a frame
   std::optional<BallFrame<D>> frame;  ///< of an ellipsoid
+  DualBasis<D> home;                  ///< to the short basis of the lattice, in the same coordinates
 };
 
 template <std::size_t D>
@@ -108,6 +121,8 @@ struct View {
   Velocity<D> velocity;
   Basis<D> basis;          ///< reduced
   LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
+  bool near = true;        ///< false: no centre is within `radius` of x (as the view was made)
+  long volume_bits = 0;    ///< bit length of |det basis|
   Z radius;
   Z radius2;  ///< radius^2
 };

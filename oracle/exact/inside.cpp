@@ -81,8 +81,7 @@ namespace {
 using Estimate = long double;
 
 Estimate estimate(const Z& a) {
-  signed long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, a.get_mpz_t());
+  const auto [mantissa, exponent] = approximation(a);
   return std::ldexp(static_cast<Estimate>(mantissa), static_cast<int>(exponent));
 }
 
@@ -135,6 +134,7 @@ std::optional<ZVec<D>> smallest_on_row(LatticePoint<D> first, const LatticePoint
 template <std::size_t D>
 std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
                                        const ZVec<D>* from, long exponent) {
+  if (!view.near) return std::nullopt;
   // Few rows: look at all of them, in the short basis. A radius of many cells: take the rows in lexicographic
   // order, and the first point is the smallest. (Floating point here chooses the cheaper way, nothing more.)
   constexpr Estimate kFewRows = 64;

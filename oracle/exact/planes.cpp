@@ -17,12 +17,14 @@ Planes::Planes(const Velocity<3>& velocity, const Z& rho2, const LatticePoint<3>
   reach2 = rho2 * dot(e, e);
   reach = floor_sqrt(reach2);
   head_on = reach2 == 0;
+  across2 = reach2;
+  across = reach;
   if (head_on) {
     e = b1.p;
     f = cross(velocity.v, e);
+    across2 = rho2 * dot(e, e);
+    across = floor_sqrt(across2);
   }
-  across2 = rho2 * dot(e, e);
-  across = floor_sqrt(across2);
 }
 
 Range Planes::levels(const LatticePoint<3>& offset, const Z& low, const Z& high) const {

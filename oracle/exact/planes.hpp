@@ -15,7 +15,7 @@ struct WindowVector {
 
   void add_multiple(const Z& k, const WindowVector& other) {
     point.add_multiple(k, other.point);
-    mpz_addmul(s.get_mpz_t(), k.get_mpz_t(), other.s.get_mpz_t());
+    s.add_product(k, other.s);
   }
 };
 

@@ -50,7 +50,11 @@ struct Floor {
 };
 
 Floor floor_of(const Quadratic& n, const Z& factor, long binary_shift) {
-  Z a = n.a * factor, d = n.d * factor * factor, q = n.q;
+  Z a = n.a, d = n.d, q = n.q;
+  if (factor != 1) {
+    a *= factor;
+    d *= factor * factor;
+  }
   const long shift = n.exponent + binary_shift;
   if (shift >= 0) {
     a = shifted_left(a, shift);
@@ -58,15 +62,9 @@ Floor floor_of(const Quadratic& n, const Z& factor, long binary_shift) {
   } else {
     q = shifted_left(q, -shift);
   }
-  Z root, rest;
-  mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), d.get_mpz_t());
-  const bool square = rest == 0;
-  Z numerator = n.sign > 0 ? Z(a + root) : Z(a - root - (square ? 0 : 1));
-  Floor result;
-  Z remainder;
-  mpz_fdiv_qr(result.value.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), q.get_mpz_t());
-  result.exact = square && remainder == 0;
-  return result;
+  const auto [root, square] = square_root(d);
+  auto [value, whole] = divide(n.sign > 0 ? a + root : a - root - (square ? 0 : 1), q, Z::Rounding::down);
+  return {std::move(value), square && whole};
 }
 
 // e with 2^(e-3) < number < 2^(e+3), for a number > 0. Where a and the root cancel, their difference is
@@ -88,14 +86,20 @@ Quadratic negated(Quadratic n) {
 // The integer nearest to floor + (half, rest): `twice` is floor(2 y), ties to even.
 Z round_half_even(const Floor& twice) {
   Z value = twice.value / 2;
-  const bool half = mpz_odd_p(twice.value.get_mpz_t());
-  if (half && (!twice.exact || mpz_odd_p(value.get_mpz_t()))) ++value;
+  const bool half = is_odd(twice.value);
+  if (half && (!twice.exact || is_odd(value))) ++value;
   return value;
 }
 
 }  // namespace
 
 namespace {
+
+// floor(number / 2^bits).
+Floor cut(const Floor& whole, long bits) {
+  return {whole.value >> static_cast<unsigned long>(bits),
+          whole.exact && (whole.value == 0 || trailing_zeros(whole.value) >= bits)};
+}
 
 // The nearest binary64 to a number > 0, given `floor_at`: p -> floor(number / 2^p) and whether that is all,
 // and a guess of its exponent that is off by a few bits at most.
@@ -104,20 +108,18 @@ double rounded(long magnitude, FloorAt floor_at) {
   // The unit of the last place is 2^p; the floor tells what the guess does not know.
   constexpr long kSmallest = -1074;
   long p = std::max(magnitude - 60, kSmallest - 1);
-  const long bits = bit_length(floor_at(p).value);
+  const Floor fine = floor_at(p);
+  const long at = p, bits = bit_length(fine.value);
   p = std::max(p + bits - 53, kSmallest);
-  const Z mantissa = round_half_even(floor_at(p - 1));
+  const Z mantissa = round_half_even(p - 1 >= at ? cut(fine, p - 1 - at) : floor_at(p - 1));
   if (bit_length(mantissa) + p > 1024) return std::numeric_limits<double>::infinity();
   return std::ldexp(mantissa.get_d(), static_cast<int>(p));  // mantissa <= 2^53: both steps are exact
 }
 
 // floor(sqrt(y)) = floor(sqrt(floor(y))).
 Floor root_of(const Floor& square) {
-  Floor root;
-  Z rest;
-  mpz_sqrtrem(root.value.get_mpz_t(), rest.get_mpz_t(), square.value.get_mpz_t());
-  root.exact = square.exact && rest == 0;
-  return root;
+  auto [root, whole] = square_root(square.value);
+  return {std::move(root), square.exact && whole};
 }
 
 }  // namespace
@@ -139,9 +141,7 @@ double round_root_to_binary64(const Quadratic& square, int sign) {
 namespace {
 
 Z power_of_ten(long exponent) {
-  Z result;
-  mpz_ui_pow_ui(result.get_mpz_t(), 10, exponent);
-  return result;
+  return power(10, static_cast<unsigned long>(exponent));
 }
 
 // The number times 10^exponent.

@@ -12,7 +12,7 @@ using Real =
     boost::multiprecision::number<boost::multiprecision::gmp_float<150>, boost::multiprecision::et_off>;
 
 inline Real real(const Z& a) {
-  return Real(a.get_mpz_t());
+  return Real(static_cast<mpz_srcptr>(a.view()));
 }
 
 inline Real times_power_of_two(const Real& a, long exponent) {
@@ -21,9 +21,7 @@ inline Real times_power_of_two(const Real& a, long exponent) {
 
 /// The smallest integer >= a.
 inline Z ceiling(const Real& a) {
-  Z result;
-  mpz_set_f(result.get_mpz_t(), Real(ceil(a)).backend().data());
-  return result;
+  return Z(boost::multiprecision::mpz_int(Real(ceil(a))).backend().data());
 }
 
 /// To binary64, downwards; no more than `most`.

@@ -7,90 +7,70 @@
 // Then walk the rows a u + b w in the order in which they leave the strip. At most 2 rho / |h_u| + 1 of them
 // (in the second case: a number bounded by the ratio of the radius to the distance of the rows) overlap at
 // any s, and the first that lies in s > 0 as a whole ends the walk: an open interval of length 2 rho / |h_w|
-// > 1 holds an integer. Each row is solved exactly (offer_first_on_row), so nothing depends on obstacles
+// > 1 holds an integer. Each row is solved exactly (RowsInPlane), so nothing depends on obstacles
 // being disjoint.
 #include "oracle/first_hit/first_hit.hpp"
 
 namespace lorentz::oracle {
 namespace {
 
-struct Across {
-  LatticePoint<2> vector;
-  Z h;  // v x vector
-
-  void negate() {
-    vector.negate();
-    h = -h;
-  }
+struct Steps {
+  FlightPoint u, w;
 };
 
-struct Rows {
-  Across u, w;
-};
-
-Rows choose_rows(const Search<2>& search) {
-  const auto across = [&](const LatticePoint<2>& b) { return Across{b, cross(search.velocity.v, b.p)}; };
-  const Z width2 = 4 * search.rho2;
-  const auto resolved = [&](const Z& h) { return h * h < width2; };
-  Across w = across(search.view.basis[0]), u = across(search.view.basis[1]);
-  if (resolved(w.h)) return {u, w};
+Steps choose_steps(const Search<2>& search) {
+  const Z width = 2 * search.rho;
+  const auto resolved = [&](const Z& h) { return compare_sizes(h, width) <= 0; };
+  FlightPoint w(search.velocity, search.view.basis[0]), u(search.velocity, search.view.basis[1]);
+  if (resolved(w.h)) return {std::move(u), std::move(w)};
   std::swap(u, w);
   if (w.h < 0) w.negate();
   if (u.h < 0) u.negate();
   while (!resolved(w.h)) {
-    const Z quotient = u.h / w.h;
-    u.vector.add_multiple(-quotient, w.vector);
-    u.h -= quotient * w.h;
+    u.add_multiple(-(u.h / w.h), w);
     std::swap(u, w);
   }
-  return {u, w};
+  return {std::move(u), std::move(w)};
 }
 
 }  // namespace
 
 void search_first_hit(const Search<2>& search) {
-  auto [u, w] = choose_rows(search);
+  auto [u, w] = choose_steps(search);
   const Z rho_above = search.rho + 1;
-  const ZVec<2>& v = search.velocity.v;
-  const LatticePoint<2>& offset = search.view.offset;
 
   // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is that of
   // the offset. Orient the basis so that det > 0 and h_w <= 0: then a grows with s.
-  Z s_w = dot(v, w.vector.p);
-  Z det = u.h * s_w - dot(v, u.vector.p) * w.h;
-  if (w.h > 0) {
-    w.negate();
-    s_w = -s_w;
-    det = -det;
-  }
+  if (w.h > 0) w.negate();
+  Z det = minor_of(u.h, u.s, w.h, w.s);
   if (det < 0) {
     u.negate();
     det = -det;
   }
   const Z D_w = -w.h;
-  const Z spread = search.rho * abs(s_w);
-  const Z home = cross(v, offset.p) * s_w + dot(v, offset.p) * D_w;
+  const Z spread = search.rho * abs(w.s);
+  FlightPoint row(search.velocity, search.view.offset);
+  const Z home = row.h * w.s + row.s * D_w;
 
+  const RowsInPlane rows(search, w);
   const Z first = ceil_div(D_w - spread - home, det);  // s >= 1
+  row.add_multiple(first, u);
   if (D_w == 0) {
     // The direction is rational: rows run along v, and only those in the strip count.
     const Z last = floor_div(spread - home, det);
     for (Z a = first; a <= last; ++a) {
-      LatticePoint<2> row = offset;
-      row.add_multiple(a, u.vector);
-      offer_first_on_row(search, row, w.vector);
+      rows.offer_first(row);
+      row.add_multiple(1, u);
     }
     return;
   }
-  LatticePoint<2> row = offset;
-  row.add_multiple(first, u.vector);
-  for (Z a = first;; ++a) {
+  for (Z level = first * det;; level += det) {
     if (search.earliest.found()) {
       const Z reach = search.earliest.reach(rho_above, search.velocity.v2);
-      if (a * det > spread + reach * D_w - home) return;
+      if (level > spread + reach * D_w - home) return;
     }
-    offer_first_on_row(search, row, w.vector);
-    row.add_multiple(1, u.vector);
+    rows.offer_first(row);
+    row.add_multiple(1, u);
   }
 }
 

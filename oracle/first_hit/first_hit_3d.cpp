@@ -7,7 +7,7 @@
 //      window is cut; none, and the flight jumps to the s at which the next plane comes within reach;
 //   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
 //      with windows and a scaling of its own: rows k2 = const, few of them, or the window is cut;
-//   3. each row is solved exactly and as a whole (offer_first_on_row).
+//   3. each row is solved exactly and as a whole (RowsInSpace).
 // Windows grow while nothing is met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
 // integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
 //
@@ -15,6 +15,7 @@
 #include "oracle/exact/planes.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/first_hit/first_hit.hpp"
+#include "oracle/first_hit/window_basis.hpp"
 
 namespace lorentz::oracle {
 namespace {
@@ -43,10 +44,17 @@ class Solver {
     bool along_rows = false;  // the rows run along v: they are all there is, in this window and beyond
   };
 
-  bool solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
-                   Z high);
-  Section section_of(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3,
-                     const Z& low, const Z& high) const;
+  // The planes of b1 and b2, and these two in coordinates of the plane.
+  struct Family {
+    Planes planes;
+    std::array<PlanePoint, 2> pair;
+    Family(const Search<3>& search, const WindowBasis& basis)
+        : planes(search.velocity, search.rho2, basis[0], basis[1], basis[2]),
+          pair{planes.in_plane(basis[0]), planes.in_plane(basis[1])} {}
+  };
+
+  bool solve_plane(const Family& family, const Z& k3, Z low, Z high);
+  Section section_of(const Family& family, const Z& k3, const Z& low, const Z& high) const;
   void solve_rows(const Section& section);
   void solve_many_rows(const Planes& planes, const Section& section);
   Z jump_beyond(const Planes& planes, const Z& high) const;
@@ -59,8 +67,8 @@ class Solver {
   const Z rho_above_;  // rho rounded up
 };
 
-Solver::Section Solver::section_of(const Planes& planes, const std::array<WindowVector, 3>& basis,
-                                   const Z& k3, const Z& low, const Z& high) const {
+Solver::Section Solver::section_of(const Family& family, const Z& k3, const Z& low, const Z& high) const {
+  const Planes& planes = family.planes;
   const PlaneSection extent = planes.section(search_.view.offset, k3, low, high);
   Section section;
   section.low = extent.low;
@@ -68,7 +76,7 @@ Solver::Section Solver::section_of(const Planes& planes, const std::array<Window
   section.empty = extent.empty;
   if (extent.empty) return section;
   section.start = extent.origin;
-  std::array<PlanePoint, 2> pair{planes.in_plane(basis[0].point), planes.in_plane(basis[1].point)};
+  std::array<PlanePoint, 2> pair = family.pair;
   reduce(pair, extent.form());
   section.rows = planes.rows(extent, pair[0], pair[1]);
   section.along_rows = !planes.head_on && pair[0].y == 0 && planes.a == 0;
@@ -78,10 +86,13 @@ Solver::Section Solver::section_of(const Planes& planes, const std::array<Window
 }
 
 void Solver::solve_rows(const Section& section) {
+  if (section.rows.empty()) return;
+  const RowsInSpace rows(search_, section.step.point);
+  LatticePoint<3> row = section.start;
+  row.add_multiple(section.rows.first, section.next.point);
   for (Z k = section.rows.first; k <= section.rows.last; ++k) {
-    LatticePoint<3> row = section.start;
-    row.add_multiple(k, section.next.point);
-    offer_first_on_row(search_, row, section.step.point);
+    rows.offer_first(row);
+    row.add_multiple(1, section.next.point);
   }
 }
 
@@ -96,7 +107,7 @@ std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<
   const Row<3> row(search.velocity, start, step);
   const Z strip = row.B * row.B - row.A * (row.C - search.rho2);
   if (row.A == 0 || strip <= 0) return std::nullopt;
-  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * search.velocity.v2 * row.gg, row.A};
+  return RealEntry{row.A * row.s0 - row.B * row.sg, strip * row.gg, row.A};
 }
 
 // An entry as this view times it: another atom's may be in other coordinates, with another v^2.
@@ -132,6 +143,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   const Z across = g1.y * (z - start.z) + g1.z * start.y;
   Z centre = floor_div(across, g1.y * g2.z - g1.z * g2.y);
   centre = std::min(std::max(centre, section.rows.first), section.rows.last);
+  const RowsInSpace rows(search_, section.step.point);
   for (const int direction : {+1, -1}) {
     std::optional<RealEntry> previous;
     for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last;
@@ -144,19 +156,19 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
         if (after_best && previous && compare(*entry, *previous) >= 0) break;
       }
       previous = entry;
-      offer_first_on_row(search_, row, section.step.point);
+      rows.offer_first(row);
     }
   }
 }
 
 // Returns true if the plane holds no more than what was found, at any s.
-bool Solver::solve_plane(const Planes& planes, const std::array<WindowVector, 3>& basis, const Z& k3, Z low,
-                         Z high) {
+bool Solver::solve_plane(const Family& family, const Z& k3, Z low, Z high) {
+  const Planes& planes = family.planes;
   const Z shortest = 2 * rho_above_;
   Z length = high - low;
   while (low <= (high = limited(high))) {
     const Z end = std::min(high, Z(low + length));
-    const Section section = section_of(planes, basis, k3, low, end);
+    const Section section = section_of(family, k3, low, end);
     const bool few = !section.empty && section.rows.count() <= kMany;
     if (section.empty) {
       if (planes.a == 0) return true;
@@ -189,10 +201,10 @@ Z Solver::jump_beyond(const Planes& planes, const Z& high) const {
 void Solver::run() {
   const Velocity<3>& velocity = search_.velocity;
   const View<3>& view = search_.view;
-  std::array<WindowVector, 3> basis;
-  for (int i = 0; i < 3; ++i) basis[i] = {view.basis[i], dot(velocity.v, view.basis[i].p)};
+  WindowBasis basis(velocity, view.basis);
+  std::optional<Family> family;
   // A window of about one free path, volume / (pi r^2).
-  long j = std::max(0L, bit_length(determinant<3>(view.basis)) - 3 * bit_length(view.radius) - 1);
+  long j = std::max(0L, view.volume_bits - 3 * bit_length(view.radius) - 1);
   Z low = 1;
   // After each empty window the next is longer, and by a growing factor: from the edge of a slender section
   // (a plane grazed at a slope of 2^-60) to its first obstacle it can be 2^30 first windows.
@@ -200,8 +212,8 @@ void Solver::run() {
   for (;;) {
     const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);
     if (high < low) return;
-    reduce(basis, WindowForm(velocity, j));
-    const Planes planes(velocity, search_.rho2, basis[0].point, basis[1].point, basis[2].point);
+    if (basis.shorten(j) || !family) family.emplace(search_, basis);
+    const Planes& planes = family->planes;
     const Range levels = planes.levels(view.offset, low, high);
     if (levels.count() > kMany && j > 0) {
       j = std::max(0L, j - cut_for(levels.count(), 3));
@@ -212,8 +224,7 @@ void Solver::run() {
       low = jump_beyond(planes, high);
     } else {
       bool exhausted = planes.a == 0;
-      for (Z k3 = levels.first; k3 <= levels.last; ++k3)
-        exhausted &= solve_plane(planes, basis, k3, low, high);
+      for (Z k3 = levels.first; k3 <= levels.last; ++k3) exhausted &= solve_plane(*family, k3, low, high);
       if (exhausted) return;
       low = high + 1;
     }

@@ -39,8 +39,7 @@ Obstacle<D> obstacle_of(const Atom& atom, long exponent) {
 }  // namespace
 
 double log2_of(const Z& a) {
-  signed long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, a.get_mpz_t());
+  const auto [mantissa, exponent] = approximation(a);
   return std::log2(std::fabs(mantissa)) + static_cast<double>(exponent);
 }
 

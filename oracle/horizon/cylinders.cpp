@@ -79,22 +79,14 @@ LatticePoint<3> lattice_vector(const ObstacleLattice<3>& lattice, const ZVec<3>&
   return result;
 }
 
-// s a + t b = gcd(a, b) >= 0
-Z bezout(const Z& a, const Z& b, Z& s, Z& t) {
-  Z divisor;
-  mpz_gcdext(divisor.get_mpz_t(), s.get_mpz_t(), t.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
-  return divisor;
-}
-
 PlaneBasis plane_basis(const ObstacleLattice<3>& lattice, const ZVec<3>& k) {
   PlaneBasis result;
   const auto vector = [&](const Z& a, const Z& b, const Z& c) { return lattice_vector(lattice, {a, b, c}); };
-  Z s, t, u, w;
-  const Z d = bezout(k[0], k[1], s, t);
+  const auto [d, s, t] = bezout(k[0], k[1]);
   if (d == 0) {
     result = {{vector(1, 0, 0), vector(0, 1, 0)}, vector(0, 0, k[2])};
   } else {
-    bezout(d, k[2], u, w);
+    const auto [divisor, u, w] = bezout(d, k[2]);
     result.in_plane = {vector(k[1] / d, -k[0] / d, 0), vector(-s * k[2], -t * k[2], d)};
     result.out = vector(u * s, u * t, w);
   }
@@ -240,8 +232,7 @@ class Search {
     LatticePoint<3> g, next;
     g.add_multiple(i, basis.in_plane[0]);
     g.add_multiple(j, basis.in_plane[1]);
-    Z s, t;
-    bezout(i, j, s, t);
+    const auto [divisor, s, t] = bezout(i, j);
     next.add_multiple(-t, basis.in_plane[0]);
     next.add_multiple(s, basis.in_plane[1]);
     Shadow shadow(lattice_, g.p, next.p, basis.out.p);

@@ -10,9 +10,8 @@ namespace lorentz::oracle {
 namespace {
 
 double quotient(const Z& a, const Z& b) {
-  signed long exponent_a = 0, exponent_b = 0;
-  const double x = mpz_get_d_2exp(&exponent_a, a.get_mpz_t()), y = mpz_get_d_2exp(&exponent_b, b.get_mpz_t());
-  return std::ldexp(x / y, static_cast<int>(exponent_a - exponent_b));
+  const BinaryApproximation x = approximation(a), y = approximation(b);
+  return std::ldexp(x.mantissa / y.mantissa, static_cast<int>(x.exponent - y.exponent));
 }
 
 // Orthogonal axes of the plane. Lengths in units of the largest disc's radius; vectors of the plane as
@@ -230,7 +229,7 @@ Surroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const 
   Surroundings result{shadow, Frame(shadow, hole.bits), {}, {}};
   ZVec<3> whole, point;
   for (std::size_t k = 0; k < 3; ++k) {
-    mpz_fdiv_q_2exp(whole[k].get_mpz_t(), hole.offset[k].get_mpz_t(), hole.bits);
+    whole[k] = hole.offset[k] >> hole.bits;
     point[k] = shadow.discs[hole.disc].centre[k] + whole[k];
   }
   for (Disc disc : shadow.discs_around(point, reach, false)) {

@@ -190,8 +190,8 @@ struct Search {
   // All gaps that two classes have in common; one line for each pair of a gap here and a gap there.
   void add_meetings(const ZVec<D>& normal, const Class& a, const Class& b) {
     const Z step = gcd(a.period, b.period), turns_a = a.period / step, turns_b = b.period / step;
-    Z inverse = 0;
-    if (turns_b > 1) mpz_invert(inverse.get_mpz_t(), turns_a.get_mpz_t(), turns_b.get_mpz_t());
+    // That of turns_a modulo turns_b.
+    const Z root = bezout(turns_a, turns_b).x, inverse = root - turns_b * floor_div(root, turns_b);
     for (const Gap& here : a.gaps)
       for (const Gap& there : b.gaps) {
         ++work;

@@ -43,7 +43,7 @@ const std::vector<Room> kHouse{
      {"src/engines/classical", "src/engines/published"},
      {}},
     // The oracle: of src the problem alone.
-    {"oracle/integers", {"src/problem"}, {}, {"gmpxx.h integer.hpp"}},
+    {"oracle/integers", {"src/problem"}, {}, {"gmp.h z.hpp"}},
     {"oracle/exact", {"src/problem"}, {"oracle/integers"}, {"boost/multiprecision/ real.hpp"}},
     {"oracle/first_hit", {"src/problem"}, {"oracle/integers", "oracle/exact"}, {}},
     {"oracle/contacts", {"src/problem"}, {"oracle/integers", "oracle/exact"}, {}},

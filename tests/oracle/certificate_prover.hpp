@@ -165,7 +165,8 @@ struct Bezout {
   oracle::Z g, x, y;
 
   Bezout(const oracle::Z& a, const oracle::Z& b) {
-    mpz_gcdext(g.get_mpz_t(), x.get_mpz_t(), y.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+    const oracle::Bezout one = oracle::bezout(a, b);
+    g = one.gcd, x = one.x, y = one.y;
   }
 };
 

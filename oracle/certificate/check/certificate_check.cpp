@@ -241,8 +241,8 @@ struct Timeline {
   /// The integers s = T v^2 within the window.
   Range along(const Ends& ends, const Z& v2) const {
     Range s;
-    mpz_cdiv_q_2exp(s.lo.get_mpz_t(), Z(ends.from * v2).get_mpz_t(), bits);
-    mpz_fdiv_q_2exp(s.hi.get_mpz_t(), Z(ends.to * v2).get_mpz_t(), bits);
+    s.lo = -(-(ends.from * v2) >> bits);
+    s.hi = ends.to * v2 >> bits;
     return s;
   }
 };

@@ -38,9 +38,7 @@ int ScaledTime::compare_dyadic(const Z& n, long k) const {
 namespace {
 
 Z power_of_ten(unsigned long exponent) {
-  Z power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, exponent);
-  return power;
+  return power(10, exponent);
 }
 
 /// digits 10^exponent as written: all digits but leading zeros count.

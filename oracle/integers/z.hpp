@@ -1,0 +1,258 @@
+// Integers of any size whose small values need no allocation. Private to oracle/ and fuzz/rewording.
+//
+// A number is a sign and limbs, as GMP has them; GMP's functions on limbs do the work. The numbers of a query
+// are mostly of one to ten limbs, and most of them live for a line of code: with mpz_class a third of the
+// oracle's time was malloc and free. So kInline limbs stand in the number itself, and only longer ones are on
+// the heap. There is no other difference between the two, and no limit to the size.
+#pragma once
+
+#include <gmp.h>
+
+#include <compare>
+#include <concepts>
+#include <cstring>
+#include <iosfwd>
+#include <string>
+
+namespace lorentz::oracle {
+
+class Z {
+ public:
+  /// 0
+  Z() noexcept : limbs_(inline_) {}
+  /// Any built-in integer, exactly.
+  template <std::integral T>
+  Z(T value)
+  noexcept : limbs_(inline_),
+             size_(value == 0  ? 0
+                   : value < 0 ? -1
+                               : 1) {
+    static_assert(sizeof(T) <= sizeof(mp_limb_t));
+    inline_[0] = value < 0 ? -static_cast<mp_limb_t>(value) : static_cast<mp_limb_t>(value);
+  }
+  /// Reads digits, with a '-' before them if negative; throws std::invalid_argument if these are none.
+  explicit Z(const std::string& digits, int base = 10);
+  explicit Z(mpz_srcptr value);
+  /// A finite binary64, rounded towards 0.
+  explicit Z(double value);
+
+  Z(const Z& other) : limbs_(inline_), size_(other.size_) {
+    const std::size_t n = other.count();
+    if (n > kInline) adopt(allocate(n), n);
+    copy(limbs_, other.limbs_, n);
+  }
+  Z(Z&& other) noexcept : limbs_(inline_), size_(other.size_) { take(other); }
+  Z& operator=(const Z& other) {
+    if (this == &other) return *this;
+    const std::size_t n = other.count();
+    if (n > capacity_) adopt(allocate(n), n);
+    copy(limbs_, other.limbs_, n);
+    size_ = other.size_;
+    return *this;
+  }
+  Z& operator=(Z&& other) noexcept {
+    if (this == &other) return *this;
+    size_ = other.size_;
+    if (other.is_inline()) {
+      copy(limbs_, other.limbs_, other.count());
+    } else {
+      release();
+      take(other);
+    }
+    return *this;
+  }
+  ~Z() { release(); }
+
+  Z& operator+=(const Z& b) {
+    add(*this, *this, b.limbs_, b.size_);
+    return *this;
+  }
+  Z& operator-=(const Z& b) {
+    add(*this, *this, b.limbs_, -b.size_);
+    return *this;
+  }
+  Z& operator*=(const Z& b) { return *this = *this * b; }
+  Z& operator/=(const Z& b) { return *this = *this / b; }
+  Z& operator++() { return *this += 1; }
+  Z& operator--() { return *this -= 1; }
+  /// Adds a b. Neither need differ from this number.
+  Z& add_product(const Z& a, const Z& b) { return add_product(a, b, 1); }
+  Z& subtract_product(const Z& a, const Z& b) { return add_product(a, b, -1); }
+
+  friend Z operator+(const Z& a, const Z& b) {
+    Z sum;
+    add(sum, a, b.limbs_, b.size_);
+    return sum;
+  }
+  friend Z operator-(const Z& a, const Z& b) {
+    Z difference;
+    add(difference, a, b.limbs_, -b.size_);
+    return difference;
+  }
+  friend Z operator-(const Z& a) {
+    Z result = a;
+    result.size_ = -result.size_;
+    return result;
+  }
+  friend Z operator*(const Z& a, const Z& b) {
+    Z product;
+    multiply(product, a, b);
+    return product;
+  }
+  /// The quotient rounded towards 0; throws std::domain_error for b = 0, like all that divide.
+  friend Z operator/(const Z& a, const Z& b);
+  /// a - a / b * b
+  friend Z operator%(const Z& a, const Z& b);
+  /// floor(a / 2^bits)
+  friend Z operator>>(const Z& a, unsigned long bits);
+  friend Z shifted_left(const Z& a, unsigned long bits);
+  friend Z operator<<(const Z& a, unsigned long bits) { return shifted_left(a, bits); }
+
+  friend bool operator==(const Z& a, const Z& b) { return compare(a, b) == 0; }
+  friend std::strong_ordering operator<=>(const Z& a, const Z& b) { return compare(a, b) <=> 0; }
+  template <std::integral T>
+  friend bool operator==(const Z& a, T b) {
+    return b == 0 ? a.size_ == 0 : compare(a, Z(b)) == 0;
+  }
+  template <std::integral T>
+  friend std::strong_ordering operator<=>(const Z& a, T b) {
+    return (b == 0 ? a.size_ : compare(a, Z(b))) <=> 0;
+  }
+  /// Negative, 0 or positive as a < b, a = b or a > b.
+  friend int cmp(const Z& a, const Z& b) { return compare(a, b); }
+  /// The same of |a| and |b|.
+  friend int compare_sizes(const Z& a, const Z& b) {
+    const std::size_t n = a.count(), m = b.count();
+    return n != m ? (n < m ? -1 : 1) : n == 0 ? 0 : mpn_cmp(a.limbs_, b.limbs_, static_cast<mp_size_t>(n));
+  }
+  /// -1, 0 or +1
+  friend int sgn(const Z& a) { return a.size_ < 0 ? -1 : a.size_ > 0; }
+  friend Z abs(const Z& a) {
+    Z result = a;
+    result.size_ = static_cast<int>(a.count());
+    return result;
+  }
+  friend bool is_odd(const Z& a) { return a.size_ != 0 && a.limbs_[0] % 2 != 0; }
+  /// Number of bits of |a|; 0 for a = 0.
+  friend long bit_length(const Z& a) {
+    const std::size_t n = a.count();
+    return n == 0 ? 0 : static_cast<long>(n) * GMP_NUMB_BITS - __builtin_clzl(a.limbs_[n - 1]);
+  }
+  /// The largest k with 2^k | a, for a != 0.
+  friend long trailing_zeros(const Z& a) { return static_cast<long>(mpn_scan1(a.limbs_, 0)); }
+
+  enum class Rounding { down, up, to_zero };
+  struct Division;
+  friend Division divide(const Z& a, const Z& b, Rounding rounding);
+  struct Root;
+  friend Root square_root(const Z& a);
+
+  bool fits_slong_p() const;
+  long get_si() const;                                                 ///< only if fits_slong_p()
+  unsigned long get_ui() const { return size_ == 0 ? 0 : limbs_[0]; }  ///< |a| modulo 2^64
+  double get_d() const;                                                ///< rounded towards 0
+  std::string get_str(int base = 10) const;
+
+  /// The number as GMP's own functions read it; it must not outlive the number, nor a change of it.
+  class View {
+   public:
+    explicit View(const Z& a) { mpz_roinit_n(value_, a.limbs_, a.size_); }
+    operator mpz_srcptr() const { return value_; }
+
+   private:
+    mpz_t value_;
+  };
+  View view() const { return View(*this); }
+
+ private:
+  static constexpr std::size_t kInline = 10, kAtOnce = 4;
+
+  std::size_t count() const { return static_cast<std::size_t>(size_ < 0 ? -size_ : size_); }
+  bool is_inline() const { return limbs_ == inline_; }
+
+  // There is always room for kAtOnce limbs, so that many are copied whether they are used or not.
+  static void copy(mp_limb_t* to, const mp_limb_t* from, std::size_t n) {
+    std::memcpy(to, from, kAtOnce * sizeof(mp_limb_t));
+    if (n > kAtOnce) std::memcpy(to + kAtOnce, from + kAtOnce, (n - kAtOnce) * sizeof(mp_limb_t));
+  }
+  // The limbs of another number of the same size, by copy or from its heap; its own are in place.
+  void take(Z& other) noexcept {
+    if (other.is_inline()) {
+      copy(limbs_, other.limbs_, other.count());
+      return;
+    }
+    limbs_ = other.limbs_;
+    capacity_ = other.capacity_;
+    other.limbs_ = other.inline_;
+    other.capacity_ = kInline;
+    other.size_ = 0;
+  }
+  void release() noexcept {
+    if (is_inline()) return;
+    delete[] limbs_;
+    limbs_ = inline_;
+    capacity_ = kInline;
+  }
+  static mp_limb_t* allocate(std::size_t n) { return new mp_limb_t[n]; }
+  void adopt(mp_limb_t* limbs, std::size_t capacity) {
+    release();
+    limbs_ = limbs;
+    capacity_ = static_cast<unsigned>(capacity);
+  }
+
+  static void add(Z& sum, const Z& a, const mp_limb_t* b, int b_size);
+  static void multiply(Z& product, const Z& a, const Z& b);
+  Z& add_product(const Z& a, const Z& b, int sign);
+  static int compare(const Z& a, const Z& b) {
+    if (a.size_ != b.size_) return a.size_ < b.size_ ? -1 : 1;
+    for (std::size_t i = a.count(); i-- > 0;)
+      if (a.limbs_[i] != b.limbs_[i]) return (a.limbs_[i] < b.limbs_[i]) == (a.size_ > 0) ? -1 : 1;
+    return 0;
+  }
+
+  mp_limb_t* limbs_;  // least first; inline_, or an array of `capacity_`
+  int size_ = 0;      // how many, the last of them not 0; negative for a number below 0
+  unsigned capacity_ = kInline;
+  mp_limb_t inline_[kInline];
+};
+
+/// a / b rounded as was asked, and whether it was an integer.
+struct Z::Division {
+  Z quotient;
+  bool exact = false;
+};
+
+/// floor(sqrt(a)), and whether that is all.
+struct Z::Root {
+  Z floor;
+  bool exact = false;
+};
+
+// Above, and here for who names them in full or calls them with built-in integers.
+long bit_length(const Z& a);
+Z abs(const Z& a);
+/// a 2^bits
+Z shifted_left(const Z& a, unsigned long bits);
+
+/// >= 0
+Z gcd(const Z& a, const Z& b);
+Z lcm(const Z& a, const Z& b);
+
+struct Bezout {
+  Z gcd, x, y;  ///< a x + b y = gcd >= 0
+};
+Bezout bezout(const Z& a, const Z& b);
+
+/// base^exponent
+Z power(unsigned long base, unsigned long exponent);
+
+/// a = m 2^exponent as 0.5 <= |m| < 1, rounded towards 0; 0 for 0.
+struct BinaryApproximation {
+  double mantissa = 0;
+  long exponent = 0;
+};
+BinaryApproximation approximation(const Z& a);
+
+std::ostream& operator<<(std::ostream& out, const Z& a);
+
+}  // namespace lorentz::oracle
