@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,6 +44,46 @@ struct FlightColumns {
   double* time = nullptr;
 
   FlightColumns part(std::size_t begin) const;
+};
+
+/// Queries as columns of its own, for who has them one at a time.
+class QueryTable {
+ public:
+  /// Removes all queries; what is allocated stays.
+  void clear();
+
+  /// False, and nothing is added, if a cell coordinate of `from` does not fit 64 bits.
+  bool push_back(const Query& query, double max_time = std::numeric_limits<double>::infinity());
+
+  std::size_t size() const { return max_time_.size(); }
+  Query operator[](std::size_t i) const;
+
+  /// Until the next change. Without limits, and without obstacles that are left, where no query has any.
+  QueryColumns columns() const;
+
+ private:
+  bool any_limit_ = false, any_from_ = false;
+  std::array<std::vector<double>, 3> x_, v_;
+  std::vector<double> max_time_;
+  std::vector<std::int32_t> from_lattice_, from_atom_;
+  std::array<std::vector<std::int64_t>, 3> from_cell_;
+};
+
+/// Flights as columns of its own.
+class FlightTable {
+ public:
+  /// Room for so many.
+  void resize(std::size_t count);
+  Flight operator[](std::size_t i) const;
+  FlightColumns columns();
+
+ private:
+  std::vector<Outcome> outcome_;
+  std::vector<Stage> stage_;
+  std::unique_ptr<bool[]> time_is_rounded_;
+  std::vector<std::int32_t> lattice_, atom_;
+  std::array<std::vector<std::int64_t>, 3> cell_;
+  std::vector<double> time_;
 };
 
 /// First obstacles of many queries, in one scene.

@@ -38,6 +38,10 @@ const std::vector<Room> kHouse{
     {"src/engines/classical", {"src/problem", "src/engines/base"}, {"src/engines/base"}, {}},
     {"src/engines/published", {"src/problem", "src/engines/base"}, {}, {"Eigen/ published_bravais.cpp"}},
     {"src/engines/reduction", {"src/problem", "src/engines/base"}, {"src/engines/base"}, {}},
+    {"src/engines/batch",
+     {"src/problem", "src/engines/base", "src/engines/reduction"},
+     {"src/engines/base", "src/engines/reduction"},
+     {"hwy/"}},
     {"src/engines",
      {"src/problem", "src/engines/base", "src/engines/reduction"},
      {"src/engines/classical", "src/engines/published"},
@@ -57,13 +61,17 @@ const std::vector<Room> kHouse{
     {"oracle", {"src/problem"}, {"oracle/integers", "oracle/exact", "oracle/first_hit"}, {}},
     {"oracle/walk", {"src/problem"}, {}, {"CGAL/ walk.cpp"}},
     {"oracle/certified", {"src/problem", "src/engines/base", "src/engines/reduction", "oracle"}, {}, {}},
+    {"oracle/certified_batch",
+     {"src/problem", "src/engines/reduction", "src/engines/batch", "oracle", "oracle/certified"},
+     {},
+     {}},
     // From here on the oracle is seen by its public headers, and its libraries not at all; but for
     // fuzz/rewording, which adds with its integers.
     {"cases", {"src/problem", "oracle", "oracle/certified"}, {}, {"Random123/ random.cpp"}},
     {"cases/families", {"src/problem", "oracle"}, {"cases"}, {}},
     {"compare",
-     {"src/problem", "src/exchange", "src/engines/base", "oracle", "oracle/margin", "oracle/walk",
-      "oracle/certified"},
+     {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
+      "oracle", "oracle/margin", "oracle/walk", "oracle/certified", "oracle/certified_batch"},
      {"cases"},
      {"fmt/", "fcntl.h process.cpp", "poll.h command_engine.cpp", "signal.h process.cpp",
       "spawn.h process.cpp", "sys/types.h process.hpp", "sys/wait.h process.cpp", "unistd.h process.cpp"}},
@@ -127,6 +135,8 @@ const std::map<std::string, std::string> kPublic{
     {"oracle", "oracle"},
     {"walk", "oracle/walk"},
     {"certified", "oracle/certified"},
+    {"batch", "src/engines/batch"},
+    {"certified_batch", "oracle/certified_batch"},
 };
 
 bool contains(const Names& names, const std::string& name) {

@@ -12,11 +12,6 @@
 namespace lorentz {
 namespace {
 
-template <class T>
-void advance(T*& column, std::size_t by) {
-  if (column) column += by;
-}
-
 StretchKernels kernels_named(std::string_view instructions) {
   const std::vector<StretchKernels> kernels = stretch_kernels();
   if (instructions.empty()) return kernels.front();
@@ -29,24 +24,6 @@ StretchKernels kernels_named(std::string_view instructions) {
 constexpr int kMaxLaneExponent = 400;
 
 }  // namespace
-
-QueryColumns QueryColumns::part(std::size_t begin, std::size_t length) const {
-  QueryColumns part = *this;
-  part.count = length;
-  for (int k = 0; k < 3; ++k) {
-    advance(part.x[k], begin), advance(part.v[k], begin), advance(part.from_cell[k], begin);
-  }
-  advance(part.max_time, begin), advance(part.from_lattice, begin), advance(part.from_atom, begin);
-  return part;
-}
-
-FlightColumns FlightColumns::part(std::size_t begin) const {
-  FlightColumns part = *this;
-  advance(part.outcome, begin), advance(part.stage, begin), advance(part.time_is_rounded, begin);
-  advance(part.lattice, begin), advance(part.atom, begin), advance(part.time, begin);
-  for (int k = 0; k < 3; ++k) advance(part.cell[k], begin);
-  return part;
-}
 
 struct Batch::Inside {
   Scene scene;

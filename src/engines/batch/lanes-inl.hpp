@@ -14,11 +14,8 @@
 #define LORENTZ_BATCH_LANES_INL_HPP
 #endif
 
-#if LORENTZ_TWIN_LANES && HWY_TARGET != HWY_AVX3
-#include "src/engines/batch/twin-inl.hpp"
-#else
 #include "src/engines/batch/single-inl.hpp"
-#endif
+#include "src/engines/batch/twin-inl.hpp"
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/bravais.hpp"
 

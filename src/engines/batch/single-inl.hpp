@@ -8,6 +8,8 @@
 
 #include "src/engines/batch/native-inl.hpp"
 
+#if !LORENTZ_TWIN_LANES || HWY_TARGET == HWY_AVX3
+
 HWY_BEFORE_NAMESPACE();
 namespace lorentz {
 namespace HWY_NAMESPACE {
@@ -38,5 +40,6 @@ HWY_INLINE V load(const double* from) {
 }  // namespace HWY_NAMESPACE
 }  // namespace lorentz
 HWY_AFTER_NAMESPACE();
+#endif
 
 #endif
