@@ -121,7 +121,7 @@ struct Compared {
   long queries = 0, different = 0, left = 0, hits = 0, inside = 0, never = 0, rounded = 0;
   std::string first;
 
-  void add(const Batch& batch, const QueryTable& table, Batch::Time time, int jobs = 1) {
+  void add(const Scene& scene, const Batch& batch, const QueryTable& table, Batch::Time time, int jobs = 1) {
     FlightTable flights;
     flights.resize(table.size());
     const QueryColumns columns = table.columns();
@@ -135,7 +135,7 @@ struct Compared {
       never += one.outcome == Outcome::never, rounded += one.time_is_rounded;
       if (same_bits(one, many) && one.time_is_rounded == many.time_is_rounded) continue;
       if (different++ == 0)
-        first = stream({}, query) + "one  " + line(answer_of(one), 3) + "many " + line(answer_of(many), 3);
+        first = stream(scene, query) + "one  " + line(answer_of(one), 3) + "many " + line(answer_of(many), 3);
     }
   }
 };
@@ -155,7 +155,8 @@ Compared compare(const std::string& instructions, std::size_t count, std::uint64
           const Query query = query_of(random, kind, scene, batch.one_at_a_time(), limit);
           if (!flaw_of(query, scene)) table.push_back(query, limit);
         }
-        for (const auto time : {Batch::Time::close, Batch::Time::rounded}) compared.add(batch, table, time);
+        for (const auto time : {Batch::Time::close, Batch::Time::rounded})
+          compared.add(scene, batch, table, time);
       }
     }
   return compared;
@@ -171,8 +172,8 @@ Compared compare_families(const std::string& instructions, std::uint64_t count, 
     Scene scene;
     const auto fly = [&] {
       if (!batch || table.size() == 0) return;
-      compared.add(*batch, table, Batch::Time::close);
-      compared.add(*batch, table, Batch::Time::rounded);
+      compared.add(scene, *batch, table, Batch::Time::close);
+      compared.add(scene, *batch, table, Batch::Time::rounded);
       table.clear();
     };
     for (std::uint64_t index = 0; index < count; ++index) {
@@ -266,7 +267,7 @@ TEST_CASE("The length of a batch, its columns and its threads do not matter", "[
     table.push_back(query_of(random, Kind::drawn, scene, batch.one_at_a_time(), limit));
   }
   Compared whole;
-  for (const int jobs : {1, 2, 3, 7}) whole.add(batch, table, Batch::Time::close, jobs);
+  for (const int jobs : {1, 2, 3, 7}) whole.add(scene, batch, table, Batch::Time::close, jobs);
   CHECK(whole.different == 0);
   FlightTable flights;
   flights.resize(table.size());
