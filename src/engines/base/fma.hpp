@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-// A function that is inlined as a whole into one for one kind of processor, so that an fma is one instruction or
-// none. (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
+// A function that is inlined as a whole into one for one kind of processor, so that an fma is one instruction
+// or none. (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
 #if defined(__SANITIZE_ADDRESS__)
 #define LORENTZ_FLATTEN
 #else
