@@ -1,7 +1,8 @@
 # Installing: `cmake --install build --prefix P`, then in another project
-#   find_package(lorentz REQUIRED COMPONENTS engine oracle exchange)
-#   target_link_libraries(.. lorentz::engine lorentz::oracle lorentz::certified lorentz::walk lorentz::exchange)
-# One export set a component, because they differ in what they need: `engine` the standard library, `oracle` GMP (linked;
+#   find_package(lorentz REQUIRED COMPONENTS engine batch oracle exchange)
+#   target_link_libraries(.. lorentz::engine lorentz::batch lorentz::oracle lorentz::certified lorentz::walk lorentz::exchange)
+# One export set a component, because they differ in what they need: `engine` the standard library, `batch` Highway,
+# `oracle` GMP (linked;
 # Boost's and CGAL's headers only to build it), `exchange` simdjson and toml++.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -10,6 +11,8 @@ set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
   lorentz_engine)
 set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction)
+set(LORENTZ_BATCH_TARGETS lorentz_batch)
+set(LORENTZ_BATCH_HEADERS batch)
 set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)
 set(LORENTZ_EXCHANGE_HEADERS exchange line_reader)
 set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lorentz_contacts lorentz_horizon
@@ -43,6 +46,10 @@ endfunction()
 
 lorentz_install_component(engine)
 lorentz_install_pkg_config(engine "")
+if(TARGET lorentz_batch)
+  lorentz_install_component(batch)
+  lorentz_install_pkg_config(batch "lorentz-engine libhwy")
+endif()
 if(TARGET lorentz_exchange)
   lorentz_install_component(exchange)
   lorentz_install_pkg_config(exchange "lorentz-engine simdjson")

@@ -21,6 +21,7 @@ struct AnswererOptions {
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program
   Listener listener = {};            ///< is told what became of another program
   bool strict = false;               ///< an answer with a key that no answer has is none
+  int jobs = 1;                      ///< threads, of the batch engines
 };
 
 inline constexpr const char* kTimeoutHelp =

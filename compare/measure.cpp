@@ -116,7 +116,7 @@ Round run_round(const CaseSet& set, const std::string& name, const std::vector<F
   return round;
 }
 
-// The same of another program, which has many queries at a time.
+// The same of who has many queries at a time: another program, a batch engine.
 template <class Look>
 Round run_round(const CaseSet& set, const std::string& name, Answerer& program, const Listener& listener,
                 Look look) {
@@ -142,12 +142,12 @@ Round run_round(const CaseSet& set, const std::string& name, Answerer& program, 
 struct Entrant {
   Tally tally;
   std::vector<FirstHit> first_hit;    // by scene
-  std::unique_ptr<Answerer> program;  // or this
+  std::unique_ptr<Answerer> program;  // or this, of who answers in bulk
   std::vector<Round> rounds;
 
   Entrant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
     tally.name = name;
-    if (is_command(name))
+    if (is_command(name) || traits_of(name).in_bulk)
       program = make_answerer(name, {{}, options.timeout, options.listener, options.strict});
     else
       for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));

@@ -13,6 +13,7 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/exchange.hpp>
 #include <lorentz/walk.hpp>
+#include "compare/batch_answerer.hpp"
 #include "compare/command_engine.hpp"
 
 namespace lorentz::compare {
@@ -39,6 +40,10 @@ FirstHit ask_engine(std::string_view name, const Scene& scene) {
     engine->first_hit(query, limit_of(request), answer);
     if (request.detail) add_detail(query, scene, answer);
   };
+}
+
+FirstHit ask_single_flights(std::string_view, const Scene& scene) {
+  return ask_engine("reduction", scene);
 }
 
 FirstHit ask_certified(std::string_view, const Scene& scene) {
@@ -75,6 +80,8 @@ constexpr Entry kAnswerers[] = {
     {"published", {}, ask_engine},
     {"reduction", {.leaves_undecided = true, .uses_reduction = true}, ask_engine},
     {"certified", {.is_exact = true, .uses_reduction = true}, ask_certified},
+    {"batch", {.leaves_undecided = true, .uses_reduction = true, .in_bulk = true}, ask_single_flights},
+    {"certified-batch", {.is_exact = true, .uses_reduction = true, .in_bulk = true}, ask_certified},
     {"oracle", {.is_exact = true, .knows_digits = true}, ask_oracle},
     {"walk", {.is_exact = true}, ask_walk},
 };
@@ -161,6 +168,7 @@ class EngineAnswerer final : public Answerer {
 std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererOptions& options) {
   check_name(name);
   if (is_command(name)) return std::make_unique<CommandEngine>(name.substr(kCommand.size()), options);
+  if (traits_of(name).in_bulk) return std::make_unique<BatchAnswerer>(traits_of(name).is_exact, options);
   return std::make_unique<EngineAnswerer>(name, options.request);
 }
 

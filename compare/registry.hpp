@@ -23,6 +23,7 @@ struct Traits {
   bool knows_digits = false;      ///< of times, beyond those of a binary64
   bool leaves_undecided = false;  ///< on purpose: `undecided` is what it says of hard queries, no failure
   bool uses_reduction = false;    ///< so that `certified`, which rests on `reduction`, cannot judge it
+  bool in_bulk = false;           ///< slow one at a time: its answerer gathers queries
 };
 
 /// Of any other name, as of another program, nothing is known.
@@ -44,7 +45,8 @@ void check_name(const std::string& name);
 /// argument is taken whole.
 std::vector<std::string> names_in(const std::vector<std::string>& arguments);
 
-/// One at a time, for a scene without flaws. Not for commands, which would be slow that way.
+/// One at a time, for a scene without flaws. Not for commands, which would be slow that way; a batch engine
+/// is the engine of single flights that it agrees with.
 FirstHit make_first_hit(const std::string& name, const Scene& scene);
 
 /// Many at a time, whoever it is.

@@ -8,6 +8,7 @@
 #include <lorentz/walk.hpp>
 #include "compare/answerer.hpp"
 #include "compare/registry.hpp"
+#include "fuzz/examine/batch_subject.hpp"
 #include "fuzz/examine/engine_subject.hpp"
 #include "src/engines/published/published.hpp"
 
@@ -166,6 +167,7 @@ constexpr struct {
 } kSubjects[] = {
     {"classical", make<ClassicalSubject>}, {"published", make<PublishedSubject>},
     {"reduction", make<ReductionSubject>}, {"certified", make<CertifiedSubject>},
+    {"batch", make_batch_subject},         {"certified-batch", make_certified_batch_subject},
     {"walk", make<WalkSubject>},
 };
 

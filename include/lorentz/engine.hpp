@@ -2,7 +2,9 @@
 // of the velocity.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -24,17 +26,38 @@ struct Ray {
 
 inline constexpr double kTinyComponent = 0x1p-450;
 
+/// Of an exponent of normal numbers.
+inline double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+}
+
 /// A velocity v other than zero, scaled to a Ray's; v = scaled * 2^exponent.
 struct ScaledVelocity {
   Vec scaled;
   int exponent;
   bool tiny_component = false;  ///< as in Ray
 
-  explicit ScaledVelocity(const Vec& v);
+  explicit ScaledVelocity(const Vec& v) {
+    const double a = std::fabs(v[0]), b = std::fabs(v[1]), c = std::fabs(v[2]), ab = a > b ? a : b;
+    const double largest = ab > c ? ab : c;
+    exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023;
+    if (!(exponent > -1000 && exponent < 1000)) {
+      set_extreme(v, largest);
+      return;
+    }
+    const double factor = power_of_two(-exponent);
+    scaled = {v[0] * factor, v[1] * factor, v[2] * factor};
+    for (int i = 0; i < 3; ++i) tiny_component |= v[i] != 0 && std::fabs(scaled[i]) < kTinyComponent;
+  }
+
+ private:
+  void set_extreme(const Vec& v, double largest);
 };
 
 /// A time or a length times 2^exponent, fast where the factor is a normal number.
-double scaled_time(double time, int exponent);
+inline double scaled_time(double time, int exponent) {
+  return exponent > -500 && exponent < 500 ? time * power_of_two(exponent) : std::scalbn(time, exponent);
+}
 
 /// A first-hit engine for one scene.
 ///

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include <lorentz/reduction.hpp>
+#include <lorentz/batch.hpp>
 
 namespace {
 long allocations = 0;
@@ -23,6 +23,27 @@ void operator delete(void* memory) noexcept {
 }
 void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
+}
+
+TEST_CASE("A batch allocates nothing", "[engines][batch][allocation]") {
+  using namespace lorentz;
+  for (const int dimension : {2, 3}) {
+    const Batch batch(unit_scene(dimension, 0.01));
+    QueryTable table;
+    for (int i = 0; i < 300; ++i)
+      table.push_back(
+          {{0.3, 0.2, dimension == 3 ? 0.7 : 0}, {0.61 + 0.001 * i, 0.23, dimension == 3 ? 0.3 : 0}, {}});
+    FlightTable flights;
+    flights.resize(table.size());
+    const QueryColumns queries = table.columns();
+    const FlightColumns columns = flights.columns();
+    const long before = allocations;
+    batch.fly(queries, columns, Batch::Time::close);
+    batch.fly(queries, columns, Batch::Time::rounded);
+    const long after = allocations;
+    CHECK(after == before);
+    CHECK(flights[299].outcome == Outcome::hit);
+  }
 }
 
 TEST_CASE("A flight allocates nothing, in any model", "[engines][allocation]") {

@@ -5,6 +5,14 @@
 
 #include <cmath>
 
+// A function that is inlined as a whole into one for one kind of processor, so that an fma is one instruction
+// or none. (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
+#if defined(__SANITIZE_ADDRESS__)
+#define LORENTZ_FLATTEN
+#else
+#define LORENTZ_FLATTEN gnu::flatten
+#endif
+
 namespace lorentz {
 
 /// a * b = p + product_error(a, b, p) exactly, where p is the rounded product; required of the caller is that

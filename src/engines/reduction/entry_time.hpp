@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "src/engines/reduction/offset.hpp"
 #include "src/engines/reduction/stable_meeting.hpp"
@@ -46,10 +47,20 @@ class EntryTime {
   /// In double-double, and the bound of its error.
   DD wide(double& error) const { return wide_in<Arch>(error); }
 
-  /// The same bits, for where it is rarely asked.
-  [[gnu::noinline]] Wide rare(double& error) const { return wide_in<SplitProduct>(error); }
+  /// The same bits, for where it is rarely asked: no part of its caller, whose registers it would take.
+  Wide rare(double& error) const {
+    if constexpr (std::is_same_v<Arch, HardwareFma>)
+      return rare_with_fma(error);
+    else
+      return rare_without_fma(error);
+  }
 
  private:
+  [[gnu::noinline, gnu::target("fma"), LORENTZ_FLATTEN]] Wide rare_with_fma(double& error) const {
+    return Wide(wide_in<HardwareFma>(error));
+  }
+  [[gnu::noinline]] Wide rare_without_fma(double& error) const { return wide_in<SplitProduct>(error); }
+
   template <class A>
   DoubleDouble<A> wide_in(double& error) const {
     DoubleDouble<A> d[D], N[D];

@@ -217,14 +217,6 @@ std::shared_ptr<const AtomDirections> directions_for(const PreparedScene& scene,
   return directions;
 }
 
-// Inlined as a whole into functions for one kind of processor, so that an fma is one instruction or none.
-// (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
-#if defined(__SANITIZE_ADDRESS__)
-#define LORENTZ_FLATTEN
-#else
-#define LORENTZ_FLATTEN gnu::flatten
-#endif
-
 template <Time kTime, int D, Model kModel, bool kBall>
 [[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
   fly_with<kTime, HardwareFma, D, kModel, kBall>(task, flight);
@@ -234,8 +226,6 @@ template <Time kTime, int D, Model kModel, bool kBall>
 [[LORENTZ_FLATTEN]] void fly_split(const Task& task, Flight& flight) {
   fly_with<kTime, SplitProduct, D, kModel, kBall>(task, flight);
 }
-
-#undef LORENTZ_FLATTEN
 
 template <int D, Model kModel, bool kBall>
 Kernels kernels_of(bool fma) {

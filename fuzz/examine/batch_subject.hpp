@@ -1,0 +1,15 @@
+// The engines `batch` and `certified-batch` as subjects of campaigns.
+#pragma once
+
+#include "fuzz/examine/subject.hpp"
+
+namespace lorentz::fuzz {
+
+/// Queries are flown together, and each besides alone: what a batch and a single flight do not both say, to
+/// the bit, is an error.
+std::unique_ptr<Subject> make_batch_subject();
+
+/// Queries are flown together, and what the batch is not certain of is asked alone.
+std::unique_ptr<Subject> make_certified_batch_subject();
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,135 @@
+// Many flights in one scene at once: the reduction engine, with a query in each lane of the processor's
+// vectors.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lorentz/reduction.hpp>
+
+namespace lorentz {
+
+/// Queries of one scene in columns, each `count` long and owned by the caller. In 2D the third columns of
+/// vectors are not read.
+struct QueryColumns {
+  std::size_t count = 0;
+  std::array<const double*, 3> x{}, v{};
+
+  const double* max_time = nullptr;  ///< as Reduction::fly takes it; null: no query has a limit
+
+  /// The obstacle that a query leaves, which it ignores; a lattice below 0: none. All null: no query leaves
+  /// one.
+  const std::int32_t *from_lattice = nullptr, *from_atom = nullptr;
+  std::array<const std::int64_t*, 3> from_cell{};
+
+  /// The queries [begin, begin + length).
+  QueryColumns part(std::size_t begin, std::size_t length) const;
+};
+
+/// What they came to: the members of Flight, a column each. A null column is not wanted; `outcome` is. What
+/// Flight leaves at zero (the obstacle of `never`, the time of `inside`, the third cell coordinate in 2D) is
+/// zero here.
+struct FlightColumns {
+  Outcome* outcome = nullptr;
+  Stage* stage = nullptr;
+  bool* time_is_rounded = nullptr;
+  std::int32_t *lattice = nullptr, *atom = nullptr;
+  std::array<std::int64_t*, 3> cell{};
+  double* time = nullptr;
+
+  FlightColumns part(std::size_t begin) const;
+};
+
+/// Queries as columns of its own, for who has them one at a time.
+class QueryTable {
+ public:
+  /// Removes all queries; what is allocated stays.
+  void clear();
+
+  /// False, and nothing is added, if a cell coordinate of `from` does not fit 64 bits.
+  bool push_back(const Query& query, double max_time = std::numeric_limits<double>::infinity());
+
+  std::size_t size() const { return max_time_.size(); }
+  Query operator[](std::size_t i) const;
+
+  /// Until the next change. Without limits, and without obstacles that are left, where no query has any.
+  QueryColumns columns() const;
+
+ private:
+  bool any_limit_ = false, any_from_ = false;
+  std::array<std::vector<double>, 3> x_, v_;
+  std::vector<double> max_time_;
+  std::vector<std::int32_t> from_lattice_, from_atom_;
+  std::array<std::vector<std::int64_t>, 3> from_cell_;
+};
+
+/// Flights as columns of its own.
+class FlightTable {
+ public:
+  /// Room for so many.
+  void resize(std::size_t count);
+  Flight operator[](std::size_t i) const;
+  FlightColumns columns();
+
+ private:
+  std::vector<Outcome> outcome_;
+  std::vector<Stage> stage_;
+  std::unique_ptr<bool[]> time_is_rounded_;
+  std::vector<std::int32_t> lattice_, atom_;
+  std::array<std::vector<std::int64_t>, 3> cell_;
+  std::vector<double> time_;
+};
+
+/// First obstacles of many queries, in one scene.
+///
+///  1. What Reduction::fly says of each query, to the bit: outcome, stage, obstacle, time. On every
+///  processor,
+///     with any number of threads.
+///     held by "A batch says what one flight at a time says, to the bit, with every set of instructions",
+///             "The golden sets in batches, to the bit"
+///  2. A query with a flaw (flaw_of) has the outcome `error`; the others are not disturbed.
+///     held by "A query with a flaw is an error of its own in a batch"
+///  3. `fly` allocates nothing, beyond what starting threads takes, and throws nothing but what that throws.
+///     held by "A batch allocates nothing"
+///  4. Any number of threads may ask one batch engine.
+///     held by "Threads share a batch engine"
+///
+/// Units, ranges and exactness: those of Reduction (reduction.hpp).
+///
+/// Cost: docs/speed.md. What lanes do not do, one flight at a time is asked: decisions that need the second
+/// stage, sections of very many lines, starts near several obstacles that reach out of their cells. On drawn
+/// queries that is less than one in some thousand.
+class Batch {
+ public:
+  using Time = Reduction::Time;
+
+  /// `instructions`: one of instruction_sets(), for tests and measurements; empty: the best. Throws
+  /// std::invalid_argument for another name, and as Reduction's constructor does.
+  explicit Batch(const Scene& scene, std::string_view instructions = {});
+  ~Batch();
+  Batch(Batch&&) noexcept;
+
+  /// Answers all queries, on `jobs` threads (at least 1). Returns how many of them lanes left to single
+  /// flights.
+  std::size_t fly(const QueryColumns& queries, const FlightColumns& flights, Time time = Time::close,
+                  int jobs = 1) const;
+
+  /// The engine of single flights that it agrees with.
+  const Reduction& one_at_a_time() const;
+
+  /// The sets of vector instructions that this processor has and the program was built for, best first
+  /// ("AVX3" is AVX-512); the last is "none": one flight at a time.
+  static std::vector<std::string> instruction_sets();
+
+ private:
+  struct Inside;
+  std::unique_ptr<const Inside> inside_;
+};
+
+}  // namespace lorentz

@@ -1,0 +1,212 @@
+// Short bases of a 3D lattice as seen along the velocities, in lanes: src/engines/reduction/reduce_3d.hpp,
+// basis_3d.hpp, direction_3d.hpp. Private to the batch engine.
+#if defined(LORENTZ_BATCH_BASIS_3D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_BASIS_3D_INL_HPP
+#undef LORENTZ_BATCH_BASIS_3D_INL_HPP
+#else
+#define LORENTZ_BATCH_BASIS_3D_INL_HPP
+#endif
+
+#include "src/engines/batch/frame_3d-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Three vectors, shortest first: Basis3.
+struct Basis3 {
+  Arm3 b[3];
+  V length;
+  V dual[3][3];
+  V slope, inverse_slope, normal[2], dual1_normal, dual1_level, tilt_error;
+
+  HWY_INLINE V tilt() const { return dual[2][2]; }
+
+  /// From the three vectors, which are turned to point forward. Lanes whose basis is of no use are left over.
+  HWY_INLINE void set_dual(Lanes& lanes) {
+    for (Arm3& arm : b) point_forward(arm);
+    const V inverse_volume = set_dual_vectors();
+    for (int i = 0; i < 3; ++i) {
+      const V square = dual[i][0] * dual[i][0] + dual[i][1] * dual[i][1] + dual[i][2] * dual[i][2];
+      lanes.leave_unless(And(product(b[i], b[i]) * square <= all(kMaxDefect * kMaxDefect),
+                             b[i].largest_coefficient() < all(kMaxCoefficient)));
+    }
+    const V(&g1)[3] = dual[1];
+    const V(&g2)[3] = dual[2];
+    slope = Sqrt(g2[0] * g2[0] + g2[1] * g2[1]);
+    inverse_slope = all(1) / slope;
+    normal[0] = g2[0] * inverse_slope, normal[1] = g2[1] * inverse_slope;
+    dual1_normal = g1[0] * normal[0] + g1[1] * normal[1];
+    dual1_level = g1[1] * normal[0] - g1[0] * normal[1];
+    tilt_error = all(kTilt * kRoundoff) * reach(b[0]) * reach(b[1]) * Abs(inverse_volume);
+  }
+
+ private:
+  static HWY_INLINE void point_forward(Arm3& arm) {
+    const V sign = where(arm.z < none(), all(-0.0));
+    for (V& coefficient : arm.n) coefficient = Xor(coefficient, sign);
+    arm.p[0] = Xor(arm.p[0], sign), arm.p[1] = Xor(arm.p[1], sign), arm.z = Xor(arm.z, sign);
+  }
+
+  static HWY_INLINE V reach(const Arm3& arm) { return Abs(arm.p[0]) + Abs(arm.p[1]) + arm.cancellation; }
+
+  HWY_INLINE V set_dual_vectors() {
+    for (int i = 0; i < 3; ++i) {
+      const Arm3 &x = b[(i + 1) % 3], &y = b[(i + 2) % 3];
+      dual[i][0] = x.p[1] * y.z - x.z * y.p[1];
+      dual[i][1] = x.z * y.p[0] - x.p[0] * y.z;
+      dual[i][2] = x.p[0] * y.p[1] - x.p[1] * y.p[0];
+    }
+    const V inverse = all(1) / ((b[0].p[0] * dual[0][0] + b[0].p[1] * dual[0][1]) + b[0].z * dual[0][2]);
+    for (auto& row : dual)
+      for (V& component : row) component = component * inverse;
+    return inverse;
+  }
+};
+
+/// GreedyReduction: Lagrange's step for the two shorter vectors, then the longest by the nearest point of
+/// their plane; lanes that are done wait.
+class GreedyReduction {
+ public:
+  HWY_INLINE explicit GreedyReduction(const Basis3& basis)
+      : b_{basis.b[0], basis.b[1], basis.b[2]}, largest_(none()) {}
+
+  HWY_INLINE void copy_to(Basis3& basis) const {
+    for (int i = 0; i < 3; ++i) basis.b[i] = b_[i];
+  }
+
+  /// Short vectors, once more from exact coefficients. What does not come to that is left over.
+  template <class Frame>
+  HWY_INLINE void run(const Frame& frame, V length, Lanes& lanes) {
+    M todo = lanes.active, done = no_lane();
+    double limit = kRunningCoefficient;
+    M fresh = todo;
+    for (int round = 0; round < kMaxReductionRounds; ++round) {
+      const M good = pass(todo, fresh, limit);
+      const M accurate = Or(fresh, largest_ * all(frame.inverse_r) < all(kGoodRunning));
+      for (int i = 0; i < 3; ++i) frame.recompute(b_[i], length);
+      done = Or(done, And(todo, And(good, accurate)));
+      todo = AndNot(done, todo);
+      if (nowhere(todo)) break;
+      fresh = todo, limit = kNoLimit;
+    }
+    lanes.leave_unless(And(done, largest_ < all(kMaxCoefficient / 2)));
+  }
+
+ private:
+  // Lanes that come to an end, of `todo`; the others need coordinates that are computed anew.
+  HWY_INLINE M pass(M todo, M& fresh, double limit) {
+    const V zero = none(), quotient = all(kRunningQuotient);
+    for (int i = 0; i < 3; ++i) size_[i] = product(b_[i], b_[i]);
+    order<0, 1>(And(todo, size_[1] < size_[0]));
+    order<1, 2>(And(todo, size_[2] < size_[1]));
+    order<0, 1>(And(todo, size_[1] < size_[0]));
+    M open = todo, good = no_lane();
+    for (int step = 0; step < kMaxReductionSteps; ++step) {
+      V k = where(open, Round(product(b_[0], b_[1]) / size_[0]));
+      M moves = k != zero;
+      const M too_large = AndNot(fresh, Abs(k) > quotient);
+      if (HWY_UNLIKELY(any(too_large))) {
+        open = AndNot(too_large, open), moves = AndNot(too_large, moves);
+        k = IfThenZeroElse(too_large, k);
+      }
+      b_[1].subtract(k, b_[0]);
+      largest_ = Max(largest_, where(moves, b_[1].largest_coefficient()));
+      fresh = AndNot(moves, fresh);
+      size_[1] = product(b_[1], b_[1]);
+      const M again = And(moves, size_[1] < size_[0]), goes_on = AndNot(again, open);
+      const V c01 = product(b_[0], b_[1]), c02 = product(b_[0], b_[2]), c12 = product(b_[1], b_[2]);
+      const V inverse = all(1) / (size_[0] * size_[1] - c01 * c01);
+      V k0 = Round((c02 * size_[1] - c12 * c01) * inverse),
+        k1 = Round((c12 * size_[0] - c02 * c01) * inverse);
+      const M stop = And(goes_on, And(k0 == zero, k1 == zero));
+      M go = AndNot(stop, goes_on);
+      go = AndNot(AndNot(fresh, Max(Abs(k0), Abs(k1)) > quotient), go);
+      k0 = where(go, k0), k1 = where(go, k1);
+      b_[2].subtract(k0, b_[0]);
+      largest_ = Max(largest_, where(go, b_[2].largest_coefficient()));
+      b_[2].subtract(k1, b_[1]);
+      largest_ = Max(largest_, where(go, b_[2].largest_coefficient()));
+      const V before = size_[2];
+      size_[2] = product(b_[2], b_[2]);
+      fresh = AndNot(go, fresh);
+      const M end = And(go, Or(Not(size_[2] < before), size_[2] >= size_[1]));
+      good = Or(good, Or(stop, end));
+      const M shorter = AndNot(Or(end, largest_ > all(limit)), go);
+      order<1, 2>(shorter);
+      order<0, 1>(Or(again, And(shorter, size_[1] < size_[0])));
+      open = Or(again, shorter);
+      if (nowhere(open)) break;
+    }
+    return good;
+  }
+
+  template <int i, int j>
+  HWY_INLINE void order(M m) {
+    exchange(m, b_[i], b_[j]), exchange(m, size_[i], size_[j]);
+  }
+
+  Arm3 b_[3];
+  V size_[3], largest_;
+};
+
+/// A lattice seen along each lane's velocity: all that does not depend on the start.
+template <bool kUnit, bool kBall>
+struct Direction3 : Frame3<kUnit, kBall> {
+  Basis3 basis;
+
+  HWY_INLINE void set(const Bravais& lattice, const V (&velocity)[3], Lanes& lanes) {
+    Frame3<kUnit, kBall>::set(lattice, velocity);
+    basis.length = first_length(lattice);
+    const V along = all(1) / basis.length, zero = none();
+    for (int i = 0; i < 3; ++i) {
+      Arm3& arm = basis.b[i];
+      arm.n[0] = arm.n[1] = arm.n[2] = zero;
+      arm.n[i] = all(1);
+      arm.p[0] = this->scale[0] * this->form[0][i].hi, arm.p[1] = this->scale[1] * this->form[1][i].hi;
+      arm.z = along * this->form[2][i].hi;
+      arm.cancellation = zero;
+    }
+    reduce(basis, lanes);
+  }
+
+  /// Another atom of the same lattice, with balls of another radius.
+  HWY_INLINE void retarget(const Bravais& lattice, Lanes& lanes) {
+    const double before = this->inverse_r;
+    const V length_before = basis.length;
+    this->set_radius(lattice);
+    basis.length = first_length(lattice);
+    const V wider = all(this->inverse_r / before), longer = length_before / basis.length;
+    for (Arm3& arm : basis.b)
+      arm.p[0] = arm.p[0] * wider, arm.p[1] = arm.p[1] * wider, arm.z = arm.z * longer;
+    reduce(basis, lanes);
+  }
+
+  /// A longer window, in the lanes that are active.
+  HWY_INLINE void lengthen(Basis3& longer, Lanes& lanes) const {
+    const V factor = select(lanes.active, all(kLonger), all(1));
+    longer.length = longer.length * factor;
+    for (Arm3& arm : longer.b) arm.z = arm.z / factor;
+    reduce(longer, lanes);
+  }
+
+ private:
+  HWY_INLINE V first_length(const Bravais& lattice) const {
+    return all(kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius)) * Sqrt(this->v2);
+  }
+
+  HWY_INLINE void reduce(Basis3& to, Lanes& lanes) const {
+    GreedyReduction reduction(to);
+    reduction.run(static_cast<const Frame3<kUnit, kBall>&>(*this), to.length, lanes);
+    reduction.copy_to(to);
+    to.set_dual(lanes);
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

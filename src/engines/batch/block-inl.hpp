@@ -1,0 +1,341 @@
+// One vector of queries from start to end, in lanes: src/engines/reduction/reduction.cpp and
+// flight_kernel.hpp. Private to the batch engine.
+#if defined(LORENTZ_BATCH_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_BLOCK_INL_HPP
+#undef LORENTZ_BATCH_BLOCK_INL_HPP
+#else
+#define LORENTZ_BATCH_BLOCK_INL_HPP
+#endif
+
+#include <cstring>
+
+#include "src/engines/batch/late-inl.hpp"
+#include "src/engines/batch/search_2d-inl.hpp"
+#include "src/engines/batch/search_3d-inl.hpp"
+#include "src/engines/batch/stretch.hpp"
+#include "src/engines/batch/turn-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// The queries [at, at + lanes) of a stretch.
+template <int D, bool kUnit, bool kBall>
+class Block {
+  using Search = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
+  using AtomStart = Start<D, kUnit, kBall>;
+  static constexpr bool kTurned = kUnit && kBall;
+  static constexpr std::size_t kKept = kUnit ? 1 : 6;
+
+ public:
+  HWY_INLINE Block(const PreparedScene& scene, Stretch& stretch, LateTimes<D, kUnit, kBall>& late,
+                   std::size_t at, const V (&x)[D], const V (&v)[D])
+      : scene_(scene),
+        stretch_(stretch),
+        late_(late),
+        at_(at),
+        x_(x),
+        asked_(first_lanes(stretch.count - at)),
+        lanes_{asked_},
+        velocity_(v, lanes_),
+        turn_(velocity_.scaled) {}
+
+  HWY_INLINE void run() {
+    found_ = inside_ = stage2_ = rounded_ = no_lane();
+    time_ = none();
+    for (V& component : cell_) component = none();
+    atom_ = none();
+    look_inside();
+    if (any(lanes_.active)) fly();
+    tell();
+  }
+
+ private:
+  // The obstacles that contain starts: the smallest.
+  HWY_INLINE void look_inside() {
+    for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
+      AtomStart start;
+      start.set(scene_, scene_.atoms[a], x_, lanes_);
+      if (a < kKept) starts_[a] = start;
+      Leaving<D> leaving;
+      const M here = start.inside(find_leaving(start, leaving), lanes_, stage2_);
+      if (nowhere(here)) continue;
+      V zero[D];
+      for (V& n : zero) n = none();
+      name(here, a, start, zero);
+      const M named = And(here, lanes_.active);
+      inside_ = Or(inside_, named);
+      lanes_.leave(named);
+    }
+  }
+
+  HWY_INLINE void fly() {
+    V velocity[D];
+    turn_.apply(velocity_.scaled, velocity);
+    V max_time = infinite();
+    if (stretch_.max_time) max_time = velocity_.limit_of(load(stretch_.max_time + at_), scene_.exponent);
+    typename Search::Direction to;
+    Entry<D, kBall> best;
+    V best_atom = none();
+    for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
+      set_direction(a, velocity, to);
+      const AtomStart start = start_of(a);
+      Leaving<D> leaving;
+      const Leaving<D>* left = find_leaving(start, leaving);
+      const V s_limit = (max_time * to.v2 + to.s_rho) * all(1 + kAmple);
+      Pair d[D];
+      turn_start(start, d);
+      if (left != nullptr && kTurned) turn_leaving(leaving);
+      Search search(to, start, d, left, s_limit);
+      search.run(lanes_);
+      M next = And(lanes_.active, search.found.s < infinite());
+      set_cell(search.found);
+      if (a == 0) {
+        best = search.found;
+        found_ = next;
+      } else {
+        next = And(sooner(search.found, best, next), lanes_.active);
+        best.take(next, search.found);
+        found_ = And(Or(found_, next), lanes_.active);
+      }
+      best_atom = select(next, all(static_cast<double>(a)), best_atom);
+      if (a + 1 < scene_.atoms.size()) {
+        V error;
+        const V time = search.found.rough_time(error);
+        max_time = select(next, Min(max_time, time + error), max_time);
+      }
+      if (nowhere(lanes_.active)) break;
+    }
+    found_ = And(found_, lanes_.active);
+    for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
+      const M here = And(found_, best_atom == all(static_cast<double>(a)));
+      if (any(here)) finish(here, a, best);
+    }
+  }
+
+  HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
+    const Bravais& lattice = scene_.atoms[a];
+    if (a > 0) {
+      const Bravais& before = scene_.atoms[a - 1];
+      const bool same_lattice = before.lattice == lattice.lattice;
+      if (same_lattice && before.radius == lattice.radius && (kBall || before.shape == lattice.shape)) return;
+      if constexpr (D == 3 && kBall && !kUnit)
+        if (same_lattice) return to.retarget(lattice, lanes_);
+    }
+    to.set(lattice, velocity, lanes_);
+  }
+
+  HWY_INLINE AtomStart start_of(std::size_t a) {
+    if (kUnit) return starts_[0];
+    if (a < kKept) return starts_[a];
+    AtomStart start;
+    start.set(scene_, scene_.atoms[a], x_, lanes_);
+    return start;
+  }
+
+  // What is left of an atom's obstacles, or null.
+  HWY_INLINE const Leaving<D>* find_leaving(const AtomStart& start, Leaving<D>& leaving) const {
+    if (!stretch_.from_lattice) return nullptr;
+    const AtomStart copy = start;
+    leaving = leaving_of(stretch_, at_, copy);
+    return any(leaving.any) ? &leaving : nullptr;
+  }
+
+  // AtomStart::find_from, lane by lane.
+  static HWY_NOINLINE Leaving<D> leaving_of(const Stretch& stretch, std::size_t at, const AtomStart& start) {
+    const Bravais& lattice = *start.lattice;
+    HWY_ALIGN double home[D][kMaxLanes], n[D][kMaxLanes] = {}, leaves[kMaxLanes] = {};
+    for (int i = 0; i < D; ++i) store(start.home[i], home[i]);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t q = at + lane;
+      if (stretch.from_lattice[q] != lattice.lattice || stretch.from_atom[q] != lattice.atom) continue;
+      leaves[lane] = set_leaving(stretch, lattice, home, lane, q, n);
+    }
+    Leaving<D> leaving;
+    leaving.any = load(leaves) != none();
+    for (int i = 0; i < D; ++i) leaving.n[i] = load(n[i]);
+    return leaving;
+  }
+
+  // False if it is beyond what any lane names.
+  static HWY_INLINE bool set_leaving(const Stretch& stretch, const Bravais& lattice,
+                                     const double (&home)[D][kMaxLanes], std::size_t lane, std::size_t q,
+                                     double (&n)[D][kMaxLanes]) {
+    constexpr WideInteger kFar = WideInteger{1} << 53;
+    for (int i = 0; i < D; ++i) {
+      WideInteger sum = -static_cast<WideInteger>(home[i][lane]);
+      for (int k = 0; k < D; ++k)
+        sum += static_cast<WideInteger>(stretch.from_cell[k][q]) * (kUnit ? k == i : lattice.inverse[k][i]);
+      if (sum > kFar || sum < -kFar) return false;
+      n[i][lane] = static_cast<double>(sum);
+    }
+    return true;
+  }
+
+  HWY_INLINE void turn_start(const AtomStart& start, Pair (&d)[D]) const {
+    if constexpr (kTurned) {
+      V here[D], there[D];
+      for (int k = 0; k < D; ++k) here[k] = start.d[k].hi;
+      turn_.apply(here, there);
+      for (int k = 0; k < D; ++k) d[k] = pair_of(there[k]);
+    } else {
+      for (int k = 0; k < D; ++k) d[k] = start.d[k];
+    }
+  }
+
+  HWY_INLINE void turn_leaving(Leaving<D>& leaving) const {
+    V there[D];
+    turn_.apply(leaving.n, there);
+    for (int k = 0; k < D; ++k) leaving.n[k] = there[k];
+  }
+
+  // The cell in the scene's own axes.
+  HWY_INLINE void set_cell(Entry<D, kBall>& entry) const {
+    V here[D];
+    turn_.undo(entry.n, here);
+    for (int k = 0; k < D; ++k) entry.n[k] = here[k];
+  }
+
+  // Lanes of `next` in which one comes before the other; those in which that is not certain are left over.
+  HWY_INLINE M sooner(const Entry<D, kBall>& one, const Entry<D, kBall>& other, M next) {
+    const M both = And(next, found_);
+    V error, other_error;
+    const V difference = other.rough_time(other_error) - one.rough_time(error);
+    const V spread = error + other_error;
+    const M yes = difference > spread, no = difference < Neg(spread);
+    lanes_.leave(AndNot(Or(yes, no), both));
+    return And(next, Or(Not(found_), yes));
+  }
+
+  // Cell and time of what is found, an obstacle of atom a.
+  HWY_INLINE void finish(M here, std::size_t a, const Entry<D, kBall>& entry) {
+    const AtomStart start = start_of(a);
+    name(here, a, start, entry.n);
+    const Times<D, kUnit, kBall> times(start, entry, velocity_.scaled);
+    V time;
+    M is_rounded = no_lane();
+    if (stretch_.rounded) {
+      V error;
+      const Pair t = times.wide(error);
+      time = t.hi + (t.lo + error);
+      is_rounded = time == t.hi + (t.lo - error);
+    } else {
+      time = close(here, times, entry);
+    }
+    M in_range;
+    time = velocity_.time_of(time, scene_.exponent, in_range);
+    lanes_.leave(AndNot(in_range, here));
+    time_ = select(here, time, time_);
+    rounded_ = Or(rounded_, And(here, is_rounded));
+  }
+
+  HWY_INLINE V close(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry) {
+    if constexpr (kBall) {
+      if (kUnit || scene_.atoms.size() == 1) {
+        const M plain = times.is_plain(), late = AndNot(plain, And(here, lanes_.active));
+        if (any(late)) late_.push(late, at_, entry);
+        return select(plain, times.plain(), all(1));
+      }
+    }
+    return times.close(here);
+  }
+
+  // Names an obstacle of atom a by its cell in the scene's primitive vectors, from its cell in the short
+  // basis.
+  HWY_INLINE void name(M here, std::size_t a, const AtomStart& start, const V (&n)[D]) {
+    const Bravais& lattice = scene_.atoms[a];
+    const V limit = all(0x1p51);
+    V m[D];
+    for (int i = 0; i < D; ++i) {
+      m[i] = n[i] + start.home[i];
+      lanes_.leave(And(here, Not(Max(Abs(n[i]), Abs(m[i])) < limit)));
+    }
+    for (int k = 0; k < D; ++k) {
+      V c = m[k];
+      if constexpr (!kUnit) {
+        c = none();
+        V size = none();
+        for (int i = 0; i < D; ++i) {
+          const V step = m[i] * all(static_cast<double>(lattice.transform[i][k]));
+          c = c + step, size = size + Abs(step);
+        }
+        lanes_.leave(And(here, Not(size < limit)));
+      }
+      cell_[k] = select(here, c, cell_[k]);
+    }
+    atom_ = select(here, all(static_cast<double>(a)), atom_);
+  }
+
+  HWY_INLINE void tell() {
+    const M left = AndNot(Or(lanes_.active, inside_), asked_);
+    found_ = And(found_, lanes_.active);
+    store(where(found_, time_), stretch_.time + at_);
+    const M named = Or(found_, inside_);
+    for (int k = 0; k < D; ++k) store_integers(where(named, cell_[k]), stretch_.cell[k] + at_);
+    const V outcome = select(found_, number(Outcome::hit),
+                             select(inside_, number(Outcome::inside), number(Outcome::never)));
+    static_assert(sizeof(Outcome) == sizeof(std::int32_t));
+    store_small_integers(outcome, reinterpret_cast<std::int32_t*>(stretch_.outcome) + at_);
+    if (!kUnit) store_small_integers(atom_, stretch_.atom + at_);
+    static_assert(static_cast<int>(Stage::binary64) == 0 && static_cast<int>(Stage::double_double) == 1);
+    store_bits(stage2_, stretch_.stage + at_);
+    store_bits(And(found_, rounded_), stretch_.time_is_rounded + at_);
+    for (unsigned rest = bits_of(left); rest != 0; rest &= rest - 1)
+      stretch_.left_over[stretch_.left_count++] = static_cast<int>(at_) + __builtin_ctz(rest);
+  }
+
+  template <class Name>
+  static HWY_INLINE V number(Name name) {
+    return all(static_cast<double>(name));
+  }
+
+  // A byte a lane, 0 or 1.
+  template <class T>
+  static HWY_INLINE void store_bits(M m, T* to) {
+    static_assert(sizeof(T) == 1);
+    std::uint64_t bytes = bits_of(m) * std::uint64_t{0x0101010101010101} & std::uint64_t{0x8040201008040201};
+    bytes = (bytes + std::uint64_t{0x7f7f7f7f7f7f7f7f}) >> 7 & std::uint64_t{0x0101010101010101};
+    std::memcpy(to, &bytes, kLanes);
+  }
+
+  const PreparedScene& scene_;
+  Stretch& stretch_;
+  LateTimes<D, kUnit, kBall>& late_;
+  std::size_t at_;
+  const V (&x_)[D];
+  M asked_;
+  Lanes lanes_;
+  Velocity<D> velocity_;
+  Turn<D, kTurned> turn_;
+  AtomStart starts_[kKept];
+  M found_, inside_, stage2_, rounded_;
+  V time_, cell_[D], atom_;
+};
+
+template <int D, bool kUnit, bool kBall>
+HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
+  LateTimes<D, kUnit, kBall> late;
+  for (std::size_t at = 0; at < stretch.count; at += kLanes) {
+    V x[D], v[D];
+    for (int k = 0; k < D; ++k) x[k] = load(stretch.x[k] + at), v[k] = load(stretch.v[k] + at);
+    Block<D, kUnit, kBall>(scene, stretch, late, at, x, v).run();
+  }
+  late.finish(scene, stretch);
+}
+
+template <int D>
+inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
+  const bool unit = scene.atoms.size() == 1 && scene.atoms[0].unit;
+  if (unit && scene.ellipsoids) return fly_stretch<D, true, false>(scene, stretch);
+  if (unit) return fly_stretch<D, true, true>(scene, stretch);
+  if (scene.ellipsoids) return fly_stretch<D, false, false>(scene, stretch);
+  return fly_stretch<D, false, true>(scene, stretch);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

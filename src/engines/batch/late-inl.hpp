@@ -1,0 +1,77 @@
+// Times that take long are found at the end of a stretch, when there are enough of them to fill the lanes.
+// Private to the batch engine.
+#if defined(LORENTZ_BATCH_LATE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_LATE_INL_HPP
+#undef LORENTZ_BATCH_LATE_INL_HPP
+#else
+#define LORENTZ_BATCH_LATE_INL_HPP
+#endif
+
+#include "src/engines/batch/stretch.hpp"
+#include "src/engines/batch/time-inl.hpp"
+#include "src/engines/batch/velocity-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Hits whose obstacle is grazed or near, in a scene with one atom.
+template <int D, bool kUnit, bool kBall>
+class LateTimes {
+ public:
+  HWY_INLINE void push(M m, std::size_t at, const Entry<D, kBall>& entry) {
+    for (int k = 0; k < D; ++k) store_some(entry.n[k], m, n_[k] + count_);
+    store_some(entry.s, m, s_ + count_);
+    store_some(entry.slack, m, slack_ + count_);
+    store_some(entry.slack_error, m, slack_error_ + count_);
+    for (unsigned rest = bits_of(m); rest != 0; rest &= rest - 1)
+      index_[count_++] = static_cast<int>(at) + __builtin_ctz(rest);
+  }
+
+  HWY_INLINE void finish(const PreparedScene& scene, Stretch& stretch) {
+    for (std::size_t at = 0; at < count_; at += kLanes) finish_at(at, scene, stretch);
+  }
+
+ private:
+  HWY_INLINE void finish_at(std::size_t at, const PreparedScene& scene, Stretch& stretch) const {
+    const std::size_t length = count_ - at < kLanes ? count_ - at : kLanes;
+    HWY_ALIGN double place[D][kLanes] = {}, velocity[D][kLanes] = {}, time[kLanes];
+    for (std::size_t lane = 0; lane < length; ++lane)
+      for (int k = 0; k < D; ++k) {
+        place[k][lane] = stretch.x[k][index_[at + lane]];
+        velocity[k][lane] = stretch.v[k][index_[at + lane]];
+      }
+    V x[D], v[D];
+    for (int k = 0; k < D; ++k) x[k] = load(place[k]), v[k] = load(velocity[k]);
+    Lanes lanes{first_lanes(length)};
+    const Velocity<D> scaled(v, lanes);
+    Start<D, kUnit, kBall> start;
+    start.set(scene, scene.atoms[0], x, lanes);
+    Entry<D, kBall> entry;
+    for (int k = 0; k < D; ++k) entry.n[k] = load(n_[k] + at);
+    entry.s = load(s_ + at), entry.slack = load(slack_ + at), entry.slack_error = load(slack_error_ + at);
+    const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
+    M in_range;
+    store(scaled.time_of(times.close(lanes.active), scene.exponent, in_range), time);
+    const unsigned good = bits_of(in_range);
+    for (std::size_t lane = 0; lane < length; ++lane) {
+      stretch.time[index_[at + lane]] = time[lane];
+      if (!(good >> lane & 1)) stretch.left_over[stretch.left_count++] = index_[at + lane];
+    }
+  }
+
+  template <class T>
+  using Column = T[kStretch + 2 * kMaxLanes];
+
+  std::size_t count_ = 0;
+  Column<int> index_;
+  Column<double> n_[D], s_, slack_, slack_error_;
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,73 @@
+// One of the processor's vectors, as far as the batch engine knows it. Included once for each set of
+// instructions. Private to the batch engine.
+#if defined(LORENTZ_BATCH_NATIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_NATIVE_INL_HPP
+#undef LORENTZ_BATCH_NATIVE_INL_HPP
+#else
+#define LORENTZ_BATCH_NATIVE_INL_HPP
+#endif
+
+#include <cstring>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+using namespace hwy::HWY_NAMESPACE;
+
+using Tag = CappedTag<double, 8>;
+using IntegerTag = RebindToSigned<Tag>;
+using SmallTag = Rebind<std::int32_t, Tag>;
+using N = hwy::HWY_NAMESPACE::Vec<Tag>;    ///< a number in each lane
+using NM = hwy::HWY_NAMESPACE::Mask<Tag>;  ///< yes or no in each lane
+
+constexpr Tag kTag{};
+constexpr IntegerTag kIntegerTag{};
+constexpr std::size_t kNativeLanes = MaxLanes(Tag{});
+
+HWY_INLINE N load_native(const double* from) {
+  return LoadU(kTag, from);
+}
+HWY_INLINE void store(N a, double* to) {
+  StoreU(a, kTag, to);
+}
+
+/// Integers below 2^51.
+HWY_INLINE void store_integers(N a, std::int64_t* to) {
+  const N magic = Set(kTag, 0x1.8p52);
+  StoreU(BitCast(kIntegerTag, a + magic) - BitCast(kIntegerTag, magic), kIntegerTag, to);
+}
+HWY_INLINE void store_small_integers(N a, std::int32_t* to) {
+  StoreU(DemoteTo(SmallTag{}, a), SmallTag{}, to);
+}
+
+/// The lanes of m, one after the other, and what is behind them is overwritten; returns how many.
+HWY_INLINE std::size_t store_some(N a, NM m, double* to) {
+  return CompressStore(a, m, kTag, to);
+}
+
+/// A bit a lane.
+HWY_INLINE unsigned bits_of(NM m) {
+  std::uint8_t bytes[8] = {};
+  StoreMaskBits(kTag, m, bytes);
+  return bytes[0] & ((1u << kNativeLanes) - 1);
+}
+
+HWY_INLINE NM first_native(std::size_t count) {
+  return FirstN(kTag, count);
+}
+
+/// 2^-e of a normal number of exponent e.
+HWY_INLINE N inverse_power_of(N a) {
+  return BitCast(kTag, ShiftLeft<52>(Set(kIntegerTag, 2046) - ShiftRight<52>(BitCast(kIntegerTag, a))));
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,72 @@
+// A stretch of queries on its way through the lanes. Private to the batch engine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <lorentz/flight.hpp>
+#include "src/engines/reduction/bravais.hpp"
+
+namespace lorentz {
+
+/// As many queries as leave a stretch in the first cache. Lanes take kMaxLanes at most at a time.
+inline constexpr std::size_t kStretch = 128, kMaxLanes = 8;
+
+/// What a kernel reads and writes: columns, the caller's own or those of a StretchBuffer, that are `count`
+/// long, rounded up to whole vectors.
+struct Stretch {
+  std::size_t count = 0;
+
+  // Asked. `from_cell` is in the scene's primitive vectors.
+  const double *x[3], *v[3];
+  const double* max_time;                        ///< null: no limits
+  const std::int32_t *from_lattice, *from_atom;  ///< null: nothing is left
+  const std::int64_t* from_cell[3];
+  bool rounded = false;  ///< which times are wanted: Reduction::Time
+
+  // Told.
+  double* time;
+  std::int64_t* cell[3];
+  std::int32_t* atom;  ///< number in the prepared scene; of scenes with several
+  Outcome* outcome;
+  Stage* stage;
+  bool* time_is_rounded;
+
+  /// The queries that are left to single flights; of these nothing is told.
+  int left_over[kStretch];
+  std::size_t left_count = 0;
+};
+
+/// Columns for what the caller does not have, or not in whole vectors.
+struct StretchBuffer {
+  template <class T>
+  using Column = T[kStretch + kMaxLanes];
+
+  alignas(64) Column<double> x[3], v[3], max_time, time;
+  alignas(64) Column<std::int64_t> from_cell[3], cell[3];
+  alignas(64) Column<std::int32_t> from_lattice, from_atom, atom;
+  Column<Outcome> outcome;
+  Column<Stage> stage;
+  Column<bool> time_is_rounded;
+};
+
+using StretchKernel = void (*)(const PreparedScene&, Stretch&);
+
+/// The kernels of one set of instructions, for 2D and 3D scenes; null: none, single flights are asked.
+struct StretchKernels {
+  const char* instructions;
+  StretchKernel plane, space;
+};
+
+/// Those that this processor can run, best first; the last has none.
+std::vector<StretchKernels> stretch_kernels();
+
+/// The same for one dimension: see kernels_2d.cpp, kernels_3d.cpp.
+struct BuiltKernel {
+  std::int64_t target;  ///< of Highway
+  StretchKernel kernel;
+};
+std::vector<BuiltKernel> kernels_in_plane(), kernels_in_space();
+
+}  // namespace lorentz

@@ -1,0 +1,359 @@
+// When the obstacles that were found are entered, in lanes: src/engines/reduction/entry_time.hpp and
+// stable_meeting.hpp. Private to the batch engine.
+#if defined(LORENTZ_BATCH_TIME_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_TIME_INL_HPP
+#undef LORENTZ_BATCH_TIME_INL_HPP
+#else
+#define LORENTZ_BATCH_TIME_INL_HPP
+#endif
+
+#include "src/engines/batch/start-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// What a search leaves for the time, and the obstacle's cell from the home cell in the short basis.
+template <int D, bool kBall>
+struct Entry {
+  V n[D];
+  V s, s_error, slack, slack_error, v2;
+  // Of ellipsoids: in 2D v.v, and h skew; in 3D the form that s is.
+  V euclidean_v2, across;
+  Pair along[kBall || D == 2 ? 1 : D];
+
+  HWY_INLINE V rough_time(V& error) const {
+    const V q = Sqrt(slack);
+    error = all(2) * (s_error + slack_error / q) / v2 + all(kRoughTime * kRoundoff) * s / v2;
+    return (s - q) / v2;
+  }
+
+  HWY_INLINE void take(M m, const Entry& other) {
+    for (int k = 0; k < D; ++k) n[k] = select(m, other.n[k], n[k]);
+    s = select(m, other.s, s), s_error = select(m, other.s_error, s_error);
+    slack = select(m, other.slack, slack), slack_error = select(m, other.slack_error, slack_error);
+    v2 = select(m, other.v2, v2);
+    if constexpr (!kBall && D == 2) {
+      euclidean_v2 = select(m, other.euclidean_v2, euclidean_v2);
+      across = select(m, other.across, across);
+    }
+    if constexpr (!kBall && D == 3)
+      for (int k = 0; k < D; ++k) along[k] = select(m, other.along[k], along[k]);
+  }
+};
+
+/// place_of: the obstacle as seen from x; returns the error of each component.
+template <int D, bool kUnit, bool kBall>
+HWY_INLINE V place_of(const Start<D, kUnit, kBall>& start, const V (&n)[D], Pair (&d)[D]) {
+  if constexpr (kUnit) {
+    for (int k = 0; k < D; ++k) d[k] = sum_of(n[k], start.d[k].hi);
+    return start.error;
+  } else {
+    const Bravais& lattice = *start.lattice;
+    V size = none(), error = start.error;
+    for (int k = 0; k < D; ++k) {
+      Pair step[D];
+      for (int i = 0; i < D; ++i) {
+        step[i] = pair_of(lattice.basis[i][k]) * pair_of(n[i]);
+        size = size + Abs(step[i].hi);
+      }
+      Pair sum = step[0];
+      for (int i = 1; i < D; ++i) sum = sum + step[i];
+      d[k] = sum + start.d[k];
+      size = size + Abs(start.d[k].hi);
+    }
+    for (int i = 0; i < D; ++i) error = error + Abs(n[i]) * all(lattice.basis_error);
+    return error + all(kPlace) * size;
+  }
+}
+
+/// StableMeeting: the line and one obstacle in double-double.
+template <int D, bool kBall>
+struct Meeting {
+  Pair v2, s, slack;
+  V s_error, slack_error, v2_error, across_error, nearness;
+
+  HWY_INLINE Meeting(const V (&v)[D], const Pair (&d)[D], V error, const Bravais& lattice) {
+    Pair across[3];
+    V d2 = d[0].hi * d[0].hi + d[1].hi * d[1].hi, speed2 = v[0] * v[0] + v[1] * v[1];
+    across[2] = d[1] * v[0] - d[0] * v[1];
+    if constexpr (D == 3) {
+      across[0] = d[2] * v[1] - d[1] * v[2];
+      across[1] = d[0] * v[2] - d[2] * v[0];
+      d2 = d2 + d[2].hi * d[2].hi, speed2 = speed2 + v[2] * v[2];
+    }
+    nearness = Sqrt(d2);
+    const V speed = Sqrt(speed2);
+    across_error = speed * (all(kStable) * nearness + all(kDiagonal) * error) + all(kFlushed);
+    v2_error = none();
+    Pair h2;
+    V h_error;
+    if constexpr (kBall)
+      measure_ball(v, d, across, h2, h_error);
+    else
+      measure_ellipsoid(lattice.shape, v, d, across, speed, error, h2, h_error);
+    const double r = lattice.radius;
+    const Pair rho2 = product_of(all(r), all(r)) * v2;
+    slack = rho2 - h2;
+    slack_error =
+        all(2) * h_error * (Sqrt(h2.hi) + h_error) + all(kStable) * (rho2.hi + h2.hi) + all(r * r) * v2_error;
+  }
+
+  /// The time of entry, and the bound of its error.
+  HWY_INLINE Pair time(const Pair (&d)[D], V error, const Bravais& lattice, V& time_error) const {
+    const M far_root = s.hi > all(kFarSlack) * Sqrt(slack.hi);
+    Pair q = root_of(slack);
+    q = select(slack.hi > none(), q, pair_of(none()));
+    q = select(far_root, pair_of(Sqrt(slack.hi)), q);
+    const V q_rounding = where(far_root, all(kRoot * kRoundoff) * q.hi);
+    const V q_error = slack_error / q.hi + all(kStable) * q.hi + q_rounding;
+    const M far = s.hi > all(kNearWide) * q.hi;
+    const Pair difference = s - q;
+    const V inverse = all(1) / v2.hi, rough = difference.hi * inverse;
+    const Pair product = v2 * rough;
+    const Pair t =
+        ordered_sum_of(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
+    time_error = all(2) * (s_error + q_error + t.hi * v2_error) * inverse + all(kStableTime) * t.hi;
+    if (!any(Not(far))) return t;
+    V gap_error;
+    const Pair near = gap(d, error, lattice, gap_error) / (s + q);
+    const V near_error =
+        all(2) * (gap_error + near.hi * (s_error + q_error)) / (s.hi + q.hi) + all(kStableTime) * near.hi;
+    time_error = select(far, time_error, near_error);
+    return select(far, t, near);
+  }
+
+ private:
+  HWY_INLINE Pair gap(const Pair (&d)[D], V error, const Bravais& lattice, V& gap_error) const {
+    const double r = lattice.radius;
+    Pair gap = -product_of(all(r), all(r));
+    if constexpr (kBall) {
+      for (const Pair& component : d) gap = gap + component * component;
+      gap_error = all(kStableGap * r * r) + all(4 * kDiagonal) * error * nearness;
+      return gap;
+    } else {
+      const Shape& shape = lattice.shape;
+      Pair square = pair_of(none());
+      V size2 = none();
+      for (int i = 0; i < D; ++i) {
+        Pair image = pair_of(shape.metric[i][0]) * d[0];
+        for (int k = 1; k < D; ++k) image = image + pair_of(shape.metric[i][k]) * d[k];
+        square = square + image * d[i];
+        size2 = size2 + d[i].hi * d[i].hi;
+      }
+      gap_error = all(shape.metric_error + kStableForm * shape.metric_size) * size2 +
+                  all(2 * kDiagonal * shape.metric_size) * error * (Sqrt(size2) + error);
+      gap_error = gap_error + all(kStableGap) * (all(r * r) + square.hi);
+      return gap + square;
+    }
+  }
+
+  HWY_INLINE void measure_ball(const V (&v)[D], const Pair (&d)[D], const Pair (&across)[3], Pair& h2,
+                               V& h_error) {
+    v2 = product_of(v[0], v[0]) + product_of(v[1], v[1]);
+    h2 = across[2] * across[2];
+    s = d[0] * v[0] + d[1] * v[1];
+    if constexpr (D == 3) {
+      v2 = v2 + product_of(v[2], v[2]);
+      s = s + d[2] * v[2];
+      h2 = h2 + (across[0] * across[0] + across[1] * across[1]);
+    }
+    s_error = h_error = across_error;
+  }
+
+  HWY_INLINE void measure_ellipsoid(const Shape& shape, const V (&v)[D], const Pair (&d)[D],
+                                    const Pair (&across)[3], V speed, V error, Pair& h2, V& h_error) {
+    v2 = s = pair_of(none());
+    for (int i = 0; i < D; ++i) {
+      Pair along = pair_of(none());
+      for (int k = 0; k < D; ++k) along = add_product(along, pair_of(shape.metric[i][k]), v[k]);
+      v2 = v2 + along * v[i];
+      s = s + along * d[i];
+    }
+    const double form_error = shape.metric_error + kStableForm * shape.metric_size;
+    v2_error = all(form_error) * speed * speed;
+    s_error =
+        speed * (all(form_error) * nearness + all(kDiagonal * shape.metric_size) * error) + all(kFlushed);
+    V size2 = none();
+    h2 = pair_of(none());
+    for (int i = D == 2 ? 2 : 0; i < 3; ++i) {
+      Pair h = pair_of(none());
+      for (int k = D == 2 ? 2 : 0; k < 3; ++k) h = h + pair_of(shape.wide_cofactor[i][k]) * across[k];
+      h2 = h2 + h * h;
+      size2 = size2 + across[i].hi * across[i].hi;
+    }
+    h_error = all(2 * shape.cofactor_size) * across_error +
+              all(shape.cofactor_error + kStable * shape.cofactor_size) * Sqrt(size2);
+  }
+};
+
+/// EntryTime: the time at which the obstacle of an Entry is entered with velocity v.
+template <int D, bool kUnit, bool kBall>
+class Times {
+ public:
+  HWY_INLINE Times(const Start<D, kUnit, kBall>& start, const Entry<D, kBall>& entry, const V (&v)[D])
+      : lattice_(*start.lattice), start_(start), entry_(entry), v_(v) {}
+
+  /// Within a few ulps, for lanes of balls in which the obstacle is neither grazed nor near.
+  HWY_INLINE V plain() const {
+    V v2 = v_[0] * v_[0] + v_[1] * v_[1], s = v_[0] * distance(0);
+    if constexpr (D == 3) v2 = v2 + v_[2] * v_[2];
+    for (int k = 1; k < D; ++k) s = s + v_[k] * distance(k);
+    return (s - Sqrt(entry_.slack)) / v2;
+  }
+  HWY_INLINE M is_grazing(V q) const { return entry_.slack_error > all(kGrazing * kRoundoff) * q * entry_.s; }
+  HWY_INLINE M is_near(V q) const { return Not(entry_.s > all(kNear) * q); }
+  HWY_INLINE M is_plain() const {
+    const V q = Sqrt(entry_.slack);
+    return Not(Or(is_grazing(q), is_near(q)));
+  }
+
+  /// Within a few ulps, for the lanes of `hit`.
+  HWY_INLINE V close(M hit) const {
+    if constexpr (kBall)
+      return close_of_ball(hit);
+    else
+      return close_of_ellipsoid(hit);
+  }
+
+  /// In double-double, and the bound of its error.
+  HWY_INLINE Pair wide(V& error) const {
+    const Wide wide = wide_of(asked());
+    error = wide.error;
+    return wide.time;
+  }
+
+ private:
+  struct Asked {
+    Start<D, kUnit, kBall> start;
+    V n[D], v[D], q;
+  };
+  struct Wide {
+    Pair time;
+    V error;
+  };
+
+  HWY_INLINE Asked asked(V q = none()) const {
+    Asked asked;
+    asked.start = start_, asked.q = q;
+    for (int k = 0; k < D; ++k) asked.n[k] = entry_.n[k], asked.v[k] = v_[k];
+    return asked;
+  }
+
+  static HWY_NOINLINE Wide wide_of(const Asked& asked) { return measured(asked); }
+
+  // The same without the bound, which is not computed then.
+  static HWY_NOINLINE V rare_of(const Asked& asked) { return measured(asked).time.value(); }
+
+  static HWY_INLINE Wide measured(const Asked& asked) {
+    const Bravais& lattice = *asked.start.lattice;
+    Pair d[D];
+    const V d_error = place_of(asked.start, asked.n, d);
+    const Meeting<D, kBall> meeting(asked.v, d, d_error, lattice);
+    Wide wide;
+    wide.time = meeting.time(d, d_error, lattice, wide.error);
+    return wide;
+  }
+
+  HWY_INLINE V close_of_ball(M hit) const {
+    const V q = Sqrt(entry_.slack);
+    const M grazing = And(hit, is_grazing(q)), near = And(hit, is_near(q));
+    V time = plain();
+    if (any(near)) time = select(near, near_ball(asked(q)), time);
+    if (any(grazing)) time = select(grazing, rare(), time);
+    return time;
+  }
+
+  HWY_INLINE V rare() const { return rare_of(asked()); }
+
+  static HWY_NOINLINE V near_ball(const Asked& asked) {
+    const double r = asked.start.lattice->radius;
+    Pair d[D];
+    place_of(asked.start, asked.n, d);
+    V s = none();
+    Pair gap = -product_of(all(r), all(r));
+    for (int k = 0; k < D; ++k) {
+      const Pair square = product_of(d[k].hi, d[k].hi), sum = sum_of(gap.hi, square.hi);
+      gap = Pair{sum.hi, sum.lo + (gap.lo + square.lo + all(2) * d[k].hi * d[k].lo)};
+      s = s + asked.v[k] * d[k].hi;
+    }
+    return Max(gap.value(), none()) / (s + asked.q);
+  }
+
+  HWY_INLINE V close_of_ellipsoid(M hit) const {
+    const V q = Sqrt(entry_.slack);
+    const double condition = lattice_.shape.condition;
+    if (condition > kSlender) return Max(rare(), none());
+    const double unsure = (kGrazing + kGrazingOfShape * condition) * kRoundoff;
+    const M grazing = And(hit, entry_.slack_error > all(unsure) * q * entry_.s);
+    V time;
+    if constexpr (D == 2) {
+      const V along = v_[0] * distance(0) + v_[1] * distance(1);
+      const V v2 = entry_.v2, euclidean_v2 = entry_.euclidean_v2, across = entry_.across;
+      const M near = And(hit, Not(entry_.s > all(kNear) * q));
+      time = along / euclidean_v2 + (across - q * euclidean_v2) / (euclidean_v2 * v2);
+      if (any(near)) time = select(near, close_gap() / ((along * v2 + across) / euclidean_v2 + q), time);
+    } else {
+      Pair d[D];
+      place(d);
+      time = (close_product(entry_.along, d).hi - q) / entry_.v2;
+    }
+    if (any(grazing)) time = select(grazing, rare(), time);
+    return time;
+  }
+
+  HWY_INLINE void place(Pair (&d)[D]) const {
+    for (int k = 0; k < D; ++k) {
+      if constexpr (kUnit) {
+        d[k] = sum_of(entry_.n[k], start_.d[k].hi);
+      } else {
+        Pair sum = start_.d[k];
+        for (int i = 0; i < D; ++i) sum = add_product(sum, pair_of(lattice_.basis[i][k]), entry_.n[i]);
+        d[k] = sum;
+      }
+    }
+  }
+
+  static HWY_INLINE Pair close_product(const Pair (&a)[D], const Pair (&d)[D]) {
+    Pair sum = first_product(a[0], d[0].hi);
+    V low = a[0].hi * d[0].lo;
+    for (int k = 1; k < D; ++k) {
+      sum = add_product(sum, a[k], d[k].hi);
+      low = low + a[k].hi * d[k].lo;
+    }
+    return sum_of(sum.hi, sum.lo + low);
+  }
+
+  HWY_INLINE V close_gap() const {
+    Pair d[D], image[D];
+    place(d);
+    for (int i = 0; i < D; ++i) {
+      Pair row[D];
+      for (int k = 0; k < D; ++k) row[k] = pair_of(lattice_.shape.metric[i][k]);
+      image[i] = close_product(row, d);
+    }
+    const Pair square = close_product(image, d),
+               limit = product_of(all(lattice_.radius), all(lattice_.radius));
+    return Max((square.hi - limit.hi) + (square.lo - limit.lo), none());
+  }
+
+  HWY_INLINE V distance(int k) const {
+    if constexpr (kUnit) return entry_.n[k] + start_.d[k].hi;
+    V d = start_.d[k].hi;
+    for (int i = 0; i < D; ++i) d = d + all(lattice_.basis[i][k].hi) * entry_.n[i];
+    return d;
+  }
+
+  const Bravais& lattice_;
+  const Start<D, kUnit, kBall>& start_;
+  const Entry<D, kBall>& entry_;
+  const V (&v_)[D];
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

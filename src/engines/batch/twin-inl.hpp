@@ -1,0 +1,125 @@
+// Two vectors as one, so that there is something to do while one waits for a division; but not of AVX-512,
+// whose vectors are twice as long. Included once for each
+// set of instructions. Private to the batch engine.
+#if defined(LORENTZ_BATCH_TWIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_TWIN_INL_HPP
+#undef LORENTZ_BATCH_TWIN_INL_HPP
+#else
+#define LORENTZ_BATCH_TWIN_INL_HPP
+#endif
+
+#include "src/engines/batch/native-inl.hpp"
+
+#if LORENTZ_TWIN_LANES && HWY_TARGET != HWY_AVX3
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct V {
+  N a, b;
+};
+struct M {
+  NM a, b;
+};
+
+constexpr std::size_t kLanes = 2 * kNativeLanes;
+
+#define LORENTZ_ON_BOTH(Result, name, Argument) \
+  HWY_INLINE Result name(Argument x) {          \
+    return {name(x.a), name(x.b)};              \
+  }
+#define LORENTZ_ON_BOTH_2(Result, name, Argument)  \
+  HWY_INLINE Result name(Argument x, Argument y) { \
+    return {name(x.a, y.a), name(x.b, y.b)};       \
+  }
+#define LORENTZ_ON_BOTH_3(name, First)                 \
+  HWY_INLINE V name(First x, V y, V z) {               \
+    return {name(x.a, y.a, z.a), name(x.b, y.b, z.b)}; \
+  }
+#define LORENTZ_OPERATOR(Result, op)        \
+  HWY_INLINE Result operator op(V x, V y) { \
+    return {x.a op y.a, x.b op y.b};        \
+  }
+
+LORENTZ_OPERATOR(V, +)
+LORENTZ_OPERATOR(V, -)
+LORENTZ_OPERATOR(V, *)
+LORENTZ_OPERATOR(V, /)
+LORENTZ_OPERATOR(M, <)
+LORENTZ_OPERATOR(M, >)
+LORENTZ_OPERATOR(M, <=)
+LORENTZ_OPERATOR(M, >=)
+LORENTZ_OPERATOR(M, ==)
+LORENTZ_OPERATOR(M, !=)
+LORENTZ_ON_BOTH(V, Abs, V)
+LORENTZ_ON_BOTH(V, Neg, V)
+LORENTZ_ON_BOTH(V, Sqrt, V)
+LORENTZ_ON_BOTH(V, Floor, V)
+LORENTZ_ON_BOTH(V, Ceil, V)
+LORENTZ_ON_BOTH(V, Round, V)
+LORENTZ_ON_BOTH(V, inverse_power_of, V)
+LORENTZ_ON_BOTH(M, Not, M)
+LORENTZ_ON_BOTH_2(V, Max, V)
+LORENTZ_ON_BOTH_2(V, Min, V)
+LORENTZ_ON_BOTH_2(V, Xor, V)
+LORENTZ_ON_BOTH_2(V, And, V)
+LORENTZ_ON_BOTH_2(V, CopySign, V)
+LORENTZ_ON_BOTH_2(M, And, M)
+LORENTZ_ON_BOTH_2(M, Or, M)
+LORENTZ_ON_BOTH_2(M, AndNot, M)
+LORENTZ_ON_BOTH_3(MulSub, V)
+LORENTZ_ON_BOTH_3(NegMulAdd, V)
+LORENTZ_ON_BOTH_3(IfThenElse, M)
+
+#undef LORENTZ_ON_BOTH
+#undef LORENTZ_ON_BOTH_2
+#undef LORENTZ_ON_BOTH_3
+#undef LORENTZ_OPERATOR
+
+HWY_INLINE V IfThenElseZero(M m, V x) {
+  return {IfThenElseZero(m.a, x.a), IfThenElseZero(m.b, x.b)};
+}
+HWY_INLINE V IfThenZeroElse(M m, V x) {
+  return {IfThenZeroElse(m.a, x.a), IfThenZeroElse(m.b, x.b)};
+}
+HWY_INLINE V all(double a) {
+  return {Set(kTag, a), Set(kTag, a)};
+}
+HWY_INLINE M no_lane() {
+  return {MaskFromVec(Zero(kTag)), MaskFromVec(Zero(kTag))};
+}
+HWY_INLINE bool nowhere(M m) {
+  return AllFalse(kTag, Or(m.a, m.b));
+}
+HWY_INLINE M first_lanes(std::size_t count) {
+  return {first_native(count), first_native(count > kNativeLanes ? count - kNativeLanes : 0)};
+}
+HWY_INLINE unsigned bits_of(M m) {
+  return bits_of(m.a) | bits_of(m.b) << kNativeLanes;
+}
+HWY_INLINE V load(const double* from) {
+  return {load_native(from), load_native(from + kNativeLanes)};
+}
+HWY_INLINE void store(V x, double* to) {
+  store(x.a, to), store(x.b, to + kNativeLanes);
+}
+HWY_INLINE void store_integers(V x, std::int64_t* to) {
+  store_integers(x.a, to), store_integers(x.b, to + kNativeLanes);
+}
+HWY_INLINE void store_small_integers(V x, std::int32_t* to) {
+  store_small_integers(x.a, to), store_small_integers(x.b, to + kNativeLanes);
+}
+HWY_INLINE std::size_t store_some(V x, M m, double* to) {
+  const std::size_t count = store_some(x.a, m.a, to);
+  return count + store_some(x.b, m.b, to + count);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+#endif
+
+#endif

@@ -1,0 +1,57 @@
+// Velocities in lanes: ScaledVelocity of <lorentz/engine.hpp>. Private to the batch engine.
+#if defined(LORENTZ_BATCH_VELOCITY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LORENTZ_BATCH_VELOCITY_INL_HPP
+#undef LORENTZ_BATCH_VELOCITY_INL_HPP
+#else
+#define LORENTZ_BATCH_VELOCITY_INL_HPP
+#endif
+
+#include <lorentz/engine.hpp>
+
+#include "src/engines/batch/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Velocities scaled by powers of two, so that their largest components lie in [1, 2). Far from 1, or with
+/// tiny components, they are left over.
+template <int D>
+struct Velocity {
+  V scaled[D], factor;
+
+  HWY_INLINE Velocity(const V (&v)[D], Lanes& lanes) {
+    V top = Abs(v[0]);
+    for (int k = 1; k < D; ++k) top = Max(top, Abs(v[k]));
+    factor = inverse_power_of(top);
+    lanes.leave_unless(And(top > all(0x1p-490), top < all(0x1p490)));
+    for (int k = 0; k < D; ++k) {
+      scaled[k] = v[k] * factor;
+      lanes.leave(And(Abs(scaled[k]) < all(kTinyComponent), v[k] != none()));
+      lanes.leave_unless(Abs(v[k]) <= top);  // not a number
+    }
+  }
+
+  /// A time in the scaled units, in those of the query; `exponent` is the scene's. Near the ends of the range
+  /// it is rounded, or no longer known to be: not in_range.
+  HWY_INLINE V time_of(V time, int exponent, M& in_range) const {
+    if (exponent != 0) time = time * all(std::ldexp(1.0, exponent));
+    time = time * factor;
+    in_range = Or(And(Abs(time) > all(0x1p-900), Abs(time) < all(0x1p900)), time == none());
+    return time;
+  }
+
+  /// A limit of the query, in the scaled units.
+  HWY_INLINE V limit_of(V limit, int exponent) const {
+    limit = limit * inverse_power_of(factor);
+    return exponent != 0 ? limit * all(std::ldexp(1.0, -exponent)) : limit;
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,359 @@
+// A batch is held against one flight at a time, bit for bit, with every set of instructions that this
+// processor has: drawn flights, flights at the families of hard cases, with limits, from surfaces, far out.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include <lorentz/certified_batch.hpp>
+#include <lorentz/collision.hpp>
+#include "cases/families/target.hpp"
+#include "cases/random.hpp"
+#include "tests/engines/reduction_support.hpp"
+#include "tests/support/scenes.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using cases::Random;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20261122;
+
+Atom ellipsoid(std::vector<Vec> semiaxes, const Vec& position = {}) {
+  return {position, 0, std::move(semiaxes)};
+}
+
+Scene with_atoms(int dimension, const std::array<Vec, 3>& vectors, std::vector<Atom> atoms) {
+  Scene scene;
+  scene.dimension = dimension;
+  scene.lattices = {{vectors, std::move(atoms)}};
+  return scene;
+}
+
+// One scene of each kind that lanes treat in a way of its own, with obstacles of about this size.
+std::map<std::string, Scene> scenes_of(double r) {
+  const std::array<Vec, 3> square{Vec{1, 0, 0}, {0, 1, 0}}, cubic{Vec{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+      oblique{Vec{1.3, 0.2, 0}, {0.7, 1.1, 0}},
+      triclinic{Vec{1.1, 0.1, 0}, {0.3, 1.2, 0.1}, {0.2, 0.35, 0.95}},
+      fcc{Vec{0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}}, wide{Vec{1000, 0, 0}, {0, 1000, 0}},
+      small{Vec{0x1p-300, 0, 0}, {0, 0x1p-300, 0}, {0, 0, 0x1p-300}};
+  const std::vector<Vec> slim{{1.4 * r, 0.3 * r, 0}, {-0.3 * r, 0.7 * r, 0}},
+      stout{{1.3 * r, 0, 0.1 * r}, {0, r, 0.1 * r}, {0, 0, 0.7 * r}};
+  Scene twisted = unit_scene(2, r);
+  twisted.lattices.push_back(
+      {{Vec{std::cos(0.6), std::sin(0.6), 0}, {-std::sin(0.6), std::cos(0.6), 0}}, {{{0.3, 0.1, 0}, r, {}}}});
+  return {
+      {"square", unit_scene(2, r)},
+      {"cubic", unit_scene(3, r)},
+      {"oblique", one_atom(2, oblique, r, {0.1, 0.3, 0})},
+      {"triclinic", one_atom(3, triclinic, r, {0.1, 0.2, 0.3})},
+      {"fcc", one_atom(3, fcc, r)},
+      {"wide", one_atom(2, wide, 1000 * r)},
+      {"small", one_atom(3, small, 0x1p-300 * r)},
+      {"ellipse", with_atoms(2, square, {ellipsoid(slim)})},
+      {"oblique ellipse", with_atoms(2, oblique, {ellipsoid(slim, {0.1, 0.2, 0})})},
+      {"ellipsoid", with_atoms(3, cubic, {ellipsoid(stout)})},
+      {"triclinic ellipsoid", with_atoms(3, triclinic, {ellipsoid(stout, {0.1, 0.2, 0.3})})},
+      {"motif in the plane",
+       with_atoms(
+           2, square,
+           {{{}, r, {}}, {{0.5, 0.5, 0}, r, {}}, {{0.5, 0, 0}, 0.5 * r, {}}, {{0, 0.5, 0}, 0.7 * r, {}}})},
+      {"motif in space",
+       with_atoms(
+           3, cubic,
+           {{{}, r, {}}, {{0.5, 0.5, 0.5}, r, {}}, {{0.5, 0, 0}, 0.5 * r, {}}, {{0, 0.5, 0}, 0.7 * r, {}}})},
+      {"seven atoms",  // more than lanes keep
+       with_atoms(2, square,
+                  {{{}, 0.1 * r, {}},
+                   {{0.5, 0.5, 0}, 0.1 * r, {}},
+                   {{0.5, 0, 0}, 0.1 * r, {}},
+                   {{0, 0.5, 0}, 0.1 * r, {}},
+                   {{0.25, 0.5, 0}, 0.1 * r, {}},
+                   {{0.25, 0.25, 0}, 0.1 * r, {}},
+                   {{0.75, 0.25, 0}, 0.1 * r, {}}})},
+      {"ellipsoid and ball", with_atoms(3, cubic, {ellipsoid(stout), {{0.5, 0.5, 0.5}, r, {}}})},
+      {"two lattices", twisted}};
+}
+
+enum class Kind { drawn, near_rational, grazing, far, limited, leaving };
+constexpr Kind kKinds[] = {Kind::drawn, Kind::near_rational, Kind::grazing,
+                           Kind::far,   Kind::limited,       Kind::leaving};
+
+// A query of one kind, and its limit.
+Query query_of(Random& random, Kind kind, const Scene& scene, const Reduction& engine, double& limit) {
+  const int d = scene.dimension;
+  const Vec& u = scene.lattices[0].vectors[0];
+  const double cell = std::fabs(u[0]) + std::fabs(u[1]) + std::fabs(u[2]);
+  const double range = cell * (kind == Kind::far ? random.octave(0, 50) : 1);
+  Query query;
+  for (int k = 0; k < d; ++k) query.x[k] = random.between(-range, range);
+  query.v = random.direction(d);
+  if (kind == Kind::near_rational) {
+    const std::int64_t n = std::int64_t{1} << random.below(7);
+    do
+      for (int k = 0; k < d; ++k) query.v[k] = static_cast<double>(random.integer(-n, n));
+    while (query.v == Vec{});
+    for (int k = 0; k < d && random.one_in(2); ++k)
+      query.v[k] += random.between(-1, 1) * random.octave(-52, 0);
+  }
+  if (kind == Kind::limited) {
+    limit = cell * random.octave(-6, 10);
+    for (int k = 0; k < d; ++k) query.v[k] *= 3;
+  }
+  if (kind != Kind::grazing && kind != Kind::leaving) return query;
+  const Flight flight = engine.fly(query);
+  if (flight.outcome != Outcome::hit) return query;
+  const ObstacleId id{flight.lattice, flight.atom, {flight.cell[0], flight.cell[1], flight.cell[2]}};
+  for (int k = 0; k < d; ++k) query.x[k] += flight.time * query.v[k];
+  if (kind == Kind::leaving) query.from = id, query.v = random.direction(d);
+  if (kind == Kind::grazing) {  // from the surface back, and then along it, give or take some ulps
+    const Vec along = collision_detail(scene, {query.x, query.v, {}}, Answer::hit(id, 0)).normal;
+    query.v = d == 2 ? Vec{-along[1], along[0], 0} : Vec{-along[1], along[0], random.between(0, 1)};
+    for (int k = 0; k < d; ++k) query.x[k] -= cell * random.octave(-2, 3) * query.v[k];
+  }
+  return query;
+}
+
+// What differs between a batch and single flights, first of all in words.
+struct Compared {
+  long queries = 0, different = 0, left = 0, hits = 0, inside = 0, never = 0, rounded = 0;
+  std::string first;
+
+  void add(const Scene& scene, const Batch& batch, const QueryTable& table, Batch::Time time, int jobs = 1) {
+    FlightTable flights;
+    flights.resize(table.size());
+    const QueryColumns columns = table.columns();
+    left += static_cast<long>(batch.fly(columns, flights.columns(), time, jobs));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const Query query = table[i];
+      const double limit = columns.max_time ? columns.max_time[i] : kNoLimit;
+      const Flight one = batch.one_at_a_time().fly(query, limit, time), many = flights[i];
+      ++queries;
+      hits += one.outcome == Outcome::hit, inside += one.outcome == Outcome::inside;
+      never += one.outcome == Outcome::never, rounded += one.time_is_rounded;
+      if (same_bits(one, many) && one.time_is_rounded == many.time_is_rounded) continue;
+      if (different++ == 0)
+        first = stream(scene, query) + "one  " + line(answer_of(one), 3) + "many " + line(answer_of(many), 3);
+    }
+  }
+};
+
+// Every kind of flight in every kind of scene.
+Compared compare(const std::string& instructions, std::size_t count, std::uint64_t seed) {
+  Compared compared;
+  for (const double r : {0.3, 0.1, 1e-3, 1e-6})
+    for (const auto& [name, scene] : scenes_of(r)) {
+      if (Reduction::beyond(scene)) continue;
+      const Batch batch(scene, instructions);
+      for (const Kind kind : kKinds) {
+        QueryTable table;
+        for (std::size_t i = 0; i < count; ++i) {
+          Random random(seed, name, i * 8 + static_cast<std::size_t>(kind));
+          double limit = kNoLimit;
+          const Query query = query_of(random, kind, scene, batch.one_at_a_time(), limit);
+          if (!flaw_of(query, scene)) table.push_back(query, limit);
+        }
+        for (const auto time : {Batch::Time::close, Batch::Time::rounded})
+          compared.add(scene, batch, table, time);
+      }
+    }
+  return compared;
+}
+
+// The families of hard cases, those of campaigns included; in each scene its cases together, and each with
+// limits about its time.
+Compared compare_families(const std::string& instructions, std::uint64_t count, std::uint64_t seed) {
+  Compared compared;
+  for (const cases::Target& target : cases::targets()) {
+    QueryTable table;
+    std::optional<Batch> batch;
+    Scene scene;
+    const auto fly = [&] {
+      if (!batch || table.size() == 0) return;
+      compared.add(scene, *batch, table, Batch::Time::close);
+      compared.add(scene, *batch, table, Batch::Time::rounded);
+      table.clear();
+    };
+    for (std::uint64_t index = 0; index < count; ++index) {
+      const cases::Case one = target.make(seed, index);
+      if (!batch || !(one.scene == scene)) {
+        fly();
+        scene = one.scene;
+        batch.reset();
+        if (!Reduction::beyond(scene)) batch.emplace(scene, instructions);
+      }
+      if (!batch) continue;
+      table.push_back(one.query);
+      const Flight flight = batch->one_at_a_time().fly(one.query);
+      if (flight.outcome != Outcome::hit || !std::isfinite(flight.time)) continue;
+      for (const double factor : {0.5, 1.0, 1 + 0x1p-40, 2.0})
+        table.push_back(one.query, flight.time * factor);
+    }
+    fly();
+  }
+  return compared;
+}
+
+}  // namespace
+
+TEST_CASE("A batch says what one flight at a time says, to the bit, with every set of instructions",
+          "[engines][batch]") {
+  for (const std::string& instructions : Batch::instruction_sets()) {
+    const Compared compared = compare(instructions, 100, kSeed);
+    INFO(instructions << ": " << compared.first);
+    CHECK(compared.different == 0);
+    CHECK(compared.queries > 50'000);
+    CHECK(compared.hits > 0.6 * compared.queries);
+    CHECK(compared.never > 100);
+    CHECK(compared.inside > 100);
+    CHECK(compared.rounded > 0.2 * compared.queries);
+    if (instructions == "none")
+      CHECK(compared.left == compared.queries);
+    else
+      CHECK(compared.left < 0.2 * compared.queries);
+  }
+}
+
+TEST_CASE("A batch says what one flight at a time says of the families of hard cases", "[engines][batch]") {
+  for (const std::string& instructions : Batch::instruction_sets()) {
+    if (instructions == "none") continue;
+    const Compared compared = compare_families(instructions, 64, kSeed);
+    INFO(instructions << ": " << compared.first);
+    CHECK(compared.different == 0);
+    CHECK(compared.queries > 10'000);
+    CHECK(compared.left < 0.6 * compared.queries);
+  }
+}
+
+TEST_CASE("Ten million flights in batches are those of single flights", "[engines][batch][long]") {
+  for (const std::string& instructions : Batch::instruction_sets()) {
+    if (instructions == "none") continue;
+    const Compared compared = compare(instructions, 14'000, kSeed + 1),
+                   families = compare_families(instructions, 8192, kSeed + 1);
+    INFO(instructions << ": " << compared.first << families.first);
+    CHECK(compared.different + families.different == 0);
+    CHECK(compared.queries > 10'000'000);
+  }
+}
+
+TEST_CASE("Of drawn flights lanes leave next to nothing to single flights", "[engines][batch]") {
+  if (Batch::instruction_sets().size() == 1) return;  // there are no lanes
+  for (const double r : {0.1, 1e-3, 1e-6})
+    for (const auto& [name, scene] : scenes_of(r)) {
+      const Batch batch(scene);
+      QueryTable table;
+      for (std::size_t i = 0; table.size() < 20'000; ++i) {
+        Random random(kSeed, name, i);
+        double limit;
+        const Query query = query_of(random, Kind::drawn, scene, batch.one_at_a_time(), limit);
+        if (batch.one_at_a_time().fly(query).outcome != Outcome::inside) table.push_back(query);
+      }
+      FlightTable flights;
+      flights.resize(table.size());
+      INFO(name << " at r = " << r);
+      CHECK(batch.fly(table.columns(), flights.columns()) <= 6);  // of 20 000; seen: at most 2 in 10 000
+    }
+}
+
+TEST_CASE("The length of a batch, its columns and its threads do not matter", "[engines][batch]") {
+  const Scene scene = unit_scene(3, 0.05);
+  const Batch batch(scene);
+  QueryTable table;
+  for (std::size_t i = 0; i < 10'000; ++i) {
+    Random random(kSeed, "length", i);
+    double limit;
+    table.push_back(query_of(random, Kind::drawn, scene, batch.one_at_a_time(), limit));
+  }
+  Compared whole;
+  for (const int jobs : {1, 2, 3, 7}) whole.add(scene, batch, table, Batch::Time::close, jobs);
+  CHECK(whole.different == 0);
+  FlightTable flights;
+  flights.resize(table.size());
+  for (std::size_t length = 0; length < 20; ++length)
+    for (const std::size_t begin : {std::size_t{0}, std::size_t{1}, std::size_t{127}}) {
+      batch.fly(table.columns().part(begin, length), flights.columns().part(begin));
+      for (std::size_t i = begin; i < begin + length; ++i)
+        REQUIRE(same_bits(flights[i], batch.one_at_a_time().fly(table[i])));
+    }
+  // Columns that nobody wants.
+  std::vector<Outcome> outcomes(table.size());
+  FlightColumns only_outcomes;
+  only_outcomes.outcome = outcomes.data();
+  batch.fly(table.columns(), only_outcomes);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    REQUIRE(outcomes[i] == batch.one_at_a_time().fly(table[i]).outcome);
+}
+
+TEST_CASE("A query with a flaw is an error of its own in a batch", "[engines][batch]") {
+  const double nan = std::nan(""), infinity = HUGE_VAL;
+  for (const int dimension : {2, 3})
+    for (const bool general : {false, true}) {
+      Scene scene = unit_scene(dimension, 0.1);
+      if (general) scene.lattices[0].vectors[0][1] = 0.25;
+      const Batch batch(scene);
+      QueryTable table;
+      const Query good{{0.5, 0.4, 0}, {0.3, 0.7, 0}, {}};
+      std::vector<Query> bad(6, good);
+      bad[0].v = {}, bad[1].v[0] = nan, bad[2].v[1] = infinity, bad[3].x[0] = nan, bad[4].x[1] = -infinity;
+      bad[5].from = ObstacleId{0, 3, {}};
+      for (const Query& query : bad) table.push_back(good), table.push_back(query);
+      FlightTable flights;
+      flights.resize(table.size());
+      batch.fly(table.columns(), flights.columns());
+      for (std::size_t i = 0; i < table.size(); ++i) {
+        INFO(i);
+        CHECK(flights[i].outcome == (i % 2 == 0 ? batch.one_at_a_time().fly(good).outcome : Outcome::error));
+      }
+    }
+}
+
+TEST_CASE("Instructions that the processor has not are refused", "[engines][batch]") {
+  CHECK(Batch::instruction_sets().back() == "none");
+  CHECK_THROWS_AS(Batch(unit_scene(2, 0.1), "MMX"), std::invalid_argument);
+  CHECK_THROWS_AS(Batch(unit_scene(2, 0.9)), std::invalid_argument);  // beyond the engine
+  QueryTable table;
+  Query far{{}, {1, 0, 0}, ObstacleId{0, 0, {*Integer::from_decimal("100000000000000000000"), 0, 0}}};
+  CHECK_FALSE(table.push_back(far));
+  CHECK(table.size() == 0);
+}
+
+TEST_CASE("What a certified batch is certain of is what certified says, to the bit", "[engines][batch]") {
+  long certain = 0, asked = 0, later = 0;
+  for (const double r : {0.3, 1e-3})
+    for (const auto& [name, scene] : scenes_of(r)) {
+      const oracle::CertifiedBatch batch(scene);
+      for (const Kind kind : kKinds) {
+        QueryTable table;
+        for (std::size_t i = 0; i < 60; ++i) {
+          Random random(kSeed + 2, name, i * 8 + static_cast<std::size_t>(kind));
+          double limit = kNoLimit;
+          const Query query = query_of(random, kind, scene, Reduction(scene), limit);
+          table.push_back(query, limit);
+        }
+        FlightTable flights;
+        flights.resize(table.size());
+        std::vector<std::size_t> uncertain;
+        batch.first_hits(table.columns(), flights.columns(), uncertain, 2);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < table.size(); ++i) {
+          ++asked;
+          if (next < uncertain.size() && uncertain[next] == i) {
+            ++next;
+            continue;
+          }
+          ++certain;
+          oracle::Request request;
+          if (table.columns().max_time && std::isfinite(table.columns().max_time[i]))
+            request.max_time = table.columns().max_time[i];
+          const Answer exact = batch.one_at_a_time().first_hit(table[i], request);
+          later += exact.outcome == Outcome::later;
+          INFO(name << ' ' << stream(scene, table[i]));
+          REQUIRE(same(answer_of(flights[i]), exact));
+        }
+      }
+    }
+  CHECK(certain > 0.8 * asked);
+  CHECK(later > 50);
+}
