@@ -184,7 +184,7 @@ class Search3 {
 
  private:
   // From here on few lanes are left with something to find.
-  static constexpr int kMaxWindowsInLanes = 8;
+  static constexpr int kMaxWindowsInLanes = 4;
 
   // The planes k b_2 + (b_0, b_1) that meet the window, and their lines; each turn looks at one line a lane.
   HWY_INLINE void scan_window(Lanes& lanes) {
