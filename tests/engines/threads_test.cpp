@@ -1,7 +1,7 @@
 // One engine, oracle or judge for all threads: what the public headers promise.
 #include <catch2/catch.hpp>
 
-#include <lorentz/certified.hpp>
+#include <lorentz/certified_batch.hpp>
 #include <lorentz/verdict.hpp>
 #include <lorentz/walk.hpp>
 #include <thread>
@@ -71,4 +71,37 @@ TEST_CASE("Many threads may ask one engine, oracle, walk and judge", "[engines][
   for (Answers& one : answers) threads.emplace_back([&shared, &one] { one = shared.all(); });
   for (std::thread& thread : threads) thread.join();
   for (const Answers& one : answers) CHECK(same_answers(one, alone));
+}
+
+TEST_CASE("Threads share a batch engine", "[engines][threads][batch]") {
+  Draw draw(31);
+  Scene scene = unit_scene(3, 0.2);
+  scene.lattices[0].atoms.push_back(Atom{{0.5, 0.5, 0.5}, 0.1, {}});
+  QueryTable table;
+  for (int i = 0; i < 5000; ++i) table.push_back(hard_query(draw, Style::near_grid, scene));
+  const Batch batch(scene);
+  const oracle::CertifiedBatch certified(scene);
+  struct Told {
+    FlightTable flights, exact;
+    std::vector<std::size_t> uncertain;
+  };
+  const auto ask = [&](Told& told, int jobs) {
+    told.flights.resize(table.size()), told.exact.resize(table.size());
+    batch.fly(table.columns(), told.flights.columns(), Batch::Time::close, jobs);
+    certified.first_hits(table.columns(), told.exact.columns(), told.uncertain, jobs);
+  };
+  Told alone;
+  ask(alone, 1);
+  std::vector<Told> told(4);
+  std::vector<std::thread> threads;
+  for (Told& one : told) threads.emplace_back([&] { ask(one, 2); });
+  for (std::thread& thread : threads) thread.join();
+  for (const Told& one : told) {
+    CHECK(one.uncertain == alone.uncertain);
+    bool same_flights = true;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      same_flights = same_flights && same_bits(one.flights[i], alone.flights[i]) &&
+                     same_bits(one.exact[i], alone.exact[i]);
+    CHECK(same_flights);
+  }
 }
