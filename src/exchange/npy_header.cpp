@@ -144,8 +144,9 @@ std::string header_text(InputFile& file) {
   if (there == 0) throw InputError("is empty");
   if (!kMagic.starts_with(std::string_view(front, std::min(there, kMagic.size())))) {
     const bool json = front[0] == '{';
-    throw InputError(std::string("is no .npy file: it does not begin with \\x93NUMPY") +
-                     (json ? "; it looks like a stream in JSON: --format ndjson reads it" : ""));
+    throw InputError(
+        std::string("is no .npy file: it does not begin with \\x93NUMPY") +
+        (json ? "; it looks like a stream in JSON: --format ndjson reads it" : " (--format csv reads CSV)"));
   }
   const int major = front[6], minor = front[7];
   if (there == 8 && (major < 1 || major > 3 || minor != 0))
