@@ -18,6 +18,8 @@ namespace {
 // Rows that are answered together: so few that they stay in the cache, so many that threads have enough.
 constexpr std::size_t kRowsTogether = 4096;
 
+constexpr long kMost = 20;  // complaints of a kind
+
 // Says why rows are errors.
 class Complaints {
  public:
@@ -35,8 +37,6 @@ class Complaints {
   bool had_bad_input() const { return bad_ > 0; }
 
  private:
-  static constexpr long kMost = 20;
-
   static std::string place(const std::string& name, const QueryRows& queries, std::size_t row) {
     if (!queries.lines.empty()) return fmt::format("{}:{}", name, queries.lines[row]);
     return fmt::format("{}: row {}", name, queries.first + row);
@@ -49,12 +49,16 @@ OnUnknownColumn unknown_columns(const ColumnOrder& order) {
   std::vector<std::string> known = csv_query_columns(order.scene.dimension);
   if (order.format == ColumnOrder::Format::npy)
     known = {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
-  return [known, strict = order.strict](const std::string& place, const std::string& column) {
-    const std::string what =
-        fmt::format("the column {} is not known{}", json_quoted(column), did_you_mean(column, known));
-    if (strict) throw InputError(place + ": " + what);
-    say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
-  };
+  return
+      [known, strict = order.strict, seen = 0](const std::string& place, const std::string& column) mutable {
+        const std::string what =
+            fmt::format("the column {} is not known{}", json_quoted(column), did_you_mean(column, known));
+        if (strict) throw InputError(place + ": " + what);
+        if (++seen <= kMost)
+          say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
+        else if (seen == kMost + 1)
+          say("warning: {}: more columns are not known, and are ignored", place);
+      };
 }
 
 // One format: its reader, and how its answers are written.

@@ -137,6 +137,19 @@ NpyHeader header_of(const PythonValue& value) {
   return header;
 }
 
+// Before version 3.0 a header is in Latin-1, whose characters are those of the same numbers in UTF-8.
+std::string utf8_of_latin1(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x80)
+      out += c;
+    else
+      (out += static_cast<char>(0xc0 | code >> 6)) += static_cast<char>(0x80 | (code & 0x3f));
+  }
+  return out;
+}
+
 // The text of the header, behind the magic bytes, the version and its length.
 std::string header_text(InputFile& file) {
   char front[12] = {};
@@ -159,7 +172,7 @@ std::string header_text(InputFile& file) {
   if (length > kLongestHeader) throw InputError("has a header longer than 1 MiB");
   std::string text(length, '\0');
   if (file.read_all(text.data(), length) < length) throw InputError("ends in its header");
-  return text;
+  return major < 3 ? utf8_of_latin1(text) : text;
 }
 
 }  // namespace

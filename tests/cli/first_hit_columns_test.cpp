@@ -21,14 +21,16 @@ struct Asked {
   double limit = kNoLimit;
 };
 
-// From anywhere, some from inside, some along an axis; some leave an obstacle, some have a limit.
-std::vector<Asked> drawn(std::uint64_t seed, const Scene& scene, int count) {
+// From anywhere, some from inside, some along an axis; some leave an obstacle, some have a limit. `far`: some
+// fly so far that the fast engines do not know where.
+std::vector<Asked> drawn(std::uint64_t seed, const Scene& scene, int count, bool far) {
   Draw draw(seed);
   std::vector<Asked> asked(static_cast<std::size_t>(count));
   for (Asked& one : asked) {
     one.query.x = draw.vec(scene.dimension, -2, 2);
     one.query.v = draw.vec(scene.dimension, -1, 1);
     if (draw.one_in(8)) one.query.v = {draw.sign(), 0, 0};
+    if (far && draw.one_in(8)) one.query.v = {draw.sign(), draw.tiny(-60, -54), 0};
     if (draw.one_in(3)) one.limit = draw.one_in(2) ? 0.5 : 3;
     if (!draw.one_in(3)) continue;
     one.query.from.emplace();
@@ -183,7 +185,8 @@ TEST_CASE("Columns have the answers of the stream in JSON, to the bit", "[cli][c
         INFO(scene << " " << engine << " " << max_time << " seed " << seed);
         const Scene drawn_in = all_scenes().at(scene.substr(0, scene.find(' ')));
         const int d = drawn_in.dimension;
-        const auto asked = drawn(seed++, drawn_in, cells_one_by_one(engine) ? 30 : 300);
+        const bool slow = cells_one_by_one(engine);
+        const auto asked = drawn(seed++, drawn_in, slow ? 30 : 300, !slow);
         const std::string command = "first-hit --scene " + scene + " --engine " + engine;
         const auto expected = by_stream(folder, command, asked, d, max_time);
         const std::string option = max_time < kNoLimit ? " --max-time 2" : "";

@@ -146,6 +146,17 @@ TEST_CASE("Integers of every width, and those that 64 bits with a sign do not ho
   CHECK(large.rows.flaws[0].message == "from_cell does not fit 64 bits with a sign");
 }
 
+TEST_CASE("Names of fields are in Latin-1 at first, then in UTF-8", "[exchange][npy]") {
+  const auto unknown = [](const std::string& name, int version) {
+    const std::string description = "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('" + name + "', '|u1')]";
+    const std::string row(33, '\0');
+    return read(npy_file(npy_dictionary(description, "(1,)"), row, version), 2).unknown.at(0);
+  };
+  CHECK(unknown("\xfc", 1) == "\xc3\xbc");
+  CHECK(unknown("\xfc", 2) == "\xc3\xbc");
+  CHECK(unknown("\xc3\xbc", 3) == "\xc3\xbc");
+}
+
 TEST_CASE("Arrays that are no queries are refused, with what they are", "[exchange][npy]") {
   const auto says = [](const std::string& content, const std::string& what) {
     const Reading reading = read(content, 2);
