@@ -135,7 +135,7 @@ void NpyQueryReader::understand_fields(const OnUnknownColumn& on_unknown_column)
 
 // Rows, as they come: no more than there are at once, but one at least.
 std::size_t NpyQueryReader::fill_rows(std::size_t most) {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_, begin_ = 0;
   const std::size_t wanted = most * row_bytes_;
   if (buffer_.size() < wanted) buffer_.resize(wanted);
