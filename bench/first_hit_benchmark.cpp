@@ -6,6 +6,7 @@
 
 #include <lorentz/certified.hpp>
 #include <lorentz/reduction.hpp>
+#include "bench/bare_continued_fraction.hpp"
 #include "compare/hard_cases.hpp"
 #include "compare/sampling.hpp"
 
@@ -92,22 +93,11 @@ void precomputed_direction(benchmark::State& state, const Scene& scene) {
   }
 }
 
-// The convergents of the slope up to the denominator 1 / (2 r), and nothing else: what no such engine can do
-// without.
-void bare_continued_fraction(benchmark::State& state, double r) {
+void bare(benchmark::State& state, double r) {
   const auto queries = drawn(unit_scene(2, r));
   std::size_t i = 0;
   for (auto _ : state) {
-    const double a = std::fabs(queries[i].v[0]), b = std::fabs(queries[i].v[1]);
-    double x = std::min(a, b) / std::max(a, b), term = std::floor(x), rest = x - term;
-    double p_before = 1, p = term, q_before = 0, q = 1;
-    while (q < 1 / (2 * r) && rest > 0) {
-      x = 1 / rest, term = std::floor(x), rest = x - term;
-      const double p_next = term * p + p_before, q_next = term * q + q_before;
-      p_before = p, p = p_next, q_before = q, q = q_next;
-    }
-    benchmark::DoNotOptimize(p);
-    benchmark::DoNotOptimize(q);
+    benchmark::DoNotOptimize(lorentz::bare_continued_fraction(queries[i].v, r));
     i = (i + 1) % queries.size();
   }
 }
@@ -130,8 +120,7 @@ int main(int argc, char** argv) {
   for (const double r : {0.4999, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     benchmark::RegisterBenchmark(name("square/reduction", r).c_str(), reduction, unit_scene(2, r));
     benchmark::RegisterBenchmark(name("square/certified", r).c_str(), certified, unit_scene(2, r));
-    benchmark::RegisterBenchmark(name("square/bare_continued_fraction", r).c_str(), bare_continued_fraction,
-                                 r);
+    benchmark::RegisterBenchmark(name("square/bare_continued_fraction", r).c_str(), bare, r);
     benchmark::RegisterBenchmark(name("cubic/reduction", r).c_str(), reduction, unit_scene(3, r));
     benchmark::RegisterBenchmark(name("cubic/certified", r).c_str(), certified, unit_scene(3, r));
   }

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include <lorentz/certified_batch.hpp>
+#include "bench/bare_continued_fraction.hpp"
 #include "compare/hard_cases.hpp"
 #include "compare/sampling.hpp"
 
@@ -129,17 +130,7 @@ class Ground {
   Work bare_continued_fraction(double r) const {
     return [this, r](std::size_t begin, std::size_t end) {
       double sum = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const double a = std::fabs(queries_[i].v[0]), b = std::fabs(queries_[i].v[1]);
-        double x = std::min(a, b) / std::max(a, b), term = std::floor(x), rest = x - term;
-        double p_before = 1, p = term, q_before = 0, q = 1;
-        while (q < 1 / (2 * r) && rest > 0) {
-          x = 1 / rest, term = std::floor(x), rest = x - term;
-          const double p_next = term * p + p_before, q_next = term * q + q_before;
-          p_before = p, p = p_next, q_before = q, q = q_next;
-        }
-        sum += p + q;
-      }
+      for (std::size_t i = begin; i < end; ++i) sum += lorentz::bare_continued_fraction(queries_[i].v, r);
       return sum;
     };
   }

@@ -1,16 +1,14 @@
-// lorentz first-hit: queries in, answers out, line by line.
-#include <unistd.h>
-
-#include <cerrno>
-#include <chrono>
-#include <cstring>
+// lorentz first-hit: queries in, answers out, line by line; or in columns (first_hit_columns.cpp).
 #include <deque>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/first_hit_columns.hpp"
 #include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
 #include "cli/numbers.hpp"
+#include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
@@ -24,34 +22,9 @@ using namespace compare;
 namespace {
 
 struct Options {
-  std::string queries = "-", engine = "oracle";
-  std::optional<std::string> scene, radius, digits, max_time, timeout;
+  std::string queries = "-", engine = "oracle", format = "ndjson";
+  std::optional<std::string> scene, radius, digits, max_time, timeout, jobs;
   bool detail = false, strict = false;
-};
-
-// Standard output, gathered into large writes, none of which is held back for long.
-class Output {
- public:
-  std::string& buffer() { return buffer_; }
-  void flush_if_due() {
-    if (buffer_.size() >= (1 << 18) ||
-        std::chrono::steady_clock::now() - flushed_ > std::chrono::milliseconds(200))
-      flush();
-  }
-  void flush() {
-    for (std::size_t done = 0; done < buffer_.size();) {
-      const ssize_t count = write(STDOUT_FILENO, buffer_.data() + done, buffer_.size() - done);
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw FileError(std::string("standard output: ") + std::strerror(errno));
-      done += static_cast<std::size_t>(count);
-    }
-    buffer_.clear();
-    flushed_ = std::chrono::steady_clock::now();
-  }
-
- private:
-  std::string buffer_;
-  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
 // The answers in the order of the lines, though those to bad lines are there at once and those to queries
@@ -119,10 +92,37 @@ oracle::Request request_of(const Options& options) {
   return request;
 }
 
-int act(const Options& options) {
+int jobs_of(const Options& options) {
+  if (!options.jobs) return 1;
+  const auto jobs = static_cast<int>(whole_number(*options.jobs, "--jobs", 1, 1024));
+  if (!traits_of(options.engine).in_bulk)
+    throw InputError("--jobs: only the engines batch and certified-batch use more than one thread");
+  return jobs;
+}
+
+int act_on_columns(const Options& options, ColumnOrder::Format format) {
+  check_name(options.engine);
+  const std::string option = "--format " + options.format;
+  if (is_command(options.engine))
+    throw InputError(option + ": not with cmd: engines, which read and write streams in JSON");
+  if (!options.scene) throw InputError(option + ": needs --scene, for columns hold no scene");
+  if (options.digits || options.detail)
+    throw InputError((options.digits ? "--digits" : "--detail") +
+                     std::string(": only streams in JSON have it (--format ndjson)"));
+  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  ColumnOrder order{.format = format, .queries = options.queries, .engine = options.engine};
+  order.max_time = positive_number(options.max_time, "--max-time");
+  order.jobs = jobs_of(options), order.strict = options.strict;
+  order.scene = load_scene(*options.scene, radius, unknown);
+  return answer_columns(order);
+}
+
+int act_on_lines(const Options& options) {
   AnswererOptions answerer_options{request_of(options)};
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;
+  answerer_options.jobs = jobs_of(options);
   if (const auto timeout = positive_number(options.timeout, "--timeout")) answerer_options.timeout = *timeout;
   const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
   const std::optional<double> radius = positive_number(options.radius, "--radius");
@@ -164,14 +164,22 @@ int act(const Options& options) {
   return stream.had_bad_input() ? kBadInput : kDone;
 }
 
+int act(const Options& options) {
+  if (options.format == "csv") return act_on_columns(options, ColumnOrder::Format::csv);
+  if (options.format == "npy") return act_on_columns(options, ColumnOrder::Format::npy);
+  if (options.format == "ndjson") return act_on_lines(options);
+  throw InputError(fmt::format("--format: {} is none{}; there are ndjson, csv, npy",
+                               json_quoted(options.format),
+                               did_you_mean(options.format, {"ndjson", "csv", "npy"})));
+}
+
 }  // namespace
 
 void add_first_hit(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
-  command->add_option("queries", options->queries, "query stream (NDJSON); - is standard input")
-      ->capture_default_str();
+  command->add_option("queries", options->queries, "queries; - is standard input")->capture_default_str();
   command->add_option("-e,--engine", options->engine, "one of " + names_for_help())->capture_default_str();
   command->add_option("--scene", options->scene,
                       "scene before the first scene line: a file, or a name of the catalogue");
@@ -184,11 +192,22 @@ void add_first_hit(CLI::App& app, Action& action) {
       ->type_name("T");
   command->add_flag("--detail", options->detail,
                     "add the collision point, the outward normal and the impact parameter");
+  command
+      ->add_option("--format", options->format,
+                   "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
+                   "docs/formats.md), which need --scene")
+      ->capture_default_str()
+      ->type_name("FORMAT");
+  command->add_option("--jobs", options->jobs, "threads, of batch and certified-batch: the same answers")
+      ->type_name("N");
   command->add_flag("--strict", options->strict, kStrictKeysHelp);
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->footer(
-      "Example:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
-      "--radius 0.1");
+      "Examples:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
+      "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
+      "--format "
+      "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
+      "answers.npy");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

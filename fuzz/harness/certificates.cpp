@@ -107,7 +107,7 @@ void check(const std::string& path) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz;
   using namespace lorentz::harness;
-  static InputFile file;
+  static BytesAsFile file;
   file.set("{\"golden\":{\"format\":1}}\n" + std::string(text_of(data, size)));
   try {
     check(file.path());

@@ -15,7 +15,7 @@ struct Set {
 };
 
 // Nothing if it was refused, for this reason: as a whole, also if it is bad from some line on only.
-std::optional<Set> set_in(const InputFile& file, std::string& reason) {
+std::optional<Set> set_in(const BytesAsFile& file, std::string& reason) {
   try {
     golden::Reader reader(file.path());
     Set set;
@@ -68,7 +68,7 @@ bool same_record(const golden::Record& a, const golden::Record& b) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz::harness;
-  static InputFile file, again;
+  static BytesAsFile file, again;
   file.set(text_of(data, size));
   std::string reason;
   const auto first = set_in(file, reason);

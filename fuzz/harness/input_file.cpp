@@ -9,16 +9,16 @@
 
 namespace lorentz::harness {
 
-InputFile::InputFile() : descriptor_(memfd_create("input", MFD_CLOEXEC)) {
+BytesAsFile::BytesAsFile() : descriptor_(memfd_create("input", MFD_CLOEXEC)) {
   if (descriptor_ < 0) fail("a file in memory can be made", "memfd_create failed");
   path_ = "/proc/self/fd/" + std::to_string(descriptor_);
 }
 
-InputFile::~InputFile() {
+BytesAsFile::~BytesAsFile() {
   close(descriptor_);
 }
 
-void InputFile::set(std::string_view content) {
+void BytesAsFile::set(std::string_view content) {
   const auto size = static_cast<ssize_t>(content.size());
   if (ftruncate(descriptor_, size) != 0 || pwrite(descriptor_, content.data(), content.size(), 0) != size)
     fail("a file in memory can be written", path_);

@@ -12,12 +12,12 @@
 namespace lorentz::harness {
 
 /// A file in memory, whose content changes with each input. Its path can be opened any number of times.
-class InputFile {
+class BytesAsFile {
  public:
-  InputFile();
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
+  BytesAsFile();
+  ~BytesAsFile();
+  BytesAsFile(const BytesAsFile&) = delete;
+  BytesAsFile& operator=(const BytesAsFile&) = delete;
 
   void set(std::string_view content);
   const std::string& path() const { return path_; }

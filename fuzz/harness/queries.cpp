@@ -114,7 +114,7 @@ void see_answer(ExchangeReader& reader, const LineReader::Line& line) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz;
   using namespace lorentz::harness;
-  static InputFile file;
+  static BytesAsFile file;
   const std::string_view input = text_of(data, size);
   file.set(input);
   QueryStreamCheck queries;

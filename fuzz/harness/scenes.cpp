@@ -11,7 +11,7 @@ namespace lorentz::harness {
 namespace {
 
 // Nothing: it was refused, as it should be.
-std::optional<Scene> scene_in(const InputFile& file) {
+std::optional<Scene> scene_in(const BytesAsFile& file) {
   try {
     return read_scene_file(file.path());
   } catch (const InputError& error) {
@@ -23,7 +23,7 @@ std::optional<Scene> scene_in(const InputFile& file) {
 }
 
 void check(const Scene& scene) {
-  static InputFile file;
+  static BytesAsFile file;
   std::string line;
   append_scene_line(line, scene);
   require(!flaw_of(scene), "a scene that is read has no flaw", line);
@@ -42,7 +42,7 @@ void check(const Scene& scene) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz::harness;
-  static InputFile file;
+  static BytesAsFile file;
   file.set(text_of(data, size));
   if (const auto scene = scene_in(file)) check(*scene);
   return 0;

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lorentz {
+
+class InputFile;  // of the formats' inside
 
 /// Reads a stream line by line from a file descriptor. Memory stays bounded: a line longer than kMaxLine is
 /// reported as such and passed over.
@@ -35,15 +38,14 @@ class LineReader {
   /// Called before each read that may have to wait: the place to flush what was answered so far.
   void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
 
-  const std::string& name() const { return name_; }
-  int descriptor() const { return descriptor_; }
+  const std::string& name() const;
+  int descriptor() const;
 
  private:
   bool fill();
   void skip_rest_of_line();
 
-  std::string name_;
-  int descriptor_ = -1;
+  std::unique_ptr<InputFile> file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // unread bytes of the buffer
   bool at_end_ = false;

@@ -23,10 +23,7 @@ class Z {
   /// Any built-in integer, exactly.
   template <std::integral T>
   Z(T value)
-  noexcept : limbs_(inline_),
-             size_(value == 0  ? 0
-                   : value < 0 ? -1
-                               : 1) {
+  noexcept : limbs_(inline_), size_((+value > 0) - (+value < 0)) {
     static_assert(sizeof(T) <= sizeof(mp_limb_t));
     inline_[0] = value < 0 ? -static_cast<mp_limb_t>(value) : static_cast<mp_limb_t>(value);
   }

@@ -1,29 +1,22 @@
 #include <lorentz/line_reader.hpp>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstring>
 
-#include <lorentz/errors.hpp>
+#include "src/exchange/input_file.hpp"
 
 namespace lorentz {
 
 LineReader::LineReader(const std::string& path)
-    : name_(path == "-" ? "standard input" : path), buffer_(1 << 16) {
-  descriptor_ = path == "-" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) throw FileError(path + ": " + std::strerror(errno));
-  struct stat status {};
-  if (fstat(descriptor_, &status) == 0 && S_ISDIR(status.st_mode)) {
-    if (descriptor_ != STDIN_FILENO) close(descriptor_);
-    throw FileError(name_ + ": is a directory, not a file");
-  }
+    : file_(std::make_unique<InputFile>(path)), buffer_(1 << 16) {}
+
+LineReader::~LineReader() = default;
+
+const std::string& LineReader::name() const {
+  return file_->name();
 }
 
-LineReader::~LineReader() {
-  if (descriptor_ > STDIN_FILENO) close(descriptor_);
+int LineReader::descriptor() const {
+  return file_->descriptor();
 }
 
 // Reads more behind the unread bytes, making room for it; false at the end of the stream.
@@ -36,13 +29,9 @@ bool LineReader::fill() {
   }
   if (end_ + kPadding >= buffer_.size()) buffer_.resize(2 * buffer_.size());
   if (before_waiting_) before_waiting_();
-  ssize_t count;
-  do {
-    count = read(descriptor_, buffer_.data() + end_, buffer_.size() - kPadding - end_);
-  } while (count < 0 && errno == EINTR);
-  if (count < 0) throw FileError(name_ + ": " + std::strerror(errno));
+  const std::size_t count = file_->read(buffer_.data() + end_, buffer_.size() - kPadding - end_);
   at_end_ = count == 0;
-  end_ += static_cast<std::size_t>(count);
+  end_ += count;
   return count > 0;
 }
 

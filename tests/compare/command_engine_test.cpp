@@ -318,9 +318,10 @@ TEST_CASE("A program that ends between two queries is to blame for it, and neith
   const Folder folder;
   const std::string out = folder.file("o");
   const std::string command = "{ cat " + folder.write("first", stream(1)) +
-                              "; for i in $(seq 50); do sleep 0.1; test -s " + out + " && break; done; sleep 1; cat " +
-                              folder.write("rest", kGood) + "; } | " LORENTZ_PROGRAM " first-hit --engine " +
-                              odd("leaves 0") + " >" + out + " 2>" + folder.file("e");
+                              "; for i in $(seq 50); do sleep 0.1; test -s " + out +
+                              " && break; done; sleep 1; cat " + folder.write("rest", kGood) +
+                              "; } | " LORENTZ_PROGRAM " first-hit --engine " + odd("leaves 0") + " >" + out +
+                              " 2>" + folder.file("e");
   CHECK(std::system((": >" + out + "; " + command).c_str()) != 0);
   CHECK(lines(folder.read("o")) == 2);
   CHECK_FALSE(contains(folder.read("o"), "error"));

@@ -1,0 +1,143 @@
+#include "cli/first_hit_columns.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <lorentz/exchange.hpp>
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
+#include "cli/output.hpp"
+#include "compare/column_engine.hpp"
+#include "src/exchange/columns_csv.hpp"
+#include "src/exchange/columns_npy.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+// Rows that are answered together: so few that they stay in the cache, so many that threads have enough.
+constexpr std::size_t kRowsTogether = 4096;
+
+constexpr long kMost = 20;  // complaints of a kind
+
+// Says why rows are errors.
+class Complaints {
+ public:
+  void operator()(const std::string& name, const QueryRows& queries, const AnswerRows& answers) {
+    for (const AnswerRows::Reason& reason : answers.reasons) {
+      const std::string text = place(name, queries, reason.row) + ": " + reason.message;
+      if (reason.unsupported ? ++beyond_ == 1 : ++bad_ <= kMost) say("{}", text);
+    }
+  }
+  void finish(const std::string& name) const {
+    if (bad_ > kMost) say("{}: {} more bad rows", name, bad_ - kMost);
+    if (beyond_ > 1)
+      say("{}: {} more rows are good, and have the outcome error nevertheless", name, beyond_ - 1);
+  }
+  bool had_bad_input() const { return bad_ > 0; }
+
+ private:
+  static std::string place(const std::string& name, const QueryRows& queries, std::size_t row) {
+    if (!queries.lines.empty()) return fmt::format("{}:{}", name, queries.lines[row]);
+    return fmt::format("{}: row {}", name, queries.first + row);
+  }
+
+  long bad_ = 0, beyond_ = 0;
+};
+
+OnUnknownColumn unknown_columns(const ColumnOrder& order) {
+  std::vector<std::string> known = csv_query_columns(order.scene.dimension);
+  if (order.format == ColumnOrder::Format::npy)
+    known = {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
+  return
+      [known, strict = order.strict, seen = 0](const std::string& place, const std::string& column) mutable {
+        const std::string what =
+            fmt::format("the column {} is not known{}", json_quoted(column), did_you_mean(column, known));
+        if (strict) throw InputError(place + ": " + what);
+        if (++seen <= kMost)
+          say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
+        else if (seen == kMost + 1)
+          say("warning: {}: more columns are not known, and are ignored", place);
+      };
+}
+
+// One format: its reader, and how its answers are written.
+class Csv {
+ public:
+  Csv(const ColumnOrder& order, std::string& out)
+      : reader_(order.queries, order.scene.dimension, unknown_columns(order)), out_(out) {
+    append_csv_names(out_, order.scene.dimension, reader_.has_ids());
+  }
+  ColumnReader& reader() { return reader_; }
+  void write(const QueryRows& queries, AnswerRows& answers) {
+    append_csv_answers(out_, queries, answers, reader_.has_ids());
+  }
+  void finish() {}
+
+ private:
+  CsvQueryReader reader_;
+  std::string& out_;
+};
+
+class Npy {
+ public:
+  Npy(const ColumnOrder& order, std::string& out)
+      : reader_(order.queries, order.scene.dimension, unknown_columns(order)), out_(out) {
+    out_ += npy_answer_header(reader_.promised(), order.scene.dimension);
+  }
+  ColumnReader& reader() { return reader_; }
+  void write(const QueryRows&, AnswerRows& answers) {
+    answers.refuse_large_cells();
+    append_npy_answers(out_, answers);
+  }
+  void finish() {
+    if (reader_.has_more())
+      say("warning: {}: there is more behind the last row, which is ignored", reader_.name());
+  }
+
+ private:
+  NpyQueryReader reader_;
+  std::string& out_;
+};
+
+template <class Format>
+int answer_all(const ColumnOrder& order) {
+  compare::ColumnEngine engine(order.engine, order.scene, order.max_time, order.jobs);
+  Output output;
+  Format format(order, output.buffer());
+  ColumnReader& reader = format.reader();
+  Complaints complaints;
+  QueryRows queries;
+  AnswerRows answers;
+  const auto answer = [&] {
+    engine.answer(queries, answers);
+    format.write(queries, answers);
+    complaints(reader.name(), queries, answers);
+    queries.clear();
+  };
+  // While the input pauses, what came is answered.
+  reader.before_waiting([&] {
+    answer();
+    output.flush();
+  });
+  try {
+    const std::size_t together = kRowsTogether * static_cast<std::size_t>(order.jobs);
+    for (; reader.next(queries, together); output.flush_if_due()) answer();
+    format.finish();
+  } catch (const InputError& error) {  // the rows before it have their answers
+    output.flush();
+    complaints.finish(reader.name());
+    throw;
+  }
+  output.flush();
+  complaints.finish(reader.name());
+  return complaints.had_bad_input() ? kBadInput : kDone;
+}
+
+}  // namespace
+
+int answer_columns(const ColumnOrder& order) {
+  return order.format == ColumnOrder::Format::csv ? answer_all<Csv>(order) : answer_all<Npy>(order);
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,25 @@
+// lorentz first-hit --format csv|npy: queries in columns to answers in columns.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::cli {
+
+/// What the command line asks for.
+struct ColumnOrder {
+  enum class Format { csv, npy };
+  Format format{};
+  std::string queries, engine;
+  Scene scene{};
+  std::optional<double> max_time{};
+  int jobs = 1;
+  bool strict = false;
+};
+
+/// Answers all rows on standard output. Returns an ExitStatus. Throws InputError, FileError.
+int answer_columns(const ColumnOrder& order);
+
+}  // namespace lorentz::cli

@@ -1,0 +1,110 @@
+#include "compare/column_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lorentz::compare {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+// That with which alone an engine of this kind decides; nothing is known of the others.
+std::uint8_t usual_stage(const Traits& traits) {
+  return traits.is_exact && !traits.uses_reduction ? AnswerRows::kExactStage : AnswerRows::kNoStage;
+}
+
+}  // namespace
+
+ColumnEngine::ColumnEngine(const std::string& name, const Scene& scene, std::optional<double> max_time,
+                           int jobs)
+    : scene_(scene),
+      traits_(traits_of(name)),
+      max_time_(max_time),
+      jobs_(jobs),
+      single_(make_first_hit(name, scene)) {
+  if (!traits_.in_bulk || Reduction::beyond(scene)) return;
+  if (traits_.is_exact)
+    certified_batch_.emplace(scene);
+  else
+    batch_.emplace(scene);
+}
+
+void ColumnEngine::set_limits(const QueryRows& queries) {
+  limits_ = queries.max_time;
+  if (!max_time_) return;
+  limits_.resize(queries.count, kNoLimit);
+  for (double& limit : limits_) limit = limit > *max_time_ ? *max_time_ : limit;
+}
+
+double ColumnEngine::limit(std::size_t i) const {
+  return limits_.empty() ? kNoLimit : limits_[i];
+}
+
+void ColumnEngine::fly(const QueryRows& queries, AnswerRows& answers) {
+  QueryColumns asked;
+  asked.count = queries.count;
+  FlightColumns told;
+  stages_.resize(answers.outcome.size());
+  told.outcome = answers.outcome.data(), told.stage = stages_.data();
+  told.time_is_rounded = answers.time_is_rounded.get();
+  told.lattice = answers.lattice.data(), told.atom = answers.atom.data(), told.time = answers.time.data();
+  for (int k = 0; k < scene_.dimension; ++k) {
+    asked.x[k] = queries.x[k].data(), asked.v[k] = queries.v[k].data();
+    if (!queries.from_lattice.empty()) asked.from_cell[k] = queries.from_cell[k].data();
+    told.cell[k] = answers.cell[k].data();
+  }
+  if (!limits_.empty()) asked.max_time = limits_.data();
+  if (!queries.from_lattice.empty())
+    asked.from_lattice = queries.from_lattice.data(), asked.from_atom = queries.from_atom.data();
+  if (batch_) batch_->fly(asked, told, Batch::Time::close, jobs_);
+  if (certified_batch_) certified_batch_->first_hits(asked, told, uncertain_, jobs_);
+  std::transform(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(queries.count),
+                 answers.stage.begin(), [](Stage stage) { return static_cast<std::uint8_t>(stage); });
+}
+
+// What a flight leaves open: the limit, and columns that mean nothing with its outcome.
+void ColumnEngine::finish(const QueryRows& queries, std::size_t i, AnswerRows& answers) {
+  const bool hit = answers.outcome[i] == Outcome::hit;
+  if (answers.outcome[i] == Outcome::error) return ask(queries, i, AnswerRows::kNoStage, answers);
+  if (hit && answers.time[i] < limit(i)) return;
+  const bool is_limited = std::isfinite(limit(i));
+  if (is_limited && batch_ && (hit || answers.outcome[i] == Outcome::never))
+    answers.set_plain(i, Outcome::later);
+  else if (!hit && answers.outcome[i] != Outcome::inside)
+    answers.set_plain(i, answers.outcome[i]);
+  else if (!hit)
+    answers.time[i] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[i] = false;
+}
+
+void ColumnEngine::ask(const QueryRows& queries, std::size_t i, std::uint8_t stage, AnswerRows& answers) {
+  oracle::Request request;
+  if (std::isfinite(limit(i))) request.max_time = limit(i);
+  single_(queries.query(i, scene_.dimension), request, answer_);
+  answers.set(i, answer_, stage, traits_.is_exact);
+}
+
+void ColumnEngine::answer(const QueryRows& queries, AnswerRows& answers) {
+  answers.resize(queries.count, scene_.dimension);
+  set_limits(queries);
+  uncertain_.clear();
+  const bool together = batch_ || certified_batch_;
+  if (together) fly(queries, answers);
+  std::size_t uncertain = 0, flaw = 0;
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    const bool asked = uncertain < uncertain_.size() && uncertain_[uncertain] == i;
+    uncertain += asked;
+    if (flaw < queries.flaws.size() && queries.flaws[flaw].row == i)
+      answers.set_error(i, queries.flaws[flaw++].message, false);
+    else if (!(limit(i) > 0))
+      answers.set_error(i, "max_time must be above zero", false);
+    else if (asked)
+      ask(queries, i, AnswerRows::kExactStage, answers);
+    else if (together)
+      finish(queries, i, answers);
+    else
+      ask(queries, i, usual_stage(traits_), answers);
+  }
+}
+
+}  // namespace lorentz::compare

@@ -1,0 +1,43 @@
+// An engine of this program, asked by columns: the batch engines fly them together, the others row by row.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lorentz/certified_batch.hpp>
+#include "compare/registry.hpp"
+#include "src/exchange/columns.hpp"
+
+namespace lorentz::compare {
+
+class ColumnEngine {
+ public:
+  /// Not for commands. With `max_time` no row has a later limit. `jobs`: threads, of the batch engines.
+  ColumnEngine(const std::string& name, const Scene& scene, std::optional<double> max_time, int jobs);
+
+  /// The same answers as of an Answerer of that name; rows with a flaw are errors.
+  void answer(const QueryRows& queries, AnswerRows& answers);
+
+ private:
+  void set_limits(const QueryRows& queries);
+  double limit(std::size_t i) const;
+  void fly(const QueryRows& queries, AnswerRows& answers);
+  void finish(const QueryRows& queries, std::size_t i, AnswerRows& answers);
+  void ask(const QueryRows& queries, std::size_t i, std::uint8_t stage, AnswerRows& answers);
+
+  const Scene scene_;
+  const Traits traits_;
+  const std::optional<double> max_time_;
+  const int jobs_;
+  std::optional<Batch> batch_;  // at most one of these
+  std::optional<oracle::CertifiedBatch> certified_batch_;
+  const FirstHit single_;
+
+  std::vector<double> limits_;  // empty: no row has one
+  std::vector<Stage> stages_;
+  std::vector<std::size_t> uncertain_;
+  Answer answer_;
+};
+
+}  // namespace lorentz::compare

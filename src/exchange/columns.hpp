@@ -1,0 +1,103 @@
+// Queries and answers in columns: what the formats besides JSON read and write. Private to the formats, and
+// to those in this program who fly columns.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz {
+
+/// Queries of one scene, a column each component. In 2D the third columns of vectors are empty.
+struct QueryRows {
+  /// A row that means no query, and why; what stands in its columns means nothing.
+  struct Flaw {
+    std::size_t row;
+    std::string message;
+  };
+
+  std::size_t count = 0;
+  std::array<std::vector<double>, 3> x, v;
+  std::vector<double> max_time;  ///< empty: no query has a limit
+
+  /// The obstacle that a query leaves; a lattice below 0: none. Empty: no query leaves one.
+  std::vector<std::int32_t> from_lattice, from_atom;
+  std::array<std::vector<std::int64_t>, 3> from_cell;
+
+  std::vector<std::string> id;  ///< as text; empty: there are none
+
+  std::vector<Flaw> flaws;         ///< in the order of the rows
+  std::uint64_t first = 0;         ///< which row of the file the first is, from 0
+  std::vector<std::size_t> lines;  ///< in which line each stands, if the file has lines
+
+  /// Removes all rows; what is allocated stays.
+  void clear();
+  Query query(std::size_t i, int dimension) const;
+};
+
+/// Answers in columns, as long as the queries'. What an outcome does not have is 0, the time NaN.
+struct AnswerRows {
+  /// Why a row is an `error`.
+  struct Reason {
+    std::size_t row;
+    std::string message;
+    bool unsupported;  ///< no fault of the query
+  };
+  /// What `stage` says besides the numbers of lorentz::Stage.
+  static constexpr std::uint8_t kExactStage = 3, kNoStage = 255;
+
+  std::size_t count = 0;
+  int dimension = 0;
+  std::vector<Outcome> outcome;
+  std::vector<std::uint8_t> stage;
+  std::unique_ptr<bool[]> time_is_rounded;
+  std::vector<std::int32_t> lattice, atom;
+  std::array<std::vector<std::int64_t>, 3> cell;
+  std::vector<double> time;
+
+  std::vector<std::pair<std::size_t, Cell>> large_cells;  ///< those that 64 bits do not hold, by row
+  std::vector<Reason> reasons;
+
+  /// Room for so many rows, whose columns say nothing yet; without large cells and reasons.
+  void resize(std::size_t rows, int dimensions);
+  /// Makes a row an outcome without an obstacle or a time.
+  void set_plain(std::size_t i, Outcome plain);
+  void set_error(std::size_t i, std::string message, bool unsupported);
+  void set(std::size_t i, const Answer& answer, std::uint8_t of_stage, bool rounded);
+  /// Answers with cells that 64 bits do not hold become errors: for a format that has no more.
+  void refuse_large_cells();
+};
+
+/// "hit", "never", ..
+std::string_view name_of(Outcome outcome);
+
+/// Reads queries in columns, part by part.
+class ColumnReader {
+ public:
+  virtual ~ColumnReader() = default;
+
+  /// Up to about `most` more rows behind those that are there; false if there are none. Throws InputError,
+  /// also behind the last good row of a broken file, and FileError.
+  virtual bool next(QueryRows& rows, std::size_t most) = 0;
+
+  /// Called when the input pauses: the place to answer the rows that are there, and clear them.
+  void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
+
+  /// What the input is called in messages.
+  virtual const std::string& name() const = 0;
+
+ protected:
+  std::function<void()> before_waiting_ = [] {};
+};
+
+/// Told of each column that queries do not have, and where it stands. What it throws ends the reading.
+using OnUnknownColumn = std::function<void(const std::string& place, const std::string& column)>;
+
+}  // namespace lorentz

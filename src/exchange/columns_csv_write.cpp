@@ -1,0 +1,85 @@
+#include <charconv>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "src/exchange/columns_csv.hpp"
+
+namespace lorentz {
+namespace {
+
+void append_int(std::string& out, std::int64_t n) {
+  char text[24];
+  out.append(text, std::to_chars(text, text + sizeof text, n).ptr);
+}
+
+// In quotes if a reader would take it apart otherwise.
+void append_text(std::string& out, const std::string& text) {
+  const bool plain = text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') &&
+                     !text.ends_with(' ') && !text.starts_with('\t') && !text.ends_with('\t');
+  if (plain) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
+
+void append_obstacle(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large) {
+  append_int(out, answers.lattice[i]);
+  out += ',';
+  append_int(out, answers.atom[i]);
+  for (int k = 0; k < answers.dimension; ++k) {
+    out += ',';
+    if (large)
+      out += (*large)[k].decimal();
+    else
+      append_int(out, answers.cell[k][i]);
+  }
+  out += ',';
+}
+
+void append_time(std::string& out, double time) {
+  if (std::isnan(time)) return;
+  if (std::isinf(time))
+    out += "inf";
+  else
+    append_number(out, time);
+}
+
+}  // namespace
+
+void append_csv_names(std::string& out, int dimension, bool with_ids) {
+  if (with_ids) out += "id,";
+  out += "outcome,lattice,atom,";
+  for (int k = 1; k <= dimension; ++k) out += "cell" + std::to_string(k) + ',';
+  out += "time\n";
+}
+
+void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers,
+                        bool with_ids) {
+  std::size_t next_large = 0;
+  for (std::size_t i = 0; i < answers.count; ++i) {
+    if (with_ids) {
+      append_text(out, queries.id[i]);
+      out += ',';
+    }
+    const Outcome outcome = answers.outcome[i];
+    out += name_of(outcome);
+    out += ',';
+    const bool is_large =
+        next_large < answers.large_cells.size() && answers.large_cells[next_large].first == i;
+    if (outcome == Outcome::hit || outcome == Outcome::inside)
+      append_obstacle(out, answers, i, is_large ? &answers.large_cells[next_large].second : nullptr);
+    else
+      out.append(static_cast<std::size_t>(answers.dimension) + 2, ',');
+    next_large += is_large;
+    append_time(out, answers.time[i]);
+    out += '\n';
+  }
+}
+
+}  // namespace lorentz

@@ -1,0 +1,70 @@
+// Queries and answers as arrays of NumPy (docs/formats.md). Private to the formats and the program.
+#pragma once
+
+#include <optional>
+
+#include "src/exchange/columns.hpp"
+#include "src/exchange/npy_header.hpp"
+
+namespace lorentz {
+
+/// Reads queries: an array of numbers, a row each, or of fields x, v, ..
+class NpyQueryReader final : public ColumnReader {
+ public:
+  /// Opens the file, or standard input for "-", and reads its header. Throws FileError, or InputError if the
+  /// array is not one of queries in so many dimensions.
+  NpyQueryReader(const std::string& path, int dimension, const OnUnknownColumn& on_unknown_column);
+
+  bool next(QueryRows& rows, std::size_t most) override;
+  const std::string& name() const override { return file_.name(); }
+
+  /// How many rows the header promises.
+  std::uint64_t promised() const { return promised_; }
+
+  /// True if bytes follow the last row. Waits for them, or for the end.
+  bool has_more();
+
+ private:
+  /// Numbers of the rows at hand, every `stride` bytes.
+  struct Numbers {
+    const char* first;
+    std::size_t stride;
+  };
+
+  void understand_numbers();
+  void understand_fields(const OnUnknownColumn& on_unknown_column);
+  const NpyField* field(const std::string& name, bool needed) const;
+  void check_number(const NpyField& field, bool is_vector, bool is_real) const;
+  [[noreturn]] void refuse() const;
+
+  std::size_t fill(std::size_t most);
+  std::size_t fill_rows(std::size_t most);
+  std::size_t fill_columns(std::size_t most);
+  std::size_t read_column(std::size_t column, std::size_t most, char* bytes);
+  Numbers numbers(const NpyField& field, int component) const;
+  void append_rows(QueryRows& rows, std::size_t count) const;
+  void append_from(QueryRows& rows, std::size_t count) const;
+  void fail_truncated() const;
+
+  InputFile file_;
+  NpyHeader header_;
+  const int dimension_;
+  NpyField x_, v_;
+  std::optional<NpyField> max_time_, from_lattice_, from_atom_, from_cell_;
+  bool by_columns_ = false;  // in the order of Fortran
+  std::size_t row_bytes_ = 0;
+  std::uint64_t promised_ = 0, done_ = 0;
+
+  std::vector<char> buffer_;  // rows; or columns, `held_` numbers each
+  std::size_t begin_ = 0, end_ = 0, held_ = 0;
+  std::optional<std::uint64_t> place_;  // of the first number, of columns in a file
+  std::vector<char> all_;               // of columns in a pipe
+};
+
+/// The header of an array of so many answers.
+std::string npy_answer_header(std::uint64_t count, int dimension);
+
+/// Their elements. There must be no large cells.
+void append_npy_answers(std::string& out, const AnswerRows& answers);
+
+}  // namespace lorentz
