@@ -325,7 +325,7 @@ void write_table(const std::string& path, const std::vector<Ratio>& results) {
   }
   std::string table = "| | ratio (quartiles) | ns a query | left to single flights |\n|---|---|---|---|\n";
   for (const Ratio& one : results)
-    table += fmt::format("| {} | {:.3g} ({:.3g} to {:.3g}) | {:.3g} / {:.3g} | {} |\n", one.name, one.median,
+    table += fmt::format("| {} | {:.3g} ({:.3g} to {:.3g}) | {:.4g} / {:.4g} | {} |\n", one.name, one.median,
                          one.low, one.high, one.one_ns, one.other_ns,
                          one.name.find("single / batch") == 0 ? fmt::format("{:.2g}", one.left) : "");
   text.replace(begin + std::string(kBegin).size(), end - begin - std::string(kBegin).size(), table);
