@@ -2,6 +2,8 @@
 // the oracle and `walk` answer it rightly.
 #include <catch2/catch.hpp>
 
+#include <numeric>
+
 #include <lorentz/certified.hpp>
 #include <lorentz/walk.hpp>
 #include "tests/engines/reduction_support.hpp"
@@ -102,4 +104,24 @@ TEST_CASE("Fault: a hit just before a time limit was not found, 10^24 cells out"
     const Answer given = make_engine("reduction", scene)->first_hit(query, limit);
     if (given.outcome != Outcome::undecided) CHECK(given.outcome == exact.outcome);
   }
+}
+
+// The corridor of (p, q) has the width 1 / |(p, q)| - 2 r, here zero but for rounding; the start is midway
+// between its edges, so that discs on both sides touch the line, or nearly.
+TEST_CASE("Fault: a flight between discs that leave no corridor, but for rounding, did not end",
+          "[engines][faults]") {
+  check_all(unit_scene(2, 0.22360679774997896), {{0.5, 0}, {1.9375, 0.96875}, {}}, Answer::never());
+  test::Count count;
+  for (int p = 1; p <= 16; p *= 2)
+    for (int q = 1; q <= 9; ++q)
+      for (int ulps = -1; ulps <= 1 && std::gcd(p, q) == 1; ++ulps) {
+        const double r = 0.5 / std::sqrt(p * p + q * q);
+        const Scene square = unit_scene(2, ulps == 0 ? r : std::nextafter(r, ulps));
+        for (int speed = 32; speed < 64; ++speed)
+          test::check(square, {{0.5 / p, 0}, {q * std::ldexp(speed, -5), p * std::ldexp(speed, -5)}, {}},
+                      count);
+      }
+  CHECK(count.stages.undecided == 0);
+  CHECK(count.never > 0);
+  CHECK(count.hit > 0);
 }

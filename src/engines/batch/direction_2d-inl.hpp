@@ -39,7 +39,7 @@ struct Direction2 {
   static constexpr bool kTurned = kUnit && kBall;
 
   V v[2];  ///< turned
-  V v2, rho, s_rho;
+  V v2, rho, passable, s_rho;
   V along[2];                         ///< s = along . d: of balls, v itself
   V along_error, euclidean_v2, skew;  ///< not used for balls
   double rho_error, slack_scale;
@@ -83,6 +83,7 @@ struct Direction2 {
       euclidean_v2 = speed2;
       skew = along[1] * v[0] - along[0] * v[1];
     }
+    passable = all(2) * rho * all(1 - kSlop2d);
   }
 
   HWY_INLINE void set_forms(const Bravais& lattice) {
@@ -146,7 +147,7 @@ struct Direction2 {
   }
 
   HWY_INLINE M goes_on(const Arm2& smaller) const {
-    const M wide = smaller.D >= all(2) * rho;
+    const M wide = smaller.D >= passable;
     if constexpr (kUnit) return wide;
     return And(wide, Abs(smaller.D_low) <= all(kMaxLowPart) * smaller.D);
   }
@@ -192,7 +193,7 @@ struct Direction2 {
     }
     lanes.leave_unless(And(R.D >= zero, L.D >= zero));
     swap_arms(And(m, R.D < L.D));
-    return And(m, L.D >= all(2) * rho);
+    return And(m, L.D >= passable);
   }
 
   HWY_INLINE V along_arm(const Arm2& arm) const { return arm.n[0] * S[0] + arm.n[1] * S[1]; }
@@ -218,7 +219,7 @@ struct Direction2 {
       if (!(kUnit && !kBall && arm == &R)) lanes.leave_unless(arm->S >= zero);
       lanes.leave_unless(Max(Abs(arm->n[0]), Abs(arm->n[1])) < big);
     }
-    lanes.leave_unless(L.D < all(2) * rho);
+    lanes.leave_unless(L.D < passable);
     rises = L.D > zero;
     if constexpr (kUnit)
       lanes.leave_unless(L.D >= zero);

@@ -221,7 +221,7 @@ inline constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20,
 inline constexpr double kMaxDefect = 2.8;
 
 /// Rounds of loops that end by themselves much earlier, or have found something hard.
-inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenormalisations = 8,
+inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenormalisations = 8, kMaxRows = 64,
                      kMaxCandidatesInRow = 16, kMaxWindows = 200, kMaxAnchorPasses = 4,
                      kMaxCandidatesOnLine = 64, kMaxReductionRounds = 60, kMaxReductionSteps = 300,
                      kMaxPlaneReductionSteps = 200;

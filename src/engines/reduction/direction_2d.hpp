@@ -67,6 +67,7 @@ struct Direction2 {
   Vec v;                    ///< turned, components below kTinyComponent taken as zero
   double v2 = 0;            ///< in the metric of the shape
   double rho = 0;           ///< the line meets the obstacle iff |v x d| < rho
+  double passable = 0;      ///< a row whose steps are lower than this enters the strip, whatever rho errs by
   double s_rho = 0;         ///< r |v|: entries are at s - s_rho at the earliest
   WidthOfShape shape;       ///< not used for balls
   Wide H[2];                ///< heights v x B_i
@@ -100,6 +101,7 @@ struct Direction2 {
       shape.set(lattice.shape, v);
       v2 = shape.v2, rho = shape.rho, s_rho = shape.s_rho;
     }
+    passable = 2 * rho * (1 - kSlop2d);
   }
 
   double along_of(int k) const {
@@ -197,7 +199,7 @@ struct Direction2 {
   double along_arm(const Arm2& arm) const { return sum_of_products(arm.n[0], S[0], arm.n[1], S[1]); }
 
   bool goes_on(const Arm2& smaller) const {
-    return smaller.D >= 2 * rho && (kUnit || std::fabs(smaller.D_low) <= kMaxLowPart * smaller.D);
+    return smaller.D >= passable && (kUnit || std::fabs(smaller.D_low) <= kMaxLowPart * smaller.D);
   }
 
   // Adds the low parts to the high ones; true if Euclid's algorithm has to go on from there.
@@ -213,7 +215,7 @@ struct Direction2 {
     }
     usable = R.D >= 0 && L.D >= 0;
     if (R.D < L.D) swap_arms();
-    return L.D >= 2 * rho;
+    return L.D >= passable;
   }
 
   void finish(const Bravais& lattice) {
@@ -224,7 +226,7 @@ struct Direction2 {
             shape.along_error * (std::fabs(arm->n[0]) * size_of[0] + std::fabs(arm->n[1]) * size_of[1]);
       if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
       const bool forward = arm->S >= 0 || (kUnit && !kBall && arm == &R);
-      usable = usable && forward && L.D < 2 * rho && std::fabs(arm->n[0]) < kMaxCoefficient &&
+      usable = usable && forward && L.D < passable && std::fabs(arm->n[0]) < kMaxCoefficient &&
                std::fabs(arm->n[1]) < kMaxCoefficient;
     }
     usable = usable && knows_slope(lattice);

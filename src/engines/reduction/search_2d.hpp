@@ -31,19 +31,22 @@ class Search2 {
     const double nu = row_number(L.S, y_, L.D, s_, to_.inverse_A), reach = reach_of_rows();
     if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
     const double slope = row_slope(kUnit ? L.D : (L.D + L.D_error) * (1 + kRowSlope), to_.inverse_A);
-    for (double n = std::ceil(nu - reach);; ++n) {
+    double n = std::ceil(nu - reach);
+    for (int row = 0; row < kMaxRows; ++row, ++n) {
       double last = nu + reach;
       if (L.D > 0) last += std::min(found.s, s_limit) * slope;
-      if (!(n <= last)) break;
+      if (!(n <= last)) return outcome();
       if (!look_in_row(n)) return give_up();
       if (found.any() && R.D > 2 * to_.rho * (1 + kSlop2d) + (kUnit ? 0 : R.D_error) && (kBall || R.S >= 0))
-        break;  // rows come one after the other
+        return outcome();  // rows come one after the other
     }
-    if (found.any()) return Outcome::hit;
-    return Outcome::never;  // before s_limit; or rows exactly parallel to the line were all passed
+    return give_up();
   }
 
  private:
+  // Never: nothing before s_limit; or the rows are exactly parallel to the line, and were all passed.
+  Outcome outcome() const { return found.any() ? Outcome::hit : Outcome::never; }
+
   Outcome give_up() {
     found.stage = Stage::undecided;
     return Outcome::undecided;
