@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <lorentz/certified.hpp>
-#include <lorentz/geometry.hpp>
+#include "cases/box.hpp"
 
 namespace lorentz::cases {
 
@@ -15,10 +15,7 @@ const oracle::Oracle& oracle_of(const Scene& scene) {
 }
 
 Vec point_in_cell(Random& random, const Scene& scene) {
-  Vec x{};
-  for (int i = 0; i < scene.dimension; ++i)
-    x = sum(x, scaled(scene.lattices[0].vectors[i], random.uniform()));
-  return x;
+  return Box::cell_of(scene).point(random);
 }
 
 namespace {

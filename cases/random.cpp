@@ -9,16 +9,7 @@ namespace {
 
 constexpr std::size_t kBlock = 2;  // the word of the counter that counts blocks
 
-std::uint64_t fnv1a(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
-
 }  // namespace
-
-Random::Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use)
-    : key_{seed, fnv1a(name)}, counter_{index, static_cast<std::uint64_t>(use), 0, 0} {}
 
 void Random::next_block() {
   const philox4x64_key_t key{{key_[0], key_[1]}};
@@ -27,15 +18,6 @@ void Random::next_block() {
   for (std::size_t i = 0; i < block_.size(); ++i) block_[i] = block.v[i];
   ++counter_[kBlock];
   taken_ = 0;
-}
-
-std::uint64_t Random::bits() {
-  if (taken_ == block_.size()) next_block();
-  return block_[taken_++];
-}
-
-double Random::uniform() {
-  return static_cast<double>(bits() >> 11) * 0x1p-53;
 }
 
 Vec Random::direction(int dimension) {

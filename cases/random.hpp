@@ -12,16 +12,32 @@ namespace lorentz::cases {
 /// What numbers are drawn for: each has its own, whatever the others take.
 enum class Use : std::uint64_t { cases, scenes, variants, rewordings, reworded_scenes };
 
+/// What a series of random numbers is called, hashed once (FNV-1a): for who draws from it 10^8 times.
+struct Series {
+  explicit constexpr Series(std::string_view name) {
+    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  std::uint64_t hash = 0xcbf29ce484222325;
+};
+
 /// Random numbers by Philox4x64-10, a bijection of 256-bit counters under a 128-bit key (Salmon, Moraes,
 /// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is (seed,
-/// FNV-1a of the name), the counter (index, use, block, 0): the numbers depend on these only, so that a query
-/// is the same whoever draws it, in whatever order, on whatever thread or machine. Each block is four words.
-/// Nothing but integer arithmetic, exact conversions, single roundings and square roots is used.
+/// FNV-1a of the name), the counter (index, use, block, attempt): the numbers depend on these only, so that a
+/// query is the same whoever draws it, in whatever order, on whatever thread or machine. Each block is four
+/// words. Nothing but integer arithmetic, exact conversions, single roundings and square roots is used.
 class Random {
  public:
-  Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use = Use::cases);
-  std::uint64_t bits();
-  double uniform();              ///< [0, 1), a multiple of 2^-53
+  Random(std::uint64_t seed, Series series, std::uint64_t index, Use use = Use::cases,
+         std::uint64_t attempt = 0)
+      : key_{seed, series.hash}, counter_{index, static_cast<std::uint64_t>(use), 0, attempt} {}
+  Random(std::uint64_t seed, std::string_view name, std::uint64_t index, Use use = Use::cases)
+      : Random(seed, Series(name), index, use) {}
+
+  std::uint64_t bits() {
+    if (taken_ == block_.size()) next_block();
+    return block_[taken_++];
+  }
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< [0, 1), a multiple of 2^-53
   Vec direction(int dimension);  ///< isotropic, of unit length up to rounding
 
   std::uint64_t below(std::uint64_t n) { return bits() % n; }

@@ -127,21 +127,31 @@ Scene scaled(Scene scene, int exponent) {
 
 }  // namespace
 
-std::optional<Filling> filling_of(const Scene& given) {
+std::optional<AtomShares> shares_of(const Scene& given) {
   const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
-  Filling filling;
+  AtomShares shares{std::scalbn(1.0, exponent), {}};
   for (const Lattice& lattice : scaled(given, -exponent).lattices) {
     const double cell = cell_volume(lattice, d);
     for (const Atom& atom : lattice.atoms) {
       for (int i = 0; i < d; ++i)
         if (!std::isnormal(principal_semiaxes(atom, d)[i])) return std::nullopt;
-      filling.fraction += volume_of(atom, d) / cell;
-      filling.surface += surface_of(atom, d) / cell;
+      shares.atoms.push_back({volume_of(atom, d) / cell, surface_of(atom, d) / cell});
     }
   }
-  filling.mean_free_path = (d == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
-  filling.surface = std::scalbn(filling.surface, -exponent);
-  filling.mean_free_path = std::scalbn(filling.mean_free_path, exponent);
+  return shares;
+}
+
+std::optional<Filling> filling_of(const Scene& scene) {
+  const auto shares = shares_of(scene);
+  if (!shares) return std::nullopt;
+  Filling filling;
+  for (const AtomShares::Share& share : shares->atoms) {
+    filling.fraction += share.fraction;
+    filling.surface += share.surface;
+  }
+  filling.mean_free_path = (scene.dimension == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
+  filling.surface /= shares->unit;
+  filling.mean_free_path *= shares->unit;
   const bool in_range = std::isnormal(filling.fraction) && std::isnormal(filling.surface) &&
                         std::isfinite(filling.mean_free_path);
   if (!in_range) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include <lorentz/problem.hpp>
 
@@ -20,6 +21,19 @@ double surface_of(const Atom& atom, int dimension);
 /// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0.
 double carlson_rf(double x, double y, double z);
 double carlson_rd(double x, double y, double z);
+
+/// Of each atom, lattice by lattice: the share of space that its obstacles take, were there no overlaps, and
+/// their surface per volume, times `unit`: a power of two, of about the size of the first lattice's cell.
+struct AtomShares {
+  struct Share {
+    double fraction = 0, surface = 0;
+  };
+  double unit = 1;
+  std::vector<Share> atoms;
+};
+
+/// Nothing if an obstacle is so large, small or slender that it is beyond the range of binary64.
+std::optional<AtomShares> shares_of(const Scene& scene);
 
 /// Of a scene without overlaps: the share of space that the obstacles take, their surface per volume, and the
 /// mean free path between hits by Santalo's formula, which follows from these: pi (1 - filling) / surface in

@@ -1,0 +1,31 @@
+#include "flights/starts/start_columns.hpp"
+
+namespace lorentz::flights {
+
+void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
+  const std::size_t from_count = with_from ? count : 0;
+  for (int i = 0; i < 3; ++i) {
+    const bool used = i < dimension;
+    x[i].resize(used ? count : 0);
+    v[i].resize(used ? count : 0);
+    from_cell[i].resize(used ? from_count : 0);
+  }
+  from_lattice.resize(from_count);
+  from_atom.resize(from_count);
+}
+
+QueryColumns StartColumns::view() const {
+  QueryColumns columns;
+  columns.count = size();
+  for (int i = 0; i < 3; ++i) {
+    columns.x[i] = x[i].data();
+    columns.v[i] = v[i].data();
+  }
+  if (from_lattice.empty()) return columns;
+  columns.from_lattice = from_lattice.data();
+  columns.from_atom = from_atom.data();
+  for (int i = 0; i < 3; ++i) columns.from_cell[i] = from_cell[i].data();
+  return columns;
+}
+
+}  // namespace lorentz::flights

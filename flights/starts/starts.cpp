@@ -1,0 +1,165 @@
+#include "flights/starts/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include "src/problem/scene_geometry.hpp"
+
+namespace lorentz::flights {
+
+using cases::Random;
+using cases::Series;
+
+namespace {
+
+constexpr Series kUniform("uniform starts"), kSurface("surface starts");
+
+// That all points in and around the box are finite, with room for the geometry of some.
+bool in_range(const Scene& scene, const cases::Box& box) {
+  double largest = 0, size = 0;
+  for (int i = 0; i < box.dimension; ++i)
+    for (const double component : box.vectors[i]) size += box.cells[i] * std::fabs(component);
+  for_each_atom(scene, [&](const Atom& atom) {
+    for (const double component : atom.position) largest = std::max(largest, std::fabs(component));
+    largest = std::max(largest, atom.radius);
+    for (const Vec& axis : atom.semiaxes)
+      for (const double component : axis) largest = std::max(largest, std::fabs(component));
+  });
+  return size + largest < 0x1p1000;
+}
+
+}  // namespace
+
+Vec box_sides(std::uint64_t cells, int dimension) {
+  const auto n = static_cast<double>(cells);
+  const auto side = [](double length) { return std::max(1.0, std::round(length)); };
+  if (dimension == 2) return {side(std::sqrt(1.6 * n)), side(std::sqrt(n / 1.6)), 0};
+  const double third = side(std::cbrt(n));
+  return {third, third, third};
+}
+
+std::string nowhere_to_start(std::uint64_t draws) {
+  return "no free start in " + std::to_string(draws) +
+         " draws: the obstacles leave no free part of the cell, or nearly none";
+}
+
+Starts::Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells)
+    : ensemble_(ensemble),
+      seed_(seed),
+      in_many_cells_(scene.lattices.size() > 1),
+      box_(cases::Box::cell_of(scene)) {
+  if (in_many_cells_) box_.cells = box_sides(cells, scene.dimension);
+  if (!in_range(scene, box_))
+    throw InputError(
+        "the scene's numbers are too large for starts to be drawn; choose a larger unit of length");
+  if (ensemble == Ensemble::surface) choose_by_surface(scene);
+}
+
+// A word chooses the obstacle: each has its share of them, in steps of 2^-40 of the largest, since elliptic
+// integrals are not the same to the last bit everywhere.
+void Starts::choose_by_surface(const Scene& scene) {
+  const auto shares = shares_of(scene);
+  double largest = 0, sum = 0, before = 0;
+  if (shares)
+    for (const AtomShares::Share& share : shares->atoms) largest = std::max(largest, share.surface);
+  if (!std::isnormal(largest))
+    throw InputError(
+        "the obstacles are too large, too small or too slender for their surface to be known in binary64; no "
+        "start on it can be drawn");
+  const auto steps = [largest](double surface) { return std::round(surface / largest * 0x1p40); };
+  for (const AtomShares::Share& share : shares->atoms) sum += steps(share.surface);
+  std::size_t number = 0;
+  for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
+    const Lattice& lattice = scene.lattices[l];
+    count_cells(lattice);
+    for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
+      before += steps(shares->atoms[number++].surface);
+      const auto below = static_cast<std::uint64_t>(before / sum * 0x1p53);
+      obstacles_.push_back({static_cast<std::int32_t>(l), static_cast<std::int32_t>(a),
+                            lattice.atoms[a].position, Surface(lattice.atoms[a], scene.dimension), below});
+    }
+  }
+}
+
+void Starts::count_cells(const Lattice& lattice) {
+  const Cells cells{lattice.vectors, dual_of(lattice.vectors, box_.dimension)};
+  double farthest = 0;
+  for (int i = 0; i < box_.dimension; ++i)
+    for (int k = 0; k < box_.dimension; ++k)
+      farthest += box_.cells[i] * std::fabs(dot(cells.dual[k], box_.vectors[i]));
+  if (!(farthest < 0x1p53))
+    throw InputError("one lattice has cells so small that the box of another has too many of them to count");
+  lattices_.push_back(cells);
+}
+
+const Starts::Obstacle& Starts::chosen_obstacle(Random& random) const {
+  if (obstacles_.size() == 1) return obstacles_[0];
+  return *std::upper_bound(
+      obstacles_.begin(), obstacles_.end(), random.bits() >> 11,
+      [](std::uint64_t bits, const Obstacle& obstacle) { return bits < obstacle.below; });
+}
+
+Starts::Start Starts::uniform_start(Random& random) const {
+  Start start{};
+  start.lattice = -1;
+  start.x = box_.point(random);
+  start.v = random.direction(box_.dimension);
+  return start;
+}
+
+// The obstacle's cell in a superposition is that in which a point of the box lies: so all cells are as
+// likely.
+Starts::Start Starts::surface_start(Random& random) const {
+  const Obstacle& obstacle = chosen_obstacle(random);
+  Start start{};
+  start.lattice = obstacle.lattice, start.atom = obstacle.atom;
+  start.x = obstacle.position;
+  if (in_many_cells_) {
+    const Cells& cells = lattices_[static_cast<std::size_t>(obstacle.lattice)];
+    const Vec inside = coordinates(cells.dual, box_.point(random));
+    for (int i = 0; i < box_.dimension; ++i) {
+      const double n = std::floor(inside[i]);
+      start.cell[i] = static_cast<std::int64_t>(n);
+      start.x = sum(start.x, scaled(cells.vectors[i], n));
+    }
+  }
+  const SurfacePoint point = obstacle.surface.point(random);
+  start.x = sum(start.x, point.offset);
+  start.v = cosine_law(random, point.normal, box_.dimension);
+  return start;
+}
+
+Starts::Start Starts::start(std::uint64_t index, std::uint64_t attempt) const {
+  const bool surface = ensemble_ == Ensemble::surface;
+  Random random(seed_, surface ? kSurface : kUniform, index, cases::Use::cases, attempt);
+  return surface ? surface_start(random) : uniform_start(random);
+}
+
+void Starts::draw(std::uint64_t index, std::uint64_t attempt, Query& query) const {
+  const Start drawn = start(index, attempt);
+  query.x = drawn.x, query.v = drawn.v;
+  query.from.reset();
+  if (drawn.lattice < 0) return;
+  query.from = ObstacleId{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
+}
+
+void Starts::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const {
+  const Start drawn = start(index, attempt);
+  for (int i = 0; i < box_.dimension; ++i) {
+    starts.x[i][place] = drawn.x[i];
+    starts.v[i][place] = drawn.v[i];
+  }
+  if (ensemble_ != Ensemble::surface) return;
+  starts.from_lattice[place] = drawn.lattice;
+  starts.from_atom[place] = drawn.atom;
+  for (int i = 0; i < box_.dimension; ++i) starts.from_cell[i][place] = drawn.cell[i];
+}
+
+void Starts::draw(std::uint64_t first, std::size_t count, StartColumns& starts) const {
+  starts.resize(count, box_.dimension, ensemble_ == Ensemble::surface);
+  for (std::size_t i = 0; i < count; ++i) draw(first + i, 0, starts, i);
+}
+
+}  // namespace lorentz::flights

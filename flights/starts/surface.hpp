@@ -1,0 +1,37 @@
+// Points on the surface of an obstacle, and directions off it.
+#pragma once
+
+#include <lorentz/problem.hpp>
+#include "cases/random.hpp"
+
+namespace lorentz::flights {
+
+/// A point relative to the obstacle's centre, and the outward normal there, of unit length up to rounding.
+struct SurfacePoint {
+  Vec offset{}, normal{};
+};
+
+/// The surface of an obstacle { A y : |y| < 1 } around the origin.
+class Surface {
+ public:
+  Surface(const Atom& atom, int dimension);
+
+  /// Uniform by length (2D) or area (3D), up to rounding.
+  SurfacePoint point(cases::Random& random) const;
+
+ private:
+  SurfacePoint point_of_ellipsoid(cases::Random& random) const;
+
+  int dimension_;
+  bool is_ball_;
+  double radius_;
+  std::array<Vec, 3> axes_{};     ///< the columns of A
+  std::array<Vec, 3> normals_{};  ///< those of the transposed inverse of A, times its least semiaxis
+};
+
+/// A direction off a surface with this unit normal, by the cosine law: the flux of a gas in equilibrium. Its
+/// angle with the normal has a density proportional to its cosine, by solid angle in 3D; of unit length up to
+/// rounding.
+Vec cosine_law(cases::Random& random, const Vec& normal, int dimension);
+
+}  // namespace lorentz::flights
