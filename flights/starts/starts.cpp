@@ -5,6 +5,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
+#include "flights/starts/direction.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::flights {
@@ -105,7 +106,7 @@ Starts::Start Starts::uniform_start(Random& random) const {
   Start start{};
   start.lattice = -1;
   start.x = box_.point(random);
-  start.v = random.direction(box_.dimension);
+  start.v = direction(random, box_.dimension);
   return start;
 }
 

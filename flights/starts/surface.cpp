@@ -33,18 +33,12 @@ Surface::Surface(const Atom& atom, int dimension)
   for (int i = 0; i < dimension; ++i) normals_[i] = scaled(normals_[i], least);
 }
 
-SurfacePoint Surface::point(Random& random) const {
-  if (!is_ball_) return point_of_ellipsoid(random);
-  const Vec normal = random.direction(dimension_);
-  return {scaled(normal, radius_), normal};
-}
-
 // y is uniform on the unit sphere. A maps its surface element to one that is |A^-T y| det A times as large,
 // with the normal A^-T y, so that share of the points is kept: |A^-T y| of its bound 1 / (least semiaxis).
 // That is half of them or more, however slender the ellipsoid.
 SurfacePoint Surface::point_of_ellipsoid(Random& random) const {
   for (;;) {
-    const Vec y = random.direction(dimension_);
+    const Vec y = direction(random, dimension_);
     Vec offset{}, normal{};
     for (int i = 0; i < dimension_; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -68,7 +62,7 @@ Vec cosine_law_2d(Random& random, const Vec& n) {
 // by the cosine law (Lambert) if they are uniform on it.
 Vec cosine_law_3d(Random& random, const Vec& n) {
   for (;;) {
-    const Vec v = sum(n, random.direction(3));
+    const Vec v = sum(n, on_sphere(random));
     if (const double size = length(v); size > 0) return scaled(v, 1 / size);
   }
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lorentz/problem.hpp>
-#include "cases/random.hpp"
+#include "flights/starts/direction.hpp"
 
 namespace lorentz::flights {
 
@@ -17,7 +17,11 @@ class Surface {
   Surface(const Atom& atom, int dimension);
 
   /// Uniform by length (2D) or area (3D), up to rounding.
-  SurfacePoint point(cases::Random& random) const;
+  SurfacePoint point(cases::Random& random) const {
+    if (!is_ball_) return point_of_ellipsoid(random);
+    const Vec normal = direction(random, dimension_);
+    return {{radius_ * normal[0], radius_ * normal[1], radius_ * normal[2]}, normal};
+  }
 
  private:
   SurfacePoint point_of_ellipsoid(cases::Random& random) const;
