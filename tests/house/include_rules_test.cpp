@@ -100,6 +100,11 @@ const std::vector<Room> kHouse{
       "oracle/certificate", "oracle/certificate/check", "oracle/certified"},
      {"golden"},
      {"sys/mman.h input_file.hpp", "sys/mman.h input_file.cpp", "unistd.h input_file.cpp"}},
+    // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
+    {"flights/theory",
+     {"src/problem", "oracle/contacts", "oracle/horizon"},
+     {"src/problem"},
+     {"boost/math/ fit.cpp"}},
     {"pictures", {"src/problem"}, {"src/problem"}, {"fmt/"}},
     {"cli",
      {"src/problem", "src/exchange", "oracle", "oracle/exact", "oracle/contacts", "oracle/horizon",

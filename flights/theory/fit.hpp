@@ -1,0 +1,57 @@
+// Do counted free paths follow a law, and with which power do they fall? Counts in bins, and nothing else,
+// for 10^9 paths are not kept.
+//
+// Bins: the edges e_0 < e_1 < .. < e_n, and n + 2 counts: of paths below e_0, in [e_0, e_1), .., and from e_n
+// on, those that never end among these. Bad bins are an std::invalid_argument.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace lorentz::flights {
+
+/// Pearson's test of a law that has no parameter left to fit.
+struct ChiSquared {
+  double statistic = 0;  ///< infinite if the law gives a bin that has counts no chance at all
+  int degrees = 0;       ///< merged bins less one, for they add up to the total
+  double p_value = 1;    ///< P(a statistic so large or larger | the law); 1 if there is but one bin
+
+  /// Of the merged bin that adds most to the statistic: its ends (0 and infinity where it has none), what was
+  /// counted in it and what the law expects.
+  double worst_from = 0, worst_to = 0;
+  std::uint64_t worst_count = 0;
+  double worst_expected = 0;
+};
+
+/// `total` paths were flown; the counts add up to it. `survival(t)` is P(path > t). Bins of which fewer than
+/// 25 are expected are merged with their neighbours. Expectations are total times probability: a survival
+/// that is 2 % too large everywhere is wrong, not rescaled.
+ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint64_t> counts,
+                       std::uint64_t total, const std::function<double(double)>& survival);
+
+/// A density that falls like t^-exponent for t >= from.
+struct TailExponent {
+  double exponent = 0;
+  double low = 0, high = 0;  ///< 95 % interval by the ratio of likelihoods: of chance alone, see below
+  double from = 0, to = 0;   ///< the edges in use; what lies beyond `to` is counted, too
+  std::uint64_t count = 0;   ///< of paths from `from` on
+  double distance = 0;       ///< Kolmogorov-Smirnov distance of counts and power law from `from` on
+};
+
+/// The exponent by maximum likelihood; `from` is the edge that makes the Kolmogorov-Smirnov distance least,
+/// among those with at least `least_count` counts beyond and three bins or more (Clauset, Shalizi & Newman,
+/// SIAM Review 51, 2009; with bins: Virkar & Clauset, Ann. Appl. Stat. 8, 2014). Nothing if there is no such
+/// edge or no tail. The interval knows of chance only, not of how a density that is no power law yet at
+/// `from` bends, nor of the choice of `from`.
+std::optional<TailExponent> tail_exponent(std::span<const double> edges,
+                                          std::span<const std::uint64_t> counts,
+                                          std::uint64_t least_count = 500);
+
+/// The same from a given edge on, edges[first].
+std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<const double> edges,
+                                               std::span<const std::uint64_t> counts);
+
+}  // namespace lorentz::flights

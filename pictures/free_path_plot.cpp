@@ -1,0 +1,263 @@
+#include "pictures/free_path_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace lorentz::pictures {
+namespace {
+
+// Told apart by the colour-blind too (after Okabe & Ito), and dark enough for thin lines.
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
+constexpr const char* kGrey = "#777777";
+constexpr double kLetters = 20;    // font size, so that it is 10 at half the width
+constexpr double kAdvance = 0.56;  // of a letter, in font sizes, about
+
+// UTF-8: each letter has one byte that is not a continuation.
+std::size_t letters_in(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+const char* colour_of(int series) {
+  return series < 0 ? kGrey : kColours[static_cast<std::size_t>(series) % std::size(kColours)];
+}
+
+// What is on one axis: powers of ten.
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+
+  bool empty() const { return high == 0; }
+  void include(double x) {
+    if (!(x > 0) || !std::isfinite(x)) return;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  double decades() const { return std::log10(high / low); }
+  bool holds(double x) const { return x >= low * (1 - 1e-12) && x <= high * (1 + 1e-12); }
+
+  // Ends at a tick (1, 2 or 5 times a power of ten), and so that no point is on the frame.
+  void round() {
+    low = tick_below(low / 1.02);
+    high = 1 / tick_below(1 / (high * 1.02));
+  }
+
+ private:
+  static double tick_below(double x) {
+    const double decade = std::pow(10, std::floor(std::log10(x)));
+    return decade * (x >= 5 * decade ? 5 : x >= 2 * decade ? 2 : 1);
+  }
+};
+
+struct Frame {
+  Range t, value;
+  double left, right, top, bottom;  // in pixels
+
+  Point operator()(double x, double y) const {
+    return {left + (right - left) * std::log10(x / t.low) / t.decades(),
+            bottom - (bottom - top) * std::log10(y / value.low) / value.decades()};
+  }
+};
+
+bool can_be_shown(const MeasuredPoint& point) {
+  return point.t > 0 && point.value > 0 && std::isfinite(point.t) && std::isfinite(point.value);
+}
+
+// Measured points have to be seen, curves only where there are points, and somewhat beyond.
+void set_ranges(const FreePathPlot& plot, Frame& frame) {
+  for (const PlotSeries& series : plot.series)
+    for (const MeasuredPoint& point : series.points)
+      if (can_be_shown(point)) {
+        frame.t.include(point.t);
+        frame.value.include(point.value);
+        frame.value.include(std::max(point.value - point.error, point.value / 3));
+        frame.value.include(point.value + point.error);
+      }
+  if (frame.t.empty())
+    for (const PlotCurve& curve : plot.curves)
+      for (const Point& point : curve.points)
+        if (point.x > 0 && point.y > 0) {
+          frame.t.include(point.x);
+          frame.value.include(point.y);
+        }
+  if (frame.t.empty()) throw std::invalid_argument("nothing above 0 to be drawn");
+  frame.t.round();
+  frame.value.round();
+}
+
+std::string power_of_ten(int exponent) {
+  static const char* const kSuperscripts[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (exponent == 0) return "1";
+  if (exponent == 1) return "10";
+  if (exponent == -1) return "0.1";
+  std::string out = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) out += kSuperscripts[digit - '0'];
+  return out;
+}
+
+std::string stroke(const char* colour, double width, const char* more = "") {
+  return fmt::format("stroke=\"{}\" stroke-width=\"{}\" {}", colour, width, more);
+}
+
+// Grid, ticks and their numbers along one axis: decades; within them 2 and 5 too, if there is room for them.
+void add_axis(Svg& svg, const Frame& frame, bool along_t) {
+  const Range& range = along_t ? frame.t : frame.value;
+  const double pixels = along_t ? frame.right - frame.left : frame.bottom - frame.top,
+               decade = pixels / range.decades();
+  const int every = static_cast<int>(std::ceil((along_t ? 62 : 34) / decade));
+  const auto first = static_cast<int>(std::floor(std::log10(range.low))),
+             last = static_cast<int>(std::ceil(std::log10(range.high)));
+  for (int exponent = first; exponent <= last; ++exponent)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double x = digit * std::pow(10, exponent);
+      if (!range.holds(x)) continue;
+      const Point at = along_t ? frame(x, frame.value.low) : frame(frame.t.low, x),
+                  far = along_t ? Point{at.x, frame.top} : Point{frame.right, at.y};
+      const bool major = digit == 1 && exponent % every == 0;
+      if (digit == 1) svg.polyline({at, far}, stroke(major ? "#d4d4d4" : "#ebebeb", 1));
+      const double tick = major ? 9 : digit == 1 ? 6 : 4;
+      if (digit == 1 || decade > 45)
+        svg.polyline({at, along_t ? Point{at.x, at.y - tick} : Point{at.x + tick, at.y}},
+                     stroke("#222222", 1.4));
+      const bool between = range.decades() < 1.7 && (digit == 2 || digit == 5);
+      if (!major && !between) continue;
+      const std::string label = digit == 1 ? power_of_ten(exponent) : fmt::format("{:.4g}", x);
+      svg.text(along_t ? Point{at.x, at.y + 26} : Point{at.x - 9, at.y + 7}, label,
+               fmt::format("text-anchor=\"{}\"", along_t ? "middle" : "end"));
+    }
+}
+
+void add_axes(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
+  add_axis(svg, frame, true);
+  add_axis(svg, frame, false);
+  svg.polygon({{frame.left, frame.top},
+               {frame.right, frame.top},
+               {frame.right, frame.bottom},
+               {frame.left, frame.bottom}},
+              "fill=\"none\" " + stroke("#222222", 1.4));
+  svg.text({(frame.left + frame.right) / 2, frame.bottom + 56}, plot.t_label, "text-anchor=\"middle\"");
+  svg.text({0, 0}, plot.value_label,
+           fmt::format("text-anchor=\"middle\" transform=\"translate({:.0f} {:.0f}) rotate(-90)\"",
+                       kLetters + 4, (frame.top + frame.bottom) / 2));
+}
+
+void add_marker(Svg& svg, Point at, std::size_t series) {
+  const std::string style =
+      fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\" stroke-width=\"1.8\"",
+                  colour_of(static_cast<int>(series)));
+  constexpr double r = 5.5;
+  const auto polygon = [&](std::vector<Point> corners) {
+    for (Point& corner : corners) corner = {at.x + r * corner.x, at.y + r * corner.y};
+    svg.polygon(corners, style);
+  };
+  switch (series % 6) {
+    case 0:
+      svg.ellipse(at, {r, r, 0}, style);
+      break;
+    case 1:
+      polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
+      break;
+    case 2:
+      polygon({{0, -1.25}, {1.15, 0.85}, {-1.15, 0.85}});
+      break;
+    case 3:
+      polygon({{0, -1.35}, {1.2, 0}, {0, 1.35}, {-1.2, 0}});
+      break;
+    case 4:
+      polygon({{0, 1.25}, {1.15, -0.85}, {-1.15, -0.85}});
+      break;
+    default:
+      polygon({{-1.2, -0.5}, {0, -1.2}, {1.2, -0.5}, {1.2, 0.5}, {0, 1.2}, {-1.2, 0.5}});
+  }
+}
+
+// A series' points and their error bars, nearest to the reader.
+void add_series(Svg& svg, const Frame& frame, const PlotSeries& series, std::size_t number) {
+  const std::string bar = stroke(colour_of(static_cast<int>(number)), 1.6);
+  for (const MeasuredPoint& point : series.points) {
+    if (!can_be_shown(point)) continue;
+    const Point at = frame(point.t, point.value);
+    const double low = std::max(point.value - point.error, frame.value.low);
+    const Point top = frame(point.t, point.value + point.error), bottom = frame(point.t, low);
+    if (bottom.y - top.y > 4) {
+      svg.polyline({top, bottom}, bar);
+      for (const Point& end : {top, bottom}) svg.polyline({{end.x - 4, end.y}, {end.x + 4, end.y}}, bar);
+    }
+    add_marker(svg, at, number);
+  }
+}
+
+std::string style_of(const PlotCurve& curve) {
+  return stroke(colour_of(curve.series), 2.2, curve.dashed ? "stroke-dasharray=\"9 6\"" : "");
+}
+
+// What is outside of the frame is cut off by it.
+void add_curve(Svg& svg, const Frame& frame, const PlotCurve& curve) {
+  std::vector<Point> line;
+  for (const Point& point : curve.points)
+    if (point.x > 0 && point.y > 0) line.push_back(frame(point.x, point.y));
+  svg.polyline(line, style_of(curve) + " clip-path=\"url(#frame)\"");
+}
+
+constexpr double kMargin = 14, kRow = 27;
+
+std::size_t legend_rows(const FreePathPlot& plot) {
+  const auto named = std::count_if(plot.curves.begin(), plot.curves.end(),
+                                   [](const PlotCurve& curve) { return !curve.name.empty(); });
+  return plot.series.size() + static_cast<std::size_t>(named);
+}
+
+// At the lower left, where survivals and densities leave room; wherever it is, the grid shines through.
+void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
+  std::size_t longest = 0;
+  for (const PlotSeries& series : plot.series) longest = std::max(longest, letters_in(series.name));
+  for (const PlotCurve& curve : plot.curves) longest = std::max(longest, letters_in(curve.name));
+  const double height = kRow * static_cast<double>(legend_rows(plot)) + 10, left = frame.left + 22,
+               top = frame.bottom - 18 - height,
+               right = left + 66 + kAdvance * kLetters * static_cast<double>(longest);
+  svg.polygon({{left, top}, {right, top}, {right, top + height}, {left, top + height}},
+              "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
+  double y = top + 5 + kRow / 2;
+  const auto label = [&](const std::string& words) {
+    svg.text({left + 56, y + 7}, words);
+    y += kRow;
+  };
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    add_marker(svg, {left + 28, y}, i);
+    label(plot.series[i].name);
+  }
+  for (const PlotCurve& curve : plot.curves) {
+    if (curve.name.empty()) continue;
+    svg.polyline({{left + 10, y}, {left + 46, y}}, style_of(curve));
+    label(curve.name);
+  }
+}
+
+}  // namespace
+
+std::string draw_free_paths(const FreePathPlot& plot) {
+  Frame frame;
+  set_ranges(plot, frame);
+  frame.left = 100;
+  frame.right = plot.width - 2 * kMargin;
+  frame.top = plot.title.empty() ? 2 * kMargin : 50;
+  frame.bottom = plot.height - (plot.note.empty() ? 72 : 100);
+  Svg svg;
+  svg.raw(
+      fmt::format("<defs><clipPath id=\"frame\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
+                  "height=\"{:.2f}\"/></clipPath></defs>\n",
+                  frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top));
+  svg.open(fmt::format("font-size=\"{}\"", kLetters));
+  add_axes(svg, frame, plot);
+  for (const PlotCurve& curve : plot.curves) add_curve(svg, frame, curve);
+  for (std::size_t i = 0; i < plot.series.size(); ++i) add_series(svg, frame, plot.series[i], i);
+  add_legend(svg, frame, plot);
+  if (!plot.title.empty()) svg.text({frame.left, 33}, plot.title, "font-size=\"22\" font-weight=\"bold\"");
+  if (!plot.note.empty())
+    svg.text({kMargin, plot.height - kMargin}, plot.note, "fill=\"#444444\" font-size=\"17\"");
+  svg.close();
+  return svg.document(plot.width, plot.height, plot.title);
+}
+
+}  // namespace lorentz::pictures

@@ -1,0 +1,43 @@
+// A picture of free paths: measured points and curves of theory over t, both axes logarithmic.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pictures/svg.hpp"
+
+namespace lorentz::pictures {
+
+/// A measured value with its standard error. What is not above 0 cannot be shown and is left out; an error
+/// bar that reaches down to 0 goes down to the edge of the picture.
+struct MeasuredPoint {
+  double t = 0, value = 0, error = 0;
+};
+
+/// Each series has a colour and a marker of its own: circle, square, triangle, diamond, ..
+struct PlotSeries {
+  std::string name;
+  std::vector<MeasuredPoint> points;
+};
+
+/// A line through (t, value), in the colour of the series `series` (-1: grey), solid or dashed.
+struct PlotCurve {
+  std::string name;  ///< for the legend; empty: not in it
+  std::vector<Point> points;
+  int series = -1;
+  bool dashed = false;
+};
+
+struct FreePathPlot {
+  std::string title, note;  ///< above and below the picture; none if empty
+  std::string t_label = "t", value_label = "P(free path > t)";
+  std::vector<PlotSeries> series;
+  std::vector<PlotCurve> curves;
+  double width = 800, height = 600;  ///< in pixels; legible at half of that
+};
+
+/// The picture as SVG. The axes hold all measured points; of curves that reach further as much as is worth
+/// showing. An std::invalid_argument if there is nothing above 0 to show.
+std::string draw_free_paths(const FreePathPlot& plot);
+
+}  // namespace lorentz::pictures
