@@ -121,6 +121,7 @@ int run(int argc, char** argv) {
   add_scene(app, action);
   add_golden(app, action);
   add_fuzz(app, action);
+  add_flights(app, action);
   app.footer(
       statuses +
       "\nExample: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"

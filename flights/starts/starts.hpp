@@ -9,14 +9,9 @@
 #include "cases/box.hpp"
 #include "flights/starts/start_columns.hpp"
 #include "flights/starts/surface.hpp"
+#include "flights/theory/ensemble.hpp"
 
 namespace lorentz::flights {
-
-/// Which starts are drawn.
-enum class Ensemble {
-  uniform,  ///< anywhere outside the obstacles, in any direction
-  surface   ///< from an obstacle that was just hit, as particles of a gas in equilibrium leave it
-};
 
 /// Starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and the index only,
 /// so that any number of threads, shards and machines draws the same, to the bit.

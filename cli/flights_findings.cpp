@@ -1,0 +1,30 @@
+#include "cli/flights_findings.hpp"
+
+#include <algorithm>
+
+namespace lorentz::cli {
+
+using namespace flights;
+
+FlightsFindings::FlightsFindings(const FlightsReport& report)
+    : tails(tails_of(report.plan.scene, report.plan.from)), mean(mean_free_path_of(report.plan.scene)) {
+  const Tally& tally = report.account.tally;
+  for (int i = 0; i <= Bins::kLogarithmic; ++i) edges.push_back(tally.bins.log_edge(i));
+  counts = tally.bins.logarithmic;
+  counts.back() += tally.never;
+  total = tally.hits + tally.never;
+  std::uint64_t longer = total;
+  for (std::size_t i = 0; i < edges.size(); ++i) beyond.push_back(longer -= counts[i]);
+  if (total == 0) return;
+  Laws laws = laws_of(report.plan.scene, report.plan.from);
+  no_law = laws.none;
+  for (Law& law : laws.laws) {
+    const auto more = [&law](double t) { return std::min(1.0, 1.02 * law.survival(t)); };
+    const ChiSquared fit = chi_squared(edges, counts, total, law.survival),
+                     off = chi_squared(edges, counts, total, more);
+    fits.push_back({std::move(law), fit, off});
+  }
+  exponent = tail_exponent(edges, counts);
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,33 @@
+// Private to cli/flights*.cpp: what theory says of a run, and how the counts fit it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/flights_report.hpp"
+#include "flights/theory/fit.hpp"
+#include "flights/theory/laws.hpp"
+
+namespace lorentz::cli {
+
+/// Flights that the engine left undecided are in no bin.
+struct FlightsFindings {
+  explicit FlightsFindings(const FlightsReport& report);
+
+  struct Fit {
+    flights::Law law;
+    flights::ChiSquared as_it_is, two_percent_more;  ///< the second shows what the test can see
+  };
+
+  std::vector<double> edges;                  ///< of the logarithmic bins
+  std::vector<std::uint64_t> counts, beyond;  ///< beyond[i]: longer than edges[i], or without end
+  std::uint64_t total = 0;
+  std::vector<Fit> fits;
+  std::string no_law;  ///< why there is none
+  std::vector<flights::Tail> tails;
+  std::optional<flights::TailExponent> exponent;
+  flights::MeanFreePath mean;  ///< from collision to collision
+};
+
+}  // namespace lorentz::cli

@@ -1,0 +1,206 @@
+#include "cli/flights_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "cli/messages.hpp"
+#include "cli/table.hpp"
+
+namespace lorentz::cli {
+
+using namespace flights;
+
+namespace {
+
+bool is_infinite(const std::vector<Tail>& tails, double moment) {
+  return std::any_of(tails.begin(), tails.end(), [&](const Tail& tail) {
+    return tail.exponent && *tail.exponent <= moment + 1 && tail.constant.value_or(0) > 0;
+  });
+}
+
+std::string p_text(double p) {
+  return p < 1e-4 ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
+}
+
+// What the mean and its error mean, where they do not mean what they look like.
+std::string remark_on_mean(Ensemble from, const std::vector<Tail>& tails) {
+  if (from == Ensemble::uniform && is_infinite(tails, 1))
+    return "the exact mean is infinite: corridors make the density of a first flight fall like t^-2 in the "
+           "end; what "
+           "is here is a sample's mean, and grows with it";
+  if (from == Ensemble::surface && is_infinite(tails, 2))
+    return "the variance is infinite (a density like t^-3 in the end), so that the standard error is too "
+           "small";
+  return "";
+}
+
+std::string lines_of_theory(const FlightsFindings& found) {
+  std::string text;
+  if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
+  for (const FlightsFindings::Fit& fit : found.fits)
+    text += fmt::format(
+        "law: {} ({})\n  chi squared {:.1f}, {} degrees: p = {}; of 1.02 times its survival: p = {}\n",
+        fit.law.name, fit.law.when, fit.as_it_is.statistic, fit.as_it_is.degrees,
+        p_text(fit.as_it_is.p_value), p_text(fit.two_percent_more.p_value));
+  if (found.exponent)
+    text += fmt::format(
+        "tail: the density falls like t^-{:.3f}, 95 % [{:.3f}, {:.3f}], of {} flights longer than {:.6g}\n",
+        found.exponent->exponent, found.exponent->low, found.exponent->high, found.exponent->count,
+        found.exponent->from);
+  else
+    text += "tail: too few long flights for an exponent\n";
+  for (const Tail& tail : found.tails) {
+    text += fmt::format("  theory, {}:", tail.when);
+    if (tail.exponent) text += fmt::format(" t^-{:g}", *tail.exponent);
+    if (tail.exponent && tail.constant)
+      text += fmt::format(", P(tau > t) ~ {:.6g} / t^{:g}", *tail.constant, *tail.exponent - 1);
+    if (!tail.remark.empty()) text += fmt::format("{} {}", tail.exponent ? ";" : "", tail.remark);
+    text += '\n';
+  }
+  return text;
+}
+
+// The survival at powers of two, with one standard error.
+std::string table_of_survival(const FlightsFindings& found) {
+  std::vector<std::string> header{"t", "P(tau > t)", "+-"};
+  for (const FlightsFindings::Fit& fit : found.fits) header.push_back(fit.law.name);
+  Table table(header);
+  const auto n = static_cast<double>(found.total);
+  for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave) {
+    const double p = static_cast<double>(found.beyond[i]) / n;
+    if (found.beyond[i] < 10 || p > 0.999) continue;
+    std::vector<std::string> row{fmt::format("{:.6g}", found.edges[i]), fmt::format("{:.3e}", p),
+                                 fmt::format("{:.1e}", std::sqrt(p * (1 - p) / n))};
+    for (const FlightsFindings::Fit& fit : found.fits)
+      row.push_back(fmt::format("{:.3e}", fit.law.survival(found.edges[i])));
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::string number_or_null(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? fmt::format("{}", *x) : "null";
+}
+
+std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindings& found) {
+  return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
+}
+
+std::string name_of(Ensemble from) {
+  return from == Ensemble::uniform ? "uniform" : "surface";
+}
+
+}  // namespace
+
+std::string FlightsReport::table() const {
+  const FlightsFindings found(*this);
+  const Tally& tally = account.tally;
+  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", scene_name, name_of(plan.from),
+                                 plan.engine, plan.seed);
+  text += fmt::format("{} flights", tally.flights());
+  if (!is_whole())
+    text += fmt::format(" of {} ({} of {} blocks)", plan.count, account.done.size(), plan.blocks());
+  text +=
+      fmt::format(": {} hits, {} never, {} undecided; {} starts lay in an obstacle, and were drawn anew\n",
+                  tally.hits, tally.never, tally.undecided, tally.inside);
+  if (seconds) text += fmt::format("{:.2f} s in this run\n", *seconds);
+  if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
+  text += fmt::format("\nmean {:.8g}, standard error {:.2g}", tally.mean(), tally.standard_error());
+  if (const auto exact = exact_mean(*this, found))
+    text += fmt::format("; exact {:.10g}: off by {:.2f} of these ({})", *exact,
+                        (tally.mean() - *exact) / tally.standard_error(), found.mean.how);
+  else if (plan.from == Ensemble::surface)
+    text += fmt::format("; no exact mean: {}", found.mean.how);
+  text += fmt::format("\nmean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),
+                      tally.shortest, tally.longest);
+  if (const std::string remark = remark_on_mean(plan.from, found.tails); !remark.empty())
+    text += remark + '\n';
+  return text + '\n' + lines_of_theory(found) + '\n' + table_of_survival(found);
+}
+
+std::string FlightsReport::json() const {
+  const FlightsFindings found(*this);
+  const Tally& tally = account.tally;
+  const bool any = tally.hits > 0;
+  std::string theory;
+  for (const FlightsFindings::Fit& fit : found.fits)
+    theory += fmt::format(
+        "{}{{\"name\":{},\"when\":{},\"statistic\":{},\"degrees\":{},\"p_value\":{},"
+        "\"p_value_of_1.02\":{}}}",
+        theory.empty() ? "" : ",", json_quoted(fit.law.name), json_quoted(fit.law.when),
+        number_or_null(fit.as_it_is.statistic), fit.as_it_is.degrees, fit.as_it_is.p_value,
+        fit.two_percent_more.p_value);
+  std::string tails;
+  for (const Tail& tail : found.tails)
+    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}}}",
+                         tails.empty() ? "" : ",", json_quoted(tail.when), number_or_null(tail.exponent),
+                         number_or_null(tail.constant), json_quoted(tail.remark));
+  std::string survival;
+  for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
+    if (found.beyond[i] > 0 && found.beyond[i] < found.total)
+      survival += fmt::format("{}[{},{}]", survival.empty() ? "" : ",", found.edges[i], found.beyond[i]);
+  const auto& e = found.exponent;
+  return fmt::format(
+      "{{\"scene\":{},\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
+      "\"never\":{},"
+      "\"undecided\":{},\"drawn_anew\":{},\"mean\":{},\"mean_error\":{},\"mean_exact\":{},\"mean_remark\":{},"
+      "\"mean_log\":{},\"shortest\":{},\"longest\":{},\"tail_exponent\":{},\"tail_interval\":{},\"tail_"
+      "from\":{},"
+      "\"tail_count\":{},\"tails\":[{}],\"theory\":[{}],\"no_theory\":{},\"survival\":[{}],\"seconds\":{}}}"
+      "\n",
+      json_quoted(scene_name), name_of(plan.from), json_quoted(plan.engine), plan.seed, tally.flights(),
+      plan.count, tally.hits, tally.never, tally.undecided, tally.inside,
+      any ? number_or_null(tally.mean()) : "null", any ? number_or_null(tally.standard_error()) : "null",
+      number_or_null(exact_mean(*this, found)), json_quoted(remark_on_mean(plan.from, found.tails)),
+      any ? number_or_null(tally.mean_log()) : "null", any ? number_or_null(tally.shortest) : "null",
+      any ? number_or_null(tally.longest) : "null",
+      number_or_null(e ? std::optional(e->exponent) : std::nullopt),
+      e ? fmt::format("[{},{}]", number_or_null(e->low), number_or_null(e->high)) : "null",
+      number_or_null(e ? std::optional(e->from) : std::nullopt), e ? e->count : 0, tails, theory,
+      json_quoted(found.no_law), survival, number_or_null(seconds));
+}
+
+namespace {
+
+// One histogram's rows. Below the first edge nothing is expected but what theory has there.
+void append_rows(std::string& text, const char* bins, const FlightsFindings& found,
+                 const std::vector<std::uint64_t>& counts, const std::function<double(int)>& edge,
+                 int bin_count, std::uint64_t below) {
+  const auto n = static_cast<double>(found.total);
+  std::uint64_t longer = found.total - below;
+  for (int i = 0; i < bin_count; ++i) {
+    const std::uint64_t count = counts[static_cast<std::size_t>(i)];
+    longer -= count;
+    if (count == 0) continue;
+    const double low = edge(i), high = edge(i + 1), width = high - low, c = static_cast<double>(count);
+    text += fmt::format("{},{},{},{},{},{},{}", bins, low, high, count, c / n / width,
+                        std::sqrt(c) / n / width, static_cast<double>(longer) / n);
+    for (const FlightsFindings::Fit& fit : found.fits)
+      text += fmt::format(",{},{}", (fit.law.survival(low) - fit.law.survival(high)) / width,
+                          fit.law.survival(high));
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+std::string FlightsReport::csv() const {
+  const FlightsFindings found(*this);
+  const Bins& bins = account.tally.bins;
+  std::string text = "bins,from,to,count,density,density_error,survival_at_to";
+  for (const FlightsFindings::Fit& fit : found.fits) {
+    std::string name = fit.law.name;
+    std::replace(name.begin(), name.end(), ',', ';');
+    text += fmt::format(",{0}: density,{0}: survival_at_to", name);
+  }
+  text += '\n';
+  append_rows(
+      text, "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
+      [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
+  append_rows(
+      text, "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); }, Bins::kLinear, 0);
+  return text;
+}
+
+}  // namespace lorentz::cli

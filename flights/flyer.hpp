@@ -1,0 +1,47 @@
+// One block of flights after the other: draws the starts, flies them, counts.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <lorentz/certified_batch.hpp>
+#include "compare/registry.hpp"
+#include "flights/plan.hpp"
+#include "flights/tally.hpp"
+
+namespace lorentz::flights {
+
+/// An engine that flies columns. Any number of threads may share one if its engine may be shared.
+class ColumnFlyer {
+ public:
+  ColumnFlyer(const std::string& engine, const Scene& scene);
+  void fly(const QueryColumns& queries, FlightTable& flights) const;
+
+ private:
+  std::optional<Batch> batch_;  // at most one of these
+  std::optional<oracle::CertifiedBatch> certified_;
+  compare::FirstHit single_;
+};
+
+/// A thread's own.
+class Flyer {
+ public:
+  Flyer(const Plan& plan, const ColumnFlyer& engine);
+
+  /// Flies the starts [first, first + count), and adds what came of them. Throws InputError if a start cannot
+  /// be found, or the engine cannot answer.
+  void fly(std::uint64_t first, std::uint64_t count, Tally& tally);
+
+ private:
+  bool count(const Flight& flight, std::uint64_t index, Tally& tally);
+  void draw_anew(Tally& tally);
+
+  const ColumnFlyer& engine_;
+  const Starts starts_;
+  StartColumns columns_;
+  QueryTable again_;
+  FlightTable flights_;
+  std::vector<std::uint64_t> inside_;  ///< starts whose last candidate lay in an obstacle
+};
+
+}  // namespace lorentz::flights
