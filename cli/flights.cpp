@@ -180,6 +180,7 @@ int fly(const Plan& plan, const flights::Bounds& bounds, const Options& options,
   if (ranks) result.account = ranks->sum(result.account, true);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.store) write_file(*options.store, result.account.text());
+  say("{:.2f} s", *result.seconds);
   if (Interrupt::came())
     say("interrupted; {}",
         options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
@@ -235,8 +236,11 @@ void add_flights(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--store", options->store, "where counts are kept every few seconds, and gone on from")
       ->type_name("FILE");
+  command->add_option("--add", options->parts, "stores of other shards of the same run, whose counts are added")
+      ->type_name("FILE");
   command
-      ->add_option("--shard", options->shard, "only the blocks of flights I modulo N (--store; then merge)")
+      ->add_option("--shard", options->shard,
+                   "only the blocks of flights I modulo N, into --store; --add joins them")
       ->capture_default_str()
       ->type_name("I/N");
   command->add_option("--csv", options->csv, "the histograms, and theory, to a file")->type_name("FILE");

@@ -14,15 +14,18 @@ using pictures::PlotCurve;
 
 constexpr int kPointsAnOctave = 2, kCurveAnOctave = 8;
 constexpr std::uint64_t kFewest = 10;  // flights behind a point
+constexpr double kNearlyAll = 0.995;
 
-// From where on counts say something, to where they end.
+// From where on paths end at all, to where too few go on.
 struct Span {
   std::size_t first = 0, last = 0;
 };
 
 Span span_of(const FlightsFindings& found) {
   Span span;
-  while (span.first + 1 < found.edges.size() && found.beyond[span.first] == found.total) ++span.first;
+  while (span.first + 1 < found.edges.size() &&
+         found.beyond[span.first] > kNearlyAll * static_cast<double>(found.total))
+    ++span.first;
   span.last = span.first;
   while (span.last + 1 < found.edges.size() && found.beyond[span.last + 1] >= kFewest) ++span.last;
   return span;
@@ -44,7 +47,7 @@ std::string FlightsReport::svg() const {
   if (account.tally.hits == 0) throw InputError("--svg: nothing was hit: there is nothing to draw");
   const Span span = span_of(found);
   FreePathPlot plot;
-  plot.title = fmt::format("Free paths: {}, {} starts", scene_name,
+  plot.title = fmt::format("Free paths: {}, {} starts", name_with_radius(),
                            plan.from == flights::Ensemble::uniform ? "uniform" : "surface");
   plot.note = fmt::format("{} flights, engine {}, seed {}", account.tally.flights(), plan.engine, plan.seed);
   plot.t_label = "free path t, in the scene's unit of length";

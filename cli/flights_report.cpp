@@ -93,18 +93,28 @@ std::string name_of(Ensemble from) {
 
 }  // namespace
 
+std::string FlightsReport::name_with_radius() const {
+  std::optional<double> radius;
+  bool same = true;
+  for (const Lattice& lattice : plan.scene.lattices)
+    for (const Atom& atom : lattice.atoms) {
+      same = same && atom.is_ball() && (!radius || *radius == atom.radius);
+      radius = atom.radius;
+    }
+  return same && radius ? fmt::format("{}, r = {:g}", scene_name, *radius) : scene_name;
+}
+
 std::string FlightsReport::table() const {
   const FlightsFindings found(*this);
   const Tally& tally = account.tally;
-  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", scene_name, name_of(plan.from),
-                                 plan.engine, plan.seed);
+  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", name_with_radius(),
+                                 name_of(plan.from), plan.engine, plan.seed);
   text += fmt::format("{} flights", tally.flights());
   if (!is_whole())
     text += fmt::format(" of {} ({} of {} blocks)", plan.count, account.done.size(), plan.blocks());
   text +=
       fmt::format(": {} hits, {} never, {} undecided; {} starts lay in an obstacle, and were drawn anew\n",
                   tally.hits, tally.never, tally.undecided, tally.inside);
-  if (seconds) text += fmt::format("{:.2f} s in this run\n", *seconds);
   if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
   text += fmt::format("\nmean {:.8g}, standard error {:.2g}", tally.mean(), tally.standard_error());
   if (const auto exact = exact_mean(*this, found))

@@ -16,7 +16,11 @@ constexpr std::uint64_t kTogether = 4096;
 
 ColumnFlyer::ColumnFlyer(const std::string& engine, const Scene& scene)
     : single_(compare::make_first_hit(engine, scene)) {
-  if (engine == "batch" || engine == "reduction") batch_.emplace(scene);
+  if (engine == "batch" || engine == "reduction") {
+    if (const auto why = Reduction::beyond(scene))
+      throw InputError(fmt::format("{}; --engine certified does such scenes", *why));
+    batch_.emplace(scene);
+  }
   if (engine == "certified-batch" || engine == "certified") certified_.emplace(scene);
 }
 
@@ -84,6 +88,7 @@ bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
   switch (flight.outcome) {
     case Outcome::hit:
       tally.count_hit(flight.time);
+      inside_in_a_row_ = 0;
       return true;
     case Outcome::never:
       ++tally.never;
@@ -93,6 +98,7 @@ bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
       return true;
     case Outcome::inside:
       ++tally.inside;
+      if (++inside_in_a_row_ == Starts::kMostAttempts) throw InputError(nowhere_to_start(inside_in_a_row_));
       return false;
     default:
       throw InputError(fmt::format("the engine has no answer to start {} in this scene", index));
@@ -101,7 +107,6 @@ bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
 
 void Flyer::draw_anew(Tally& tally) {
   for (std::uint64_t attempt = 1; !inside_.empty(); ++attempt) {
-    if (attempt == Starts::kMostAttempts) throw InputError(nowhere_to_start(attempt));
     again_.clear();
     Query query;
     for (const std::uint64_t index : inside_) {

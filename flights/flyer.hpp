@@ -41,6 +41,7 @@ class Flyer {
   StartColumns columns_;
   QueryTable again_;
   FlightTable flights_;
+  std::uint64_t inside_in_a_row_ = 0;  ///< candidates
   std::vector<std::uint64_t> inside_;  ///< starts whose last candidate lay in an obstacle
 };
 

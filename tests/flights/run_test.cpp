@@ -1,0 +1,134 @@
+// Runs: the same counts whoever flies them, and however often they were killed.
+#include <catch2/catch.hpp>
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/oracle.hpp>
+#include "flights/flyer.hpp"
+#include "flights/run.hpp"
+#include "tests/support/command_line.hpp"
+#include "tests/support/scenes.hpp"
+
+using namespace lorentz;
+using namespace lorentz::flights;
+using test::Folder;
+
+namespace {
+
+Plan plan_of(Scene scene, std::uint64_t count, Ensemble from = Ensemble::uniform) {
+  Plan plan;
+  plan.scene = std::move(scene);
+  plan.from = from;
+  plan.seed = 7401;
+  plan.count = count;
+  return plan;
+}
+
+Account empty(const Plan& plan) {
+  Account account;
+  account.plan = plan.text();
+  account.tally = Tally(unit_exponent(plan.scene));
+  return account;
+}
+
+Account flown(const Plan& plan, const Bounds& bounds = {}) {
+  Account account = empty(plan);
+  run(plan, bounds, account);
+  return account;
+}
+
+Scene fcc_like() {
+  return test::one_atom(3, {Vec{0, 0.5, 0.5}, Vec{0.5, 0, 0.5}, Vec{0.5, 0.5, 0}}, 0.2);
+}
+
+}  // namespace
+
+TEST_CASE("Any number of threads and shards counts the same", "[flights]") {
+  for (const Ensemble from : {Ensemble::uniform, Ensemble::surface}) {
+    const Plan plan = plan_of(unit_scene(2, 0.3), 5 * kBlock + 321, from);
+    const Account one = flown(plan);
+    CHECK(one.tally.flights() == plan.count);
+    CHECK(one.done.size() == 6);
+    CHECK(one.tally.undecided == 0);
+    if (from == Ensemble::uniform) CHECK(one.tally.inside > 0);
+    CHECK(flown(plan, {.jobs = 3}) == one);
+    Account sum = empty(plan);
+    for (std::uint64_t shard : {2, 0, 1}) {
+      const Account part = flown(plan, {.jobs = 2, .shard = shard, .shards = 3});
+      CHECK(part.done.size() == 2);
+      sum.add(part);
+    }
+    CHECK(sum.text() == one.text());
+  }
+}
+
+TEST_CASE("A tally counts what the oracle says of each start", "[flights]") {
+  for (const Scene& scene : {unit_scene(2, 0.2), fcc_like()})
+    for (const Ensemble from : {Ensemble::uniform, Ensemble::surface})
+      for (const char* engine : {"batch", "certified-batch", "reduction", "certified", "oracle"}) {
+        Plan plan = plan_of(scene, 3000, from);
+        plan.engine = engine;
+        INFO(engine);
+        const Starts starts(scene, from, plan.seed, plan.cells);
+        const oracle::Oracle exact(scene);
+        std::uint64_t inside = 0, hits = 0;
+        double sum = 0;
+        for (std::uint64_t i = 0; i < plan.count; ++i)
+          for (std::uint64_t attempt = 0;; ++attempt) {
+            Query query;
+            starts.draw(i, attempt, query);
+            const Answer answer = exact.first_hit(query);
+            inside += answer.outcome == Outcome::inside;
+            if (answer.outcome == Outcome::inside) continue;
+            hits += answer.outcome == Outcome::hit;
+            sum += answer.time.value_or(0);
+            break;
+          }
+        const Account account = flown(plan);
+        CHECK(account.tally.hits == hits);
+        CHECK(account.tally.inside == inside);
+        CHECK(account.tally.mean() == Approx(sum / static_cast<double>(hits)).epsilon(1e-12));
+      }
+}
+
+TEST_CASE("A run killed at any moment is gone on with, and counts the same", "[flights]") {
+  const Plan plan = plan_of(unit_scene(2, 1e-3), 150 * kBlock);
+  const Folder folder;
+  const std::string path = folder.file("store");
+  const auto stored = [&] { return std::filesystem::exists(path) ? Account::of(folder.read("store")) : empty(plan); };
+  std::size_t kills = 0;
+  for (; kills < 5; ++kills) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Account account = stored();
+      int news = 0;
+      run(plan, {.jobs = 2}, account, [&](const Account& so_far) {
+        std::ofstream(path + ".new") << so_far.text();
+        std::filesystem::rename(path + ".new", path);
+        if (++news == 1) kill(getpid(), SIGKILL);
+      });
+      _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+    if (stored().done.size() == plan.blocks()) break;
+  }
+  INFO(kills << " kills before all was done");
+  CHECK(kills > 0);
+  Account account = stored();
+  run(plan, {.jobs = 2}, account);
+  CHECK(account.text() == flown(plan, {.jobs = 2}).text());
+}
+
+TEST_CASE("Where obstacles leave no room there is nowhere to start", "[flights]") {
+  Plan plan = plan_of(unit_scene(2, 0.75), 10'000);
+  CHECK_THROWS_WITH(flown(plan), Catch::Contains("--engine certified"));
+  plan.engine = "certified";
+  CHECK_THROWS_WITH(flown(plan), Catch::Contains("no free start in 100000 draws"));
+}
