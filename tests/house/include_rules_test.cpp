@@ -73,7 +73,7 @@ const std::vector<Room> kHouse{
     {"compare",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "oracle", "oracle/margin", "oracle/walk", "oracle/certified", "oracle/certified_batch"},
-     {"src/exchange", "cases"},
+     {"src/exchange", "cases", "flights/starts"},
      {"fmt/", "fcntl.h process.cpp", "poll.h command_engine.cpp", "signal.h process.cpp",
       "spawn.h process.cpp", "sys/types.h process.hpp", "sys/wait.h process.cpp", "unistd.h process.cpp"}},
     {"golden",
