@@ -8,12 +8,18 @@ namespace lorentz::cases {
 
 /// The parallelepiped that the first lattice's primitive vectors span, so many times each.
 struct Box {
+  static constexpr std::uint64_t kCells = 1000;  ///< of a superposition's, unless told otherwise
+
   int dimension = 0;
   std::array<Vec, 3> vectors{};
   Vec cells{1, 1, 1};
 
   /// One cell of the scene's first lattice.
   static Box cell_of(const Scene& scene) { return {scene.dimension, scene.lattices[0].vectors, {1, 1, 1}}; }
+
+  /// Where starts are drawn: a cell, but of a superposition, which has none of its own, about so many of the
+  /// first lattice. 1000: 40 by 25, or 10 by 10 by 10.
+  static Box of(const Scene& scene, std::uint64_t cells = kCells);
 
   /// Uniform in it, up to rounding.
   Vec point(Random& random) const {

@@ -17,9 +17,12 @@ Vec near_integer_direction(Random& random, int dimension) {
   return v;
 }
 
+namespace {
+
 // In coordinates y in which the obstacle is the unit ball: the normal n of the collision stands at y ~ A^T n,
 // the line passes the centre at the part of y across it, and is moved along that.
-bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
+template <class OffEdge>
+bool move_by(const OffEdge& off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
   oracle::Request request;
   request.detail = true;
   const Answer answer = oracle.first_hit(query, request);
@@ -30,11 +33,23 @@ bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& orac
   if (scene.dimension == 2) y[2] = w[2] = 0;
   const double length = std::sqrt(dot(y, y)), along = dot(y, w) / length / dot(w, w);
   for (int i = 0; i < 3; ++i) y[i] = y[i] / length - along * w[i];
-  const double distance = std::sqrt(dot(y, y));
-  const double off_edge = std::exp2(-10 - 40 * random.uniform()) * (random.bits() & 1 ? 1 : -1);
+  const double distance = std::sqrt(dot(y, y)), place = 1 + off_edge();
   for (int i = 0; i < scene.dimension; ++i)
-    for (int k = 0; k < 3; ++k) query.x[k] += axes[i][k] * y[i] / distance * (1 + off_edge - distance);
+    for (int k = 0; k < 3; ++k) query.x[k] += axes[i][k] * y[i] / distance * (place - distance);
   return std::isfinite(query.x[0] + query.x[1] + query.x[2]) && oracle.is_free(query.x);
+}
+
+}  // namespace
+
+bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
+  const auto off_edge = [&random] {
+    return std::exp2(-10 - 40 * random.uniform()) * (random.bits() & 1 ? 1 : -1);
+  };
+  return move_by(off_edge, scene, oracle, query);
+}
+
+bool move_to_edge(double off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
+  return move_by([off_edge] { return off_edge; }, scene, oracle, query);
 }
 
 }  // namespace lorentz::cases

@@ -16,4 +16,7 @@ Vec near_integer_direction(Random& random, int dimension);
 /// 2^-50 of its size of its edge. False: the start is then in an obstacle, or nothing was hit.
 bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query);
 
+/// The same, beyond the edge by `off_edge` of the obstacle's size; below 0, so that it is met.
+bool move_to_edge(double off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query);
+
 }  // namespace lorentz::cases

@@ -116,6 +116,7 @@ int run(int argc, char** argv) {
   add_compare(app, action);
   add_convergents(app, action);
   add_horizon(app, action);
+  add_sample(app, action);
   add_demo(app, action);
   add_bench(app, action);
   add_scene(app, action);

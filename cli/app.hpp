@@ -13,6 +13,7 @@ void add_first_hit(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_convergents(CLI::App& app, Action& action);
 void add_horizon(CLI::App& app, Action& action);
+void add_sample(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);

@@ -1,9 +1,8 @@
 #include "compare/sampling.hpp"
 
-#include <fmt/format.h>
-
-#include <lorentz/exchange.hpp>
-#include "cases/random.hpp"
+#include <lorentz/errors.hpp>
+#include "cases/box.hpp"
+#include "flights/starts/starts.hpp"
 
 namespace lorentz::compare {
 
@@ -11,26 +10,17 @@ using cases::Random;
 
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
                                 std::size_t count, const Listener& listener) {
-  constexpr int kTries = 10'000;
-  const bool superposition = scene.lattices.size() > 1;
-  const Vec one_cell{1, 1, 1}, box = scene.dimension == 2 ? Vec{40, 25, 0} : Vec{10, 10, 10};
-  const Vec& cells = superposition ? box : one_cell;
+  constexpr std::uint64_t kTries = 10'000;
+  const cases::Box box = cases::Box::of(scene);
   std::vector<Query> queries;
   queries.reserve(count);
   for (std::size_t index = 0; index < count; ++index) {
     Random random(seed, "drawn queries", index);
     Query query;
-    int tries = 0;
+    std::uint64_t tries = 0;
     do {
-      if (++tries > kTries)
-        throw InputError(fmt::format(
-            "no free start in {} draws: the obstacles leave no free part of the cell, or nearly none",
-            kTries));
-      query.x = {};
-      for (int i = 0; i < scene.dimension; ++i) {
-        const double share = cells[i] * random.uniform();
-        for (int k = 0; k < scene.dimension; ++k) query.x[k] += share * scene.lattices[0].vectors[i][k];
-      }
+      if (++tries > kTries) throw InputError(flights::nowhere_to_start(kTries));
+      query.x = box.point(random);
     } while (!oracle.is_free(query.x));
     query.v = random.direction(scene.dimension);
     queries.push_back(query);

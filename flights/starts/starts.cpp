@@ -33,14 +33,6 @@ bool in_range(const Scene& scene, const cases::Box& box) {
 
 }  // namespace
 
-Vec box_sides(std::uint64_t cells, int dimension) {
-  const auto n = static_cast<double>(cells);
-  const auto side = [](double length) { return std::max(1.0, std::round(length)); };
-  if (dimension == 2) return {side(std::sqrt(1.6 * n)), side(std::sqrt(n / 1.6)), 0};
-  const double third = side(std::cbrt(n));
-  return {third, third, third};
-}
-
 std::string nowhere_to_start(std::uint64_t draws) {
   return "no free start in " + std::to_string(draws) +
          " draws: the obstacles leave no free part of the cell, or nearly none";
@@ -50,8 +42,7 @@ Starts::Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::u
     : ensemble_(ensemble),
       seed_(seed),
       in_many_cells_(scene.lattices.size() > 1),
-      box_(cases::Box::cell_of(scene)) {
-  if (in_many_cells_) box_.cells = box_sides(cells, scene.dimension);
+      box_(cases::Box::of(scene, cells)) {
   if (!in_range(scene, box_))
     throw InputError(
         "the scene's numbers are too large for starts to be drawn; choose a larger unit of length");

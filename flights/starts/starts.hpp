@@ -16,26 +16,26 @@ namespace lorentz::flights {
 /// Starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and the index only,
 /// so that any number of threads, shards and machines draws the same, to the bit.
 ///
-/// uniform: the point is uniform in a cell of the first lattice, of a superposition in a box of such cells;
-/// directions are isotropic. surface: the obstacle is chosen by its surface, over all lattices and atoms, and
-/// of a superposition by its place in the box, the point is uniform on its surface, the direction by the
-/// cosine law about the outward normal, and `from` is that obstacle. In equilibrium one ensemble is what
-/// flights find in passing, the other what follows a collision.
+/// uniform: the point is uniform in a cell of the first lattice, of a superposition in a box of many such
+/// cells; directions are isotropic. surface: an obstacle is chosen by its surface, over all lattices and
+/// atoms, of a superposition also its cell among those around the box; the point is uniform on its surface,
+/// the direction by the cosine law about the outward normal, and `from` is that obstacle. These are the two
+/// measures of a gas in equilibrium: at any moment, and after a collision.
 ///
-/// The points are those of a box that a superposition does not repeat itself in. Near obstacles much smaller
-/// than the cell, free paths may be as long as a box is wide: of incommensurate lattices take a wider one.
+/// A box stands for all of a superposition. Lattices without a common period look different from cell to
+/// cell, and obstacles of radius r are told apart only where relative places are: the fewer cells a box has,
+/// the coarser. At r = 1e-4 of the spacing 10^8 cells give the limit law.
 ///
-/// Units: lengths are the scene's; velocities have length 1 up to rounding. Throws nothing but what is said,
-/// allocates nothing where nothing grows, and may be shared by threads.
+/// Units: lengths are the scene's; velocities have length 1 up to rounding. `draw` throws nothing, allocates
+/// nothing where nothing grows, and may be called by any number of threads.
 class Starts {
  public:
-  static constexpr std::uint64_t kCells = 1000;  ///< of a superposition's box, unless told otherwise
   static constexpr std::uint64_t kMostAttempts = 100'000;  ///< that are worth a try
 
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). `cells`: about
   /// how many cells of the first lattice the box of a superposition has, 1 to 2^40. Throws InputError if
   /// the scene's numbers are so large or small that no starts can be drawn in binary64.
-  Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells = kCells);
+  Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells = cases::Box::kCells);
 
   /// Candidate number `attempt` (0, 1, ..) of start `index`. It may lie inside an obstacle: who flies it sees
   /// the outcome `inside`, and draws the next one; after kMostAttempts of them there is nowhere_to_start().
@@ -80,9 +80,6 @@ class Starts {
   std::vector<Obstacle> obstacles_;  ///< of `surface`
   std::vector<Cells> lattices_;
 };
-
-/// The box of about so many cells: its sides, in cells. Of 1000: 40 and 25, or 10, 10 and 10.
-Vec box_sides(std::uint64_t cells, int dimension);
 
 /// What to say when `draws` candidates of one start were all inside obstacles.
 std::string nowhere_to_start(std::uint64_t draws);

@@ -56,7 +56,11 @@ class CsvQueryReader final : public ColumnReader {
 /// All columns that queries can have.
 std::vector<std::string> csv_query_columns(int dimension);
 
-/// The line of names.
+/// The line of names of queries, without ids and limits; and queries, a line each.
+void append_csv_query_names(std::string& out, int dimension, bool with_from);
+void append_csv_queries(std::string& out, const QueryRows& queries, int dimension);
+
+/// The line of names of answers.
 void append_csv_names(std::string& out, int dimension, bool with_ids);
 
 /// Answers, a line each; the ids are those of the queries.

@@ -52,6 +52,39 @@ void append_time(std::string& out, double time) {
 
 }  // namespace
 
+void append_csv_query_names(std::string& out, int dimension, bool with_from) {
+  const auto append = [&](const std::string& name) {
+    for (int k = 1; k <= dimension; ++k) out += name + std::to_string(k) + ',';
+  };
+  append("x"), append("v");
+  if (with_from) {
+    out += "from_lattice,from_atom,";
+    append("from_cell");
+  }
+  out.back() = '\n';
+}
+
+void append_csv_queries(std::string& out, const QueryRows& queries, int dimension) {
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    for (const auto* vector : {&queries.x, &queries.v})
+      for (int k = 0; k < dimension; ++k) {
+        append_number(out, (*vector)[k][i]);
+        out += ',';
+      }
+    if (!queries.from_lattice.empty()) {
+      append_int(out, queries.from_lattice[i]);
+      out += ',';
+      append_int(out, queries.from_atom[i]);
+      for (int k = 0; k < dimension; ++k) {
+        out += ',';
+        append_int(out, queries.from_cell[k][i]);
+      }
+      out += ',';
+    }
+    out.back() = '\n';
+  }
+}
+
 void append_csv_names(std::string& out, int dimension, bool with_ids) {
   if (with_ids) out += "id,";
   out += "outcome,lattice,atom,";

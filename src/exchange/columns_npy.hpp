@@ -61,6 +61,13 @@ class NpyQueryReader final : public ColumnReader {
   std::vector<char> all_;               // of columns in a pipe
 };
 
+/// The header of an array of so many queries without limits: of numbers, or of fields if they leave
+/// obstacles.
+std::string npy_query_header(std::uint64_t count, int dimension, bool with_from);
+
+/// Their elements.
+void append_npy_queries(std::string& out, const QueryRows& queries, int dimension);
+
 /// The header of an array of so many answers.
 std::string npy_answer_header(std::uint64_t count, int dimension);
 

@@ -35,6 +35,31 @@ void put_all(char* out, const AnswerRows& answers) {
 
 }  // namespace
 
+std::string npy_query_header(std::uint64_t count, int dimension, bool with_from) {
+  const std::string n = std::to_string(count), d = "(" + std::to_string(dimension) + ",)";
+  if (!with_from) return npy_header("'<f8'", "(" + n + ", " + std::to_string(2 * dimension) + ")");
+  return npy_header("[('x', '<f8', " + d + "), ('v', '<f8', " + d +
+                        "), ('from_lattice', '<i4'), ('from_atom', '<i4'), ('from_cell', '<i8', " + d + ")]",
+                    "(" + n + ",)");
+}
+
+void append_npy_queries(std::string& out, const QueryRows& queries, int dimension) {
+  const bool with_from = !queries.from_lattice.empty();
+  const std::size_t vectors = with_from ? 3 : 2;
+  const std::size_t row = 8 * vectors * static_cast<std::size_t>(dimension) + (with_from ? 8 : 0);
+  const std::size_t before = out.size();
+  out.resize(before + row * queries.count);
+  char* end = out.data() + before;
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    for (const auto* vector : {&queries.x, &queries.v})
+      for (int k = 0; k < dimension; ++k) end = put(end, (*vector)[k][i]);
+    if (!with_from) continue;
+    end = put(end, queries.from_lattice[i]);
+    end = put(end, queries.from_atom[i]);
+    for (int k = 0; k < dimension; ++k) end = put(end, queries.from_cell[k][i]);
+  }
+}
+
 std::string npy_answer_header(std::uint64_t count, int dimension) {
   return npy_header(
       "[('outcome', '|u1'), ('stage', '|u1'), ('time_is_rounded', '|b1'), ('lattice', '<i4'), "

@@ -1,0 +1,159 @@
+// lorentz sample: drawn starts, as a query stream or in columns.
+#include <algorithm>
+
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/nearest_name.hpp"
+#include "cli/numbers.hpp"
+#include "cli/output.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/terminal.hpp"
+#include "compare/sampling.hpp"
+#include "flights/sample/free_starts.hpp"
+#include "src/exchange/columns_csv.hpp"
+#include "src/exchange/columns_npy.hpp"
+
+namespace lorentz::cli {
+
+using flights::FreeStarts;
+using flights::Kind;
+
+namespace {
+
+struct Options {
+  std::string scene = "square", kind = "uniform", count = "1000", format = "ndjson";
+  std::string seed = std::to_string(compare::kDefaultSeed);
+  std::optional<std::string> radius;
+  bool strict = false;
+};
+
+enum class Format { ndjson, csv, npy };
+
+// Which of the names it is.
+std::size_t choice(const std::string& given, const char* option, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), given);
+  if (found == names.end())
+    throw InputError(fmt::format("{}: {} is none{}; there are {}", option, json_quoted(given),
+                                 did_you_mean(given, names), fmt::join(names, ", ")));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+// What was asked for, understood.
+struct Order {
+  Scene scene;
+  Kind kind;
+  Format format;
+  std::uint64_t count, seed;
+
+  bool leaves_obstacles() const { return kind == Kind::surface; }
+};
+
+Order order_of(const Options& options) {
+  const auto kind = static_cast<Kind>(choice(options.kind, "--kind", flights::kind_names()));
+  const auto format = static_cast<Format>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
+  const std::uint64_t count = whole_number(options.count, "--count", 1, 1'000'000'000'000);
+  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  return {load_scene(options.scene, radius, unknown), kind, format, count, seed};
+}
+
+void append(QueryRows& rows, const Query& query, const Order& order) {
+  ++rows.count;
+  for (int k = 0; k < order.scene.dimension; ++k) {
+    rows.x[k].push_back(query.x[k]);
+    rows.v[k].push_back(query.v[k]);
+  }
+  if (!order.leaves_obstacles()) return;
+  rows.from_lattice.push_back(query.from->lattice);
+  rows.from_atom.push_back(query.from->atom);
+  for (int k = 0; k < order.scene.dimension; ++k) rows.from_cell[k].push_back(query.from->cell[k].int64());
+}
+
+void append_front(std::string& out, const Order& order) {
+  const int d = order.scene.dimension;
+  switch (order.format) {
+    case Format::ndjson:
+      return append_scene_line(out, order.scene);
+    case Format::csv:
+      return append_csv_query_names(out, d, order.leaves_obstacles());
+    case Format::npy:
+      out += npy_query_header(order.count, d, order.leaves_obstacles());
+  }
+}
+
+void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, const Order& order) {
+  const int d = order.scene.dimension;
+  switch (order.format) {
+    case Format::ndjson:
+      for (std::size_t i = 0; i < rows.count; ++i)
+        append_query_line(out, std::to_string(first + i), rows.query(i, d), d);
+      return;
+    case Format::csv:
+      return append_csv_queries(out, rows, d);
+    case Format::npy:
+      return append_npy_queries(out, rows, d);
+  }
+}
+
+int act(const Options& options) {
+  constexpr std::uint64_t kRowsTogether = 1024;
+  const Order order = order_of(options);
+  const FreeStarts starts(order.scene, order.kind, order.seed);
+  const compare::Listener listener = terminal();
+  Output output;
+  QueryRows rows;
+  Query start;
+  append_front(output.buffer(), order);
+  for (std::uint64_t first = 0; first < order.count; first += rows.count) {
+    rows.clear();
+    for (std::uint64_t i = first; i < std::min(first + kRowsTogether, order.count); ++i) {
+      starts.draw(i, start);
+      append(rows, start, order);
+    }
+    append_rows(output.buffer(), rows, first, order);
+    output.flush_if_due();
+    report(listener, "drawing", first + rows.count, order.count);
+  }
+  output.flush();
+  say("{}: {} {} starts (seed {})", options.scene, order.count, options.kind, order.seed);
+  return kDone;
+}
+
+}  // namespace
+
+void add_sample(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("sample", "Drawn starts of flights: a query stream for first-hit, or columns.");
+  command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue")
+      ->capture_default_str();
+  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  command
+      ->add_option("--kind", options->kind,
+                   "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
+                   "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
+                   "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40")
+      ->capture_default_str()
+      ->type_name("KIND");
+  command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
+  command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
+  command
+      ->add_option("--format", options->format,
+                   "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
+                   "(docs/formats.md), which first-hit reads with --scene")
+      ->capture_default_str()
+      ->type_name("FORMAT");
+  command->add_flag("--strict", options->strict, kStrictKeysHelp);
+  command->footer(
+      "No start lies in an obstacle (but the one it leaves): that is decided exactly. The first N starts of "
+      "a "
+      "seed are the same whatever --count.\n"
+      "Examples:\n  lorentz sample --scene triangular --count 100 | lorentz first-hit --engine certified\n  "
+      "lorentz sample --kind surface --radius 0.2 --format npy > starts.npy");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli
