@@ -37,16 +37,16 @@ struct Range {
   double decades() const { return std::log10(high / low); }
   bool holds(double x) const { return x >= low * (1 - 1e-12) && x <= high * (1 + 1e-12); }
 
-  // Ends at a tick (1, 2 or 5 times a power of ten), and so that no point is on the frame.
+  // Ends at a digit times a power of ten, and so that no point is on the frame.
   void round() {
-    low = tick_below(low / 1.02);
-    high = 1 / tick_below(1 / (high * 1.02));
+    low = rounded(low / 1.02, [](double digits) { return std::floor(digits); });
+    high = rounded(high * 1.02, [](double digits) { return std::ceil(digits); });
   }
 
  private:
-  static double tick_below(double x) {
+  static double rounded(double x, double (*whole)(double)) {
     const double decade = std::pow(10, std::floor(std::log10(x)));
-    return decade * (x >= 5 * decade ? 5 : x >= 2 * decade ? 2 : 1);
+    return decade * whole(x / decade);
   }
 };
 
@@ -61,7 +61,12 @@ struct Frame {
 };
 
 bool can_be_shown(const MeasuredPoint& point) {
-  return point.t > 0 && point.value > 0 && std::isfinite(point.t) && std::isfinite(point.value);
+  return point.t > 0 && point.value > 0 && std::isfinite(point.t) && std::isfinite(point.value) &&
+         std::isfinite(point.error);
+}
+
+bool can_be_shown(const Point& point) {
+  return point.x > 0 && point.y > 0 && std::isfinite(point.x) && std::isfinite(point.y);
 }
 
 // Measured points have to be seen, curves only where there are points, and somewhat beyond.
@@ -77,7 +82,7 @@ void set_ranges(const FreePathPlot& plot, Frame& frame) {
   if (frame.t.empty())
     for (const PlotCurve& curve : plot.curves)
       for (const Point& point : curve.points)
-        if (point.x > 0 && point.y > 0) {
+        if (can_be_shown(point)) {
           frame.t.include(point.x);
           frame.value.include(point.y);
         }
@@ -196,29 +201,54 @@ std::string style_of(const PlotCurve& curve) {
 void add_curve(Svg& svg, const Frame& frame, const PlotCurve& curve) {
   std::vector<Point> line;
   for (const Point& point : curve.points)
-    if (point.x > 0 && point.y > 0) line.push_back(frame(point.x, point.y));
+    if (can_be_shown(point)) line.push_back(frame(point.x, point.y));
   svg.polyline(line, style_of(curve) + " clip-path=\"url(#frame)\"");
 }
 
 constexpr double kMargin = 14, kRow = 27;
 
-std::size_t legend_rows(const FreePathPlot& plot) {
-  const auto named = std::count_if(plot.curves.begin(), plot.curves.end(),
-                                   [](const PlotCurve& curve) { return !curve.name.empty(); });
-  return plot.series.size() + static_cast<std::size_t>(named);
+struct Box {
+  Point low, high;  // in pixels
+};
+
+std::size_t points_in(const Box& box, const Frame& frame, const FreePathPlot& plot) {
+  std::size_t count = 0;
+  for (const PlotSeries& series : plot.series)
+    for (const MeasuredPoint& point : series.points) {
+      if (!can_be_shown(point)) continue;
+      const Point at = frame(point.t, point.value);
+      count += at.x > box.low.x - 8 && at.x < box.high.x + 8 && at.y > box.low.y - 8 && at.y < box.high.y + 8;
+    }
+  return count;
 }
 
-// At the lower left, where survivals and densities leave room; wherever it is, the grid shines through.
-void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
-  std::size_t longest = 0;
+// In the corner where it hides the fewest points, which are drawn beneath it.
+Box legend_box(const Frame& frame, const FreePathPlot& plot) {
+  std::size_t longest = 0, rows = plot.series.size();
   for (const PlotSeries& series : plot.series) longest = std::max(longest, letters_in(series.name));
-  for (const PlotCurve& curve : plot.curves) longest = std::max(longest, letters_in(curve.name));
-  const double height = kRow * static_cast<double>(legend_rows(plot)) + 10, left = frame.left + 22,
-               top = frame.bottom - 18 - height,
-               right = left + 66 + kAdvance * kLetters * static_cast<double>(longest);
-  svg.polygon({{left, top}, {right, top}, {right, top + height}, {left, top + height}},
+  for (const PlotCurve& curve : plot.curves) {
+    longest = std::max(longest, letters_in(curve.name));
+    rows += !curve.name.empty();
+  }
+  const double height = kRow * static_cast<double>(rows) + 10,
+               width = 66 + kAdvance * kLetters * static_cast<double>(longest), gap = 16,
+               left = frame.left + gap, right = frame.right - gap - width, up = frame.top + gap,
+               down = frame.bottom - gap - height;
+  const Point corners[] = {{left, down}, {right, up}, {left, up}, {right, down}};
+  const auto hidden = [&](const Point& corner) {
+    return points_in({corner, {corner.x + width, corner.y + height}}, frame, plot);
+  };
+  const Point best = *std::min_element(std::begin(corners), std::end(corners),
+                                       [&](const Point& a, const Point& b) { return hidden(a) < hidden(b); });
+  return {best, {best.x + width, best.y + height}};
+}
+
+void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
+  const Box box = legend_box(frame, plot);
+  const double left = box.low.x;
+  svg.polygon({box.low, {box.high.x, box.low.y}, box.high, {left, box.high.y}},
               "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
-  double y = top + 5 + kRow / 2;
+  double y = box.low.y + 5 + kRow / 2;
   const auto label = [&](const std::string& words) {
     svg.text({left + 56, y + 7}, words);
     y += kRow;
@@ -232,6 +262,12 @@ void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
     svg.polyline({{left + 10, y}, {left + 46, y}}, style_of(curve));
     label(curve.name);
   }
+}
+
+// In letters so small that it fits.
+void add_line(Svg& svg, Point at, const std::string& words, double size, double room, const char* style) {
+  const double fits = room / (kAdvance * static_cast<double>(std::max<std::size_t>(1, letters_in(words))));
+  svg.text(at, words, fmt::format("font-size=\"{:.1f}\" {}", std::min(size, fits), style));
 }
 
 }  // namespace
@@ -253,9 +289,11 @@ std::string draw_free_paths(const FreePathPlot& plot) {
   for (const PlotCurve& curve : plot.curves) add_curve(svg, frame, curve);
   for (std::size_t i = 0; i < plot.series.size(); ++i) add_series(svg, frame, plot.series[i], i);
   add_legend(svg, frame, plot);
-  if (!plot.title.empty()) svg.text({frame.left, 33}, plot.title, "font-size=\"22\" font-weight=\"bold\"");
+  if (!plot.title.empty())
+    add_line(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
   if (!plot.note.empty())
-    svg.text({kMargin, plot.height - kMargin}, plot.note, "fill=\"#444444\" font-size=\"17\"");
+    add_line(svg, {kMargin, plot.height - kMargin}, plot.note, 17, plot.width - 2 * kMargin,
+             "fill=\"#444444\"");
   svg.close();
   return svg.document(plot.width, plot.height, plot.title);
 }

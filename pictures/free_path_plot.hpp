@@ -8,8 +8,8 @@
 
 namespace lorentz::pictures {
 
-/// A measured value with its standard error. What is not above 0 cannot be shown and is left out; an error
-/// bar that reaches down to 0 goes down to the edge of the picture.
+/// A measured value with its standard error. What is not finite and above 0 cannot be shown and is left out;
+/// an error bar that reaches down to 0 goes down to the edge of the picture.
 struct MeasuredPoint {
   double t = 0, value = 0, error = 0;
 };

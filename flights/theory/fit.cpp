@@ -1,9 +1,11 @@
 #include "flights/theory/fit.hpp"
 
 #include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -55,6 +57,18 @@ std::vector<Bin> merged(std::span<const double> edges, std::span<const std::uint
   return bins;
 }
 
+// Does the survival fall from 1 to 0, up to rounding? Else some bin has a chance below 0, which merging may
+// hide.
+bool is_law(std::span<const double> edges, const std::function<double(double)>& survival) {
+  double before = 1;
+  for (const double edge : edges) {
+    const double now = survival(edge);
+    if (!(now >= 0 && now <= before * (1 + 1e-12))) return false;
+    before = now;
+  }
+  return true;
+}
+
 double statistic_of(const Bin& bin) {
   const double off = static_cast<double>(bin.count) - bin.expected;
   if (bin.expected > 0) return off * off / bin.expected;
@@ -76,6 +90,7 @@ ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint6
     if (statistic_of(bin) > statistic_of(*worst)) worst = &bin;
   }
   result.degrees = static_cast<int>(bins.size()) - 1;
+  if (!is_law(edges, survival)) result.statistic = kInfinity;
   result.worst_from = worst->from;
   result.worst_to = worst->to;
   result.worst_count = worst->count;
@@ -139,50 +154,69 @@ class BinnedTail {
   std::uint64_t total_ = 0;
 };
 
-// Where a function that falls through 0 between `low` and `high` does so.
-double zero_of(const std::function<double(double)>& falling, double low, double high) {
-  for (int step = 0; step < 200 && high - low > 1e-14 * high; ++step) {
-    const double middle = (low + high) / 2;
-    (falling(middle) > 0 ? low : high) = middle;
-  }
-  return (low + high) / 2;
+// Where a function changes sign between `low` and `high`, to 13 digits.
+double zero_of(const std::function<double(double)>& f, double low, double high) {
+  std::uintmax_t steps = 200;
+  const auto [below, above] =
+      boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<double>(44), steps);
+  return (below + above) / 2;
 }
 
-constexpr double kSteepest = 1000;  // no tail falls like t^-1000
+// Tails fall like t^-(1 + a), a in this range. (Beyond it a is not to be had from counts.)
+constexpr double kFlattest = 1e-6, kSteepest = 1000;
 constexpr std::size_t kLeastBins = 3;
+
+// The a of largest likelihood, or nothing.
+std::optional<double> best_power(const BinnedTail& tail) {
+  const auto slope = [&](double a) { return tail.slope(a); };
+  if (tail.total() == 0 || !(slope(kFlattest) > 0) || !(slope(kSteepest) < 0)) return std::nullopt;
+  double high = 1;  // a bracket of a factor of 2
+  while (slope(high) > 0) high *= 2;
+  while (high > kFlattest && slope(high / 2) < 0) high /= 2;
+  return zero_of(slope, high / 2, high);
+}
+
+std::size_t bins_from(std::size_t first, std::span<const double> edges) {
+  return first < edges.size() ? edges.size() - 1 - first : 0;
+}
 
 }  // namespace
 
 std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<const double> edges,
                                                std::span<const std::uint64_t> counts) {
   check(edges, counts);
-  if (first + kLeastBins >= edges.size()) return std::nullopt;
+  if (bins_from(first, edges) < kLeastBins) return std::nullopt;
   const BinnedTail tail(first, edges, counts);
-  const bool falls = tail.total() > 0 && tail.slope(1e-6) > 0 && tail.slope(kSteepest) < 0;
-  if (!falls) return std::nullopt;
-  const double a = zero_of([&](double x) { return tail.slope(x); }, 1e-6, kSteepest);
-  // The likelihood that is e^(-1.92..) of the largest: half the 95 % point of chi-squared with one degree.
-  const double least = tail.log_likelihood(a) - 1.9207294103470620;
+  const std::optional<double> a = best_power(tail);
+  if (!a) return std::nullopt;
+  // Where the likelihood is e^(-1.92..) of the largest: half the 95 % point of chi-squared with one degree.
+  const double least = tail.log_likelihood(*a) - 1.9207294103470620;
+  const auto likely = [&](double x) { return tail.log_likelihood(x) - least; };
   TailExponent result;
-  result.exponent = a + 1;
-  result.low = 1 + zero_of([&](double x) { return least - tail.log_likelihood(x); }, 1e-6, a);
-  result.high = 1 + zero_of([&](double x) { return tail.log_likelihood(x) - least; }, a, kSteepest);
+  result.exponent = 1 + *a;
+  result.low = likely(kFlattest) < 0 ? 1 + zero_of(likely, kFlattest, *a) : 1;
+  result.high = likely(kSteepest) < 0 ? 1 + zero_of(likely, *a, kSteepest) : kInfinity;
   result.from = edges[first];
   result.to = edges.back();
   result.count = tail.total();
-  result.distance = tail.distance(a);
+  result.distance = tail.distance(*a);
   return result;
 }
 
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t least_count) {
   check(edges, counts);
-  std::optional<TailExponent> best;
-  for (std::size_t first = 0; first < edges.size(); ++first) {
-    const auto tail = tail_exponent_from(first, edges, counts);
-    if (tail && tail->count >= least_count && (!best || tail->distance < best->distance)) best = tail;
+  std::optional<std::size_t> best;
+  double least_distance = kInfinity;
+  for (std::size_t first = 0; bins_from(first, edges) >= kLeastBins; ++first) {
+    const BinnedTail tail(first, edges, counts);
+    if (tail.total() < least_count) break;
+    const std::optional<double> a = best_power(tail);
+    if (!a || !(tail.distance(*a) < least_distance)) continue;
+    least_distance = tail.distance(*a);
+    best = first;
   }
-  return best;
+  return best ? tail_exponent_from(*best, edges, counts) : std::nullopt;
 }
 
 }  // namespace lorentz::flights

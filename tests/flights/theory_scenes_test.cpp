@@ -1,0 +1,325 @@
+// What theory says of scenes: against closed forms, counting, and the oracle's channels.
+#include "flights/theory/corridor_sum.hpp"
+#include "flights/theory/incommensurate.hpp"
+#include "flights/theory/laws.hpp"
+#include "flights/theory/limit_law.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include <lorentz/geometry.hpp>
+#include <lorentz/horizon.hpp>
+#include "cases/random.hpp"
+#include "src/problem/scene_geometry.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::flights;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Lattice turned(Lattice lattice, double angle, double factor = 1) {
+  for (Vec& u : lattice.vectors)
+    u = {factor * (std::cos(angle) * u[0] - std::sin(angle) * u[1]),
+         factor * (std::sin(angle) * u[0] + std::cos(angle) * u[1]), u[2]};
+  return lattice;
+}
+
+// Square lattices, each turned by its angle.
+Scene turned_squares(double radius, const std::vector<double>& angles) {
+  Scene scene = unit_scene(2, radius);
+  const Lattice square = scene.lattices[0];
+  scene.lattices.clear();
+  for (const double angle : angles) scene.lattices.push_back(turned(square, angle));
+  return scene;
+}
+
+const Tail* tail_when(const std::vector<Tail>& tails, const std::string& when) {
+  for (const Tail& tail : tails)
+    if (tail.when == when) return &tail;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("Laws: one lattice of discs, in any cell", "[flights][laws]") {
+  const Scene scene = test::one_atom(2, {{{2, 0, 0}, {0.5, 1.5, 0}}}, 0.003);  // area 3
+  for (const auto ensemble : {Ensemble::uniform, Ensemble::surface}) {
+    const Laws laws = laws_of(scene, ensemble);
+    REQUIRE(laws.laws.size() == 1);
+    CHECK(laws.none.empty());
+    CHECK(laws.laws[0].when == "r -> 0");
+    CHECK(laws.laws[0].scale == Approx(500));
+    for (const double s : {0.3, 1.7, 12.0})
+      CHECK(laws.laws[0].survival(500 * s) == Approx(ensemble == Ensemble::uniform
+                                                         ? limit_survival_from_uniform(s)
+                                                         : limit_survival_from_surface(s))
+                                                  .epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Laws: superposed lattices", "[flights][laws]") {
+  Scene scene = turned_squares(1e-4, {0, kPi / 5, kPi / 7});
+  const Laws uniform = laws_of(scene, Ensemble::uniform);
+  REQUIRE(uniform.laws.size() == 1);
+  CHECK(uniform.laws[0].survival(5000) == Approx(0.028084).epsilon(1e-4));
+  scene.lattices[1].atoms[0].radius = 3e-4;
+  scene.lattices[2] = turned(scene.lattices[2], 0, 1.7);
+  const Law from_uniform = laws_of(scene, Ensemble::uniform).laws[0],
+            from_surface = laws_of(scene, Ensemble::surface).laws[0];
+  const double mean = 1 / (2e-4 + 6e-4 + 2e-4 / (1.7 * 1.7));
+  CHECK(from_uniform.scale == Approx(mean));
+  // The density from a uniform start is the survival from collisions over their mean.
+  for (const double t : {10.0, 700.0, 1500.0, 4000.0, 20'000.0}) {
+    INFO("t = " << t);
+    const double step = 1e-4 * t,
+                 density = (from_uniform.survival(t - step) - from_uniform.survival(t + step)) / (2 * step);
+    CHECK(density == Approx(from_surface.survival(t) / mean).epsilon(1e-6));
+  }
+  CHECK(from_surface.survival(0) == Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("Laws: ellipses, as discs of another lattice seen in another light", "[flights][laws]") {
+  // Almost round: the disc's law. Ellipses as wide as they are long across a direction: its mean width.
+  Scene round = unit_scene(2, 0.001), nearly = round;
+  nearly.lattices[0].atoms[0] = {{}, 0, {{0.001, 0, 0}, {0, 0.001 * (1 + 1e-9), 0}}};
+  for (const auto ensemble : {Ensemble::uniform, Ensemble::surface})
+    for (const double t : {100.0, 800.0, 3000.0})
+      CHECK(laws_of(nearly, ensemble).laws[0].survival(t) ==
+            Approx(laws_of(round, ensemble).laws[0].survival(t)).epsilon(1e-8));
+  // Mean width is perimeter over pi, so that the mean is Santalo's.
+  Scene slender = unit_scene(2, 1);
+  slender.lattices[0].atoms[0] = {{}, 0, {{0.003, 0.001, 0}, {-0.0002, 0.0006, 0}}};
+  CHECK(laws_of(slender, Ensemble::uniform).laws[0].scale ==
+        Approx(kPi / surface_of(slender.lattices[0].atoms[0], 2)).epsilon(1e-9));
+}
+
+TEST_CASE("Laws: none where none is known, and why", "[flights][laws]") {
+  const auto reason = [](const Scene& scene) {
+    const Laws laws = laws_of(scene, Ensemble::uniform);
+    CHECK(laws.laws.empty());
+    return laws.none;
+  };
+  CHECK(reason(unit_scene(3, 0.1)).find("3D") != std::string::npos);
+  CHECK(reason(test::all_scenes().at("honeycomb")).find("several obstacles") != std::string::npos);
+  for (const double angle : {std::atan(0.75), std::atan(5 / 12.0), kPi / 4, 0.0, kPi / 2})
+    CHECK(reason(turned_squares(1e-4, {0, angle})).find("commensurable") != std::string::npos);
+}
+
+TEST_CASE("Commensurable lattices: by small integers, whatever the size", "[flights][laws]") {
+  const Lattice square = unit_scene(2, 0.1).lattices[0];
+  // Turns whose tangent is rational, and any factor besides.
+  CHECK(commensurable(square, turned(square, std::atan(0.75), 1.234567), 2));
+  CHECK(commensurable(turned(square, 0.3), turned(square, 0.3 + std::atan(17 / 23.0)), 2));
+  CHECK(commensurable(square, turned(square, 0, std::sqrt(2)), 2));
+  CHECK(commensurable(square, turned(square, std::atan(1 / 997.0)), 2));
+  CHECK_FALSE(commensurable(square, turned(square, std::atan(1 / 1009.0)), 2));  // beyond what is tried
+  CHECK_FALSE(commensurable(square, turned(square, kPi / 5), 2));
+  CHECK_FALSE(commensurable(square, turned(square, kPi / 7), 2));
+  Lattice rectangle = square, triangular = square;
+  rectangle.vectors[1][1] = std::sqrt(2);
+  triangular.vectors[1] = {0.5, std::sqrt(3) / 2, 0};
+  CHECK_FALSE(commensurable(square, rectangle, 2));
+  CHECK_FALSE(commensurable(square, triangular, 2));
+  CHECK(commensurable(triangular, turned(triangular, kPi / 2, std::sqrt(3)), 2));
+  // Lattices drawn at random; the seed is 5.
+  test::Draw draw(5);
+  int found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Lattice a = square, b = square;
+    for (int k = 0; k < 2; ++k) a.vectors[k] = draw.vec(2, -1, 1), b.vectors[k] = draw.vec(2, -1, 1);
+    found += commensurable(a, b, 2);
+  }
+  CHECK(found == 0);
+}
+
+TEST_CASE("Independent lattices: no reciprocal vectors add up", "[flights][mean]") {
+  CHECK(independent(turned_squares(0.1, {0, kPi / 5, kPi / 7})));
+  CHECK_FALSE(independent(turned_squares(0.1, {0, std::atan(0.75)})));
+  // Shares the planes x = const with the square: incommensurable, but not independent.
+  Scene columns = turned_squares(0.1, {0, 0});
+  columns.lattices[1].vectors[1][1] = std::sqrt(2);
+  CHECK_FALSE(commensurable(columns.lattices[0], columns.lattices[1], 2));
+  CHECK_FALSE(independent(columns));
+  // Three of which no two share anything, but k1 + k2 = k3.
+  Scene three = turned_squares(0.1, {0, 0.7, 0});
+  three.lattices[1] = turned(three.lattices[0], 0.7, 1.3);
+  const double c = std::cos(0.7) / 1.3, s = std::sin(0.7) / 1.3;
+  // Reciprocal: (1 + c, s) and one more; u1 . k = 1, and u2 along the planes of k.
+  const Vec k{1 + c, s, 0};
+  const double k2 = k[0] * k[0] + k[1] * k[1];
+  three.lattices[2].vectors = {{{k[0] / k2, k[1] / k2, 0}, {-0.8123 * k[1], 0.8123 * k[0], 0}}};
+  for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+    CHECK(independent({2, {three.lattices[a], three.lattices[b]}}));
+  CHECK_FALSE(independent(three));
+  Scene cubes = unit_scene(3, 0.1);
+  cubes.lattices.push_back(turned(cubes.lattices[0], kPi / 5));  // about the z axis: shares its planes
+  CHECK_FALSE(independent(cubes));
+}
+
+TEST_CASE("Mean free path: by Santalo's formula where obstacles don't overlap", "[flights][mean]") {
+  CHECK(mean_free_path_of(unit_scene(2, 0.2)).value == Approx((1 - kPi * 0.04) / 0.4).epsilon(1e-14));
+  CHECK(mean_free_path_of(unit_scene(3, 0.3)).value ==
+        Approx((1 - 4 * kPi * 0.027 / 3) / (kPi * 0.09)).epsilon(1e-14));
+  const auto scenes = test::all_scenes();
+  for (const char* name : {"overlapping", "overlapping-3d"}) {
+    const MeanFreePath mean = mean_free_path_of(scenes.at(name));
+    CHECK_FALSE(mean.value);
+    CHECK(mean.how.find("overlap") != std::string::npos);
+  }
+  // Two lattices that keep step: no overlap, so plain Santalo; then with one.
+  Scene two = turned_squares(0.2, {0, 0});
+  two.lattices[1].atoms[0].position = {0.5, 0.5, 0};
+  CHECK(mean_free_path_of(two).value == Approx(kPi * (1 - 2 * kPi * 0.04) / (2 * kPi * 0.4)).epsilon(1e-14));
+  two = test::with_radius(two, 0.4);
+  CHECK_FALSE(mean_free_path_of(two).value);
+}
+
+namespace {
+
+// Is the point inside an obstacle of this lattice, which has one of at most half a cell each way?
+bool is_shut(const Lattice& lattice, const Vec& x) {
+  const Atom& atom = lattice.atoms[0];
+  const Vec y = sum(x, scaled(atom.position, -1)), n = coordinates(dual_of(lattice.vectors, 2), y);
+  const auto shape = dual_of(semiaxes_of(atom, 2), 2);
+  for (int i = -1; i <= 1; ++i)
+    for (int k = -1; k <= 1; ++k) {
+      const Vec z = coordinates(shape, sum(y, sum(scaled(lattice.vectors[0], i - std::round(n[0])),
+                                                  scaled(lattice.vectors[1], k - std::round(n[1])))));
+      if (z[0] * z[0] + z[1] * z[1] < 1) return true;
+    }
+  return false;
+}
+
+constexpr std::size_t kNone = 99;
+
+bool is_free(const Scene& scene, const Vec& x, std::size_t but = kNone) {
+  for (std::size_t l = 0; l < scene.lattices.size(); ++l)
+    if (l != but && is_shut(scene.lattices[l], x)) return false;
+  return true;
+}
+
+struct Counted {
+  double value, error2;
+};
+
+constexpr int kPoints = 400'000;
+
+Counted free_share(const Scene& scene, cases::Random& random) {
+  int free_points = 0;
+  for (int i = 0; i < kPoints; ++i)
+    free_points += is_free(scene, {random.between(-1e5, 1e5), random.between(-1e5, 1e5), 0});
+  const double share = static_cast<double>(free_points) / kPoints;
+  return {share, share * (1 - share) / kPoints};
+}
+
+// The perimeter of one lattice's obstacles, a cell, that the others leave free.
+Counted free_surface(const Scene& scene, std::size_t l, cases::Random& random) {
+  const Lattice& lattice = scene.lattices[l];
+  const auto axes = semiaxes_of(lattice.atoms[0], 2);
+  double length = 0, length2 = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * kPi * random.uniform(), c = std::cos(angle), s = std::sin(angle);
+    Vec x = sum(lattice.atoms[0].position, sum(scaled(axes[0], c), scaled(axes[1], s)));
+    for (int k = 0; k < 2; ++k)
+      x = sum(x, scaled(lattice.vectors[k], static_cast<double>(random.integer(-100'000, 100'000))));
+    const Vec along = sum(scaled(axes[0], -s), scaled(axes[1], c));
+    const double weight = is_free(scene, x, l) ? 2 * kPi * std::sqrt(dot(along, along)) : 0;
+    length += weight;
+    length2 += weight * weight;
+  }
+  length /= kPoints;
+  return {length, (length2 / kPoints - length * length) / kPoints};
+}
+
+}  // namespace
+
+TEST_CASE("Mean free path: superposed lattices, by counting what is free", "[flights][mean]") {
+  Scene scene = turned_squares(0.2, {0, kPi / 5, kPi / 7});  // cells of area 1
+  scene.lattices[1].atoms[0].radius = 0.3;
+  scene.lattices[2].atoms[0] = {{0.1, 0.3, 0}, 0, {{0.4, 0, 0}, {0, 0.1, 0}}};
+  const MeanFreePath mean = mean_free_path_of(scene);
+  REQUIRE(mean.value);
+  cases::Random random(20261122, "superposed", 0);
+  const Counted share = free_share(scene, random);
+  Counted surface{0, 0};
+  for (std::size_t l = 0; l < 3; ++l) {
+    const Counted part = free_surface(scene, l, random);
+    surface = {surface.value + part.value, surface.error2 + part.error2};
+  }
+  const double counted = kPi * share.value / surface.value,
+               error = counted * std::sqrt(share.error2 / (share.value * share.value) +
+                                           surface.error2 / (surface.value * surface.value));
+  INFO(counted << " +- " << error << ", formula " << *mean.value);
+  CHECK(error < 0.003 * counted);
+  CHECK(std::fabs(counted - *mean.value) < 4 * error);
+}
+
+TEST_CASE("Tails: the sum over corridors is the oracle's", "[flights][tails]") {
+  const auto square = [](double r) { return corridor_tail_constant(unit_scene(2, r).lattices[0])->value; };
+  CHECK(square(0.4) == Approx(0.0512014).epsilon(1e-5));
+  CHECK(square(0.2) == Approx(0.366498).epsilon(1e-5));
+  CHECK(square(0.1) == Approx(0.933643).epsilon(1e-5));
+  CHECK(square(0.5) == 0);
+  // Oblique cells, not reduced; the seed is 6.
+  test::Draw draw(6);
+  int corridors = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = test::one_atom(2, {draw.vec(2, -2, 2), draw.vec(2, -2, 2)}, 0.04);
+    if (cell_volume(scene.lattices[0], 2) < 0.3) continue;
+    const auto horizon = oracle::horizon_of(scene);
+    if (!horizon.tail_constant) continue;
+    ++corridors;
+    CHECK(corridor_tail_constant(scene.lattices[0])->value == Approx(*horizon.tail_constant).epsilon(1e-9));
+  }
+  CHECK(corridors > 30);  // 50 seen
+}
+
+TEST_CASE("Tails: the limit of the sum over corridors is the limit law's", "[flights][tails]") {
+  const Scene small = test::one_atom(2, {{{1, 0, 0}, {0.3, 0.8, 0}}}, 0.0005);
+  const double limit = *tail_when(tails_of(small, Ensemble::uniform), "r -> 0")->constant;
+  CHECK(limit == Approx(0.8 / (kPi * kPi * 0.0005)));
+  const auto sum = corridor_tail_constant(small.lattices[0]);
+  CHECK_FALSE(sum->of_limit);
+  CHECK(sum->value == Approx(limit).epsilon(1e-5));
+  const auto smaller = corridor_tail_constant(unit_scene(2, 1e-4).lattices[0]);
+  CHECK(smaller->of_limit);
+  CHECK(smaller->value == Approx(1e4 / (kPi * kPi)));
+  CHECK_FALSE(corridor_tail_constant(test::one_atom(2, {{{1e-3, 0, 0}, {0, 1e3, 0}}}, 1e-4).lattices[0]));
+}
+
+TEST_CASE("Tails: exponents and constants", "[flights][tails]") {
+  const Scene three = turned_squares(1e-4, {0, kPi / 5, kPi / 7}), disc = unit_scene(2, 0.2),
+              ball = unit_scene(3, 0.2);
+  for (const auto ensemble : {Ensemble::uniform, Ensemble::surface}) {
+    const double more = ensemble == Ensemble::surface;
+    CHECK(tail_when(tails_of(three, ensemble), "r -> 0")->exponent == 4 + more);
+    CHECK_FALSE(tail_when(tails_of(three, ensemble), "t -> infinity")->exponent);
+    CHECK(tail_when(tails_of(disc, ensemble), "t -> infinity")->exponent == 2 + more);
+    CHECK(tail_when(tails_of(ball, ensemble), "r -> 0")->exponent == 2 + more);
+    CHECK(tail_when(tails_of(ball, ensemble), "t -> infinity")->exponent == 2 + more);
+    // The limit's tail is that of the law.
+    const Law law = laws_of(three, ensemble).laws[0];
+    const double t = 1e9, power = 3 + more;
+    CHECK(*tail_when(tails_of(three, ensemble), "r -> 0")->constant ==
+          Approx(law.survival(t) * std::pow(t, power)).epsilon(1e-4));
+  }
+  CHECK(*tail_when(tails_of(disc, Ensemble::uniform), "t -> infinity")->constant ==
+        Approx(0.366498).epsilon(1e-5));
+  CHECK(*tail_when(tails_of(disc, Ensemble::surface), "t -> infinity")->constant ==
+        Approx(0.366498 * (1 - kPi * 0.04) / 0.4).epsilon(1e-5));
+  CHECK(*tail_when(tails_of(ball, Ensemble::uniform), "t -> infinity")->constant ==
+        Approx(1.117453).epsilon(1e-5));
+  // Small balls: the sum over planes comes near to its limit.
+  const auto small = tails_of(unit_scene(3, 0.02), Ensemble::uniform);
+  CHECK(*tail_when(small, "t -> infinity")->constant ==
+        Approx(*tail_when(small, "r -> 0")->constant).epsilon(1e-3));
+  CHECK(tail_when(tails_of(unit_scene(2, 0.5), Ensemble::uniform), "t -> infinity")->remark ==
+        "none: every path ends");
+  CHECK_FALSE(tail_when(tails_of(unit_scene(2, 0.6), Ensemble::uniform), "t -> infinity")->exponent);
+}
