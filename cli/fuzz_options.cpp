@@ -6,9 +6,9 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
+#include "compare/nearest_name.hpp"
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {

@@ -178,7 +178,7 @@ TEST_CASE("Bad usage", "[cli][command_line]") {
     CHECK(folder.lorentz(help).status == 0);
 }
 
-TEST_CASE("Mistyped subcommands, options and scenes get the nearest name", "[cli][command_line]") {
+TEST_CASE("Mistyped subcommands, options, scenes and engines get the nearest name", "[cli][command_line]") {
   const Folder folder;
   const auto said = [&](const std::string& arguments, int status) {
     const Run run = folder.lorentz(arguments);
@@ -194,6 +194,12 @@ TEST_CASE("Mistyped subcommands, options and scenes get the nearest name", "[cli
                  "--ulsp (did you mean --ulps?); lorentz golden check --help"));
   CHECK(contains(said("compare --count 1 --scene sqare", 3), "(did you mean square?)"));
   CHECK(contains(said("golden check -e reduction near-ratonal", 3), "(did you mean near-rational?)"));
+  for (const char* command : {"first-hit", "compare", "bench", "golden check", "fuzz --time 1"}) {
+    INFO(command);
+    CHECK(contains(said(std::string(command) + " -e bacth", 2),
+                   "no engine is called \"bacth\" (did you mean batch?); there are classical, "));
+    CHECK_FALSE(contains(said(std::string(command) + " -e nobody", 2), "did you mean"));
+  }
 }
 
 TEST_CASE("Without a subcommand the help is shown; every help has an example", "[cli][command_line]") {
