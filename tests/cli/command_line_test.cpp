@@ -508,6 +508,33 @@ TEST_CASE("Names of scenes: the catalogue, files, and neither", "[cli][command_l
                  "takes the place of --scene"));
 }
 
+TEST_CASE("compare --judge certified: the same verdicts, and none of what rests on reduction",
+          "[cli][command_line]") {
+  const Folder folder;
+  const std::string arguments =
+      "compare --scene cubic --radius 0.1 --count 3000 --seed 5 --engine published --times";
+  const auto departures = [&](const std::string& judge) {
+    const std::string file = folder.file(judge);
+    const Run run = folder.lorentz(arguments + " --judge " + judge + " --disagreements " + file);
+    CHECK(run.status == 1);
+    CHECK(contains(run.out, ", judged by certified") == (judge == "certified"));
+    return folder.read(judge);
+  };
+  const std::string by_oracle = departures("oracle");
+  CHECK(contains(by_oracle, "\"wrong\""));
+  CHECK(departures("certified") == by_oracle);
+  const auto refused = [&](const std::string& more) {
+    const Run run = folder.lorentz("compare --count 3 --judge " + more);
+    CHECK(run.status == 2);
+    return run.err;
+  };
+  for (const char* engine : {"reduction", "certified", "batch", "certified-batch"})
+    CHECK(contains(refused("certified -e published," + std::string(engine)),
+                   "no judge of the engine " + std::string(engine) + "; use oracle"));
+  CHECK(contains(refused("nobody"), "\"nobody\" is none; there are oracle and certified"));
+  CHECK(contains(refused("certified --no-oracle -e walk"), "nobody is judged with --no-oracle"));
+}
+
 TEST_CASE("compare is repeatable, and --strict counts undecided answers", "[cli][command_line]") {
   const Folder folder;
   const std::string arguments =
