@@ -10,7 +10,7 @@
 #include <lorentz/walk.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -43,7 +43,7 @@ Called subcommand_of(const CLI::App& app, const std::string& before, int argc, c
     names.push_back(command->get_name());
   }
   throw InputError(fmt::format("no subcommand is called {}{}; there are {}", json_quoted(argv[1]),
-                               did_you_mean(argv[1], names), fmt::join(names, ", ")));
+                               compare::did_you_mean(argv[1], names), fmt::join(names, ", ")));
 }
 
 // Of the words that no option took those that look like options, with what they may have been meant for.
@@ -54,7 +54,7 @@ std::string unknown_options(const CLI::App& app, const CLI::App& command) {
   std::string text;
   for (const std::string& word : app.remaining(true))
     if (word.starts_with('-'))
-      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", word, did_you_mean(word, names));
+      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", word, compare::did_you_mean(word, names));
   return text;
 }
 

@@ -29,7 +29,7 @@ struct Options {
   std::vector<std::string> engines, answers;
   std::optional<std::string> scene, radius, queries, disagreements, ulps, timeout;
   std::string count = "10000", seed = std::to_string(kDefaultSeed);
-  std::string failures = "3";
+  std::string failures = "3", judge = "oracle";
   bool json = false, strict = false, times = false, no_oracle = false;
 };
 
@@ -300,8 +300,9 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
     return;
   }
   const bool drawn = !options.queries;
-  print(fmt::format("{}: {} {} queries{}\n\n{}", title(options, set), set.cases.size(),
+  print(fmt::format("{}: {} {} queries{}{}\n\n{}", title(options, set), set.cases.size(),
                     drawn ? "drawn" : "given", drawn ? ", seed " + seed_text : "",
+                    options.judge == "oracle" ? "" : ", judged by " + options.judge,
                     table_of(tallies, !options.no_oracle)));
   if (options.no_oracle) return;
   for (const Tally& t : tallies) {
@@ -315,6 +316,9 @@ int act(const Options& options) {
   std::vector<std::string> engines = names_in(options.engines);
   if (engines.empty() && all_logged.empty()) engines = {"classical", "published"};
   for (const std::string& name : engines) check_name(name);
+  const Truth truth = truth_named(options.judge, engines);
+  if (options.no_oracle && truth != Truth::oracle)
+    throw InputError("--judge: nobody is judged with --no-oracle");
   if (options.no_oracle && !all_logged.empty())
     throw InputError("--answers needs the oracle; leave --no-oracle out");
   if (!options.queries && !all_logged.empty())
@@ -333,7 +337,7 @@ int act(const Options& options) {
     departures.add(one, exact, name, given, judgement);
   };
   const std::vector<Answer> exact =
-      options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal());
+      options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal(), truth);
   std::vector<Tally> tallies =
       measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout, terminal(), options.strict});
   for (const Logged& logged : all_logged) {
@@ -382,6 +386,7 @@ void add_compare(CLI::App& app, Action& action) {
           "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
           "(default: 4)")
       ->type_name("K");
+  command->add_option("--judge", options->judge, kJudgeHelp)->capture_default_str()->type_name("J");
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->add_option("--failures", options->failures, "show so many wrong answers of each engine")

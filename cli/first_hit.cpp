@@ -6,13 +6,13 @@
 #include "cli/exit_status.hpp"
 #include "cli/first_hit_columns.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
+#include "compare/nearest_name.hpp"
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {

@@ -6,9 +6,9 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
 #include "cli/output.hpp"
 #include "compare/column_engine.hpp"
+#include "compare/nearest_name.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 
@@ -51,8 +51,8 @@ OnUnknownColumn unknown_columns(const ColumnOrder& order) {
     known = {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
   return
       [known, strict = order.strict, seen = 0](const std::string& place, const std::string& column) mutable {
-        const std::string what =
-            fmt::format("the column {} is not known{}", json_quoted(column), did_you_mean(column, known));
+        const std::string what = fmt::format("the column {} is not known{}", json_quoted(column),
+                                             compare::did_you_mean(column, known));
         if (strict) throw InputError(place + ": " + what);
         if (++seen <= kMost)
           say("warning: {}: {}, and is ignored (--strict: an error)", place, what);

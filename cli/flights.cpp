@@ -10,7 +10,7 @@
 #include "cli/flights_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"

@@ -6,9 +6,9 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
+#include "compare/nearest_name.hpp"
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {
@@ -77,16 +77,6 @@ void set_shard(const std::string& text, fuzz::Plan& plan) {
   plan.shard = whole_number(text.substr(0, slash), "--shard", 0, plan.shards - 1);
 }
 
-fuzz::Truth truth_of(const FuzzOptions& options) {
-  if (options.judge == "oracle") return fuzz::Truth::oracle;
-  if (options.judge != "certified")
-    throw InputError(
-        fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(options.judge)));
-  if (traits_of(options.engine).uses_reduction)
-    throw InputError("--judge: certified rests on reduction, and is no judge of either; use oracle");
-  return fuzz::Truth::certified;
-}
-
 }  // namespace
 
 fuzz::Plan plan_of(const FuzzOptions& options) {
@@ -98,7 +88,7 @@ fuzz::Plan plan_of(const FuzzOptions& options) {
   plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
   plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
   plan.reword = whole_number(options.reword, "--reword", 0, 1'000'000'000);
-  plan.truth = truth_of(options);
+  plan.truth = truth_named(options.judge, {options.engine});
   plan.counts.times = options.times;
   plan.counts.undecided =
       options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
@@ -225,12 +215,7 @@ void add_options(CLI::App* command, FuzzOptions& options) {
                    "ask one in so many cases, and its variants, in other words, too; 0: none")
       ->capture_default_str()
       ->type_name("N");
-  command
-      ->add_option(
-          "--judge", options.judge,
-          "whose answers are the truth: oracle, or certified, which is faster and rests on reduction")
-      ->capture_default_str()
-      ->type_name("J");
+  command->add_option("--judge", options.judge, kJudgeHelp)->capture_default_str()->type_name("J");
   command->add_flag("--first", options.first, "stop at the first finding");
   command
       ->add_option("--ulps", options.ulps,

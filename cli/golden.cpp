@@ -8,8 +8,8 @@
 #include "cli/data_folder.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
 #include "cli/table.hpp"
+#include "compare/nearest_name.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
 
@@ -74,7 +74,7 @@ std::string find_set(const std::string& name_or_file) {
     throw FileError(fmt::format("no file is called {}, and there are no committed sets (looked for in {})",
                                 json_quoted(name_or_file), data_places("golden")));
   throw FileError(fmt::format("no file and no committed set is called {}{}; the sets are {}",
-                              json_quoted(name_or_file), did_you_mean(name_or_file, names),
+                              json_quoted(name_or_file), compare::did_you_mean(name_or_file, names),
                               fmt::join(names, ", ")));
 }
 

@@ -5,7 +5,7 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/scene_option.hpp"

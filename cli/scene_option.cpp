@@ -12,7 +12,7 @@
 #include <lorentz/scene_check.hpp>
 #include "cli/data_folder.hpp"
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -43,7 +43,7 @@ std::string find_scene(const std::string& name_or_file) {
     throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
                                 data_places("scenes")));
   throw FileError(fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}", shown,
-                              did_you_mean(shown, names), fmt::join(names, ", ")));
+                              compare::did_you_mean(shown, names), fmt::join(names, ", ")));
 }
 
 Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {

@@ -1,7 +1,7 @@
 #include "cli/unknown_keys.hpp"
 
 #include "cli/messages.hpp"
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 
 namespace lorentz::cli {
 
@@ -11,7 +11,8 @@ void KeyCheck::operator()(const std::string& key) {
                                               "radius",    "semiaxes", "lattice", "atom",  "cell",
                                               "outcome",   "time",     "message", "reason"};
   const std::string last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
-  const std::string what = "the key " + json_quoted(key) + " is not known" + did_you_mean(last, kKeys);
+  const std::string what =
+      "the key " + json_quoted(key) + " is not known" + compare::did_you_mean(last, kKeys);
   if (policy_ == UnknownKeys::errors) throw InputError(what);
   if (seen_.size() > kMost || !seen_.insert(key).second) return;
   const std::string place = line > 0 ? fmt::format("{}:{}", name_, line) : name_;

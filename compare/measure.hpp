@@ -10,6 +10,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/verdict.hpp>
 #include "compare/registry.hpp"
+#include "compare/truth.hpp"
 
 namespace lorentz::compare {
 
@@ -66,7 +67,8 @@ struct MeasureOptions {
 };
 
 /// The exact answers to all cases.
-std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener = {});
+std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener = {},
+                                  Truth truth = Truth::oracle);
 
 /// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
 /// is empty (nothing is judged) or as many answers as there are cases. Another program is timed by the wall,

@@ -15,6 +15,7 @@
 #include <lorentz/walk.hpp>
 #include "compare/batch_answerer.hpp"
 #include "compare/command_engine.hpp"
+#include "compare/nearest_name.hpp"
 
 namespace lorentz::compare {
 
@@ -120,9 +121,10 @@ void check_name(const std::string& name) {
       throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
     return;
   }
-  if (!entry_of(name))
-    throw InputError(fmt::format("no engine is called {}; there are {}, and cmd:COMMAND for another program",
-                                 json_quoted(name), fmt::join(answerer_names(), ", ")));
+  if (entry_of(name)) return;
+  const std::vector<std::string> names = answerer_names();
+  throw InputError(fmt::format("no engine is called {}{}; there are {}, and cmd:COMMAND for another program",
+                               json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::vector<std::string> names_in(const std::vector<std::string>& arguments) {

@@ -9,6 +9,7 @@
 
 #include <lorentz/problem.hpp>
 #include <lorentz/verdict.hpp>
+#include "compare/truth.hpp"
 #include "fuzz/examine/subject.hpp"
 #include "fuzz/examine/time_limit.hpp"
 
@@ -42,11 +43,7 @@ struct Counts {
   bool is_finding(Kind kind) const;
 };
 
-/// Whose answers are the truth.
-enum class Truth {
-  oracle,    ///< the exact oracle: shares no arithmetic with any engine
-  certified  ///< the same answers, many times faster, on the word of the fast engine's filters
-};
+using compare::Truth;
 
 struct Question {
   Query query;

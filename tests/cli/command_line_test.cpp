@@ -178,7 +178,7 @@ TEST_CASE("Bad usage", "[cli][command_line]") {
     CHECK(folder.lorentz(help).status == 0);
 }
 
-TEST_CASE("Mistyped subcommands, options and scenes get the nearest name", "[cli][command_line]") {
+TEST_CASE("Mistyped subcommands, options, scenes and engines get the nearest name", "[cli][command_line]") {
   const Folder folder;
   const auto said = [&](const std::string& arguments, int status) {
     const Run run = folder.lorentz(arguments);
@@ -194,6 +194,12 @@ TEST_CASE("Mistyped subcommands, options and scenes get the nearest name", "[cli
                  "--ulsp (did you mean --ulps?); lorentz golden check --help"));
   CHECK(contains(said("compare --count 1 --scene sqare", 3), "(did you mean square?)"));
   CHECK(contains(said("golden check -e reduction near-ratonal", 3), "(did you mean near-rational?)"));
+  for (const char* command : {"first-hit", "compare", "bench", "golden check", "fuzz --time 1"}) {
+    INFO(command);
+    CHECK(contains(said(std::string(command) + " -e bacth", 2),
+                   "no engine is called \"bacth\" (did you mean batch?); there are classical, "));
+    CHECK_FALSE(contains(said(std::string(command) + " -e nobody", 2), "did you mean"));
+  }
 }
 
 TEST_CASE("Without a subcommand the help is shown; every help has an example", "[cli][command_line]") {
@@ -500,6 +506,33 @@ TEST_CASE("Names of scenes: the catalogue, files, and neither", "[cli][command_l
   CHECK(WEXITSTATUS(std::system(command.c_str())) == 0);
   CHECK(contains(folder.lorentz("first-hit --scene square " + folder.write("q", kScene + kGood)).err,
                  "takes the place of --scene"));
+}
+
+TEST_CASE("compare --judge certified: the same verdicts, and none of what rests on reduction",
+          "[cli][command_line]") {
+  const Folder folder;
+  const std::string arguments =
+      "compare --scene cubic --radius 0.1 --count 3000 --seed 5 --engine published --times";
+  const auto departures = [&](const std::string& judge) {
+    const std::string file = folder.file(judge);
+    const Run run = folder.lorentz(arguments + " --judge " + judge + " --disagreements " + file);
+    CHECK(run.status == 1);
+    CHECK(contains(run.out, ", judged by certified") == (judge == "certified"));
+    return folder.read(judge);
+  };
+  const std::string by_oracle = departures("oracle");
+  CHECK(contains(by_oracle, "\"wrong\""));
+  CHECK(departures("certified") == by_oracle);
+  const auto refused = [&](const std::string& more) {
+    const Run run = folder.lorentz("compare --count 3 --judge " + more);
+    CHECK(run.status == 2);
+    return run.err;
+  };
+  for (const char* engine : {"reduction", "certified", "batch", "certified-batch"})
+    CHECK(contains(refused("certified -e published," + std::string(engine)),
+                   "no judge of the engine " + std::string(engine) + "; use oracle"));
+  CHECK(contains(refused("nobody"), "\"nobody\" is none; there are oracle and certified"));
+  CHECK(contains(refused("certified --no-oracle -e walk"), "nobody is judged with --no-oracle"));
 }
 
 TEST_CASE("compare is repeatable, and --strict counts undecided answers", "[cli][command_line]") {

@@ -1,7 +1,10 @@
-// What a tally says of the judgements that it counts.
+// What a tally says of the judgements that it counts, and the exact answers that they rest on.
 #include "compare/measure.hpp"
 
 #include <catch2/catch.hpp>
+
+#include "compare/hard_cases.hpp"
+#include "tests/support/support.hpp"
 
 using namespace lorentz;
 using compare::Tally;
@@ -49,4 +52,37 @@ TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of
   CHECK(tally.ulp_at(0.3) == 4);    // the nearest to 2.7 steps up from the first
   CHECK(tally.ulp_at(0.99) == 10);  // to 8.91
   CHECK(tally.ulp_at(1) == 10);
+}
+
+TEST_CASE("Exact answers are the same from the oracle and from certified, scenes mixed",
+          "[compare][measure]") {
+  constexpr std::uint64_t kSeed = 4711;
+  const auto catalogue = test::all_scenes();
+  compare::CaseSet set;
+  std::vector<std::vector<Query>> queries;
+  for (const char* name : {"square", "honeycomb", "cubic", "ellipsoids-mixed"}) {
+    set.scenes.push_back(catalogue.at(name));
+    const oracle::Oracle oracle(set.scenes.back());
+    queries.push_back(
+        compare::hard_queries(compare::Difficulty::grazing, set.scenes.back(), oracle, kSeed, 100));
+    // Tangent to discs on both sides, along a lattice vector; and an obstacle left that no column can name.
+    queries.back().push_back({{0.25, 0.5, 0}, {1, 0, 0}, {}});
+    const Integer far = *Integer::from_decimal("100000000000000000000");
+    queries.back().push_back({queries.back()[0].x, {1, 0.25, 0}, ObstacleId{0, 0, {far, 0, 0}}});
+  }
+  for (std::size_t i = 0; i < queries[0].size(); ++i)
+    for (std::size_t scene = 0; scene < queries.size(); ++scene)
+      set.cases.push_back({"null", scene, queries[scene][i]});
+  const auto exact = compare::exact_answers(set),
+             certified = compare::exact_answers(set, {}, compare::Truth::certified);
+  REQUIRE(exact.size() == set.cases.size());
+  REQUIRE(certified.size() == set.cases.size());
+  std::map<Outcome, int> met;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    INFO(test::stream(set.scenes[set.cases[i].scene], set.cases[i].query) << "seed " << kSeed);
+    ++met[exact[i].outcome];
+    CHECK(test::same(exact[i], certified[i]));
+  }
+  CHECK(met[Outcome::hit] > 380);
+  CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
 }

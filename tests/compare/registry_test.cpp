@@ -29,10 +29,11 @@ TEST_CASE("The engines come first among the answerers, in their order", "[compar
 
 TEST_CASE("Answerers are told apart by their traits; of another program nothing is known",
           "[compare][registry]") {
-  CHECK(names_with(&Traits::is_exact) == Names{"certified", "oracle", "walk"});
+  CHECK(names_with(&Traits::is_exact) == Names{"certified", "certified-batch", "oracle", "walk"});
   CHECK(names_with(&Traits::knows_digits) == Names{"oracle"});
-  CHECK(names_with(&Traits::leaves_undecided) == Names{"reduction"});
-  CHECK(names_with(&Traits::uses_reduction) == Names{"reduction", "certified"});
+  CHECK(names_with(&Traits::leaves_undecided) == Names{"reduction", "batch"});
+  CHECK(names_with(&Traits::uses_reduction) == Names{"reduction", "certified", "batch", "certified-batch"});
+  CHECK(names_with(&Traits::in_bulk) == Names{"batch", "certified-batch"});
   const Traits other = traits_of("cmd:./reduction");
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }

@@ -462,7 +462,8 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
   refused("--undecided --no-undecided", "excludes");
   refused("--judge nobody", "--judge: \"nobody\" is none; there are oracle and certified");
-  refused("--judge certified -e reduction", "certified rests on reduction, and is no judge of either");
+  refused("--judge certified -e reduction",
+          "certified rests on reduction, and is no judge of the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
   refused("--dimension 4", "--dimension: \"4\" is no whole number from 2 to 3");
   refused("--scenes cubes",

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 
 /// The name that takes the fewest typing mistakes (a character too many, missing, wrong, or two exchanged),
 /// if they are at most a third of it; else empty. Of several the first.
@@ -14,4 +14,4 @@ std::string nearest_name(std::string_view typed, const std::vector<std::string>&
 /// " (did you mean NAME?)", or empty.
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -1,8 +1,8 @@
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 
 #include <algorithm>
 
-namespace lorentz::cli {
+namespace lorentz::compare {
 namespace {
 
 // Optimal string alignment: rows of the table of distances between beginnings of the two.
@@ -51,4 +51,4 @@ std::string did_you_mean(std::string_view typed, const std::vector<std::string>&
   return name.empty() ? "" : " (did you mean " + name + "?)";
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::compare

@@ -1,12 +1,12 @@
 // What was meant by a mistyped name.
-#include "cli/nearest_name.hpp"
+#include "compare/nearest_name.hpp"
 
 #include <catch2/catch.hpp>
 
-using lorentz::cli::nearest_name;
+using lorentz::compare::nearest_name;
 
 TEST_CASE("The nearest name: one character too many, missing, wrong, or two exchanged",
-          "[cli][nearest_name]") {
+          "[compare][nearest_name]") {
   const std::vector<std::string> names{"from", "compare", "convergents", "golden", "v"};
   for (const char* typed : {"compair", "comapre", "compre", "comparee", "conpare"})
     CHECK(nearest_name(typed, names) == "compare");
@@ -16,7 +16,7 @@ TEST_CASE("The nearest name: one character too many, missing, wrong, or two exch
   CHECK(nearest_name("convergent", names) == "convergents");
 }
 
-TEST_CASE("What is far from every name is none of them", "[cli][nearest_name]") {
+TEST_CASE("What is far from every name is none of them", "[compare][nearest_name]") {
   const std::vector<std::string> names{"from", "compare", "golden", "v"};
   for (const char* typed : {"", "w", "position", "help", "xyzzy"}) CHECK(nearest_name(typed, names).empty());
   CHECK(nearest_name(std::string(1000, 'c'), names).empty());

@@ -1,0 +1,21 @@
+// Whose answers are the truth that others are judged by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lorentz::compare {
+
+enum class Truth {
+  oracle,    ///< the exact oracle: shares no arithmetic with any engine
+  certified  ///< the same answers, many times faster, on the word of the fast engine's filters
+};
+
+inline constexpr const char* kJudgeHelp =
+    "whose answers are the truth: oracle, or certified, which is faster and rests on reduction";
+
+/// What an option `--judge` calls it. Throws InputError for another name, and where one of the judged rests
+/// on what would judge it.
+Truth truth_named(const std::string& name, const std::vector<std::string>& judged);
+
+}  // namespace lorentz::compare
