@@ -98,7 +98,8 @@ TEST_CASE("Chi-squared: bad bins, and laws that give no chance", "[flights][fit]
 
 TEST_CASE("Chi-squared: p-values are uniform under the law", "[flights][fit]") {
   const DrawnFromLimitLaw draw;
-  const auto edges = octaves(-4, 10);
+  std::vector<double> edges;  // few, so that one degree more or less shows; some of them to be merged
+  for (int k = -3; k < 18; k += 2) edges.push_back(std::ldexp(1, k));
   constexpr int kSamples = 1000, kPaths = 10'000;
   Counts tenths(10);
   for (int sample = 0; sample < kSamples; ++sample) {
