@@ -209,6 +209,7 @@ TEST_CASE("Without a subcommand the help is shown; every help has an example", "
                               "compare",
                               "convergents",
                               "horizon",
+                              "sample",
                               "demo",
                               "bench",
                               "scene",
