@@ -35,7 +35,7 @@ bool in_range(const Scene& scene, const cases::Box& box) {
 
 std::string nowhere_to_start(std::uint64_t draws) {
   return "no free start in " + std::to_string(draws) +
-         " draws: the obstacles leave no free part of the cell, or nearly none";
+         " draws: the obstacles leave no free part of the cell, or nearly none; take smaller ones";
 }
 
 Starts::Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells)

@@ -2,18 +2,15 @@
 // they can go, and the mean free path is Santalo's.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <lorentz/certified.hpp>
 #include <lorentz/engine.hpp>
-#include <lorentz/geometry.hpp>
 #include <lorentz/reduction.hpp>
 #include <lorentz/scene_check.hpp>
 #include <lorentz/walk.hpp>
-#include "cases/random.hpp"
 #include "compare/hard_cases.hpp"
-#include "compare/sampling.hpp"
+#include "flights/sample/free_starts.hpp"
 #include "src/problem/scene_geometry.hpp"
 #include "tests/support/support.hpp"
 
@@ -44,41 +41,6 @@ bool overlaps(const Scene& scene) {
   for (const oracle::Contact& contact : oracle::contacts_in(scene, 100).found)
     if (contact.overlap) return true;
   return false;
-}
-
-// A particle that leaves an obstacle, in equilibrium: uniform on the surface of all obstacles of a cell,
-// directions by the cosine law. Santalo's mean is that of its next flight, exactly.
-Query leaving_query(Draw& draw, const Scene& scene) {
-  const int d = scene.dimension;
-  std::vector<double> surfaces;
-  std::vector<ObstacleId> atoms;
-  double all = 0;
-  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
-    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
-      atoms.push_back({l, a, {}});
-      all += surface_of(scene.lattices[l].atoms[a], d);
-      surfaces.push_back(all);
-    }
-  const double which = all * draw.uniform();
-  const std::size_t i = std::lower_bound(surfaces.begin(), surfaces.end(), which) - surfaces.begin();
-  const Atom& atom = scene.lattices[atoms[i].lattice].atoms[atoms[i].atom];
-  // y on the unit sphere; the surface there is stretched by |det A| |A^-T y|.
-  const std::array<Vec, 3> dual = dual_of(semiaxes_of(atom, d), d);
-  double most = 0;
-  for (int k = 0; k < d; ++k) most += dot(dual[k], dual[k]);
-  for (;;) {
-    cases::Random random(draw.below(~0ull), "surface", 0);
-    const Vec y = random.direction(d), v = random.direction(d);
-    Vec normal{};
-    for (int k = 0; k < d; ++k)
-      for (int m = 0; m < 3; ++m) normal[m] += dual[k][m] * y[k];
-    const double stretch = std::sqrt(dot(normal, normal)), cosine = dot(normal, v) / stretch;
-    if (!(cosine > 0) || draw.uniform() > cosine * stretch / std::sqrt(most)) continue;
-    const Vec place = surface_point(atom, y);
-    Query query{atom.position, v, atoms[i]};
-    for (int m = 0; m < 3; ++m) query.x[m] += place[m];
-    return query;
-  }
 }
 
 }  // namespace
@@ -122,10 +84,11 @@ TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[c
     const double expected = filling_of(scene)->mean_free_path;
     constexpr int kFlights = 20'000;
     const oracle::Certified certified(scene);
-    Draw draw(7);
+    const flights::FreeStarts starts(scene, flights::Kind::surface, 7);
+    Query query;
     double sum = 0, sum2 = 0;
     for (int i = 0; i < kFlights; ++i) {
-      const Query query = leaving_query(draw, scene);
+      starts.draw(static_cast<std::uint64_t>(i), query);
       const Answer answer = certified.first_hit(query);
       INFO(stream(scene, query));
       REQUIRE(answer.outcome == Outcome::hit);

@@ -215,6 +215,7 @@ TEST_CASE("Without a subcommand the help is shown; every help has an example", "
                               "compare",
                               "convergents",
                               "horizon",
+                              "sample",
                               "demo",
                               "bench",
                               "scene",

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include <lorentz/oracle.hpp>
-#include "compare/sampling.hpp"
+#include "flights/starts/starts.hpp"
 
 using namespace lorentz;
 
@@ -17,10 +17,13 @@ struct Mean {
 
 // Flights from collision to collision.
 Mean mean_free_path(int dimension, double r, int count, std::uint64_t seed) {
-  const oracle::Oracle oracle(unit_scene(dimension, r));
+  const Scene scene = unit_scene(dimension, r);
+  const oracle::Oracle oracle(scene);
+  const flights::Starts starts(scene, flights::Ensemble::surface, seed);
+  Query query;
   double sum = 0, sum2 = 0;
-  for (const Query& query :
-       compare::draw_leaving_queries(dimension, r, seed, static_cast<std::size_t>(count))) {
+  for (int i = 0; i < count; ++i) {
+    starts.draw(static_cast<std::uint64_t>(i), 0, query);
     const Answer answer = oracle.first_hit(query);
     REQUIRE(answer.outcome == Outcome::hit);
     sum += *answer.time;

@@ -1,0 +1,121 @@
+// Starts in no obstacle: exactly, of every kind, and as hard as they are said to be. Seeds are fixed.
+#include <catch2/catch.hpp>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
+#include "flights/sample/free_starts.hpp"
+#include "flights/starts/starts.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::flights;
+using namespace lorentz::test;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20161115;
+constexpr Kind kKinds[] = {Kind::uniform, Kind::surface, Kind::near_rational, Kind::grazing};
+
+double sine(const Vec& a, const Vec& b) {
+  return length(cross(a, b)) / length(a) / length(b);
+}
+
+}  // namespace
+
+TEST_CASE("Sampled starts lie in no obstacle, among overlapping ones, too", "[flights][sample]") {
+  const auto scenes = all_scenes();
+  for (const char* name : {"square", "triangular", "ellipses-mixed", "overlapping", "overlapping-3d",
+                           "ellipsoids-mixed", "superposition-pi-7"}) {
+    const Scene& scene = scenes.at(name);
+    const oracle::Oracle oracle(scene);
+    for (const Kind kind : kKinds) {
+      CAPTURE(name, kind_names()[static_cast<std::size_t>(kind)]);
+      const FreeStarts starts(scene, kind, kSeed);
+      Query start;
+      for (std::uint64_t i = 0; i < 200; ++i) {
+        starts.draw(i, start);
+        REQUIRE_FALSE(flaw_of(start, scene));
+        REQUIRE(start.from.has_value() == (kind == Kind::surface));
+        REQUIRE(oracle.first_hit(start).outcome != Outcome::inside);
+      }
+    }
+  }
+}
+
+TEST_CASE("Sampled starts are the first free candidates", "[flights][sample]") {
+  const Scene scene = all_scenes().at("overlapping");
+  const oracle::Oracle oracle(scene);
+  for (const auto& [kind, ensemble] :
+       {std::pair{Kind::uniform, Ensemble::uniform}, std::pair{Kind::surface, Ensemble::surface}}) {
+    const FreeStarts starts(scene, kind, kSeed);
+    const Starts candidates(scene, ensemble, kSeed);
+    std::uint64_t rejected = 0;
+    Query start, candidate;
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      starts.draw(i, start);
+      std::uint64_t attempt = 0;
+      for (;; ++attempt) {
+        candidates.draw(i, attempt, candidate);
+        if (oracle.first_hit(candidate).outcome != Outcome::inside) break;
+      }
+      rejected += attempt;
+      REQUIRE(start.x == candidate.x);
+      REQUIRE(start.v == candidate.v);
+      REQUIRE(start.from == candidate.from);
+    }
+    CHECK(rejected > 50);  // 90 seen at least
+  }
+}
+
+TEST_CASE("Near-rational directions are within 2^-36 of a small lattice vector's", "[flights][sample]") {
+  const Scene scene = all_scenes().at("oblique");
+  const FreeStarts starts(scene, Kind::near_rational, kSeed);
+  int exact = 0;
+  Query start;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    starts.draw(i, start);
+    double least = 1;
+    for (int a = -9; a <= 9; ++a)
+      for (int b = 0; b <= 9; ++b) {
+        const auto& u = scene.lattices[0].vectors;
+        if (a != 0 || b != 0) least = std::min(least, sine(sum(scaled(u[0], a), scaled(u[1], b)), start.v));
+      }
+    REQUIRE(least < 0x1p-36);
+    exact += least == 0;
+  }
+  CHECK(exact < 250);
+}
+
+TEST_CASE("Grazing lines pass or meet an obstacle within 2^-38 of its size", "[flights][sample]") {
+  const Scene scene = all_scenes().at("triangular");  // of finite horizon: what is met is near
+  const auto& [u1, u2, none] = scene.lattices[0].vectors;
+  const double radius = scene.lattices[0].atoms[0].radius;
+  const FreeStarts starts(scene, Kind::grazing, kSeed);
+  Query start;
+  int met = 0;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    starts.draw(i, start);
+    double least = 1;
+    for (int a = -9; a <= 9; ++a)
+      for (int b = -9; b <= 9; ++b) {
+        const Vec d = sum(sum(scaled(u1, a), scaled(u2, b)), scaled(start.x, -1));
+        if (dot(d, start.v) < 0) continue;
+        const double off = std::fabs(cross(d, start.v)[2]) / radius - 1;
+        if (std::fabs(off) >= std::fabs(least)) continue;
+        least = off;
+      }
+    REQUIRE(std::fabs(least) < 0x1p-38);
+    met += least < 0;
+  }
+  CHECK(met > 200);
+  CHECK(met < 300);
+}
+
+TEST_CASE("Where obstacles leave nothing free it is said, and soon", "[flights][sample]") {
+  for (const Kind kind : kKinds) {
+    Query start;
+    CHECK_THROWS_WITH(FreeStarts(unit_scene(2, 0.9), kind, kSeed).draw(0, start),
+                      Catch::Matchers::StartsWith("no free start in 100000 draws"));
+  }
+}
