@@ -10,11 +10,11 @@
 #include "cli/flights_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "compare/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
+#include "compare/nearest_name.hpp"
 #include "compare/registry.hpp"
 #include "compare/sampling.hpp"
 #include "flights/ranks.hpp"
@@ -42,7 +42,7 @@ flights::Ensemble ensemble_of(const std::string& name) {
   if (name == "uniform") return flights::Ensemble::uniform;
   if (name == "surface") return flights::Ensemble::surface;
   throw InputError(fmt::format("--from: {} is no kind of start{}; there are uniform and surface",
-                               json_quoted(name), did_you_mean(name, {"uniform", "surface"})));
+                               json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
 }
 
 Plan plan_of(const Options& options) {
@@ -236,7 +236,8 @@ void add_flights(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--store", options->store, "where counts are kept every few seconds, and gone on from")
       ->type_name("FILE");
-  command->add_option("--add", options->parts, "stores of other shards of the same run, whose counts are added")
+  command
+      ->add_option("--add", options->parts, "stores of other shards of the same run, whose counts are added")
       ->type_name("FILE");
   command
       ->add_option("--shard", options->shard,

@@ -5,11 +5,11 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "compare/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
+#include "compare/nearest_name.hpp"
 #include "compare/sampling.hpp"
 #include "flights/sample/free_starts.hpp"
 #include "src/exchange/columns_csv.hpp"
@@ -36,7 +36,7 @@ std::size_t choice(const std::string& given, const char* option, const std::vect
   const auto found = std::find(names.begin(), names.end(), given);
   if (found == names.end())
     throw InputError(fmt::format("{}: {} is none{}; there are {}", option, json_quoted(given),
-                                 did_you_mean(given, names), fmt::join(names, ", ")));
+                                 compare::did_you_mean(given, names), fmt::join(names, ", ")));
   return static_cast<std::size_t>(found - names.begin());
 }
 
