@@ -203,20 +203,30 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
   return result;
 }
 
+namespace {
+
+// The last edge with so many paths or more beyond it.
+std::optional<std::size_t> edge_before(double paths, std::span<const double> edges,
+                                       std::span<const std::uint64_t> counts) {
+  double beyond = 0;
+  for (std::size_t i = edges.size(); i-- > 0;)
+    if ((beyond += static_cast<double>(counts[i + 1])) >= paths) return i;
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t least_count) {
   check(edges, counts);
-  std::optional<std::size_t> best;
-  double least_distance = kInfinity;
-  for (std::size_t first = 0; bins_from(first, edges) >= kLeastBins; ++first) {
-    const BinnedTail tail(first, edges, counts);
-    if (tail.total() < least_count) break;
-    const std::optional<double> a = best_power(tail);
-    if (!a || !(tail.distance(*a) < least_distance)) continue;
-    least_distance = tail.distance(*a);
-    best = first;
-  }
-  return best ? tail_exponent_from(*best, edges, counts) : std::nullopt;
+  const auto least = static_cast<double>(least_count);
+  const auto far = edge_before(least, edges, counts);
+  const auto pilot = far ? tail_exponent_from(*far, edges, counts) : std::nullopt;
+  if (!pilot) return std::nullopt;
+  const auto all = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  const double share = 0.25 * std::pow(all, 2 / (1 + pilot->exponent));
+  const auto first = edge_before(std::max(least, share), edges, counts);
+  return first ? tail_exponent_from(*first, edges, counts) : pilot;
 }
 
 }  // namespace lorentz::flights

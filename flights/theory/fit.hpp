@@ -41,14 +41,14 @@ struct TailExponent {
   double distance = 0;       ///< Kolmogorov-Smirnov distance of counts and power law from `from` on
 };
 
-/// The exponent by maximum likelihood; `from` is the edge that makes the Kolmogorov-Smirnov distance least,
-/// among those with at least `least_count` counts beyond and three bins or more (Clauset, Shalizi & Newman,
-/// SIAM Review 51, 2009; with bins: Virkar & Clauset, Ann. Appl. Stat. 8, 2014). Nothing if there is no such
-/// edge or no tail. The interval knows of chance only, not of how a density that is no power law yet at
-/// `from` bends, nor of the choice of `from`: of samples of 5000 it covers 91 in 100 then.
+/// The exponent by maximum likelihood of the longest k of n paths: k = max(least_count, n^(2 / (2 + a)) / 4),
+/// with a, the survival's exponent, from the longest `least_count` alone. So the bias of a density whose
+/// relative distance from its power law is of the order 1/t, as here (docs/free_paths.md), falls faster than
+/// chance does (Hall, J. R. Statist. Soc. B 44, 1982). Nothing if there are not so many paths, or they fall
+/// like no power. The interval knows of chance only.
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts,
-                                          std::uint64_t least_count = 500);
+                                          std::uint64_t least_count = 400);
 
 /// The same from a given edge on, edges[first].
 std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<const double> edges,
