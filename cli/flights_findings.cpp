@@ -20,11 +20,19 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
   no_law = laws.none;
   for (Law& law : laws.laws) {
     const auto more = [&law](double t) { return std::min(1.0, 1.02 * law.survival(t)); };
-    const ChiSquared fit = chi_squared(edges, counts, total, law.survival),
-                     off = chi_squared(edges, counts, total, more);
+    const ChiSquared fit = fit_of(law.survival, law.smooth_from), off = fit_of(more, law.smooth_from);
     fits.push_back({std::move(law), fit, off});
   }
   exponent = tail_exponent(edges, counts);
+}
+
+// What is shorter than `from` is one bin.
+ChiSquared FlightsFindings::fit_of(const std::function<double(double)>& survival, double from) const {
+  std::size_t first = 0;
+  while (first + 1 < edges.size() && edges[first] < from) ++first;
+  std::vector<std::uint64_t> merged(counts.begin() + static_cast<std::ptrdiff_t>(first), counts.end());
+  for (std::size_t i = 0; i < first; ++i) merged.front() += counts[i];
+  return chi_squared(std::span(edges).subspan(first), merged, total, survival);
 }
 
 }  // namespace lorentz::cli

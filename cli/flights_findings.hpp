@@ -28,6 +28,9 @@ struct FlightsFindings {
   std::vector<flights::Tail> tails;
   std::optional<flights::TailExponent> exponent;
   flights::MeanFreePath mean;  ///< from collision to collision
+
+ private:
+  flights::ChiSquared fit_of(const std::function<double(double)>& survival, double from) const;
 };
 
 }  // namespace lorentz::cli

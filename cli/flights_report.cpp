@@ -20,6 +20,7 @@ bool is_infinite(const std::vector<Tail>& tails, double moment) {
 }
 
 std::string p_text(double p) {
+  if (p < 1e-300) return "below 1e-300";
   return p < 1e-4 ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
 }
 

@@ -18,7 +18,7 @@ ColumnFlyer::ColumnFlyer(const std::string& engine, const Scene& scene)
     : single_(compare::make_first_hit(engine, scene)) {
   if (engine == "batch" || engine == "reduction") {
     if (const auto why = Reduction::beyond(scene))
-      throw InputError(fmt::format("{}; --engine certified does such scenes", *why));
+      throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine, *why));
     batch_.emplace(scene);
   }
   if (engine == "certified-batch" || engine == "certified") certified_.emplace(scene);

@@ -18,6 +18,7 @@ struct Law {
   std::string when;                        ///< the limit in which it holds, e.g. "r -> 0"
   std::function<double(double)> survival;  ///< P(tau > t), of t in the scene's unit
   double scale = 0;                        ///< of t: the law's mean from collision to collision
+  double smooth_from = 0;                  ///< shorter paths show the lattice itself: count them together
 };
 
 /// The laws that are known for a scene; none, and the reason.

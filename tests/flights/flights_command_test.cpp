@@ -78,7 +78,7 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
   const std::vector<std::pair<std::string, std::string>> bad{
       {"--count 0", "--count"},           {"--from surfaces", "surface"},
       {"--engine bacth", "batch"},        {"--engine cmd:cat", "lorentz sample"},
-      {"--radius 0.75", "--engine certified"},
+      {"--radius 0.75", "the engine batch does radii up to half the shortest lattice vector only; certified does"},
       {"--radius 0.75 --engine certified", "no free start"}, {"--radius -1", "--radius"},
       {"--scene sqare", "square"},        {"--shard 3", "I/N"},
       {"--shard 2/2", "--shard"},         {"--add /no/such/file", "/no/such/file"},
