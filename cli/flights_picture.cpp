@@ -49,26 +49,27 @@ std::string FlightsReport::svg() const {
   FreePathPlot plot;
   plot.title = fmt::format("Free paths: {}, {} starts", name_with_radius(),
                            plan.from == flights::Ensemble::uniform ? "uniform" : "surface");
-  plot.note = fmt::format("{} flights, engine {}, seed {}", account.tally.flights(), plan.engine, plan.seed);
+  plot.note =
+      fmt::format("{} flights, bars of one standard error, engine {}, seed {}{}", account.tally.flights(),
+                  plan.engine, plan.seed, found.fits.empty() ? "" : "; law: " + found.fits[0].law.name);
   plot.t_label = "free path t, in the scene's unit of length";
   plot.value_label = "P(free path > t)";
-  plot.series.push_back({"measured, one standard error", {}});
+  plot.series.push_back({"measured", {}});
   const auto n = static_cast<double>(found.total);
   for (std::size_t i = span.first; i <= span.last; i += flights::Bins::kAnOctave / kPointsAnOctave) {
     const double p = static_cast<double>(found.beyond[i]) / n;
     plot.series[0].points.push_back({found.edges[i], p, std::sqrt(p * (1 - p) / n)});
   }
   for (const FlightsFindings::Fit& fit : found.fits)
-    plot.curves.push_back(
-        curve_of(fmt::format("{}, {}", fit.law.name, fit.law.when), found, span, fit.law.survival));
+    plot.curves.push_back(curve_of("law, " + fit.law.when, found, span, fit.law.survival));
   for (const flights::Tail& tail : found.tails) {
     if (!tail.exponent || !tail.constant || !(*tail.constant > 0)) continue;
     const double power = *tail.exponent - 1;
     Span late = span;
     while (late.first<late.last&& * tail.constant * std::pow(found.edges[late.first], -power)> 0.5)
       ++late.first;
-    PlotCurve curve = curve_of(fmt::format("tail {:.4g} t^-{:g}, {}", *tail.constant, power, tail.when),
-                               found, late, [&](double t) { return *tail.constant * std::pow(t, -power); });
+    PlotCurve curve = curve_of(fmt::format("~ t^-{:g}, {}", power, tail.when), found, late,
+                               [&](double t) { return *tail.constant * std::pow(t, -power); });
     curve.dashed = true;
     plot.curves.push_back(std::move(curve));
   }

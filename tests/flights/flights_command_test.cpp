@@ -73,15 +73,41 @@ TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
   CHECK(contains(folder.read("picture.svg"), "<svg"));
 }
 
+TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
+          "[flights][flights_command]") {
+  const Folder folder;
+  const auto number = [](const std::string& out, const std::string& key) {
+    const std::size_t at = out.find("\"" + key + "\":");
+    REQUIRE(at != std::string::npos);
+    return std::stod(out.substr(at + key.size() + 3));
+  };
+  for (const char* scene : {"square", "superposition-pi-5"})
+    for (const char* from : {"uniform", "surface"}) {
+      const Run run = folder.lorentz(
+          std::string("flights --radius 1e-4 --count 3e6 --jobs 2 --seed 7502 --json --scene ") + scene +
+          " --from " + from);
+      INFO(scene << ", " << from << ": " << run.out);
+      REQUIRE(run.status == 0);
+      CHECK(number(run.out, "p_value") > 0.001);
+      CHECK(number(run.out, "p_value_of_1.02") < 1e-9);
+    }
+}
+
 TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_command]") {
   const Folder folder;
   const std::vector<std::pair<std::string, std::string>> bad{
-      {"--count 0", "--count"},           {"--from surfaces", "surface"},
-      {"--engine bacth", "batch"},        {"--engine cmd:cat", "lorentz sample"},
-      {"--radius 0.75", "the engine batch does radii up to half the shortest lattice vector only; certified does"},
-      {"--radius 0.75 --engine certified", "no free start"}, {"--radius -1", "--radius"},
-      {"--scene sqare", "square"},        {"--shard 3", "I/N"},
-      {"--shard 2/2", "--shard"},         {"--add /no/such/file", "/no/such/file"},
+      {"--count 0", "--count"},
+      {"--from surfaces", "surface"},
+      {"--engine bacth", "batch"},
+      {"--engine cmd:cat", "lorentz sample"},
+      {"--radius 0.75",
+       "the engine batch does radii up to half the shortest lattice vector only; certified does"},
+      {"--radius 0.75 --engine certified", "no free start"},
+      {"--radius -1", "--radius"},
+      {"--scene sqare", "square"},
+      {"--shard 3", "I/N"},
+      {"--shard 2/2", "--shard"},
+      {"--add /no/such/file", "/no/such/file"},
   };
   for (const auto& [arguments, words] : bad) {
     const Run run = folder.lorentz("flights --count 1000 " + arguments);
