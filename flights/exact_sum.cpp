@@ -29,10 +29,8 @@ void ExactSum::add(double x) {
 }
 
 void ExactSum::add(const ExactSum& other) {
-  ExactSum canonical = other;
-  canonical.carry();
-  carry();
-  for (std::size_t i = 0; i < kDigits; ++i) digits_[i] += canonical.digits_[i];
+  carry();  // below 2^32 then, and the other's below 2^62
+  for (std::size_t i = 0; i < kDigits; ++i) digits_[i] += other.digits_[i];
   carry();
 }
 

@@ -192,6 +192,34 @@ TEST_CASE("Among slender ellipses on the unit lattice nothing drawn is undecided
   CHECK(slanted > 7'300);  // 9 154 seen
 }
 
+TEST_CASE("Slender ellipses on the square lattice and discs on another: next to nothing drawn is undecided",
+          "[engines][reduction_ellipsoid]") {
+  Draw draw(22);
+  INFO("seed 22");
+  long flights = 0, undecided = 0;
+  for (const double size : {1e-1, 1e-2, 1e-4}) {
+    Scene scene = unit_scene(2, size);
+    scene.lattices.push_back(scene.lattices[0]);
+    scene.lattices[0].atoms[0] = {{}, 0, {Vec{size, 0.3 * size}, Vec{-0.05 * size, 0.1 * size}}};
+    scene.lattices[1].vectors = {Vec{0.8090169943749475, 0.5877852522924731},
+                                 Vec{-0.5877852522924731, 0.8090169943749475}};
+    const Reduction engine(scene);
+    const oracle::Oracle exact(scene);
+    for (int i = 0; i < 3'000; ++i, ++flights) {
+      const Query query{draw.vec(2, 0, 30), draw.vec(2, -1, 1), {}};
+      const Flight flight = engine.fly(query);
+      INFO(stream(scene, query));
+      undecided += flight.outcome == Outcome::undecided;
+      if (flight.outcome == Outcome::undecided) continue;
+      const Answer truth = exact.first_hit(query);
+      REQUIRE(flight.outcome == truth.outcome);
+      if (truth.outcome == Outcome::hit) REQUIRE(answer_of(flight).obstacle == truth.obstacle);
+    }
+  }
+  INFO(undecided << " of " << flights);
+  CHECK(undecided < 3);
+}
+
 TEST_CASE(
     "Times among large ellipsoids: near hits without cancellation, and a thousand times as long as wide",
     "[engines][reduction_ellipsoid]") {

@@ -69,6 +69,11 @@ TEST_CASE("A sum is the exact one, rounded once", "[flights]") {
   CHECK(tie.value() == 1 + 0x1p-51);
   tie.add(-0x1p-1074);
   CHECK(tie.value() == 1 + 0x1p-52);
+  for (const double low : {0x1p-100, 0x1p-180, 0x1p-1074}) {  // what breaks a tie may lie far below
+    ExactSum broken;
+    for (const double x : {1.0, 0x1p-53, low}) broken.add(x);
+    CHECK(broken.value() == 1 + 0x1p-52);
+  }
   ExactSum tiny;
   for (int i = 0; i < 3; ++i) tiny.add(0x1p-1074);
   CHECK(tiny.value() == 3 * 0x1p-1074);

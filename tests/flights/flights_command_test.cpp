@@ -36,6 +36,14 @@ TEST_CASE("Flights: the same words for threads, shards and processes", "[flights
   CHECK(ranks.status == 0);
   CHECK(ranks.out == one.out);
   CHECK(folder.read("ranks") == store);
+  // Ranks go on with what a shard has done.
+  const Run rest =
+      folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                 LORENTZ_PROGRAM + " " + what + "--store " + folder.file("part0"));
+  INFO(rest.err);
+  CHECK(rest.status == 0);
+  CHECK(rest.out == one.out);
+  CHECK(folder.read("part0") == store);
 #endif
 }
 

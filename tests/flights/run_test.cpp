@@ -100,7 +100,9 @@ TEST_CASE("A run killed at any moment is gone on with, and counts the same", "[f
   const Plan plan = plan_of(unit_scene(2, 1e-3), 150 * kBlock);
   const Folder folder;
   const std::string path = folder.file("store");
-  const auto stored = [&] { return std::filesystem::exists(path) ? Account::of(folder.read("store")) : empty(plan); };
+  const auto stored = [&] {
+    return std::filesystem::exists(path) ? Account::of(folder.read("store")) : empty(plan);
+  };
   std::size_t kills = 0;
   for (; kills < 5; ++kills) {
     const pid_t child = fork();

@@ -286,9 +286,13 @@ class LatticePreparation {
     bravais.radius = shape_->radius;
     if (!set_basis(bravais, *shaped_)) return kTooSkewed;
     std::string why = finish(bravais, {&*shape_});
-    if (is_unit_ && atom.position == Vec{} && why.empty()) use_axes(bravais);
+    if (is_unit_ && is_alone() && atom.position == Vec{} && why.empty()) use_axes(bravais);
     return why;
   }
+
+  // Model::unit: one atom in all. Among several the axes would do harm: a vector that is long in the metric
+  // of the shape may point backward along a direction in it, for which only Model::unit has a step.
+  bool is_alone() const { return scene_.lattices.size() == 1 && lattice_.atoms.size() == 1; }
 
   // The unit lattice's own vectors, which are exact, instead of shorter ones: as long as no obstacle reaches
   // so far that one step along each axis does not lead to all that can contain a point.
