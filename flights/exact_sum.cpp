@@ -44,14 +44,21 @@ void ExactSum::carry() {
   pending_ = 1;  // what is carried over counts as a number
 }
 
-double ExactSum::value() const {
+// Its size, carried; and its sign.
+ExactSum ExactSum::size(bool& negative) const {
   ExactSum sum = *this;
   sum.carry();
-  const bool negative = sum.digits_.back() < 0;
+  negative = sum.digits_.back() < 0;
   if (negative) {
     for (std::int64_t& digit : sum.digits_) digit = -digit;
     sum.carry();
   }
+  return sum;
+}
+
+double ExactSum::value() const {
+  bool negative = false;
+  const ExactSum sum = size(negative);
   int top = kDigits - 1;
   while (top > 0 && sum.digits_[static_cast<std::size_t>(top)] == 0) --top;
   // The four highest digits have at least 97 bits; what is below them only breaks ties.
@@ -71,18 +78,13 @@ double ExactSum::value() const {
     head >>= drop;
     if (rest > half || (rest == half && (head & 1) != 0)) ++head;
   }
-  const double size = std::ldexp(static_cast<double>(head), place + drop);
-  return negative ? -size : size;
+  const double rounded = std::ldexp(static_cast<double>(head), place + drop);
+  return negative ? -rounded : rounded;
 }
 
 std::string ExactSum::text() const {
-  ExactSum sum = *this;
-  sum.carry();
-  const bool negative = sum.digits_.back() < 0;
-  if (negative) {
-    for (std::int64_t& digit : sum.digits_) digit = -digit;
-    sum.carry();
-  }
+  bool negative = false;
+  const ExactSum sum = size(negative);
   static constexpr char kHex[] = "0123456789abcdef";
   std::string text;
   for (std::size_t i = kDigits; i-- > 0;)

@@ -32,6 +32,7 @@ class ExactSum {
   static constexpr std::uint32_t kMostPending = 1u << 30;
 
   void carry();
+  ExactSum size(bool& negative) const;
 
   std::array<std::int64_t, kDigits> digits_{};
   std::uint32_t pending_ = 0;
