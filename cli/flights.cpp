@@ -222,7 +222,11 @@ void add_flights(CLI::App& app, Action& action) {
           "collision to the next (cosine law)")
       ->capture_default_str()
       ->type_name("KIND");
-  command->add_option("-e,--engine", options->engine, "who flies")->capture_default_str()->type_name("E");
+  command
+      ->add_option("-e,--engine", options->engine,
+                   "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", ")))
+      ->capture_default_str()
+      ->type_name("E");
   command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
   command->add_option("--time", options->seconds, "stop after so long")->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
@@ -245,7 +249,7 @@ void add_flights(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("I/N");
   command->add_option("--csv", options->csv, "the histograms, and theory, to a file")->type_name("FILE");
-  command->add_option("--svg", options->svg, "the picture: density and survival, theory drawn in")
+  command->add_option("--svg", options->svg, "the picture: P(free path > t), theory drawn in")
       ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->footer(

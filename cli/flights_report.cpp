@@ -13,9 +13,11 @@ using namespace flights;
 
 namespace {
 
+// Is this moment infinite, at the scene's own radius? (What tails become as r -> 0 says nothing of that.)
 bool is_infinite(const std::vector<Tail>& tails, double moment) {
   return std::any_of(tails.begin(), tails.end(), [&](const Tail& tail) {
-    return tail.exponent && *tail.exponent <= moment + 1 && tail.constant.value_or(0) > 0;
+    return tail.when == "t -> infinity" && tail.exponent && *tail.exponent <= moment + 1 &&
+           tail.constant.value_or(0) > 0;
   });
 }
 
@@ -27,7 +29,8 @@ std::string p_text(double p) {
 // What the mean and its error mean, where they do not mean what they look like.
 std::string remark_on_mean(Ensemble from, const std::vector<Tail>& tails) {
   if (from == Ensemble::uniform && is_infinite(tails, 1))
-    return "the exact mean is infinite: corridors make the density of a first flight fall like t^-2 in the "
+    return "the exact mean is infinite: open channels make the density of a first flight fall like t^-2 in "
+           "the "
            "end; what "
            "is here is a sample's mean, and grows with it";
   if (from == Ensemble::surface && is_infinite(tails, 2))

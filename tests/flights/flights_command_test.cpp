@@ -101,6 +101,19 @@ TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wron
     }
 }
 
+TEST_CASE("Flights: what a mean means is said where it is not what it looks like",
+          "[flights][flights_command]") {
+  const Folder folder;
+  const auto said = [&](const std::string& options) {
+    return folder.lorentz("flights --count 1e5 " + options).out;
+  };
+  CHECK(contains(said("--scene square"), "the exact mean is infinite"));
+  CHECK(contains(said("--scene square --from surface"), "the variance is infinite"));
+  CHECK(contains(said("--scene cubic"), "the exact mean is infinite"));
+  for (const char* finite : {"--scene triangular", "--scene triangular --from surface"})
+    CHECK_FALSE(contains(said(finite), "is infinite"));
+}
+
 TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_command]") {
   const Folder folder;
   const std::vector<std::pair<std::string, std::string>> bad{
