@@ -2,9 +2,7 @@
 
 #include <variant>
 
-#include "oracle/exact/exact_query.hpp"
-#include "oracle/exact/inside.hpp"
-#include "oracle/first_hit/first_hit.hpp"
+#include "oracle/first_hit/first_entry.hpp"
 
 namespace lorentz::oracle {
 namespace {
@@ -63,40 +61,14 @@ class Problem {
 
   Answer first_hit(const Query& query, const Request& request) const {
     const ExactQuery<D> exact(scene_, query);
-    std::vector<View<D>> views;
-    if (auto obstacle = smallest_around(exact, views)) return Answer::inside(*obstacle);
-    Earliest<D> earliest;
-    auto view = views.begin();
-    for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
-      for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a, ++view) {
-        const Z rho2 = view->radius2 * view->velocity.v2;
-        search_first_hit(
-            Search<D>{*view, view->velocity, l, a, exact.from_in(l, a), rho2, root_below(rho2), earliest});
-      }
-    return answer_to(exact, earliest, request);
+    const Sighting<D> seen = first_entry(scene_, exact);
+    if (seen.around) return Answer::inside(*seen.around);
+    return answer_to(exact, seen.earliest, request);
   }
 
-  bool is_free(const Query& query) const {
-    std::vector<View<D>> views;
-    return !smallest_around(ExactQuery<D>(scene_, query), views);
-  }
+  bool is_free(const Query& query) const { return !smallest_around(scene_, ExactQuery<D>(scene_, query)); }
 
  private:
-  // The smallest obstacle that contains x, or nothing and the views of all atoms, in order.
-  std::optional<ObstacleId> smallest_around(const ExactQuery<D>& exact, std::vector<View<D>>& views) const {
-    std::size_t atoms = 0;
-    for (const ExactLattice<D>& lattice : scene_.lattices) atoms += lattice.atoms.size();
-    views.reserve(atoms);
-    for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
-      for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {
-        views.push_back(exact.view(scene_, l, a));
-        const auto n =
-            smallest_inside<D>(scene_, l, a, views.back(), exact.from_in(l, a), exact.length_exponent);
-        if (n) return ObstacleId{l, a, to_cell(*n)};
-      }
-    return std::nullopt;
-  }
-
   Answer answer_to(const ExactQuery<D>& exact, const Earliest<D>& earliest, const Request& request) const {
     if (!earliest.found()) return request.max_time ? Answer::later() : Answer::never();
     const Entry<D>& entry = earliest.entry();

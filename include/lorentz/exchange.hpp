@@ -10,7 +10,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/line_reader.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/rational.hpp>
 
 namespace lorentz {
 
@@ -32,6 +32,16 @@ struct StreamItem {
   std::string message;     ///< of `bad`
   bool no_scene = false;   ///< `bad` because no scene holds
   bool bad_scene = false;  ///< the bad line was a scene: what follows has none
+};
+
+/// The same of a stream of starts, whose numbers may be rational.
+struct StartItem {
+  StreamItem::Kind kind = StreamItem::Kind::nothing;
+  Id id = "null";
+  RationalScene scene;
+  Start start;
+  std::string message;
+  bool no_scene = false, bad_scene = false;
 };
 
 /// Reads the lines of query and answer streams.
@@ -58,6 +68,11 @@ class ExchangeReader {
   /// queries are free of flaws (flaw_of), or the item is bad.
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
 
+  /// The same of a stream of starts: wherever a number is, a text with a rational number will do ("1/3", see
+  /// rational_from), in v one with a square root, too (surd_from); in place of v, in 2D, "direction":
+  /// {"degrees": 36}, or {"slope": "golden"}, which is v = (1, slope).
+  void read_start_line(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
+
   /// A line of an answer stream. `components` becomes the number of its cell's coordinates (0: no cell),
   /// which is for the caller to hold against the scene's dimension. Throws InputError. False for a blank line
   /// or a `golden` header.
@@ -70,6 +85,9 @@ class ExchangeReader {
 
 /// A scene file, TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the place.
 Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
+
+/// The same of a scene whose numbers may be texts with rational numbers (rational_from).
+RationalScene read_rational_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
 /// Appends a line, with its line end. A 2D problem has two components everywhere.
 void append_scene_line(std::string& out, const Scene& scene);

@@ -65,22 +65,32 @@ DualBasis<D>::DualBasis(const Basis<D>& basis, const Z& r)
 namespace {
 
 template <std::size_t D>
-ExactAtom<D> exact_atom(const Atom& atom, const Basis<D>& reduced, long exponent) {
+ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<D>& reduced) {
   ExactAtom<D> exact;
-  exact.position = scaled_vector<D>(atom.position, exponent);
-  if (atom.is_ball()) {
-    exact.radius = scaled(atom.radius, exponent);
+  exact.position = atom.position;
+  if (!atom.semiaxes) {
+    exact.radius = atom.radius;
     exact.home = DualBasis<D>(reduced, exact.radius);
     return exact;
   }
-  ZMatrix<D> columns;
-  for (std::size_t i = 0; i < D; ++i) columns[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
-  BallFrame<D> frame{adjugate(columns), {}};
-  exact.radius = abs(dot(frame.to_ball[0], columns[0]));
+  BallFrame<D> frame{adjugate(*atom.semiaxes), {}};
+  exact.radius = abs(dot(frame.to_ball[0], (*atom.semiaxes)[0]));
   frame.reduced = mapped(frame.to_ball, reduced);
   reduce(frame.reduced, EuclideanForm<D>{});
   exact.home = DualBasis<D>(frame.reduced, exact.radius);
   exact.frame = std::move(frame);
+  return exact;
+}
+
+template <std::size_t D>
+typename IntegerScene<D>::Atom integer_atom(const Atom& atom, long exponent) {
+  typename IntegerScene<D>::Atom exact{scaled_vector<D>(atom.position, exponent), Z(0), std::nullopt};
+  if (atom.is_ball()) {
+    exact.radius = scaled(atom.radius, exponent);
+    return exact;
+  }
+  exact.semiaxes.emplace();
+  for (std::size_t i = 0; i < D; ++i) (*exact.semiaxes)[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
   return exact;
 }
 
@@ -104,19 +114,28 @@ CommonExponent common_exponent(const Scene& scene, double other) {
 }
 
 template <std::size_t D>
-ExactScene<D>::ExactScene(const Scene& scene) {
-  exponent = common_exponent(scene).get();
+IntegerScene<D> integer_scene(const Scene& scene) {
+  IntegerScene<D> exact;
+  exact.exponent = common_exponent(scene).get();
   for (const Lattice& lattice : scene.lattices) {
-    ExactLattice<D> exact;
+    auto& its = exact.lattices.emplace_back();
+    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = scaled_vector<D>(lattice.vectors[i], exact.exponent);
+    for (const Atom& atom : lattice.atoms) its.atoms.push_back(integer_atom<D>(atom, exact.exponent));
+  }
+  return exact;
+}
+
+template <std::size_t D>
+ExactScene<D>::ExactScene(const IntegerScene<D>& scene) : exponent(scene.exponent) {
+  for (const auto& lattice : scene.lattices) {
+    ExactLattice<D>& exact = lattices.emplace_back();
     for (std::size_t i = 0; i < D; ++i) {
-      exact.primitive[i].p = scaled_vector<D>(lattice.vectors[i], exponent);
+      exact.primitive[i].p = lattice.vectors[i];
       for (std::size_t k = 0; k < D; ++k) exact.primitive[i].n[k] = i == k ? 1 : 0;
     }
     exact.reduced = exact.primitive;
     reduce(exact.reduced, EuclideanForm<D>{});
-    for (const Atom& atom : lattice.atoms)
-      exact.atoms.push_back(exact_atom<D>(atom, exact.reduced, exponent));
-    lattices.push_back(std::move(exact));
+    for (const auto& atom : lattice.atoms) exact.atoms.push_back(exact_atom<D>(atom, exact.reduced));
   }
 }
 
@@ -190,6 +209,8 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
   return centre;
 }
 
+template IntegerScene<2> integer_scene(const Scene&);
+template IntegerScene<3> integer_scene(const Scene&);
 template struct ExactScene<2>;
 template struct ExactScene<3>;
 template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const Velocity<2>&, long);

@@ -98,13 +98,33 @@ ZVec<D> scaled_vector(const Vec& a, long exponent) {
   return result;
 }
 
-/// The scene with every length multiplied by 2^-exponent.
+/// A scene whose numbers are integers times 2^exponent, as it is written.
+template <std::size_t D>
+struct IntegerScene {
+  struct Atom {
+    ZVec<D> position;
+    Z radius;
+    std::optional<std::array<ZVec<D>, D>> semiaxes;  ///< of an ellipsoid
+  };
+  struct Lattice {
+    std::array<ZVec<D>, D> vectors;
+    std::vector<Atom> atoms;
+  };
+  long exponent = 0;
+  std::vector<Lattice> lattices;
+};
+
+template <std::size_t D>
+IntegerScene<D> integer_scene(const Scene& scene);
+
+/// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
 template <std::size_t D>
 struct ExactScene {
   long exponent = 0;
   std::vector<ExactLattice<D>> lattices;
 
-  explicit ExactScene(const Scene& scene);
+  explicit ExactScene(const IntegerScene<D>& scene);
+  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(scene)) {}
 };
 
 /// The velocity v scaled to integers, and v^2.

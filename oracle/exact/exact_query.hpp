@@ -30,6 +30,17 @@ struct ExactQuery {
   std::optional<ObstacleId> from;
   ZVec<D> from_cell;
 
+  /// Numbers that are integers already; length_exponent at most the scene's.
+  ExactQuery(const ZVec<D>& place, long of_lengths, const ZVec<D>& v, long of_velocities,
+             const std::optional<ObstacleId>& leaves)
+      : length_exponent(of_lengths),
+        velocity_exponent(of_velocities),
+        x(place),
+        velocity{v, dot(v, v)},
+        from(leaves) {
+    if (from) from_cell = to_zvec<D>(from->cell);
+  }
+
   /// Lengths in units 2^-finer of what the numbers need.
   ExactQuery(const ExactScene<D>& scene, const Query& query, long finer = 0) : from(query.from) {
     CommonExponent of_x, of_v;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "src/exchange/exchange_json.hpp"
+#include "src/exchange/exchange_line.hpp"
 
 namespace lorentz {
 namespace {
@@ -25,104 +25,6 @@ Components read_components(json::value value, const char* key) {
   return result;
 }
 
-struct CellRead {
-  Cell cell{};
-  std::size_t count = 0;
-};
-
-CellRead read_cell(json::value value) {
-  if (value.type() != json::json_type::array) throw InputError("cell: needs an array of integers");
-  CellRead result;
-  for (json::value element : value.get_array()) {
-    Integer n = read_integer(element, "cell");
-    if (result.count < 3) result.cell[result.count] = std::move(n);
-    ++result.count;
-  }
-  return result;
-}
-
-int read_index(json::value value, const char* key) {
-  const Integer n = read_integer(value, key);
-  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
-    throw InputError(std::string(key) + ": is no index");
-  return static_cast<int>(n.int64());
-}
-
-Id read_id(json::value value) {
-  if (value.type() == json::json_type::string) return json_quoted(value.get_string().value());
-  if (value.type() == json::json_type::null) {
-    skip(value);
-    return "null";
-  }
-  std::string id;
-  append_integer(id, read_integer(value, "id"));
-  return id;
-}
-
-struct FromRead {
-  ObstacleId obstacle;
-  std::size_t components = 0;
-  bool lattice = false, atom = false;
-};
-
-FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key) {
-  if (value.type() != json::json_type::object)
-    throw InputError("from: needs an object with lattice, atom and cell");
-  FromRead from;
-  for (auto field : value.get_object()) {
-    const std::string_view key = field.unescaped_key();
-    if (key == "lattice") {
-      from.obstacle.lattice = read_index(field.value(), "from.lattice");
-      from.lattice = true;
-    } else if (key == "atom") {
-      from.obstacle.atom = read_index(field.value(), "from.atom");
-      from.atom = true;
-    } else if (key == "cell") {
-      CellRead cell = read_cell(field.value());
-      from.obstacle.cell = std::move(cell.cell);
-      from.components = cell.count;
-    } else {
-      if (on_unknown_key) on_unknown_key("from." + std::string(key));
-      skip(field.value());
-    }
-  }
-  if (!from.lattice || !from.atom || from.components == 0)
-    throw InputError("from: needs lattice, atom and cell");
-  return from;
-}
-
-// What programs write for a number that is none, and JSON does not have.
-std::string_view no_number_in(std::string_view text) {
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\')
-      ++i;
-    else if (text[i] == '"')
-      quoted = !quoted;
-    else if (!quoted)
-      for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
-        if (text.substr(i).starts_with(word)) return word;
-  }
-  return {};
-}
-
-std::string not_json(const LineReader::Line& line, const std::string& why) {
-  const auto nuls = std::count(line.text.begin(), line.text.end(), '\0');
-  if (nuls > 0)
-    return "not JSON: holds " + std::to_string(nuls) +
-           " NUL bytes (was the file overwritten or cut while it was written?)";
-  if (const std::string_view word = no_number_in(line.text); !word.empty())
-    return "not JSON: " + std::string(word) +
-           " is no number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, and "
-           "what "
-           "is not known is \"outcome\":\"undecided\")";
-  return "not JSON: " + why;
-}
-
-bool is_blank(const LineReader::Line& line) {
-  return !line.too_long && line.text.find_first_not_of(" \t\r") == std::string_view::npos;
-}
-
 // What a line of a query stream says, before it is held against the scene.
 struct QueryFields {
   Components x, v;
@@ -131,14 +33,6 @@ struct QueryFields {
   bool golden = false;
   bool has_x = false, has_v = false, has_scene = false;
 };
-
-// What golden records and files of disagreements have beside the query.
-bool is_beside_query(std::string_view key) {
-  constexpr std::string_view kKeys[] = {"golden",  "tags",      "expect",      "time_decimal",
-                                        "margin",  "condition", "certificate", "engine",
-                                        "verdict", "departs",   "expected",    "given"};
-  return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
-}
 
 void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields,
                       const OnUnknownKey& on_unknown_key) {
@@ -162,12 +56,6 @@ void read_query_field(std::string_view key, json::value value, Id& id, QueryFiel
   }
 }
 
-void check_dimension(const char* what, std::size_t count, int dimension) {
-  if (count != static_cast<std::size_t>(dimension))
-    throw InputError(std::string(what) + ": has " + std::to_string(count) +
-                     " components, the scene has dimension " + std::to_string(dimension));
-}
-
 Query query_from(QueryFields& fields, const Scene& scene) {
   if (!fields.has_x) throw InputError("x is missing");
   if (!fields.has_v) throw InputError("v is missing");
@@ -184,28 +72,6 @@ Query query_from(QueryFields& fields, const Scene& scene) {
 
 }  // namespace
 
-struct ExchangeReader::Impl {
-  json::parser parser;
-  json::document document;
-  OnUnknownKey on_unknown_key;
-
-  // The line's object. What is no object is no line of any stream.
-  json::object open(const LineReader::Line& line) {
-    if (line.too_long)
-      throw InputError("line longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
-    document = parser.iterate(line.text.data(), line.text.size(), line.text.size() + LineReader::kPadding);
-    if (document.type() != json::json_type::object)
-      throw InputError("not JSON as it should be: a line is one object, {...}");
-    return document.get_object();
-  }
-
-  void close() {
-    if (!ended(document)) throw NotJson{"more than one value in the line"};
-  }
-
-  void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
-};
-
 ExchangeReader::ExchangeReader() : impl_(std::make_unique<Impl>()) {}
 ExchangeReader::~ExchangeReader() = default;
 
@@ -216,7 +82,7 @@ void ExchangeReader::on_unknown_key(OnUnknownKey listener) {
 void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   QueryFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
-  for (auto field : open(line)) {
+  for (auto field : json_line.open(line)) {
     const std::string_view key = field.unescaped_key();
     item.bad_scene |= key == "scene";  // should its value turn out to be no JSON
     try {
@@ -226,7 +92,7 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
     }
     item.bad_scene = fields.has_scene;
   }
-  close();
+  json_line.close();
   if (!flaw.empty()) throw InputError(flaw);
   if (fields.scene) {
     if (on_unknown_key && (fields.has_x || fields.has_v || fields.from))
@@ -242,41 +108,8 @@ void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene*
   }
 }
 
-namespace {
-
-// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not for
-// the scene before it.
-bool begins_as_scene(std::string_view text) {
-  for (const std::string_view part : {"{", "\"scene\"", ":"}) {
-    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-    if (!text.starts_with(part)) return false;
-    text.remove_prefix(part.size());
-  }
-  return true;
-}
-
-}  // namespace
-
 void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
-  item.kind = StreamItem::Kind::nothing;
-  item.id = "null";
-  item.no_scene = item.bad_scene = false;
-  if (is_blank(line)) return;
-  const auto bad = [&](std::string message) {
-    item.kind = StreamItem::Kind::bad;
-    item.message = std::move(message);
-    item.bad_scene |= begins_as_scene(line.text);
-    if (item.bad_scene) item.id = "null";
-  };
-  try {
-    impl_->read_query(line, scene, item);
-  } catch (const simdjson::simdjson_error& error) {
-    bad(not_json(line, error.what()));
-  } catch (const NotJson& error) {
-    bad(not_json(line, error.why));
-  } catch (const InputError& error) {
-    bad(error.what());
-  }
+  impl_->read_item(line, item, [&] { impl_->read_query(line, scene, item); });
 }
 
 namespace {
@@ -366,8 +199,9 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
   id = "null";
   components = 0;
   try {
-    const bool is_answer = read_answer(impl_->open(line), id, answer, components, impl_->on_unknown_key);
-    impl_->close();
+    const bool is_answer =
+        read_answer(impl_->json_line.open(line), id, answer, components, impl_->on_unknown_key);
+    impl_->json_line.close();
     return is_answer;
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(not_json(line, error.what()));

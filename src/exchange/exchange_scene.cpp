@@ -56,10 +56,19 @@ const SceneNode& required(const SceneNode& node, const char* key, const std::str
   return *member;
 }
 
-double number_at(const SceneNode& node, const std::string& place) {
+template <class Number>
+Number number_at(const SceneNode& node, const std::string& place);
+
+template <>
+double number_at<double>(const SceneNode& node, const std::string& place) {
   if (const double* number = std::get_if<double>(&node.value)) return *number;
   if (const std::string* text = std::get_if<std::string>(&node.value)) return parse_hexadecimal(*text, place);
   throw InputError(place + ": needs a number");
+}
+
+template <>
+Rational number_at<Rational>(const SceneNode& node, const std::string& place) {
+  return rational_at(node, place);
 }
 
 const SceneNode::Array& array_at(const SceneNode& node, const std::string& place) {
@@ -71,38 +80,43 @@ std::string item(const std::string& place, std::size_t i) {
   return place + "[" + std::to_string(i) + "]";
 }
 
-Vec vector_at(const SceneNode& node, int dimension, const std::string& place) {
+template <class Number>
+std::array<Number, 3> vector_at(const SceneNode& node, int dimension, const std::string& place) {
   const auto& array = array_at(node, place);
   if (array.size() != static_cast<std::size_t>(dimension))
     throw InputError(place + ": has " + std::to_string(array.size()) +
                      " components, the scene has dimension " + std::to_string(dimension));
-  Vec result{};
-  for (std::size_t i = 0; i < array.size(); ++i) result[i] = number_at(array[i], item(place, i));
+  std::array<Number, 3> result{};
+  for (std::size_t i = 0; i < array.size(); ++i) result[i] = number_at<Number>(array[i], item(place, i));
   return result;
 }
 
-std::vector<Vec> vectors_at(const SceneNode& node, int dimension, const std::string& place) {
+template <class Number>
+std::vector<std::array<Number, 3>> vectors_at(const SceneNode& node, int dimension,
+                                              const std::string& place) {
   const auto& array = array_at(node, place);
   if (array.size() != static_cast<std::size_t>(dimension))
     throw InputError(place + ": needs " + std::to_string(dimension) + " vectors, has " +
                      std::to_string(array.size()));
-  std::vector<Vec> result;
+  std::vector<std::array<Number, 3>> result;
   for (std::size_t i = 0; i < array.size(); ++i)
-    result.push_back(vector_at(array[i], dimension, item(place, i)));
+    result.push_back(vector_at<Number>(array[i], dimension, item(place, i)));
   return result;
 }
 
-Atom atom_from(const SceneNode& node, int dimension, const std::string& place) {
-  Atom atom;
-  atom.position = vector_at(required(node, "position", place), dimension, place + ".position");
+template <class AnAtom>
+AnAtom atom_from(const SceneNode& node, int dimension, const std::string& place) {
+  using Number = decltype(AnAtom::radius);
+  AnAtom atom;
+  atom.position = vector_at<Number>(required(node, "position", place), dimension, place + ".position");
   const SceneNode* radius = node.member("radius");
   const SceneNode* semiaxes = node.member("semiaxes");
   if (!radius && !semiaxes) throw InputError(place + ": radius is missing (or semiaxes)");
   if (radius && semiaxes) throw InputError(place + ": has both radius and semiaxes; leave one out");
   if (radius)
-    atom.radius = number_at(*radius, place + ".radius");
+    atom.radius = number_at<Number>(*radius, place + ".radius");
   else
-    atom.semiaxes = vectors_at(*semiaxes, dimension, place + ".semiaxes");
+    atom.semiaxes = vectors_at<Number>(*semiaxes, dimension, place + ".semiaxes");
   return atom;
 }
 
@@ -127,28 +141,50 @@ void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key)
         check_keys(*atoms, "lattices.atoms.", {"position", "radius", "semiaxes"}, on_unknown_key);
 }
 
-}  // namespace
-
-Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+// A scene in numbers of either sort.
+template <class AScene>
+AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+  using ALattice = typename decltype(AScene::lattices)::value_type;
+  using AnAtom = typename decltype(ALattice::atoms)::value_type;
+  using Number = decltype(AnAtom::radius);
   if (on_unknown_key) check_scene_keys(node, on_unknown_key);
-  Scene scene;
-  const double dimension = number_at(required(node, "dimension", ""), "dimension");
+  AScene scene;
+  const double dimension = number_at<double>(required(node, "dimension", ""), "dimension");
   if (dimension != 2 && dimension != 3) throw InputError("dimension: must be 2 or 3");
   scene.dimension = static_cast<int>(dimension);
   const auto& lattices = array_at(required(node, "lattices", ""), "lattices");
   for (std::size_t l = 0; l < lattices.size(); ++l) {
     const std::string place = item("lattices", l);
-    Lattice lattice;
-    const auto vectors =
-        vectors_at(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
-    std::copy(vectors.begin(), vectors.end(), lattice.vectors.begin());
+    ALattice lattice;
+    auto vectors =
+        vectors_at<Number>(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
+    std::move(vectors.begin(), vectors.end(), lattice.vectors.begin());
     const auto& atoms = array_at(required(lattices[l], "atoms", place), place + ".atoms");
     for (std::size_t a = 0; a < atoms.size(); ++a)
-      lattice.atoms.push_back(atom_from(atoms[a], scene.dimension, item(place + ".atoms", a)));
+      lattice.atoms.push_back(atom_from<AnAtom>(atoms[a], scene.dimension, item(place + ".atoms", a)));
     scene.lattices.push_back(std::move(lattice));
   }
   if (auto flaw = flaw_of(scene)) throw InputError(*flaw);
   return scene;
+}
+
+}  // namespace
+
+Rational rational_at(const SceneNode& node, const std::string& place) {
+  if (const double* number = std::get_if<double>(&node.value)) return *number;
+  const std::string* text = std::get_if<std::string>(&node.value);
+  if (!text) throw InputError(place + ": needs a number");
+  if (auto number = rational_from(*text)) return *number;
+  throw InputError(place + ": " + json_quoted(*text) +
+                   " is no rational number (like \"1/3\", \"0.1\", \"2.5e-3\", \"0x1.8p-1\")");
+}
+
+Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+  return parts_from<Scene>(node, on_unknown_key);
+}
+
+RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+  return parts_from<RationalScene>(node, on_unknown_key);
 }
 
 }  // namespace lorentz

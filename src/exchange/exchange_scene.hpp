@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/rational.hpp>
 
 namespace lorentz {
 
@@ -28,6 +28,12 @@ struct SceneNode::Member {
 
 /// Throws InputError with the place of what is missing or wrong, e.g. "lattices[0].atoms[1].radius".
 Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
+
+/// The same of rational numbers, exactly.
+RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
+
+/// A number, exactly: a binary64, or a text as rational_from takes it. Throws InputError, naming `place`.
+Rational rational_at(const SceneNode& node, const std::string& place);
 
 /// "0x1.8p-1" and the like; throws InputError, naming `place`.
 double parse_hexadecimal(std::string_view text, const std::string& place);

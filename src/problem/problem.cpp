@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "src/problem/from_flaw.hpp"
+
 namespace lorentz {
 
 std::optional<Integer> Integer::from_decimal(std::string_view text) {
@@ -139,13 +141,7 @@ std::optional<std::string> flaw_of(const Query& query, const Scene& scene) {
   if (!all_finite(query.x)) return "x is not finite";
   if (!all_finite(query.v)) return "v is not finite";
   if (query.v == Vec{}) return "v is zero: the particle needs a direction";
-  if (!query.from) return std::nullopt;
-  const auto& from = *query.from;
-  if (from.lattice < 0 || from.lattice >= static_cast<int>(scene.lattices.size()))
-    return "from names lattice " + std::to_string(from.lattice) + ", which the scene does not have";
-  if (from.atom < 0 || from.atom >= static_cast<int>(scene.lattices[from.lattice].atoms.size()))
-    return "from names atom " + std::to_string(from.atom) + ", which its lattice does not have";
-  return std::nullopt;
+  return query.from ? from_flaw(*query.from, scene) : std::nullopt;
 }
 
 Scene unit_scene(int dimension, double radius) {

@@ -1,0 +1,75 @@
+// Certified itineraries: which obstacles a particle hits one after another, and where it is, proven.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lorentz/rational.hpp>
+
+namespace lorentz::oracle {
+
+/// How far to follow it, and what is wanted besides the itinerary.
+struct Journey {
+  std::optional<std::uint64_t> collisions;  ///< at most so many
+  std::optional<Rational> time;             ///< and none after this time
+  int digits = 17;                          ///< of times, places, velocities
+  bool states = false;                      ///< place and velocity at each collision, too
+  long first_bits = 0;                      ///< the precision to begin with (0: by the digits); it grows ..
+  long most_bits = 1L << 18;                ///< .. as it must, to this at most
+};
+
+/// A collision of which everything is certain. Decimals are correctly rounded (but see certain digits below).
+struct CertifiedCollision {
+  ObstacleId obstacle;
+  std::string time;            ///< since the start
+  std::vector<std::string> x;  ///< the place of the collision, if states are wanted
+  std::vector<std::string> v;  ///< the velocity after it, likewise
+  double nearest_time = 0;     ///< in binary64, to within some ulps
+  Vec offset{}, velocity{};    ///< from the obstacle's centre, and after the collision; likewise
+  long bits = 0;               ///< that are lost: an error of the start has grown 2^bits times, about
+};
+
+enum class JourneyEnd { collisions, time, never, inside, undecided };
+std::string_view name_of(JourneyEnd end);
+
+/// How a journey ended, and where. At a collision: place of the collision, velocity after it.
+struct Arrival {
+  JourneyEnd end = JourneyEnd::undecided;
+  std::uint64_t collisions = 0;
+  long bits = 0;  ///< of working precision, that made all of it certain
+  std::vector<std::string> x, v;
+  std::string distance;  ///< from the origin
+};
+
+/// Itineraries in one scene, by balls of growing precision and exact searches.
+class Itinerary {
+ public:
+  /// Throws InputError if the scene has a flaw (radius not above 0, dependent vectors).
+  explicit Itinerary(const RationalScene& scene);
+  Itinerary(Itinerary&&) noexcept;
+  ~Itinerary();
+
+  using OnCollision = std::function<bool(const CertifiedCollision&)>;
+
+  /// Calls on_collision for each collision, in order, as soon as it is certain to all digits; false from it
+  /// ends the journey there (as `collisions`). Throws InputError for a start that is none (v = 0).
+  Arrival follow(const Start& start, const Journey& journey, const OnCollision& on_collision = {}) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// The nearest binary64 of every number: what programs make of the same problem. Beyond binary64's range an
+/// infinity, which is a flaw (flaw_of). `degrees` become a velocity.
+Scene nearest(const RationalScene& scene);
+Query nearest(const Start& start);
+
+/// The library of intervals and its version.
+std::string itinerary_libraries();
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,79 @@
+// Numbers that need not be binary64: rational ones, exactly as they are written, and scenes of them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz {
+
+/// numerator / denominator, denominator > 0; not necessarily in lowest terms.
+struct Fraction {
+  Integer numerator = 0, denominator = 1;
+};
+
+/// A rational number: a binary64, or a fraction.
+using Rational = std::variant<double, Fraction>;
+
+/// The number that a text is, exactly: "1/3", "-0.1" (the tenth, not the binary64 near it), "2.5e-3",
+/// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or one with an exponent beyond 10^4.
+std::optional<Rational> rational_from(std::string_view text);
+
+/// scale * sqrt(root) + shift, as far as starts need it: a rational number has no root.
+struct Surd {
+  Rational shift = 0.0, scale = 0.0;
+  std::optional<Rational> root;  ///< >= 0
+
+  Surd() = default;
+  Surd(Rational number) : shift(std::move(number)) {}
+};
+
+/// A rational number, "sqrt(2)", "sqrt(1/3)", "-sqrt(5)", or "golden": (1 + sqrt(5)) / 2. Nothing for any
+/// other text.
+std::optional<Surd> surd_from(std::string_view text);
+
+using RationalVec = std::array<Rational, 3>;
+
+/// As Atom, Lattice and Scene (problem.hpp), in rational numbers.
+struct RationalAtom {
+  RationalVec position{};
+  Rational radius = 0.0;
+  std::vector<RationalVec> semiaxes;
+
+  bool is_ball() const { return semiaxes.empty(); }
+};
+
+struct RationalLattice {
+  std::array<RationalVec, 3> vectors{};
+  std::vector<RationalAtom> atoms;
+};
+
+struct RationalScene {
+  int dimension = 0;
+  std::vector<RationalLattice> lattices;
+};
+
+/// What is wrong with a scene, or nothing: as of Scene (problem.hpp).
+std::optional<std::string> flaw_of(const RationalScene& scene);
+
+/// Where a particle starts: the place exactly, the velocity exactly or to any precision.
+struct Start {
+  RationalVec x{};
+  std::array<Surd, 3> v{};
+  std::optional<Rational> degrees;  ///< in place of v, in 2D: speed 1, turned so far from the first axis
+  std::optional<ObstacleId> from;   ///< as in Query
+};
+
+/// What is wrong with a start in this scene, or nothing: v != 0, sqrt of no negative number, `from` names an
+/// atom that exists.
+std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene);
+
+/// The same numbers.
+RationalScene rational(const Scene& scene);
+
+}  // namespace lorentz

@@ -1,0 +1,207 @@
+// Real numbers enclosed in balls, mid +- radius, by Arb: every operation's result holds what exact arithmetic
+// on any numbers of its operands' balls would give. Private to oracle/itinerary.
+#pragma once
+
+#include <arb.h>
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <string>
+
+#include "oracle/integers/integer.hpp"
+
+namespace lorentz::oracle {
+
+/// An upper bound: 30 bits, any exponent, all operations rounded upwards.
+class Bound {
+ public:
+  Bound() { mag_init(value_); }
+  explicit Bound(double value) : Bound() { mag_set_d(value_, value); }
+  explicit Bound(const mag_t value) { mag_init_set(value_, value); }
+  Bound(const Bound& other) { mag_init_set(value_, other.value_); }
+  Bound& operator=(const Bound& other) {
+    mag_set(value_, other.value_);
+    return *this;
+  }
+  ~Bound() { mag_clear(value_); }
+
+  /// 2^exponent
+  static Bound power_of_two(long exponent) {
+    Bound result(1);
+    mag_mul_2exp_si(result.value_, result.value_, exponent);
+    return result;
+  }
+
+  Bound& operator+=(const Bound& b) {
+    mag_add(value_, value_, b.value_);
+    return *this;
+  }
+  friend Bound operator+(Bound a, const Bound& b) { return a += b; }
+  friend Bound operator*(Bound a, const Bound& b) {
+    mag_mul(a.value_, a.value_, b.value_);
+    return a;
+  }
+  friend Bound operator/(Bound a, const Bound& b) {
+    mag_div(a.value_, a.value_, b.value_);
+    return a;
+  }
+  friend bool operator<(const Bound& a, const Bound& b) { return mag_cmp(a.value_, b.value_) < 0; }
+  friend Bound larger(const Bound& a, const Bound& b) { return a < b ? b : a; }
+
+  bool is_zero() const { return mag_is_zero(value_); }
+  bool is_finite() const { return mag_is_finite(value_); }
+  /// The least k with value <= 2^k, for a finite value other than 0.
+  long exponent() const;
+  const mag_t& raw() const { return value_; }
+
+ private:
+  mag_t value_;
+};
+
+class Ball {
+ public:
+  /// Sets the precision of all operations of this thread, in bits, while it lives.
+  class Precision {
+   public:
+    explicit Precision(long bits) : before_(bits_) { bits_ = bits; }
+    ~Precision() { bits_ = before_; }
+    Precision(const Precision&) = delete;
+    static long now() { return bits_; }
+
+   private:
+    long before_;
+    inline static thread_local long bits_ = 128;
+  };
+
+  Ball() { arb_init(value_); }
+  template <std::integral T>
+  Ball(T value) : Ball() {
+    arb_set_si(value_, static_cast<slong>(value));
+  }
+  explicit Ball(double value) : Ball() { arb_set_d(value_, value); }
+  explicit Ball(const Z& value) : Ball() {
+    fmpz_t integer;
+    fmpz_init(integer);
+    fmpz_set_mpz(integer, value.view());
+    arb_set_fmpz(value_, integer);
+    fmpz_clear(integer);
+  }
+  Ball(const Ball& other) : Ball() { arb_set(value_, other.value_); }
+  Ball(Ball&& other) noexcept : Ball() { arb_swap(value_, other.value_); }
+  Ball& operator=(const Ball& other) {
+    arb_set(value_, other.value_);
+    return *this;
+  }
+  Ball& operator=(Ball&& other) noexcept {
+    arb_swap(value_, other.value_);
+    return *this;
+  }
+  ~Ball() { arb_clear(value_); }
+
+  friend Ball operator+(const Ball& a, const Ball& b) {
+    Ball c;
+    arb_add(c.value_, a.value_, b.value_, Precision::now());
+    return c;
+  }
+  friend Ball operator-(const Ball& a, const Ball& b) {
+    Ball c;
+    arb_sub(c.value_, a.value_, b.value_, Precision::now());
+    return c;
+  }
+  friend Ball operator*(const Ball& a, const Ball& b) {
+    Ball c;
+    arb_mul(c.value_, a.value_, b.value_, Precision::now());
+    return c;
+  }
+  friend Ball operator/(const Ball& a, const Ball& b) {
+    Ball c;
+    arb_div(c.value_, a.value_, b.value_, Precision::now());
+    return c;
+  }
+  friend Ball operator-(const Ball& a) {
+    Ball c;
+    arb_neg(c.value_, a.value_);
+    return c;
+  }
+  friend Ball square(const Ball& a) {
+    Ball c;
+    arb_sqr(c.value_, a.value_, Precision::now());
+    return c;
+  }
+  friend Ball sqrt(const Ball& a) {
+    Ball c;
+    arb_sqrt(c.value_, a.value_, Precision::now());
+    return c;
+  }
+  /// a 2^exponent
+  friend Ball scaled(const Ball& a, long exponent) {
+    Ball c;
+    arb_mul_2exp_si(c.value_, a.value_, exponent);
+    return c;
+  }
+  Ball& operator+=(const Ball& b) {
+    arb_add(value_, value_, b.value_, Precision::now());
+    return *this;
+  }
+  Ball& add_product(const Ball& a, const Ball& b) {
+    arb_addmul(value_, a.value_, b.value_, Precision::now());
+    return *this;
+  }
+
+  /// All numbers of the ball are.
+  bool is_positive() const { return arb_is_positive(value_); }
+  bool is_nonnegative() const { return arb_is_nonnegative(value_); }
+  bool is_negative() const { return arb_is_negative(value_); }
+  bool is_exact() const { return arb_is_exact(value_); }
+  bool is_finite() const { return arb_is_finite(value_); }
+  friend bool surely_less(const Ball& a, const Ball& b) { return arb_lt(a.value_, b.value_); }
+  friend bool surely_not_after(const Ball& a, const Ball& b) { return arb_le(a.value_, b.value_); }
+
+  Bound radius() const { return Bound(arb_radref(value_)); }
+  /// At least the size of every number of the ball.
+  Bound size() const;
+  /// At most that.
+  Bound least_size() const;
+  /// Wider by so much.
+  Ball widened(const Bound& by) const;
+  /// Its middle.
+  Ball middle() const;
+  double nearest() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
+
+  /// The middle times 2^bits, rounded to an integer; less than 1 off.
+  Z rounded(long bits) const;
+  /// The middle is integer * 2^exponent with an odd integer, or 0.
+  struct Exact {
+    Z integer;
+    long exponent = 0;
+  };
+  Exact exact_middle() const;
+
+  /// Numbers without a radius below and above all of the ball, rounded outwards to the precision.
+  Ball lower() const;
+  Ball upper() const;
+
+  const arb_t& raw() const { return value_; }
+  arb_t& raw() { return value_; }
+
+ private:
+  arb_t value_;
+};
+
+template <std::size_t N>
+using BallVec = std::array<Ball, N>;
+
+template <std::size_t N>
+Ball dot(const BallVec<N>& a, const BallVec<N>& b) {
+  Ball sum = a[0] * b[0];
+  for (std::size_t i = 1; i < N; ++i) sum.add_product(a[i], b[i]);
+  return sum;
+}
+
+/// A decimal text of `digits` significant digits, the number correctly rounded, if the whole ball rounds to the
+/// same one; positional for exponents -7 to `digits` - 1, else d.ddde+x. Of a ball around 0 with a radius below
+/// 10^-digits / 2: a zero with `digits` decimals. Otherwise nothing.
+std::optional<std::string> certain_decimal(const Ball& a, int digits);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,121 @@
+// What is not known of a particle's state, as a small parallelepiped that turns with the flow. Private to
+// oracle/itinerary.
+//
+// State = middle + Q e, Q near to orthogonal, |e_i| <= width_i. A collision maps this into
+// F(middle) + J Q e, J the derivative anywhere in the box (mean value theorem), and Q' = the orthogonal
+// factor of J Q's columns, longest first, makes of it Q' e' with e' = Q'^-1 (J Q e + rounding). So the box is
+// long where the flow stretches and thin elsewhere, and grows by what the flow stretches; boxes along the axes
+// would grow by some 4 bits a collision more. (R. Lohner's method for differential equations.)
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "oracle/itinerary/ball.hpp"
+
+namespace lorentz::oracle {
+
+template <int N>
+class ErrorBox {
+ public:
+  using Matrix = std::array<BallVec<N>, N>;  ///< rows
+  using Bounds = std::array<Bound, N>;
+
+  /// Nothing unknown but for `widths` of the components.
+  explicit ErrorBox(const Bounds& widths = {}) : turn_(Turn::Identity()), widths_(widths) {}
+
+  bool is_point() const {
+    for (const Bound& width : widths_)
+      if (!width.is_zero()) return false;
+    return true;
+  }
+
+  /// How far a linear function of the state, with this gradient, may be from its value in the middle.
+  Bound width_of(const BallVec<N>& gradient) const {
+    Bound sum;
+    for (int k = 0; k < N; ++k) {
+      Ball along;
+      for (int i = 0; i < N; ++i) along.add_product(gradient[i], Ball(turn_(i, k)));
+      sum += along.size() * widths_[k];
+    }
+    return sum;
+  }
+
+  /// The same of one component.
+  Bound width_of(int component) const {
+    Bound sum;
+    for (int k = 0; k < N; ++k) sum += Ball(turn_(component, k)).size() * widths_[k];
+    return sum;
+  }
+
+  /// The box after a step with this derivative anywhere in it, whose result's middle was rounded.
+  void advance(const Matrix& derivative, const Bounds& rounding) {
+    const Matrix moved = times_turn(derivative);
+    turn_ = orthogonal_factor(moved);
+    Bounds next;
+    Bound largest;
+    for (int i = 0; i < N; ++i) {
+      for (int k = 0; k < N; ++k) {
+        Ball entry;  // of Q'^T J Q
+        for (int j = 0; j < N; ++j) entry.add_product(Ball(turn_(j, i)), moved[j][k]);
+        next[i] += entry.size() * widths_[k] + Ball(turn_(k, i)).size() * rounding[k];
+      }
+      largest = larger(largest, next[i]);
+    }
+    // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1: |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|, largest components.
+    const Bound slant = beyond_orthogonal();
+    for (int i = 0; i < N; ++i) widths_[i] = next[i] + slant * largest;
+  }
+
+ private:
+  using Turn = Eigen::Matrix<double, N, N>;
+
+  Matrix times_turn(const Matrix& derivative) const {
+    Matrix moved;
+    for (int i = 0; i < N; ++i)
+      for (int k = 0; k < N; ++k)
+        for (int j = 0; j < N; ++j) moved[i][k].add_product(derivative[i][j], Ball(turn_(j, k)));
+    return moved;
+  }
+
+  // Any matrix will do; a good one is Q of the QR factors of the columns, longest first. Their lengths are
+  // beyond binary64's range, their directions not.
+  Turn orthogonal_factor(const Matrix& moved) const {
+    std::array<int, N> order;
+    std::array<Bound, N> length;
+    for (int k = 0; k < N; ++k) {
+      order[k] = k;
+      for (int i = 0; i < N; ++i) length[k] += moved[i][k].size() * widths_[k];
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[b] < length[a]; });
+    Turn columns;
+    for (int k = 0; k < N; ++k) {
+      Bound largest;
+      for (int i = 0; i < N; ++i) largest = larger(largest, moved[i][order[k]].size());
+      for (int i = 0; i < N; ++i)
+        columns(i, k) = largest.is_zero() ? (i == k ? 1 : 0)
+                                          : scaled(moved[i][order[k]], -largest.exponent()).nearest();
+    }
+    return Eigen::HouseholderQR<Turn>(columns).householderQ();
+  }
+
+  // |E| / (1 - |E|), at least; |E| the largest sum of a row's sizes.
+  Bound beyond_orthogonal() const {
+    Bound norm;
+    for (int i = 0; i < N; ++i) {
+      Bound row;
+      for (int k = 0; k < N; ++k) {
+        Ball product = i == k ? Ball(-1) : Ball();
+        for (int j = 0; j < N; ++j) product.add_product(Ball(turn_(j, i)), Ball(turn_(j, k)));
+        row += product.size();
+      }
+      norm = larger(norm, row);
+    }
+    if (Bound(0.5) < norm) return Bound(1) / Bound();  // never seen; infinite, so that nothing is certain
+    return norm + norm;
+  }
+
+  Turn turn_;
+  Bounds widths_;
+};
+
+}  // namespace lorentz::oracle

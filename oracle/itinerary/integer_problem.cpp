@@ -1,0 +1,172 @@
+#include "oracle/itinerary/integer_problem.hpp"
+
+#include <lorentz/errors.hpp>
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/integers/dyadic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+struct Ratio {
+  Z numerator, denominator = 1;  ///< > 0, in lowest terms
+};
+
+Ratio ratio_of(const Rational& number) {
+  if (const double* value = std::get_if<double>(&number)) {
+    const Dyadic dyadic = to_dyadic(*value);
+    if (dyadic.exponent < 0) return {dyadic.mantissa, shifted_left(Z(1), -dyadic.exponent)};
+    return {shifted_left(dyadic.mantissa, dyadic.exponent), 1};
+  }
+  const auto& fraction = std::get<Fraction>(number);
+  const Z numerator = to_z(fraction.numerator), denominator = to_z(fraction.denominator);
+  if (numerator == 0) return {0, 1};
+  const Z common = gcd(numerator, denominator);
+  return {numerator / common, denominator / common};
+}
+
+template <std::size_t D, class Visit>
+void for_each_number(const RationalScene& scene, const Visit& visit) {
+  const auto vector = [&](const RationalVec& a) {
+    for (std::size_t i = 0; i < D; ++i) visit(a[i]);
+  };
+  for (const auto& lattice : scene.lattices) {
+    for (std::size_t i = 0; i < D; ++i) vector(lattice.vectors[i]);
+    for (const auto& atom : lattice.atoms) {
+      vector(atom.position);
+      if (atom.is_ball()) visit(atom.radius);
+      for (const auto& axis : atom.semiaxes) vector(axis);
+    }
+  }
+}
+
+Z times(const Rational& number, const Z& unit) {
+  const Ratio ratio = ratio_of(number);
+  return ratio.numerator * (unit / ratio.denominator);
+}
+
+template <std::size_t D>
+ZVec<D> times(const RationalVec& a, const Z& unit) {
+  ZVec<D> result;
+  for (std::size_t i = 0; i < D; ++i) result[i] = times(a[i], unit);
+  return result;
+}
+
+template <std::size_t D>
+IntegerScene<D> times_unit(const RationalScene& scene, const Z& unit) {
+  IntegerScene<D> result;
+  for (const auto& lattice : scene.lattices) {
+    auto& its = result.lattices.emplace_back();
+    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = times<D>(lattice.vectors[i], unit);
+    for (const auto& atom : lattice.atoms) {
+      auto& its_atom = its.atoms.emplace_back();
+      its_atom.position = times<D>(atom.position, unit);
+      if (atom.is_ball()) {
+        its_atom.radius = times(atom.radius, unit);
+        continue;
+      }
+      its_atom.semiaxes.emplace();
+      for (std::size_t i = 0; i < D; ++i) (*its_atom.semiaxes)[i] = times<D>(atom.semiaxes[i], unit);
+    }
+  }
+  return result;
+}
+
+// Exactly, if there is no root.
+Ball times(const Surd& number, const Z& unit) {
+  if (!number.root) return Ball(times(number.shift, unit));
+  return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))) * Ball(unit);
+}
+
+BallVec<2> turned(const Rational& degrees) {
+  const Ratio ratio = ratio_of(degrees);
+  fmpq_t half_turns;
+  fmpq_init(half_turns);
+  fmpz_set_mpz(fmpq_numref(half_turns), ratio.numerator.view());
+  fmpz_set_mpz(fmpq_denref(half_turns), Z(180 * ratio.denominator).view());
+  fmpq_canonicalise(half_turns);
+  BallVec<2> direction;
+  arb_sin_cos_pi_fmpq(direction[1].raw(), direction[0].raw(), half_turns, Ball::Precision::now());
+  fmpq_clear(half_turns);
+  return direction;
+}
+
+double nearest(const Rational& number) {
+  if (const double* value = std::get_if<double>(&number)) return *value;
+  const Ratio ratio = ratio_of(number);
+  const double size = round_to_binary64(Quadratic{abs(ratio.numerator), +1, 0, ratio.denominator, 0});
+  return ratio.numerator < 0 ? -size : size;
+}
+
+// Rounded twice if there is a root, which hardly ever shows.
+double nearest(const Surd& number) {
+  if (!number.root) return nearest(number.shift);
+  const Ball::Precision precision(256);
+  return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))).nearest();
+}
+
+Vec nearest(const RationalVec& a) {
+  return {nearest(a[0]), nearest(a[1]), nearest(a[2])};
+}
+
+}  // namespace
+
+Scene nearest(const RationalScene& scene) {
+  Scene result{scene.dimension, {}};
+  for (const RationalLattice& lattice : scene.lattices) {
+    Lattice& its = result.lattices.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = nearest(lattice.vectors[i]);
+    for (const RationalAtom& atom : lattice.atoms) {
+      its.atoms.push_back({nearest(atom.position), nearest(atom.radius), {}});
+      for (const RationalVec& axis : atom.semiaxes) its.atoms.back().semiaxes.push_back(nearest(axis));
+    }
+  }
+  return result;
+}
+
+Query nearest(const Start& start) {
+  Query query{nearest(start.x), {}, start.from};
+  for (std::size_t i = 0; i < 3; ++i) query.v[i] = nearest(start.v[i]);
+  if (start.degrees) {
+    const Ball::Precision precision(256);
+    const BallVec<2> direction = turned(*start.degrees);
+    query.v = {direction[0].nearest(), direction[1].nearest(), 0};
+  }
+  return query;
+}
+
+Ball to_ball(const Rational& number) {
+  const Ratio ratio = ratio_of(number);
+  const Ball numerator(ratio.numerator);
+  return ratio.denominator == 1 ? numerator : numerator / Ball(ratio.denominator);
+}
+
+template <std::size_t D>
+IntegerProblem<D>::IntegerProblem(const RationalScene& rational_scene, const Start& start) : unit(1) {
+  const auto see = [&](const Rational& number) { unit = lcm(unit, ratio_of(number).denominator); };
+  for_each_number<D>(rational_scene, see);
+  for (std::size_t i = 0; i < D; ++i) {
+    see(start.x[i]);
+    if (!start.v[i].root) see(start.v[i].shift);
+  }
+  scene = times_unit<D>(rational_scene, unit);
+  x = times<D>(start.x, unit);
+}
+
+template <std::size_t D>
+BallVec<D> velocity_of(const Start& start, const Z& unit) {
+  BallVec<D> v;
+  for (std::size_t i = 0; i < D; ++i) v[i] = times(start.v[i], unit);
+  if constexpr (D == 2)
+    if (start.degrees) {
+      v = turned(*start.degrees);
+      for (Ball& component : v) component = component * Ball(unit);
+    }
+  return v;
+}
+
+template struct IntegerProblem<2>;
+template struct IntegerProblem<3>;
+template BallVec<2> velocity_of(const Start&, const Z&);
+template BallVec<3> velocity_of(const Start&, const Z&);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,100 @@
+#include <lorentz/itinerary.hpp>
+
+#include <lorentz/errors.hpp>
+#include "oracle/itinerary/passage.hpp"
+
+namespace lorentz::oracle {
+
+std::string_view name_of(JourneyEnd end) {
+  switch (end) {
+    case JourneyEnd::collisions:
+      return "collisions";
+    case JourneyEnd::time:
+      return "time";
+    case JourneyEnd::never:
+      return "never";
+    case JourneyEnd::inside:
+      return "inside";
+    default:
+      return "undecided";
+  }
+}
+
+namespace {
+
+constexpr double kBitsADigit = 3.33;
+
+// The bits that the next passage should have: what this one lost on its way, carried on to the journey's end.
+// A passage that comes to a stop tells how far it came; at least half of it more, at most four times as much.
+template <std::size_t D>
+long next_bits(const Passage<D>& passage, const Journey& journey, double part) {
+  const double lost = static_cast<double>(passage.bits_lost()) / std::max(part, 1e-6);
+  const double wanted = 1.05 * lost + kBitsADigit * journey.digits + 64;
+  const auto bits = static_cast<double>(passage.bits());
+  return static_cast<long>(std::clamp(wanted, 1.5 * bits, 4 * bits));
+}
+
+template <std::size_t D>
+Arrival follow_in(const RationalScene& scene, const Start& start, const Journey& journey,
+                  const Itinerary::OnCollision& on_collision) {
+  Route<D> route(scene, start, journey, on_collision);
+  const long enough = static_cast<long>(kBitsADigit * journey.digits) + 64;
+  for (long bits = journey.first_bits > 0 ? journey.first_bits : enough;;) {
+    bits = std::min(bits, journey.most_bits);
+    Passage<D> passage(route, bits);
+    const bool arrived = passage.go();
+    if (arrived || bits == journey.most_bits) return passage.arrival();
+    bits = next_bits(passage, journey, passage.part_done());
+  }
+}
+
+// Dimension, radii above 0, independent vectors and semiaxes.
+template <std::size_t D>
+void check(const RationalScene& scene) {
+  const Start origin;
+  const IntegerProblem<D> problem(scene, origin);
+  for (std::size_t l = 0; l < problem.scene.lattices.size(); ++l) {
+    const auto& lattice = problem.scene.lattices[l];
+    const std::string place = "lattices[" + std::to_string(l) + "]";
+    Basis<D> basis;
+    const auto independent = [&](const std::array<ZVec<D>, D>& vectors) {
+      for (std::size_t i = 0; i < D; ++i) basis[i].p = vectors[i];
+      return determinant<D>(basis) != 0;
+    };
+    if (!independent(lattice.vectors)) throw InputError(place + ".vectors: are linearly dependent");
+    for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
+      const auto& atom = lattice.atoms[a];
+      const std::string its = place + ".atoms[" + std::to_string(a) + "]";
+      if (!atom.semiaxes && atom.radius <= 0) throw InputError(its + ".radius: must be above 0");
+      if (atom.semiaxes && !independent(*atom.semiaxes))
+        throw InputError(its + ".semiaxes: are linearly dependent");
+    }
+  }
+}
+
+}  // namespace
+
+struct Itinerary::Impl {
+  RationalScene scene;
+};
+
+Itinerary::Itinerary(const RationalScene& scene) : impl_(std::make_unique<const Impl>(Impl{scene})) {
+  if (scene.dimension == 2)
+    check<2>(scene);
+  else
+    check<3>(scene);
+}
+
+Itinerary::Itinerary(Itinerary&&) noexcept = default;
+Itinerary::~Itinerary() = default;
+
+Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCollision& on_collision) const {
+  return impl_->scene.dimension == 2 ? follow_in<2>(impl_->scene, start, journey, on_collision)
+                                     : follow_in<3>(impl_->scene, start, journey, on_collision);
+}
+
+std::string itinerary_libraries() {
+  return std::string("Arb ") + arb_version + ", FLINT " + FLINT_VERSION;
+}
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,220 @@
+#include "oracle/itinerary/sight.hpp"
+
+#include <algorithm>
+
+namespace lorentz::oracle {
+namespace {
+
+// The levels m that are tried: from kUsual finer as long as the state allows; or, of a state that does not
+// allow that, coarser to kCoarsest.
+constexpr long kUsual = 32, kCoarsest = 4;
+
+// Decisions need a few digits more than the states of one collision have in common.
+constexpr long kDecisionBits = 256;
+
+template <std::size_t D>
+Bound sum(const std::array<Bound, D>& bounds) {
+  Bound total;
+  for (const Bound& bound : bounds) total += bound;
+  return total;
+}
+
+// A rational ray near the state: x' = x / 2^bits, v' = v / 2^bits.
+template <std::size_t D>
+ExactQuery<D> rational_ray(const Seen<D>& seen, long bits) {
+  ZVec<D> x, v;
+  for (std::size_t i = 0; i < D; ++i) {
+    x[i] = shifted_left(seen.centre[i], bits) + seen.state.y[i].rounded(bits);
+    v[i] = seen.state.v[i].rounded(bits);
+  }
+  return ExactQuery<D>(x, -bits, v, -bits, seen.from);
+}
+
+template <std::size_t D>
+Ball time_of(const ExactQuery<D>& query, const Entry<D>& entry) {
+  return scaled((Ball(entry.s) - sqrt(Ball(entry.d))) / Ball(entry.v2),
+                query.length_exponent - query.velocity_exponent);
+}
+
+template <std::size_t D>
+ObstacleId obstacle_of(const Entry<D>& entry) {
+  return {entry.lattice, entry.atom, to_cell(entry.n)};
+}
+
+// The same ray from its place at the time theta / 2^bits on.
+template <std::size_t D>
+ExactQuery<D> later_ray(const ExactQuery<D>& ray, const Z& theta, long bits, const ObstacleId& from) {
+  ZVec<D> x;  // times and velocities in units of 2^-bits and of 2^velocity_exponent, lengths of both
+  for (std::size_t i = 0; i < D; ++i) {
+    x[i] = shifted_left(ray.x[i], bits);
+    x[i].add_product(theta, ray.velocity.v[i]);
+  }
+  return ExactQuery<D>(x, ray.length_exponent - bits, ray.velocity.v, ray.velocity_exponent, from);
+}
+
+template <std::size_t D>
+bool all_zero(const ZVec<D>& a) {
+  return std::all_of(a.begin(), a.end(), [](const Z& component) { return component == 0; });
+}
+
+// Integers a and one exponent: a 2^exponent are the middles.
+template <std::size_t D>
+std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
+  std::array<Ball::Exact, D> parts;
+  long exponent = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    parts[i] = balls[i].exact_middle();
+    if (parts[i].integer != 0) exponent = std::min(exponent, parts[i].exponent);
+  }
+  ZVec<D> result;
+  for (std::size_t i = 0; i < D; ++i)
+    if (parts[i].integer != 0) result[i] = shifted_left(parts[i].integer, parts[i].exponent - exponent);
+  return {result, exponent};
+}
+
+template <std::size_t D>
+IntegerScene<D> grown_scene(IntegerScene<D> scene, long level) {
+  const auto finer = [&](Z& length) { length = shifted_left(length, level); };
+  const auto grown = [&](Z& length) { length += shifted_left(length, level); };
+  scene.exponent -= level;
+  for (auto& lattice : scene.lattices) {
+    for (auto& vector : lattice.vectors) std::for_each(vector.begin(), vector.end(), finer);
+    for (auto& atom : lattice.atoms) {
+      std::for_each(atom.position.begin(), atom.position.end(), finer);
+      grown(atom.radius);
+      if (atom.semiaxes)
+        for (auto& axis : *atom.semiaxes) std::for_each(axis.begin(), axis.end(), grown);
+    }
+  }
+  return scene;
+}
+
+// A ball of radius |det A| / |adj A| (Frobenius) fits into the ellipsoid, for |A^-1 y| <= |adj A| |y| / |det
+// A|.
+template <std::size_t D>
+Bound inscribed_radius(const ExactAtom<D>& atom) {
+  Z squares = 1;
+  if (atom.frame) {
+    squares = 0;
+    for (const ZVec<D>& row : atom.frame->to_ball) squares += dot(row, row);
+  }
+  return (Ball(atom.radius) / sqrt(Ball(squares))).least_size();
+}
+
+}  // namespace
+
+template <std::size_t D>
+bool Seen<D>::is_exact() const {
+  const auto exact = [](const Ball& ball) { return ball.is_exact(); };
+  const auto zero = [](const Bound& bound) { return bound.is_zero(); };
+  return std::all_of(state.y.begin(), state.y.end(), exact) &&
+         std::all_of(state.v.begin(), state.v.end(), exact) &&
+         std::all_of(y_error.begin(), y_error.end(), zero) && std::all_of(v_error.begin(), v_error.end(), zero);
+}
+
+template <std::size_t D>
+Sight<D>::Sight(IntegerScene<D> scene) : integers_(std::move(scene)), exact_(integers_) {
+  for (const auto& lattice : exact_.lattices) {
+    auto& forms = forms_.emplace_back();
+    for (const auto& atom : lattice.atoms) {
+      forms.emplace_back(atom);
+      const Bound radius = inscribed_radius(atom);
+      if (least_radius_.is_zero() || radius < least_radius_) least_radius_ = radius;
+    }
+  }
+}
+
+template <std::size_t D>
+ZVec<D> Sight<D>::centre_of(const ObstacleId& obstacle) const {
+  return oracle::centre_of<D>(exact_, obstacle.lattice, obstacle.atom, to_zvec<D>(obstacle.cell), {},
+                              exact_.exponent);
+}
+
+template <std::size_t D>
+const ExactScene<D>& Sight<D>::grown(long level) {
+  auto place = grown_.find(level);
+  if (place == grown_.end())
+    place = grown_.emplace(level, ExactScene<D>(grown_scene(integers_, level))).first;
+  return place->second;
+}
+
+template <std::size_t D>
+std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
+  if (seen.is_exact()) return next_exactly(seen);
+  long level = kUsual;
+  for (bool coarser = false, finer = false;;) {
+    const auto result = next_at(seen, level);
+    if (const auto* obstacle = std::get_if<ObstacleId>(&result)) return *obstacle;
+    const bool closer = std::get<Doubt>(result) == Doubt::look_closer;
+    if (closer ? coarser : finer || level == kCoarsest) return Unseen::blurred;
+    (closer ? finer : coarser) = true;
+    level = closer ? 2 * level : level / 2;
+  }
+}
+
+template <std::size_t D>
+std::variant<ObstacleId, Unseen> Sight<D>::next_exactly(const Seen<D>& seen) const {
+  auto [x, length_exponent] = exact_middles<D>(seen.state.y);
+  const auto [v, velocity_exponent] = exact_middles<D>(seen.state.v);
+  for (std::size_t i = 0; i < D; ++i) x[i] += shifted_left(seen.centre[i], -length_exponent);
+  const auto sighting = first_entry(exact_, ExactQuery<D>(x, length_exponent, v, velocity_exponent, seen.from));
+  if (sighting.around) return Unseen::around;
+  if (!sighting.earliest.found()) return Unseen::never;
+  return obstacle_of(sighting.earliest.entry());
+}
+
+template <std::size_t D>
+std::variant<ObstacleId, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<D>& seen, long level) {
+  const Ball::Precision precision(kDecisionBits + level);
+  const Bound allowed = Bound::power_of_two(-level) * least_radius_;
+  const Bound y_error = sum<D>(seen.y_error), v_error = sum<D>(seen.v_error);
+  for (long bits = 2 * level + 16 - std::min(0L, least_radius_.exponent());;) {
+    const ExactQuery<D> ray = rational_ray(seen, bits);
+    if (all_zero<D>(ray.velocity.v)) return Doubt::look_closer;
+    const auto first = first_entry(grown(level), ray);
+    if (first.around || !first.earliest.found()) return Doubt::look_closer;
+    const ObstacleId obstacle = obstacle_of(first.earliest.entry());
+
+    State<D> state = seen.state;
+    const ZVec<D> centre = centre_of(obstacle);
+    for (std::size_t i = 0; i < D; ++i) {
+      state.y[i] = (state.y[i] + Ball(seen.centre[i] - centre[i])).widened(seen.y_error[i]);
+      state.v[i] = state.v[i].widened(seen.v_error[i]);
+    }
+    const auto collision = collide(state, form_of(obstacle));
+    if (!collision || !collision->flight.is_positive()) return Doubt::look_closer;
+    const Bound time = collision->flight.size();
+
+    const Bound of_state = y_error + time * v_error;
+    const Bound of_rounding = Bound(D) * (Bound(1) + time) * Bound::power_of_two(-bits);
+    if (allowed < of_state + of_state) return Doubt::grow_less;
+    if (allowed < of_rounding + of_rounding) {
+      bits += of_rounding.exponent() - allowed.exponent() + 4;
+      continue;
+    }
+    if (is_alone(level, ray, first.earliest.entry(), collision->flight)) return obstacle;
+    return Doubt::look_closer;
+  }
+}
+
+// True if no grown obstacle but this one is entered by the ray before the true collision is over.
+template <std::size_t D>
+bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const Entry<D>& entry, const Ball& flight) {
+  const Ball entered = time_of(ray, entry);
+  // theta, a time shortly before that: the ray moves by less than a grown obstacle has grown
+  const Bound speed = Ball(ceil_sqrt(ray.velocity.v2)).size() * Bound::power_of_two(ray.velocity_exponent);
+  const long bits = std::max(0L, level + 8 + (speed / least_radius_).exponent());
+  const Z theta = std::max(Z(0), entered.lower().rounded(bits) - 1);
+  const ExactQuery<D> rest = later_ray(ray, theta, bits, obstacle_of(entry));
+  const auto second = first_entry(grown(level), rest);
+  if (second.around) return false;
+  return !second.earliest.found() ||
+         surely_less(flight, scaled(Ball(theta), -bits) + time_of(rest, second.earliest.entry()));
+}
+
+template struct Seen<2>;
+template struct Seen<3>;
+template class Sight<2>;
+template class Sight<3>;
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,67 @@
+// Which obstacle a particle meets next, when its state is known to some bits only. Private to oracle/itinerary.
+//
+// The exact search of oracle/first_hit knows no intervals, and needs none. Let the obstacles grow by a factor
+// 1 + 2^-m, to at least eta in every direction. Let a rational ray (x', v') be so near to the true one that
+//   |x' - x| + t |v' - v| <= eta   for 0 <= t <= T.
+// What the true ray enters at a time t <= T holds x' + t v' when it has grown, and is entered by the rational
+// ray at t or before. So ask the exact search for the first grown obstacle o on the rational ray, at t1, and
+// for the next one on the same ray from t1 on, at t2. If the true ray certainly enters o at t <= T < t2, then
+// it enters nothing else before: the answer is certain, though every number in it was rounded. If x' stands in
+// a grown obstacle, or t2 comes too soon, m must be larger; the state's own error sets an end to that.
+#pragma once
+
+#include <map>
+#include <variant>
+
+#include "oracle/first_hit/first_entry.hpp"
+#include "oracle/itinerary/collision.hpp"
+
+namespace lorentz::oracle {
+
+/// A state as decisions see it: where the obstacle that it leaves stands, and how far each component of the
+/// true y and v may be from the middle of these balls.
+template <std::size_t D>
+struct Seen {
+  const ZVec<D>& centre;
+  const State<D>& state;
+  const std::array<Bound, D>&y_error, &v_error;
+  const std::optional<ObstacleId>& from;
+
+  bool is_exact() const;
+};
+
+enum class Unseen {
+  around,  ///< an obstacle around the start (exact states only)
+  never,   ///< nothing is ever entered (exact states only)
+  blurred  ///< the state is not known well enough
+};
+
+template <std::size_t D>
+class Sight {
+ public:
+  explicit Sight(IntegerScene<D> scene);
+
+  /// The obstacle that is entered next, for certain.
+  std::variant<ObstacleId, Unseen> next(const Seen<D>& seen);
+
+  const ExactScene<D>& scene() const { return exact_; }
+  const Form<D>& form_of(const ObstacleId& obstacle) const { return forms_[obstacle.lattice][obstacle.atom]; }
+  ZVec<D> centre_of(const ObstacleId& obstacle) const;
+  /// The radius of the smallest ball in any obstacle, at most.
+  const Bound& least_radius() const { return least_radius_; }
+
+ private:
+  enum class Doubt { grow_less, look_closer };
+  std::variant<ObstacleId, Unseen> next_exactly(const Seen<D>& seen) const;
+  std::variant<ObstacleId, Doubt> next_at(const Seen<D>& seen, long level);
+  bool is_alone(long level, const ExactQuery<D>& ray, const Entry<D>& entry, const Ball& flight);
+  const ExactScene<D>& grown(long level);
+
+  IntegerScene<D> integers_;
+  ExactScene<D> exact_;
+  std::vector<std::vector<Form<D>>> forms_;
+  Bound least_radius_;
+  std::map<long, ExactScene<D>> grown_;  // by level
+};
+
+}  // namespace lorentz::oracle

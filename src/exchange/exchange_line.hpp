@@ -1,0 +1,92 @@
+// What lines of all streams have in common. Private to the exchange formats.
+#pragma once
+
+#include <lorentz/line_reader.hpp>
+#include "src/exchange/exchange_json.hpp"
+
+namespace lorentz {
+
+/// A line as JSON.
+class JsonLine {
+ public:
+  /// The line's object. What is no object is no line of any stream: throws InputError or simdjson's error.
+  json::object open(const LineReader::Line& line);
+
+  /// Throws NotJson if there is more in the line.
+  void close();
+
+ private:
+  json::parser parser_;
+  json::document document_;
+};
+
+struct CellRead {
+  Cell cell{};
+  std::size_t count = 0;
+};
+
+/// A cell's coordinates; throws InputError.
+CellRead read_cell(json::value value);
+
+/// The number of a lattice or an atom; throws InputError, naming `key`.
+int read_index(json::value value, const char* key);
+
+Id read_id(json::value value);
+
+struct FromRead {
+  ObstacleId obstacle;
+  std::size_t components = 0;
+  bool lattice = false, atom = false;
+};
+
+/// The obstacle that is left; throws InputError.
+FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key);
+
+/// Why a line is no JSON, with what its writer may have meant.
+std::string not_json(const LineReader::Line& line, const std::string& why);
+
+bool is_blank(const LineReader::Line& line);
+
+/// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not
+/// for the scene before it.
+bool begins_as_scene(std::string_view text);
+
+/// Throws InputError unless `count` is the scene's dimension.
+void check_dimension(const char* what, std::size_t count, int dimension);
+
+/// True of keys that golden records and files of disagreements have beside the query.
+bool is_beside_query(std::string_view key);
+
+struct ExchangeReader::Impl {
+  JsonLine json_line;
+  OnUnknownKey on_unknown_key;
+
+  void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
+  void read_start(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
+
+  /// An item by read(), which throws what is bad in the line.
+  template <class Item, class Read>
+  void read_item(const LineReader::Line& line, Item& item, const Read& read) {
+    item.kind = StreamItem::Kind::nothing;
+    item.id = "null";
+    item.no_scene = item.bad_scene = false;
+    if (is_blank(line)) return;
+    const auto bad = [&](std::string message) {
+      item.kind = StreamItem::Kind::bad;
+      item.message = std::move(message);
+      item.bad_scene |= begins_as_scene(line.text);
+      if (item.bad_scene) item.id = "null";
+    };
+    try {
+      read();
+    } catch (const simdjson::simdjson_error& error) {
+      bad(not_json(line, error.what()));
+    } catch (const NotJson& error) {
+      bad(not_json(line, error.why));
+    } catch (const InputError& error) {
+      bad(error.what());
+    }
+  }
+};
+
+}  // namespace lorentz
