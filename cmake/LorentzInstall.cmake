@@ -9,8 +9,8 @@ include(CMakePackageConfigHelpers)
 set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
-  lorentz_engine)
-set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction)
+  lorentz_engine lorentz_trajectory)
+set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction trajectory)
 set(LORENTZ_BATCH_TARGETS lorentz_batch)
 set(LORENTZ_BATCH_HEADERS batch)
 set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)

@@ -46,6 +46,10 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/engines/base", "src/engines/reduction"},
      {"src/engines/classical", "src/engines/published"},
      {}},
+    {"src/trajectory",
+     {"src/problem", "src/engines/base", "src/engines/reduction"},
+     {"src/engines/base"},
+     {}},
     // The oracle: of src the problem alone.
     {"oracle/integers", {"src/problem"}, {}, {"gmp.h z.hpp"}},
     {"oracle/exact", {"src/problem"}, {"oracle/integers"}, {"boost/multiprecision/ real.hpp"}},
@@ -137,6 +141,7 @@ const std::map<std::string, std::string> kPublic{
     {"collision", "src/engines/base"},
     {"flight", "src/engines/reduction"},
     {"reduction", "src/engines/reduction"},
+    {"trajectory", "src/trajectory"},
     {"continued_fraction", "oracle/exact"},
     {"scene_check", "oracle/contacts"},
     {"horizon", "oracle/horizon"},
