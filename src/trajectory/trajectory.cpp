@@ -65,11 +65,6 @@ Heard heard(const Answer& answer, const Scene& scene) {
   return all;
 }
 
-// A little more than the time that is left, so that rounding hides no collision within it.
-double limit(const Particle& particle, double until) {
-  return until < HUGE_VAL ? std::max(0.0, until - particle.time) * (1 + 0x1p-30) + 0x1p-1000 : HUGE_VAL;
-}
-
 }  // namespace
 
 // ---- the flight, and what becomes of it
@@ -108,9 +103,9 @@ Stop Trajectory::advance(const Motion& motion, double until) {
   set(particle_, asked, query);
   Heard of_flight;
   if (inside_->reduction) {
-    of_flight = heard(inside_->reduction->fly(query, limit(particle_, until)));
+    of_flight = heard(inside_->reduction->fly(query, flight_limit(particle_, until)));
   } else {
-    inside_->ask(query, limit(particle_, until), answer);
+    inside_->ask(query, flight_limit(particle_, until), answer);
     of_flight = heard(answer, motion.places().scene());
   }
   switch (of_flight.outcome) {

@@ -50,6 +50,7 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/engines/base", "src/engines/reduction"},
      {"src/engines/base"},
      {}},
+    {"src/trajectory/batch", {"src/problem", "src/engines/batch", "src/trajectory"}, {"src/trajectory"}, {}},
     // The oracle: of src the problem alone.
     {"oracle/integers", {"src/problem"}, {}, {"gmp.h z.hpp"}},
     {"oracle/exact", {"src/problem"}, {"oracle/integers"}, {"boost/multiprecision/ real.hpp"}},
@@ -142,6 +143,7 @@ const std::map<std::string, std::string> kPublic{
     {"flight", "src/engines/reduction"},
     {"reduction", "src/engines/reduction"},
     {"trajectory", "src/trajectory"},
+    {"trajectory_batch", "src/trajectory/batch"},
     {"continued_fraction", "oracle/exact"},
     {"scene_check", "oracle/contacts"},
     {"horizon", "oracle/horizon"},
