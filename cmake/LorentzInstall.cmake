@@ -9,10 +9,10 @@ include(CMakePackageConfigHelpers)
 set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
-  lorentz_engine)
-set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction)
-set(LORENTZ_BATCH_TARGETS lorentz_batch)
-set(LORENTZ_BATCH_HEADERS batch)
+  lorentz_engine lorentz_trajectory)
+set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction trajectory)
+set(LORENTZ_BATCH_TARGETS lorentz_batch lorentz_trajectory_batch)
+set(LORENTZ_BATCH_HEADERS batch trajectory_batch)
 set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)
 set(LORENTZ_EXCHANGE_HEADERS exchange line_reader)
 set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lorentz_contacts lorentz_horizon

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <variant>
+
+#include <lorentz/trajectory_batch.hpp>
+#include "src/trajectory/motion.hpp"
+
+namespace lorentz {
+
+struct Particles::Inside {
+  using Motions = std::variant<Motion<double>, Motion<Wide>>;
+  template <class T>
+  using Column = std::array<T, kTogether>;
+
+  const Batch& engine;
+  Precision precision;
+  Motions motion;
+  Column<Asked> asked;
+  std::array<Column<double>, 3> x, v;
+  Column<double> max_time, time;
+  Column<std::int32_t> from_lattice, from_atom, lattice, atom;
+  std::array<Column<std::int64_t>, 3> from_cell, cell;
+  Column<Outcome> outcome;
+
+  Inside(const Batch& with, const Scene& scene, Precision in)
+      : engine(with),
+        precision(in),
+        motion(in == Precision::binary64 ? Motions(std::in_place_index<0>, scene)
+                                         : Motions(std::in_place_index<1>, scene)) {}
+
+  const Places& places() const {
+    return std::visit([](const auto& one) -> const Places& { return one.places(); }, motion);
+  }
+
+  void ask(const Particle& particle, std::size_t k, double until);
+  void fly(std::size_t count, bool limited);
+  template <class Motion>
+  Stop meet(const Motion& motion, Particle& particle, std::size_t k, double until,
+            Collision& collision) const;
+};
+
+void Particles::Inside::ask(const Particle& particle, std::size_t k, double until) {
+  for (int i = 0; i < 3; ++i) {
+    x[i][k] = asked[k].x[i], v[i][k] = asked[k].v[i];
+    from_cell[i][k] = asked[k].cell[i];
+  }
+  from_lattice[k] = particle.leaves ? particle.lattice : -1;
+  from_atom[k] = particle.atom;
+  max_time[k] = flight_limit(particle, until);
+}
+
+void Particles::Inside::fly(std::size_t count, bool limited) {
+  QueryColumns queries;
+  FlightColumns flights;
+  queries.count = count;
+  for (int i = 0; i < 3; ++i) {
+    queries.x[i] = x[i].data(), queries.v[i] = v[i].data();
+    queries.from_cell[i] = from_cell[i].data();
+    flights.cell[i] = cell[i].data();
+  }
+  queries.max_time = limited ? max_time.data() : nullptr;
+  queries.from_lattice = from_lattice.data(), queries.from_atom = from_atom.data();
+  flights.outcome = outcome.data();
+  flights.lattice = lattice.data(), flights.atom = atom.data();
+  engine.fly(queries, flights);
+}
+
+template <class Motion>
+Stop Particles::Inside::meet(const Motion& motion, Particle& particle, std::size_t k, double until,
+                             Collision& collision) const {
+  switch (outcome[k]) {
+    case Outcome::hit:
+      return motion.meet(particle, asked[k], {lattice[k], atom[k], {cell[0][k], cell[1][k], cell[2][k]}},
+                         until, collision);
+    case Outcome::never:
+      return motion.fly_on(particle, until, Stop::never);
+    case Outcome::inside:
+      return Stop::inside;
+    case Outcome::undecided:
+      return Stop::undecided;
+    default:
+      return Stop::error;
+  }
+}
+
+Particles::Particles(const Batch& engine, const Scene& scene, Precision precision)
+    : inside_(std::make_unique<Inside>(engine, scene, precision)), collisions_(kTogether) {}
+Particles::~Particles() = default;
+Particles::Particles(Particles&&) noexcept = default;
+
+void Particles::add(const Query& start) {
+  add(inside_->places().at(start, inside_->precision));
+}
+
+void Particles::add(const Particle& particle) {
+  going_.push_back(particles_.size());
+  particles_.push_back(particle);
+  stops_.push_back(Stop::none);
+}
+
+void Particles::clear() {
+  particles_.clear();
+  stops_.clear();
+  going_.clear();
+}
+
+std::size_t Particles::fly(std::size_t begin, double until) {
+  const std::size_t count = std::min(kTogether, going_.size() - begin);
+  Inside& inside = *inside_;
+  std::visit(
+      [&](const auto& motion) {
+        for (std::size_t k = 0; k < count; ++k) {
+          const Particle& particle = particles_[going_[begin + k]];
+          inside.asked[k] = motion.asked(particle);
+          inside.ask(particle, k, until);
+        }
+        inside.fly(count, until < HUGE_VAL);
+        for (std::size_t k = 0; k < count; ++k) {
+          const std::size_t i = going_[begin + k];
+          stops_[i] = inside.meet(motion, particles_[i], k, until, collisions_[k]);
+        }
+      },
+      inside.motion);
+  return count;
+}
+
+std::size_t Particles::leave_stopped() {
+  std::erase_if(going_, [this](std::size_t i) { return stops_[i] != Stop::none; });
+  return going_.size();
+}
+
+void Particles::resume() {
+  going_.clear();
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    if (stops_[i] == Stop::time || stops_[i] == Stop::condition) stops_[i] = Stop::none;
+    if (stops_[i] == Stop::none) going_.push_back(i);
+  }
+}
+
+}  // namespace lorentz

@@ -1,0 +1,84 @@
+// One line and one obstacle: where the line enters it, and how it is reflected. Private to src/trajectory.
+#pragma once
+
+#include "src/trajectory/real.hpp"
+
+namespace lorentz {
+
+/// The obstacle A y, |y| < 1, around its centre.
+template <class Real>
+struct Shape {
+  bool ball = true;
+  Real radius = 0;                  ///< of a ball
+  std::array<Point<Real>, 3> axes;  ///< of an ellipsoid: the columns of A,
+  std::array<Point<Real>, 3> dual;  ///< and the rows of A^-1
+  double inverse_size = 0;          ///< a bound of |A^-1|
+};
+
+template <class Real>
+struct Meeting {
+  Real time;                ///< from now
+  Point<Real> offset;       ///< from the centre, on the surface
+  Point<Real> velocity;     ///< after the reflection, not yet brought to the first speed
+  Point<Real> normal;       ///< outward, of any length
+  bool on_the_line = true;  ///< false: the obstacle is not there, beyond all rounding
+};
+
+/// Where the line w + t u enters the sphere around 0. Its moment w x u tells the point p of the line that is
+/// nearest to 0 without cancellation, and what is left of the radius leads from there to the sphere: the
+/// point is on it by construction, however long the flight. A line that passes by less than `slack` grazes.
+template <class Real>
+struct Entry {
+  Real time;
+  Point<Real> point;
+  Real root;  ///< - u . point
+  bool there;
+
+  Entry(const Point<Real>& w, const Point<Real>& u, Real radius, double slack) {
+    const Real u2 = inner(u, u), inverse = Real(1) / u2;
+    const Point<Real> p = times(inverse, outer(u, outer(w, u)));
+    const Real p2 = inner(p, p), square = radius * radius - p2;
+    const bool grazes = !(high_part(square) > 0);
+    root = grazes ? Real(0) : root_of(square * u2);
+    point = grazes ? times(radius / root_of(p2), p) : plus(p, -(root * inverse), u);
+    time = -((inner(w, u) + root) * inverse);
+    const double reach = high_part(radius) + slack, way = high_part(time) * high_part(time) * high_part(u2);
+    there = high_part(p2) <= reach * reach && way < HUGE_VAL && (high_part(time) > 0 || way <= slack * slack);
+  }
+
+ private:
+  static double root_of(double x) { return std::sqrt(x); }
+  static Wide root_of(Wide x) { return sqrt(x); }
+};
+
+/// The line w + t v from the obstacle's centre; `far`: the largest number that went into w as it was asked.
+template <class Real>
+Meeting<Real> meeting_of(const Shape<Real>& shape, const Point<Real>& w, const Point<Real>& v, double far) {
+  constexpr double kRounding = 0x1p-48;
+  const double size =
+      std::fabs(high_part(w[0])) + std::fabs(high_part(w[1])) + std::fabs(high_part(w[2])) + far;
+  Meeting<Real> meeting;
+  if (shape.ball) {
+    const Entry<Real> entry(w, v, shape.radius, kRounding * size);
+    const Real turn = (entry.root + entry.root) / (shape.radius * shape.radius);
+    meeting.time = entry.time;
+    meeting.offset = meeting.normal = entry.point;
+    meeting.velocity = plus(v, turn, entry.point);
+    meeting.on_the_line = entry.there;
+    return meeting;
+  }
+  const auto in_frame = [&](const Point<Real>& a) {
+    return Point<Real>{inner(shape.dual[0], a), inner(shape.dual[1], a), inner(shape.dual[2], a)};
+  };
+  const Entry<Real> entry(in_frame(w), in_frame(v), Real(1), kRounding * size * shape.inverse_size);
+  const Point<Real>& y = entry.point;
+  meeting.time = entry.time;
+  meeting.offset = plus(plus(times(y[0], shape.axes[0]), y[1], shape.axes[1]), y[2], shape.axes[2]);
+  meeting.normal = plus(plus(times(y[0], shape.dual[0]), y[1], shape.dual[1]), y[2], shape.dual[2]);
+  const Real turn = (entry.root + entry.root) / inner(meeting.normal, meeting.normal);
+  meeting.velocity = plus(v, turn, meeting.normal);
+  meeting.on_the_line = entry.there;
+  return meeting;
+}
+
+}  // namespace lorentz

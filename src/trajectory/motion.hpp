@@ -1,0 +1,87 @@
+// What a particle's motion in one scene is made of: the query of its next flight, and what comes of the
+// obstacle that an engine names. Private to src/trajectory.
+#pragma once
+
+#include <vector>
+
+#include <lorentz/trajectory.hpp>
+#include "src/trajectory/meeting.hpp"
+
+namespace lorentz {
+
+/// An obstacle as an engine names it: its cell is in the frame in which the query was asked.
+struct Named {
+  std::int32_t lattice, atom;
+  std::array<std::int64_t, 3> cell;
+};
+
+/// Where a flight starts, as an engine is asked, and the cell of the obstacle that is left.
+struct Asked {
+  Vec x, v;
+  std::array<std::int64_t, 3> cell;
+};
+
+/// What an engine is told of the time that is left: a little more, so that rounding hides no collision within
+/// it.
+inline double flight_limit(const Particle& particle, double until) {
+  return until < HUGE_VAL ? std::fmax(0, until - particle.time) * (1 + 0x1p-30) + 0x1p-1000 : HUGE_VAL;
+}
+
+/// The geometry of a scene whose lengths are in range.
+class Places {
+ public:
+  /// Throws std::invalid_argument.
+  explicit Places(const Scene& scene);
+
+  const Scene& scene() const { return scene_; }
+  Particle at(const Query& start, Precision precision) const;
+  Point<Wide> centre(std::int32_t lattice, std::int32_t atom, const std::array<std::int64_t, 3>& cell) const;
+  Point<Wide> place(const Particle& particle) const;
+
+ private:
+  void set_home(const Query& start, Particle& particle) const;
+
+  Scene scene_;
+};
+
+/// Motion with states in double or Wide. Const: any number of threads may share one.
+template <class Real>
+class Motion {
+ public:
+  explicit Motion(const Scene& scene);
+
+  const Places& places() const { return places_; }
+
+  Asked asked(const Particle& particle) const;
+
+  /// The collision with the obstacle that was named; or, if it comes after the time `until`, the way there.
+  Stop meet(Particle& particle, const Asked& asked, const Named& named, double until,
+            Collision& collision) const;
+
+  /// Nothing is met: on to the time `until`, or if that is no time, `otherwise`.
+  Stop fly_on(Particle& particle, double until, Stop otherwise) const;
+
+ private:
+  struct Obstacle {
+    Point<Real> position;
+    Shape<Real> shape;
+  };
+  struct Rows {
+    std::array<Point<Real>, 3> vectors;
+    std::vector<Obstacle> obstacles;
+  };
+
+  bool see(const Particle& particle, const Named& named, Point<Real>& w,
+           std::array<std::int64_t, 3>& cell) const;
+  Point<Real> step_at_home(const Particle& particle, const Named& named) const;
+  Point<Real> step_in_scene(const Particle& particle, const Named& named) const;
+
+  Places places_;
+  bool one_lattice_;
+  std::vector<Rows> lattices_;
+};
+
+extern template class Motion<double>;
+extern template class Motion<Wide>;
+
+}  // namespace lorentz

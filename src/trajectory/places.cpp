@@ -1,0 +1,108 @@
+// Starts, and places in the scene's coordinates.
+#include <algorithm>
+#include <stdexcept>
+
+#include <lorentz/geometry.hpp>
+#include "src/trajectory/motion.hpp"
+
+namespace lorentz {
+namespace {
+
+constexpr double kSmallest = 0x1p-100, kLargest = 0x1p100;
+
+bool in_range(const Vec& a) {
+  double largest = 0;
+  for (const double component : a) largest = std::max(largest, std::fabs(component));
+  return largest >= kSmallest && largest <= kLargest;
+}
+
+bool in_range(const Scene& scene) {
+  bool good = true;
+  for (const Lattice& lattice : scene.lattices) {
+    for (int i = 0; i < scene.dimension; ++i) good &= in_range(lattice.vectors[i]);
+    for (const Atom& atom : lattice.atoms) {
+      for (const double component : atom.position) good &= std::fabs(component) <= kLargest;
+      for (int i = 0; i < scene.dimension; ++i) good &= in_range(semiaxes_of(atom, scene.dimension)[i]);
+    }
+  }
+  return good;
+}
+
+Point<Wide> exact(const Vec& a) {
+  return joined<Wide>(a, Vec{});
+}
+
+Vec rounded(const Point<Wide>& a) {
+  return {a[0].value(), a[1].value(), a[2].value()};
+}
+
+}  // namespace
+
+Places::Places(const Scene& scene) : scene_(scene) {
+  if (const auto flaw = flaw_of(scene)) throw std::invalid_argument(*flaw);
+  if (!in_range(scene))
+    throw std::invalid_argument("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
+}
+
+// The obstacle that is left, or one near the start.
+void Places::set_home(const Query& start, Particle& particle) const {
+  if (start.from) {
+    particle.leaves = true;
+    particle.lattice = start.from->lattice, particle.atom = start.from->atom;
+    for (int i = 0; i < scene_.dimension; ++i) {
+      if (!start.from->cell[i].fits_int64())
+        throw std::invalid_argument("a trajectory starts in a cell of 64 bits");
+      particle.cell[i] = start.from->cell[i].int64();
+    }
+    return;
+  }
+  const Vec n = coordinates(dual_of(scene_.lattices[0].vectors, scene_.dimension), start.x);
+  for (int i = 0; i < scene_.dimension; ++i) {
+    if (!(std::fabs(n[i]) < 0x1p53))
+      throw std::invalid_argument("a trajectory starts within 2^53 cells of the origin");
+    particle.cell[i] = static_cast<std::int64_t>(std::round(n[i]));
+  }
+}
+
+Particle Places::at(const Query& start, Precision precision) const {
+  if (const auto flaw = flaw_of(start, scene_)) throw std::invalid_argument(*flaw);
+  if (!in_range(start.v)) throw std::invalid_argument("trajectories are for speeds between 2^-100 and 2^100");
+  Particle particle;
+  set_home(start, particle);
+  const Point<Wide> home = centre(particle.lattice, particle.atom, particle.cell), v = exact(start.v);
+  const Point<Wide> offset = plus(exact(start.x), Wide(-1), home);
+  const Wide square = inner(v, v);
+  particle.velocity = start.v;
+  particle.offset = rounded(offset), particle.speed_squared = square.value();
+  if (precision == Precision::double_double)
+    particle.offset_low = low_part(offset), particle.speed_squared_low = square.lo;
+  return particle;
+}
+
+Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,
+                           const std::array<std::int64_t, 3>& cell) const {
+  Point<Wide> sum = exact(scene_.lattices[lattice].atoms[atom].position);
+  for (int i = 0; i < scene_.dimension; ++i)
+    sum = plus(sum, wide(cell[i]), exact(scene_.lattices[lattice].vectors[i]));
+  return sum;
+}
+
+Point<Wide> Places::place(const Particle& particle) const {
+  return plus(centre(particle.lattice, particle.atom, particle.cell), Wide(1),
+              joined<Wide>(particle.offset, particle.offset_low));
+}
+
+Particle particle_at(const Scene& scene, const Query& start, Precision precision) {
+  return Places(scene).at(start, precision);
+}
+
+Vec place_of(const Scene& scene, const Particle& particle) {
+  return rounded(Places(scene).place(particle));
+}
+
+Vec displacement(const Scene& scene, const Particle& from, const Particle& to) {
+  const Places places(scene);
+  return rounded(plus(places.place(to), Wide(-1), places.place(from)));
+}
+
+}  // namespace lorentz

@@ -1,0 +1,362 @@
+// One particle from collision to collision.
+#include <lorentz/trajectory.hpp>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/reduction.hpp>
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+constexpr double kForEver = HUGE_VAL;
+
+bool go_on(const Trajectory&) {
+  return true;
+}
+
+std::array<std::int64_t, 3> cell_of(const Trajectory& trajectory) {
+  return trajectory.state().cell;
+}
+
+// In no obstacle, in the middle of the cell.
+Query start_between(Draw& draw, int dimension) {
+  Query start;
+  for (int i = 0; i < dimension; ++i) start.x[i] = draw.between(0.42, 0.58);
+  start.v = draw.vec(dimension, -1, 1);
+  return start;
+}
+
+Scene ellipses(double scale) {
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].atoms = {
+      {{0.01, 0, 0}, 0, {{0.9 * scale, 0.2 * scale, 0}, {-0.1 * scale, 0.5 * scale, 0}}},
+      {{0.47, 0.02, 0}, 0.1 * scale, {}}};
+  return scene;
+}
+
+Scene ellipsoids() {
+  Scene scene = unit_scene(3, 1);
+  scene.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0.05}, {0.02, 0.2, 0}, {0, 0.04, 0.25}}}};
+  return scene;
+}
+
+Scene two_lattices() {
+  Scene scene = unit_scene(2, 0.1);
+  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.5, 0.5, 0}, 0.05, {}}}});
+  return scene;
+}
+
+// |A^-1 offset|: 1 on the surface.
+double height(const Scene& scene, const Particle& particle) {
+  const Atom& atom = scene.lattices[particle.lattice].atoms[particle.atom];
+  return length(coordinates(dual_of(semiaxes_of(atom, scene.dimension), scene.dimension), particle.offset));
+}
+
+}  // namespace
+
+// ---- known answers
+
+TEST_CASE("Problem 2 of the 100-digit challenge: the digits that each precision has", "[trajectory]") {
+  // Discs of radius 1/3, from (1/2, 1/10) due east, both rounded to binary64; the distance at t = 10 of these
+  // numbers, taken exactly, by decimal arithmetic of 100 digits.
+  const Scene scene = unit_scene(2, 1.0 / 3);
+  const Reduction engine(scene);
+  const std::vector<std::array<std::int64_t, 3>> discs{{1, 0},  {-1, 1},  {0, 2},  {0, 1},  {-1, 2},
+                                                       {0, 0},  {-1, 0},  {0, 1},  {0, 0},  {-1, 0},
+                                                       {0, -1}, {-1, -1}, {-1, 0}, {-1, -1}};
+  for (const Precision precision : {Precision::binary64, Precision::double_double}) {
+    Trajectory trajectory(engine, scene, {{0.5, 0.1, 0}, {1, 0, 0}, {}}, precision);
+    std::vector<std::array<std::int64_t, 3>> seen;
+    const Stop stop = trajectory.run(1000, 10, [&](const Trajectory& now) {
+      seen.push_back(cell_of(now));
+      return true;
+    });
+    CHECK(stop == Stop::time);
+    CHECK(trajectory.state().time == 10);
+    CHECK(seen == discs);
+    const Vec place = trajectory.place();
+    const double error = std::fabs(std::hypot(place[0], place[1]) - 0.99526213359997041031848927928518);
+    CHECK(error < (precision == Precision::binary64 ? 2e-5 : 1e-14));  // seen: 4.3e-7, below 2e-16
+  }
+}
+
+TEST_CASE("A particle between two discs, head-on, leaves its line at the known rate", "[trajectory]") {
+  // From the middle between discs at distance L, a little off the line of their centres: each collision
+  // multiplies the angle by L / r - 1 + (L / r) sqrt(1 - 2 r / L), once the stable part is gone.
+  for (const double r : {0.1, 0.3, 0.45}) {
+    const Scene scene = unit_scene(2, r);
+    const Reduction engine(scene);
+    Trajectory trajectory(engine, scene, {{0.5, 0, 0}, {1, 1e-22, 0}, {}}, Precision::double_double);
+    const double multiplier = 1 / r - 1 + std::sqrt(1 - 2 * r) / r;
+    double angle = 0;
+    while (std::fabs(trajectory.state().velocity[1]) < 1e-9) {
+      angle = trajectory.state().velocity[1];
+      REQUIRE(trajectory.advance());
+    }
+    CHECK(std::fabs(trajectory.state().velocity[1] / angle) == Approx(multiplier).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("Inside the plane of two foci an ellipse's reflections keep the product of angular momenta",
+          "[trajectory]") {
+  // Of one ellipse with the foci +-f: the reflection at it keeps the product of the angular momenta about the
+  // foci, whichever side it is on. Semiaxes 0.3 and 0.2.
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0}, {0, 0.2, 0}}}};
+  const double f = std::sqrt(0.09 - 0.04);
+  const Reduction engine(scene);
+  const auto product = [&](const Vec& x, const Vec& v) {
+    return ((x[0] - f) * v[1] - x[1] * v[0]) * ((x[0] + f) * v[1] - x[1] * v[0]);
+  };
+  Trajectory trajectory(engine, scene, {{0.5, 0.45, 0}, {0.6, 0.37, 0}, {}});
+  for (int i = 0; i < 10'000; ++i) {
+    REQUIRE(trajectory.advance());
+    const Particle& now = trajectory.state();
+    CHECK(product(now.offset, now.velocity) ==
+          Approx(product(now.offset, trajectory.collision().arriving)).epsilon(0).margin(1e-15));
+  }
+}
+
+// ---- what is kept
+
+TEST_CASE("Speed and surface are kept over many collisions", "[trajectory]") {
+  for (const Precision precision : {Precision::binary64, Precision::double_double})
+    for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(2, 1e-5), unit_scene(3, 0.2),
+                               unit_scene(3, 1e-3), ellipses(0.3), ellipsoids(), two_lattices()}) {
+      const Reduction engine(scene);
+      Draw draw(5);
+      Trajectory trajectory(engine, scene, start_between(draw, scene.dimension), precision);
+      const double speed = length(trajectory.state().velocity);
+      double worst_speed = 0, worst_height = 0;
+      const Stop stop = trajectory.run(20'000, kForEver, [&](const Trajectory& now) {
+        worst_speed = std::max(worst_speed, std::fabs(length(now.state().velocity) / speed - 1));
+        worst_height = std::max(worst_height, std::fabs(height(scene, now.state()) - 1));
+        return true;
+      });
+      REQUIRE(stop == Stop::collisions);
+      CHECK(worst_speed < 8 * 0x1p-53);
+      CHECK(worst_height < 16 * 0x1p-53);
+    }
+}
+
+TEST_CASE("A collision is the oracle's, as exact as the state", "[trajectory]") {
+  // The flight of each state is asked again, exactly, in the frame of the obstacle that it leaves.
+  Draw draw(7);
+  for (const Scene& scene :
+       {unit_scene(2, 0.3), unit_scene(2, 1e-3), unit_scene(3, 0.1), ellipses(0.3), ellipsoids()}) {
+    const oracle::Oracle oracle(scene);
+    for (const char* name : {"reduction", "classical", "published"}) {
+      if (scene.dimension == 3 && std::string(name) == "published") continue;  // often wrong there
+      const auto engine = make_engine(name, scene);
+      for (const Precision precision : {Precision::binary64, Precision::double_double}) {
+        Trajectory trajectory(*engine, scene, start_between(draw, scene.dimension), precision);
+        trajectory.advance();
+        if (trajectory.stop() == Stop::error) continue;  // beyond this engine
+        for (int i = 0; i < 40; ++i) {
+          const Particle before = trajectory.state();
+          const Query query{sum(scene.lattices[0].atoms[before.atom].position, before.offset),
+                            before.velocity, ObstacleId{0, before.atom, {}}};
+          const Answer answer = oracle.first_hit(query);
+          REQUIRE(trajectory.advance());
+          const Particle& now = trajectory.state();
+          REQUIRE(answer.outcome == Outcome::hit);
+          CHECK(now.atom == answer.obstacle.atom);
+          for (int k = 0; k < 3; ++k) CHECK(now.cell[k] - before.cell[k] == answer.obstacle.cell[k].int64());
+          // Near-grazing arrivals have times that a state's last bit moves by more.
+          const double slack = 0x1p-49 * (1 + *answer.time) / trajectory.collision().cosine;
+          CHECK(trajectory.collision().flight == Approx(*answer.time).epsilon(0).margin(slack));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("Far from the origin a trajectory is the same, to the bit", "[trajectory]") {
+  for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), ellipses(0.3)}) {
+    const Reduction engine(scene);
+    const Query here{{0.25, 0.0625, 0}, {0.3, -0.7, scene.dimension == 3 ? 0.4 : 0}, ObstacleId{}};
+    Query there = here;
+    there.from->cell = {std::int64_t{1} << 40, -(std::int64_t{1} << 41), scene.dimension == 3 ? 7 : 0};
+    Trajectory near(engine, scene, here), far(engine, scene, here);
+    Particle moved = far.state();
+    for (int k = 0; k < 3; ++k) moved.cell[k] = there.from->cell[k].int64();
+    far.set_state(moved);
+    for (int i = 0; i < 1000; ++i) {
+      REQUIRE(near.advance());
+      REQUIRE(far.advance());
+      REQUIRE(near.state().offset == far.state().offset);
+      REQUIRE(near.state().velocity == far.state().velocity);
+      for (int k = 0; k < 3; ++k)
+        REQUIRE(far.state().cell[k] - near.state().cell[k] == there.from->cell[k].int64());
+    }
+  }
+}
+
+TEST_CASE("Another basis, or another origin, gives the same itinerary while digits last", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.3);
+  Scene sheared = scene, moved = scene;
+  sheared.lattices[0].vectors = {Vec{1, 0, 0}, {5, 1, 0}};
+  moved.lattices[0].atoms[0].position = {0.625, -0.25, 0};
+  const Reduction one(scene), two(sheared), three(moved);
+  Draw draw(3);
+  for (int i = 0; i < 20; ++i) {
+    const Query start = start_between(draw, 2);
+    Query shifted = start;
+    shifted.x = sum(start.x, moved.lattices[0].atoms[0].position);
+    for (int k = 0; k < 2; ++k) shifted.x[k] = std::round(shifted.x[k] * 0x1p40) * 0x1p-40;
+    Query rounded = start;
+    for (int k = 0; k < 2; ++k) rounded.x[k] = shifted.x[k] - moved.lattices[0].atoms[0].position[k];
+    Trajectory a(one, scene, rounded, Precision::double_double),
+        b(two, sheared, rounded, Precision::double_double),
+        c(three, moved, shifted, Precision::double_double);
+    for (int n = 0; n < 15; ++n) {  // 37 bits are lost in 14
+      REQUIRE(a.advance());
+      REQUIRE(b.advance());
+      REQUIRE(c.advance());
+      CHECK(cell_of(b)[0] + 5 * cell_of(b)[1] == cell_of(a)[0]);
+      CHECK(cell_of(b)[1] == cell_of(a)[1]);
+      CHECK(cell_of(c) == cell_of(a));
+    }
+  }
+}
+
+TEST_CASE("Turned round, a particle finds back to its start", "[trajectory]") {
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3), ellipses(0.3)}) {
+    const Reduction engine(scene);
+    Draw draw(17);
+    const Query start = start_between(draw, scene.dimension);
+    Trajectory trajectory(engine, scene, start, Precision::double_double);
+    REQUIRE(trajectory.run(1000, 6, go_on) == Stop::time);
+    Particle back = trajectory.state();
+    for (int k = 0; k < 3; ++k) back.velocity[k] *= -1, back.velocity_low[k] *= -1;
+    back.leaves = false;  // it comes to the obstacle that it left
+    trajectory.set_state(back);
+    REQUIRE(trajectory.run(1000, 12, go_on) == Stop::time);
+    for (int k = 0; k < 3; ++k) CHECK(trajectory.place()[k] == Approx(start.x[k]).epsilon(0).margin(1e-13));
+  }
+}
+
+// ---- ends
+
+TEST_CASE("A trajectory that ends says why", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.1);
+  const Reduction engine(scene);
+  const auto from = [&](Vec x, Vec v) { return Trajectory(engine, scene, {x, v, {}}); };
+  Trajectory never = from({0, 0.5, 0}, {1, 0, 0});
+  CHECK_FALSE(never.advance());
+  CHECK(never.stop() == Stop::never);
+  CHECK_FALSE(never.advance(7.5));
+  CHECK(never.stop() == Stop::time);
+  CHECK(never.place() == Vec{7.5, 0.5, 0});
+  Trajectory inside = from({3.05, 0, 0}, {1, 0, 0});
+  CHECK_FALSE(inside.advance());
+  CHECK(inside.stop() == Stop::inside);
+  Trajectory counted = from({0.5, 0.25, 0}, {0.3, 0.7, 0});
+  CHECK(counted.run(5, kForEver, go_on) == Stop::collisions);
+  CHECK(counted.state().collisions == 5);
+  CHECK(counted.run(9, kForEver, [](const Trajectory& now) { return now.state().collisions < 7; }) ==
+        Stop::condition);
+  CHECK(counted.state().collisions == 7);
+}
+
+TEST_CASE("Whatever an engine says is an end with a name", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.1);
+  const Query start{{0.5, 0.5, 0}, {1, 0.001, 0}, {}};
+  const auto told = [&](const Answer& answer) {
+    Trajectory trajectory([=](const Query&, double, Answer& given) { given = answer; }, scene, start);
+    CHECK_FALSE(trajectory.advance());
+    CHECK(trajectory.state().collisions == 0);
+    return trajectory.stop();
+  };
+  CHECK(told(Answer::later()) == Stop::later);
+  CHECK(told(Answer::undecided()) == Stop::undecided);
+  CHECK(told(Answer::error("no")) == Stop::error);
+  CHECK(told(Answer::unsupported_because("no")) == Stop::error);
+  CHECK(told(Answer::hit({0, 0, {5, 5}}, 1)) == Stop::missed);                        // beside the line
+  CHECK(told(Answer::hit({0, 0, {-500, 0}}, 1)) == Stop::missed);                     // behind
+  CHECK(told(Answer::hit({0, 3, {1, 0}}, 1)) == Stop::error);                         // no such atom
+  CHECK(told(Answer::hit({0, 0, {std::int64_t{1} << 60, 0}}, 1)) == Stop::overflow);  // out of sight
+  CHECK(told(Answer::hit({0, 0, {*Integer::from_decimal("1" + std::string(30, '0')), 0}}, 1)) ==
+        Stop::overflow);
+}
+
+TEST_CASE("Cells beyond 64 bits are an overflow, and the state stays", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.1);
+  const Reduction engine(scene);
+  Trajectory trajectory(engine, scene, {{0.25, 0, 0}, {1, 0, 0}, ObstacleId{}});
+  Particle far = trajectory.state();
+  far.cell[0] = std::numeric_limits<std::int64_t>::max();
+  trajectory.set_state(far);
+  CHECK_FALSE(trajectory.advance());
+  CHECK(trajectory.stop() == Stop::overflow);
+  CHECK(trajectory.state().cell == far.cell);
+}
+
+TEST_CASE("A line that grazes goes on unchanged", "[trajectory]") {
+  // The engine says that the tangent of a disc enters it; so it would be for a state that is a rounding away.
+  const Scene scene = unit_scene(2, 0.125);
+  const Query start{{0.25, 0.125, 0}, {1, 0, 0}, {}};
+  for (const Precision precision : {Precision::binary64, Precision::double_double}) {
+    Trajectory trajectory(
+        [](const Query&, double, Answer& given) {
+          given = Answer::hit({0, 0, {1, 0}}, 0.5);
+        },
+        scene, start, precision);
+    REQUIRE(trajectory.advance());
+    CHECK(trajectory.collision().cosine == 0);
+    CHECK(trajectory.state().velocity == start.v);
+    CHECK(trajectory.state().offset == Vec{0, 0.125, 0});
+    CHECK(trajectory.state().time == 0.75);
+  }
+}
+
+TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.1);
+  CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {0, 0, 0}, {}}), std::invalid_argument);
+  CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {1e200, 0, 0}, {}}), std::invalid_argument);
+  CHECK_THROWS_AS(particle_at(scene, {{1e30, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+  CHECK_THROWS_AS(particle_at(unit_scene(2, 1e-60), {{0.5, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+  CHECK_NOTHROW(particle_at(unit_scene(2, 1e-20), {{0.5, 0.5, 0}, {1, 0, 0}, {}}));
+}
+
+// ---- superposed lattices
+
+TEST_CASE("Superposed lattices: every flight is the oracle's", "[trajectory]") {
+  const Scene scene = two_lattices();
+  const oracle::Oracle oracle(scene);
+  const Reduction engine(scene);
+  Draw draw(23);
+  Trajectory trajectory(engine, scene, start_between(draw, 2));
+  std::array<int, 2> seen{};
+  for (int i = 0; i < 200; ++i) {
+    const Particle before = trajectory.state();
+    Query query{trajectory.place(), before.velocity, {}};
+    if (before.leaves)
+      query.from = ObstacleId{before.lattice, before.atom, {before.cell[0], before.cell[1], 0}};
+    const Answer answer = oracle.first_hit(query);
+    REQUIRE(trajectory.advance());
+    const Particle& now = trajectory.state();
+    REQUIRE(answer.outcome == Outcome::hit);
+    CHECK(now.lattice == answer.obstacle.lattice);
+    for (int k = 0; k < 2; ++k) CHECK(now.cell[k] == answer.obstacle.cell[k].int64());
+    ++seen[now.lattice];
+  }
+  CHECK(seen[0] > 50);
+  CHECK(seen[1] > 20);
+}
+
+TEST_CASE("A displacement is exact where both places are far away", "[trajectory]") {
+  const Scene scene = ellipses(0.3);
+  Particle from = particle_at(scene, {{0.5, 0.375, 0}, {1, 0, 0}, {}}), to = from;
+  from.cell = {std::int64_t{1} << 62, -(std::int64_t{1} << 60) - 1, 0};
+  to.cell = {(std::int64_t{1} << 62) + 3, -(std::int64_t{1} << 60), 0};
+  to.offset[0] += 0x1p-20;
+  CHECK(displacement(scene, from, to) == Vec{3 + 0x1p-20, 1, 0});
+  CHECK(place_of(scene, to)[0] == 0x1p62);
+}
