@@ -1,21 +1,61 @@
 #include "cli/query_stream.hpp"
 
+#include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/messages.hpp"
 #include "cli/scene_option.hpp"
 
 namespace lorentz::cli {
 
-QueryStream::QueryStream(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown)
+using Kind = StreamItem::Kind;
+
+namespace {
+
+void read(ExchangeReader& reader, const LineReader::Line& line, const Scene* scene, StreamItem& item) {
+  reader.read_query_line(line, scene, item);
+}
+
+void read(ExchangeReader& reader, const LineReader::Line& line, const RationalScene* scene, StartItem& item) {
+  reader.read_start_line(line, scene, item);
+}
+
+std::optional<std::string> dependence_in(const Scene& scene) {
+  return oracle::dependence_in(scene);
+}
+
+std::optional<std::string> dependence_in(const RationalScene& scene) {
+  try {
+    oracle::Itinerary checks{scene};
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+const Scene& in_binary64(const Scene& scene) {
+  return scene;
+}
+
+Scene in_binary64(const RationalScene& scene) {
+  return oracle::nearest(scene);
+}
+
+}  // namespace
+
+template <class AnItem, class AScene>
+SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<AScene> initial,
+                                         UnknownKeys unknown)
     : lines_(path), keys_(lines_.name(), unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {
   reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
 }
 
-void QueryStream::complain(std::size_t line, const std::string& message) {
+template <class AnItem, class AScene>
+void SceneStream<AnItem, AScene>::complain(std::size_t line, const std::string& message) {
   if (++complaints_ <= kMaxComplaints) say("{}:{}: {}", lines_.name(), line, message);
 }
 
-void QueryStream::finish() {
+template <class AnItem, class AScene>
+void SceneStream<AnItem, AScene>::finish() {
   if (empty_ && complaints_ == 0) {
     ++complaints_;
     say("{}: is empty: no scene and no query in it", lines_.name());
@@ -25,20 +65,22 @@ void QueryStream::finish() {
 
 // Dependent vectors make a scene bad; overlaps, and that it replaces the command line's scene, are only
 // mentioned.
-void QueryStream::check_scene(StreamItem& item, std::size_t line) {
+template <class AnItem, class AScene>
+void SceneStream<AnItem, AScene>::check_scene(AnItem& item, std::size_t line) {
   const std::string place = fmt::format("{}:{}", lines_.name(), line);
-  if (auto flaw = oracle::dependence_in(item.scene)) {
-    item.kind = StreamItem::Kind::bad;
+  if (auto flaw = dependence_in(item.scene)) {
+    item.kind = Kind::bad;
     item.bad_scene = true;
     item.message = *flaw;
     return;
   }
-  warn_of_overlaps(item.scene, place);
+  warn_of_overlaps(in_binary64(item.scene), place);
   if (initial_) say("{}: this scene takes the place of --scene", place);
   initial_ = false;
 }
 
-bool QueryStream::next(StreamItem& item) {
+template <class AnItem, class AScene>
+bool SceneStream<AnItem, AScene>::next(AnItem& item) {
   LineReader::Line line;
   do {
     if (!lines_.next(line)) {
@@ -46,14 +88,14 @@ bool QueryStream::next(StreamItem& item) {
       return false;
     }
     keys_.line = line.number;
-    reader_.read_query_line(line, scene(), item);
+    read(reader_, line, scene(), item);
     if (item.no_scene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);
-    if (item.kind == StreamItem::Kind::scene) check_scene(item, line.number);
-  } while (item.kind == StreamItem::Kind::nothing);
+    if (item.kind == Kind::scene) check_scene(item, line.number);
+  } while (item.kind == Kind::nothing);
   empty_ = false;
-  if (item.kind == StreamItem::Kind::scene) scene_ = item.scene;
-  if (item.kind == StreamItem::Kind::bad) {
+  if (item.kind == Kind::scene) scene_ = item.scene;
+  if (item.kind == Kind::bad) {
     if (item.bad_scene) {
       scene_.reset();
       bad_scene_line_ = line.number;
@@ -62,5 +104,8 @@ bool QueryStream::next(StreamItem& item) {
   }
   return true;
 }
+
+template class SceneStream<StreamItem, Scene>;
+template class SceneStream<StartItem, RationalScene>;
 
 }  // namespace lorentz::cli

@@ -1,5 +1,5 @@
-// A query stream with its scenes checked and its complaints printed: what every subcommand that reads queries
-// uses.
+// Streams of queries, and of starts, with their scenes checked and complaints printed: what every subcommand
+// that reads them uses.
 #pragma once
 
 #include <memory>
@@ -11,17 +11,19 @@
 
 namespace lorentz::cli {
 
-class QueryStream {
+/// A stream of lines that are scenes or (AnItem) something in them.
+template <class AnItem, class AScene>
+class SceneStream {
  public:
   /// `initial` is the scene before the first scene line, if any. Throws FileError.
-  QueryStream(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown);
+  SceneStream(const std::string& path, std::optional<AScene> initial, UnknownKeys unknown);
 
   /// The next scene, query or bad line; false at the end. Bad lines are complained of on stderr with their
   /// place; the first kMaxComplaints of them.
-  bool next(StreamItem& item);
+  bool next(AnItem& item);
 
   /// The scene that holds now, or null.
-  const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
+  const AScene* scene() const { return scene_ ? &*scene_ : nullptr; }
 
   /// True if a line was bad, or (complained of at the end) nothing was in the stream.
   bool had_bad_input() const { return complaints_ > 0; }
@@ -32,16 +34,22 @@ class QueryStream {
   static constexpr long kMaxComplaints = 20;
   void complain(std::size_t line, const std::string& message);
   void finish();
-  void check_scene(StreamItem& item, std::size_t line);
+  void check_scene(AnItem& item, std::size_t line);
 
   LineReader lines_;
   ExchangeReader reader_;
   KeyCheck keys_;
-  std::optional<Scene> scene_;
+  std::optional<AScene> scene_;
   bool initial_;  // no scene line came yet
   std::size_t bad_scene_line_ = 0;
   long complaints_ = 0;
   bool empty_ = true;
 };
+
+using QueryStream = SceneStream<StreamItem, Scene>;
+using StartStream = SceneStream<StartItem, RationalScene>;
+
+extern template class SceneStream<StreamItem, Scene>;
+extern template class SceneStream<StartItem, RationalScene>;
 
 }  // namespace lorentz::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <lorentz/exchange.hpp>
+#include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/data_folder.hpp"
 #include "cli/messages.hpp"
@@ -46,15 +47,37 @@ std::string find_scene(const std::string& name_or_file) {
                               compare::did_you_mean(shown, names), fmt::join(names, ", ")));
 }
 
+namespace {
+
+// Every ball gets this radius, if there is one.
+template <class AScene, class Number>
+void set_radius(AScene& scene, const std::optional<Number>& radius, const std::string& name) {
+  if (!radius) return;
+  for (auto& lattice : scene.lattices)
+    for (auto& atom : lattice.atoms) {
+      if (!atom.is_ball())
+        throw InputError("--radius: " + name + " has semiaxes, which have no radius to override");
+      atom.radius = *radius;
+    }
+}
+
+}  // namespace
+
+RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
+                                  UnknownKeys unknown) {
+  KeyCheck keys(name_or_file, unknown);
+  RationalScene scene =
+      read_rational_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
+  set_radius(scene, radius, name_or_file);
+  const oracle::Itinerary check(scene);  // throws InputError
+  warn_of_overlaps(oracle::nearest(scene), name_or_file);
+  return scene;
+}
+
 Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
   KeyCheck keys(name_or_file, unknown);
   Scene scene = read_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
-  if (radius)
-    for_each_atom(scene, [&](Atom& atom) {
-      if (!atom.is_ball())
-        throw InputError("--radius: " + name_or_file + " has semiaxes, which have no radius to override");
-      atom.radius = *radius;
-    });
+  set_radius(scene, radius, name_or_file);
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
   return scene;
 }

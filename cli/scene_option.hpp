@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/rational.hpp>
 #include "cli/unknown_keys.hpp"
 
 namespace lorentz::cli {
@@ -29,6 +29,10 @@ Scene read_scene(const std::string& name_or_file, std::optional<double> radius,
 /// The same, with a warning of overlaps.
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius,
                  UnknownKeys unknown = UnknownKeys::warned);
+
+/// The same of a scene whose numbers may be rational (texts like "1/3").
+RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
+                                  UnknownKeys unknown = UnknownKeys::warned);
 
 /// Warns on stderr if obstacles of one lattice overlap or touch: a radius above half the spacing is mostly a
 /// typing error. (Those of two lattices nearly always do, somewhere.)

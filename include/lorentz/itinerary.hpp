@@ -66,6 +66,7 @@ class Itinerary {
 
 /// The nearest binary64 of every number: what programs make of the same problem. Beyond binary64's range an
 /// infinity, which is a flaw (flaw_of). `degrees` become a velocity.
+double nearest(const Rational& number);
 Scene nearest(const RationalScene& scene);
 Query nearest(const Start& start);
 

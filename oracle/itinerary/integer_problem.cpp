@@ -90,6 +90,8 @@ BallVec<2> turned(const Rational& degrees) {
   return direction;
 }
 
+}  // namespace
+
 double nearest(const Rational& number) {
   if (const double* value = std::get_if<double>(&number)) return *value;
   const Ratio ratio = ratio_of(number);
@@ -97,15 +99,17 @@ double nearest(const Rational& number) {
   return ratio.numerator < 0 ? -size : size;
 }
 
+namespace {
+
 // Rounded twice if there is a root, which hardly ever shows.
-double nearest(const Surd& number) {
-  if (!number.root) return nearest(number.shift);
+double nearest_surd(const Surd& number) {
+  if (!number.root) return oracle::nearest(number.shift);
   const Ball::Precision precision(256);
   return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))).nearest();
 }
 
-Vec nearest(const RationalVec& a) {
-  return {nearest(a[0]), nearest(a[1]), nearest(a[2])};
+Vec nearest_vec(const RationalVec& a) {
+  return {oracle::nearest(a[0]), oracle::nearest(a[1]), oracle::nearest(a[2])};
 }
 
 }  // namespace
@@ -114,18 +118,18 @@ Scene nearest(const RationalScene& scene) {
   Scene result{scene.dimension, {}};
   for (const RationalLattice& lattice : scene.lattices) {
     Lattice& its = result.lattices.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = nearest(lattice.vectors[i]);
+    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = nearest_vec(lattice.vectors[i]);
     for (const RationalAtom& atom : lattice.atoms) {
-      its.atoms.push_back({nearest(atom.position), nearest(atom.radius), {}});
-      for (const RationalVec& axis : atom.semiaxes) its.atoms.back().semiaxes.push_back(nearest(axis));
+      its.atoms.push_back({nearest_vec(atom.position), nearest(atom.radius), {}});
+      for (const RationalVec& axis : atom.semiaxes) its.atoms.back().semiaxes.push_back(nearest_vec(axis));
     }
   }
   return result;
 }
 
 Query nearest(const Start& start) {
-  Query query{nearest(start.x), {}, start.from};
-  for (std::size_t i = 0; i < 3; ++i) query.v[i] = nearest(start.v[i]);
+  Query query{nearest_vec(start.x), {}, start.from};
+  for (std::size_t i = 0; i < 3; ++i) query.v[i] = nearest_surd(start.v[i]);
   if (start.degrees) {
     const Ball::Precision precision(256);
     const BallVec<2> direction = turned(*start.degrees);

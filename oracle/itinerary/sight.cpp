@@ -109,7 +109,8 @@ bool Seen<D>::is_exact() const {
   const auto zero = [](const Bound& bound) { return bound.is_zero(); };
   return std::all_of(state.y.begin(), state.y.end(), exact) &&
          std::all_of(state.v.begin(), state.v.end(), exact) &&
-         std::all_of(y_error.begin(), y_error.end(), zero) && std::all_of(v_error.begin(), v_error.end(), zero);
+         std::all_of(y_error.begin(), y_error.end(), zero) &&
+         std::all_of(v_error.begin(), v_error.end(), zero);
 }
 
 template <std::size_t D>
@@ -141,8 +142,9 @@ const ExactScene<D>& Sight<D>::grown(long level) {
 template <std::size_t D>
 std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
   if (seen.is_exact()) return next_exactly(seen);
+  const long finest = std::max(kUsual, Ball::Precision::now());  // a state of so many bits allows no more
   long level = kUsual;
-  for (bool coarser = false, finer = false;;) {
+  for (bool coarser = false, finer = false; level <= finest;) {
     const auto result = next_at(seen, level);
     if (const auto* obstacle = std::get_if<ObstacleId>(&result)) return *obstacle;
     const bool closer = std::get<Doubt>(result) == Doubt::look_closer;
@@ -150,6 +152,7 @@ std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
     (closer ? finer : coarser) = true;
     level = closer ? 2 * level : level / 2;
   }
+  return Unseen::blurred;
 }
 
 template <std::size_t D>
@@ -157,7 +160,8 @@ std::variant<ObstacleId, Unseen> Sight<D>::next_exactly(const Seen<D>& seen) con
   auto [x, length_exponent] = exact_middles<D>(seen.state.y);
   const auto [v, velocity_exponent] = exact_middles<D>(seen.state.v);
   for (std::size_t i = 0; i < D; ++i) x[i] += shifted_left(seen.centre[i], -length_exponent);
-  const auto sighting = first_entry(exact_, ExactQuery<D>(x, length_exponent, v, velocity_exponent, seen.from));
+  const auto sighting =
+      first_entry(exact_, ExactQuery<D>(x, length_exponent, v, velocity_exponent, seen.from));
   if (sighting.around) return Unseen::around;
   if (!sighting.earliest.found()) return Unseen::never;
   return obstacle_of(sighting.earliest.entry());
@@ -184,6 +188,7 @@ std::variant<ObstacleId, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<
     const auto collision = collide(state, form_of(obstacle));
     if (!collision || !collision->flight.is_positive()) return Doubt::look_closer;
     const Bound time = collision->flight.size();
+    if (!time.is_finite()) return Doubt::look_closer;
 
     const Bound of_state = y_error + time * v_error;
     const Bound of_rounding = Bound(D) * (Bound(1) + time) * Bound::power_of_two(-bits);

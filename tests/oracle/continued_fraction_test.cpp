@@ -6,7 +6,7 @@
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using Rational = boost::multiprecision::mpq_rational;
+using Quotient = boost::multiprecision::mpq_rational;
 using Whole = boost::multiprecision::mpz_int;
 
 namespace {
@@ -47,7 +47,7 @@ TEST_CASE("Convergents satisfy their identities, exactly", "[oracle][continued_f
     INFO("seed 91");
     for (int i = 0; i < 300; ++i) {
       const double rise = draw.tiny(-60, 60), run = draw.tiny(-60, 60);
-      const Rational m = Rational(rise) / Rational(run);
+      const Quotient m = Quotient(rise) / Quotient(run);
       const auto all = oracle::convergents(rise, run, 10000);
       Whole p_before = 1, q_before = 0;
       for (std::size_t n = 0; n < all.size(); ++n) {
@@ -55,13 +55,13 @@ TEST_CASE("Convergents satisfy their identities, exactly", "[oracle][continued_f
         INFO(rise << " / " << run << " at " << n);
         // p q' - p' q = +-1, alternating; the remainder q m - p changes sign and shrinks.
         REQUIRE(p * q_before - p_before * q == (n % 2 == 0 ? -1 : 1));
-        const Rational remainder = Rational(q) * m - Rational(p);
-        REQUIRE(Rational(all[n].remainder_exact) == remainder);
+        const Quotient remainder = Quotient(q) * m - Quotient(p);
+        REQUIRE(Quotient(all[n].remainder_exact) == remainder);
         REQUIRE(all[n].remainder == Approx(remainder.convert_to<double>()).epsilon(1e-15));
         if (n + 1 < all.size()) REQUIRE((n % 2 == 0 ? remainder > 0 : remainder < 0));
         p_before = p, q_before = q;
       }
-      REQUIRE(Rational(p_before) / Rational(q_before) == m);
+      REQUIRE(Quotient(p_before) / Quotient(q_before) == m);
     }
   }
 }

@@ -1,0 +1,303 @@
+// lorentz trajectory: certified itineraries from the starts of a stream, and engines held against them.
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/output.hpp"
+#include "cli/query_stream.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/trajectory_rival.hpp"
+#include "cli/whole_file.hpp"
+#include "compare/nearest_name.hpp"
+#include "compare/registry.hpp"
+#include "pictures/path_drawing.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using oracle::Arrival;
+using oracle::CertifiedCollision;
+using oracle::Itinerary;
+using oracle::Journey;
+using oracle::JourneyEnd;
+
+struct Options {
+  std::string starts = "-", precision = "binary64";
+  std::optional<std::string> scene, radius, collisions, time, digits, bits, most_bits, engine, csv, svg;
+  bool detail = false, strict = false;
+};
+
+Rational positive_rational(const std::string& text, const char* option) {
+  const auto number = rational_from(text);
+  if (!number || !(oracle::nearest(*number) > 0))
+    throw InputError(fmt::format("{}: {} is no rational number above zero (like 1/3, 0.1, 2.5e-3)", option,
+                                 json_quoted(text)));
+  return *number;
+}
+
+Journey journey_of(const Options& options) {
+  Journey journey;
+  if (!options.collisions && !options.time)
+    throw InputError("needs --collisions N or --time T: how far to follow each start");
+  if (options.collisions) journey.collisions = whole_number(*options.collisions, "--collisions", 0, 1u << 30);
+  if (options.time) journey.time = positive_rational(*options.time, "--time");
+  if (options.digits)
+    journey.digits = static_cast<int>(whole_number(*options.digits, "--digits", 1, 100'000));
+  constexpr std::uint64_t kMostBits = 1u << 26;
+  if (options.most_bits)
+    journey.most_bits = static_cast<long>(whole_number(*options.most_bits, "--max-bits", 32, kMostBits));
+  if (options.bits)
+    journey.first_bits = static_cast<long>(whole_number(*options.bits, "--bits", 32, kMostBits));
+  journey.states = options.detail;
+  return journey;
+}
+
+Precision precision_of(const Options& options) {
+  if (options.precision == "binary64") return Precision::binary64;
+  if (options.precision == "double-double") return Precision::double_double;
+  throw InputError(fmt::format("--precision: {} is none{}; there are binary64, double-double",
+                               json_quoted(options.precision),
+                               compare::did_you_mean(options.precision, {"binary64", "double-double"})));
+}
+
+std::optional<RationalScene> scene_of(const Options& options) {
+  if (!options.scene) {
+    if (options.radius)
+      throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+    return std::nullopt;
+  }
+  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  return load_rational_scene(
+      *options.scene,
+      options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
+}
+
+void append_texts(std::string& out, const char* key, const std::vector<std::string>& texts) {
+  if (!texts.empty()) out += fmt::format(",\"{}\":[\"{}\"]", key, fmt::join(texts, "\",\""));
+}
+
+std::string cell_text(const ObstacleId& obstacle, int dimension, const char* separator) {
+  std::string text;
+  for (int i = 0; i < dimension; ++i) {
+    if (i > 0) text += separator;
+    append_integer(text, obstacle.cell[i]);
+  }
+  return text;
+}
+
+// What comes of one start: lines on stdout, rows of a table, a path for the picture.
+class Report {
+ public:
+  Report(Output& out, const Options& options) : out_(out), options_(options) {
+    if (options.csv) csv_ = std::make_unique<WholeFile>(*options.csv);
+  }
+
+  void begin(const Id& id, int dimension) {
+    id_ = id;
+    dimension_ = dimension;
+    number_ = 0;
+    if (csv_ && columns_ == 0) {
+      columns_ = dimension;
+      csv_->write(fmt::format("id,collision,lattice,atom,cell1,cell2{},time,bits{}\n",
+                              dimension == 3 ? ",cell3" : "", options_.engine ? ",engine_bits" : ""));
+    }
+    if (csv_ && columns_ != dimension) throw InputError("--csv: starts in two and in three dimensions");
+  }
+
+  void collision(const CertifiedCollision& c, const Rival* rival) {
+    ++number_;
+    std::string& line = out_.buffer();
+    line += fmt::format(
+        "{{\"id\":{},\"collision\":{},\"lattice\":{},\"atom\":{},\"cell\":[{}],\"time\":\"{}\"", id_, number_,
+        c.obstacle.lattice, c.obstacle.atom, cell_text(c.obstacle, dimension_, ","), c.time);
+    append_texts(line, "x", c.x);
+    append_texts(line, "v", c.v);
+    line += fmt::format(",\"bits\":{}", c.bits);
+    if (rival) line += fmt::format(",\"engine_bits\":{:.1f}", rival->bits_right());
+    line += "}\n";
+    out_.flush_if_due();
+    if (!csv_) return;
+    csv_->write(fmt::format("{},{},{},{},{},{},{}", id_, number_, c.obstacle.lattice, c.obstacle.atom,
+                            cell_text(c.obstacle, dimension_, ","), c.time, c.bits));
+    csv_->write(rival ? fmt::format(",{:.1f}\n", rival->bits_right()) : "\n");
+  }
+
+  void end(const Arrival& arrival, const Rival* rival) {
+    std::string& line = out_.buffer();
+    line += fmt::format("{{\"id\":{},\"end\":\"{}\",\"collisions\":{},\"bits\":{}", id_, name_of(arrival.end),
+                        arrival.collisions, arrival.bits);
+    append_texts(line, "x", arrival.x);
+    append_texts(line, "v", arrival.v);
+    if (!arrival.distance.empty()) line += fmt::format(",\"distance\":\"{}\"", arrival.distance);
+    if (rival) {
+      line += rival->diverged() ? fmt::format(",\"diverged\":{}", *rival->diverged()) : ",\"diverged\":null";
+      if (const std::string why = rival->stopped(); !why.empty())
+        line += fmt::format(",\"stopped\":\"{}\"", why);
+    }
+    line += "}\n";
+    out_.flush();
+  }
+
+  void commit() {
+    if (csv_) csv_->commit();
+  }
+
+ private:
+  Output& out_;
+  const Options& options_;
+  std::unique_ptr<WholeFile> csv_;
+  Id id_;
+  int dimension_ = 0, columns_ = 0;
+  std::uint64_t number_ = 0;
+};
+
+void append_error(std::string& out, const Id& id, const std::string& message) {
+  out += fmt::format("{{\"id\":{},\"outcome\":\"error\",\"message\":{}}}\n", id, json_quoted(message));
+}
+
+// The picture of the first start: its path, and the engine's from where they part.
+class Picture {
+ public:
+  void begin(const RationalScene& scene, const Start& start) {
+    if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
+    drawing_.scene = oracle::nearest(scene);
+    drawing_.path.push_back(oracle::nearest(start).x);
+  }
+  void collision(const CertifiedCollision& c) { drawing_.path.push_back(place_of(drawing_.scene, c)); }
+
+  void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
+    if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
+      drawing_.path.push_back({std::stod(arrival.x[0]), std::stod(arrival.x[1]), 0});
+    if (!rival || !rival->diverged()) return;
+    rival->go_on(arrival.collisions);
+    drawing_.other = rival->path();
+    drawing_.parting = *rival->diverged();
+    drawing_.other_name = engine;
+  }
+
+  void write(const std::string& file) const {
+    WholeFile svg(file);
+    svg.write(pictures::draw_path(drawing_));
+    svg.commit();
+  }
+
+ private:
+  pictures::PathDrawing drawing_;
+};
+
+struct Run {
+  const Options& options;
+  const Journey& journey;
+  Precision precision;
+  Report& report;
+  std::optional<Picture> picture;
+  bool drawn = false, undecided = false;
+};
+
+void follow(Run& run, const Id& id, const RationalScene& scene, const Start& start) {
+  std::unique_ptr<Rival> rival;
+  if (run.options.engine) rival = std::make_unique<Rival>(*run.options.engine, run.precision, scene, start);
+  Picture* picture = run.options.svg && !run.drawn ? &run.picture.emplace() : nullptr;
+  run.drawn = true;
+  if (picture) picture->begin(scene, start);
+  run.report.begin(id, scene.dimension);
+  const Arrival arrival =
+      Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
+        if (rival) rival->meet(collision);
+        run.report.collision(collision, rival.get());
+        if (picture) picture->collision(collision);
+        return !Interrupt::came();
+      });
+  if (rival && arrival.end != JourneyEnd::undecided)
+    rival->finish(arrival.collisions, arrival.end == JourneyEnd::time
+                                          ? std::optional(oracle::nearest(*run.journey.time))
+                                          : std::nullopt);
+  run.report.end(arrival, rival.get());
+  if (picture) picture->end(arrival, rival.get(), run.options.engine.value_or(""));
+  if (arrival.end == JourneyEnd::undecided) {
+    run.undecided = true;
+    say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
+        "obstacle, or two obstacles that are entered at once, no precision decides)",
+        id, arrival.collisions + 1, arrival.bits);
+  }
+}
+
+int act(const Options& options) {
+  const Journey journey = journey_of(options);
+  const Precision precision = precision_of(options);
+  if (options.engine) compare::check_name(*options.engine);
+  StartStream stream(options.starts, scene_of(options),
+                     options.strict ? UnknownKeys::errors : UnknownKeys::warned);
+  Output output;
+  Report report(output, options);
+  Run run{options, journey, precision, report, {}};
+  const Interrupt interrupt;
+  bool refused = false;
+  for (StartItem item; !Interrupt::came() && stream.next(item);) {
+    if (item.kind == StreamItem::Kind::bad) append_error(output.buffer(), item.id, item.message);
+    if (item.kind != StreamItem::Kind::query) continue;
+    try {
+      follow(run, item.id, *stream.scene(), item.start);
+    } catch (const InputError& error) {
+      refused = true;
+      say("{}: start {}: {}", stream.lines().name(), item.id, error.what());
+      append_error(output.buffer(), item.id, error.what());
+    }
+  }
+  output.flush();
+  report.commit();
+  if (run.picture) run.picture->write(*options.svg);
+  return refused || stream.had_bad_input() ? kBadInput : kDone;
+}
+
+}  // namespace
+
+void add_trajectory(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "trajectory", "Certified itineraries: which obstacles are hit one after another, proven.");
+  command
+      ->add_option("starts", options->starts,
+                   "a query stream, whose numbers may be texts like \"1/3\"; - is standard input")
+      ->capture_default_str();
+  command->add_option("--scene", options->scene,
+                      "scene before the first scene line: a file, or a name of the catalogue");
+  command->add_option("--radius", options->radius, "radius of every ball of --scene, exactly: 1/3, 0.1")
+      ->type_name("R");
+  command->add_option("--collisions", options->collisions, "follow each start so far")->type_name("N");
+  command->add_option("--time", options->time, "or to this time, exactly: 10, 1/3")->type_name("T");
+  command->add_option("--digits", options->digits, "digits of times, places and velocities (default: 17)")
+      ->type_name("N");
+  command->add_flag("--detail", options->detail, "place and velocity at each collision, too");
+  command->add_option("--bits", options->bits, "precision to begin with (default: by --digits)")
+      ->type_name("B");
+  command
+      ->add_option("--max-bits", options->most_bits,
+                   "precision at which to give up, undecided (default: 262144)")
+      ->type_name("B");
+  command
+      ->add_option(
+          "-e,--engine", options->engine,
+          "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help())
+      ->type_name("E");
+  command
+      ->add_option("--precision", options->precision, "of the engine's trajectory: binary64, double-double")
+      ->capture_default_str()
+      ->type_name("P");
+  command->add_option("--csv", options->csv, "collisions as a table, to a file")->type_name("FILE");
+  command->add_option("--svg", options->svg, "a picture of the first start's path (2D)")->type_name("FILE");
+  command->add_flag("--strict", options->strict, kStrictKeysHelp);
+  command->footer(
+      "docs/itineraries.md: what is certified, and how. `bits`: of a collision, by how many bits an error of "
+      "the\nstart has grown; of the end, the precision that it took.\n"
+      "Example, problem 2 of the SIAM 100-digit challenge to 100 digits:\n"
+      "  echo '{\"x\":[\"1/2\",\"1/10\"],\"v\":[1,0]}' | lorentz trajectory --scene square --radius 1/3 "
+      "--time 10 --digits 100");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

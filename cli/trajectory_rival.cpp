@@ -1,0 +1,116 @@
+#include "cli/trajectory_rival.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/registry.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
+oracle::Request request_until(double max_time) {
+  oracle::Request request;
+  if (max_time < kForEver) request.max_time = max_time;
+  return request;
+}
+
+// Another program is asked one query at a time: the next depends on its answer.
+AskFirstHit ask_command(compare::Answerer& program) {
+  return [&program](const Query& query, double, Answer& answer) {
+    program.on_answer([&](const Answer& given) { answer = given; });
+    program.ask("0", query);
+    program.drain();
+  };
+}
+
+AskFirstHit ask_engine(const std::string& engine, const Scene& scene) {
+  return [first_hit = compare::make_first_hit(engine, scene)](const Query& query, double max_time,
+                                                              Answer& answer) {
+    first_hit(query, request_until(max_time), answer);
+  };
+}
+
+bool is_same(const ObstacleId& obstacle, const Particle& particle, int dimension) {
+  if (obstacle.lattice != particle.lattice || obstacle.atom != particle.atom) return false;
+  for (int i = 0; i < dimension; ++i)
+    if (!(obstacle.cell[i] == Integer(particle.cell[i]))) return false;
+  return true;
+}
+
+double length(const Vec& a) {
+  return std::hypot(a[0], a[1], a[2]);
+}
+
+double bits_in_common(const Vec& a, const Vec& b) {
+  const double off = length({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+  constexpr double kMost = std::numeric_limits<double>::digits;
+  return off == 0 ? kMost : std::clamp(std::log2(length(b) / off), 0.0, kMost);
+}
+
+}  // namespace
+
+Rival::Rival(const std::string& engine, Precision precision, const RationalScene& scene, const Start& start)
+    : scene_(oracle::nearest(scene)) {
+  AskFirstHit ask;
+  if (compare::is_command(engine)) {
+    command_ = compare::make_answerer(engine, {});
+    command_->set_scene(scene_);
+    ask = ask_command(*command_);
+  } else {
+    ask = ask_engine(engine, scene_);
+  }
+  const Query query = oracle::nearest(start);
+  try {
+    trajectory_ = std::make_unique<Trajectory>(std::move(ask), scene_, query, precision);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("--engine: ") + error.what());
+  }
+  path_.push_back(query.x);
+}
+
+void Rival::meet(const oracle::CertifiedCollision& truth) {
+  if (diverged_) return;
+  const std::uint64_t number = trajectory_->state().collisions + 1;
+  const bool hit = trajectory_->advance();
+  if (hit) path_.push_back(trajectory_->place());
+  if (!hit || !is_same(truth.obstacle, trajectory_->state(), scene_.dimension)) {
+    diverged_ = number;
+    bits_right_ = 0;
+    return;
+  }
+  bits_right_ = bits_in_common(trajectory_->state().offset, truth.offset);
+}
+
+void Rival::finish(std::uint64_t collisions, std::optional<double> until) {
+  if (diverged_ || !until) return;
+  if (trajectory_->advance(*until)) diverged_ = collisions + 1;
+  path_.push_back(trajectory_->place());
+}
+
+void Rival::go_on(std::uint64_t collisions) {
+  trajectory_->run(collisions, kForEver, [&](const Trajectory& trajectory) {
+    path_.push_back(trajectory.place());
+    return true;
+  });
+}
+
+std::string Rival::stopped() const {
+  const Stop stop = trajectory_->stop();
+  if (stop == Stop::none || stop == Stop::time || stop == Stop::collisions) return "";
+  return name_of(stop);
+}
+
+Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision) {
+  const Lattice& lattice = scene.lattices[collision.obstacle.lattice];
+  Vec place = lattice.atoms[collision.obstacle.atom].position;
+  for (int k = 0; k < 3; ++k) place[k] += collision.offset[k];
+  for (int i = 0; i < scene.dimension; ++i)
+    for (int k = 0; k < 3; ++k)
+      place[k] += std::stod(collision.obstacle.cell[i].decimal()) * lattice.vectors[i][k];
+  return place;
+}
+
+}  // namespace lorentz::cli
