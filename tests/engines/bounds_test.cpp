@@ -158,6 +158,7 @@ TEST_CASE("An anchor's height, and other compensated sums: kAnchor, kAnchorTerms
   covers(kAnchorTerms, of_terms(compensated_sum<CarriedPair>(three, n3)), 5);
   const CarriedPair wide_n[3] = {{one, {kRoundoff}}, nothing, nothing};
   covers(kAnchorTerms, of_terms(compensated_sum<CarriedPair>(three, wide_n, nothing)), 5);
+  covers(kAnchorTerms, of_terms(compensated_sum_from<CarriedPair>(nothing, three, n3)), 5);
 }
 
 TEST_CASE("Rows beside the start, and where they enter the strip", "[engines][bounds]") {
@@ -400,4 +401,18 @@ TEST_CASE("At the boundary the predicate is never wrong; with a bound 50 times s
   CHECK(decided > 170'000);        // 214 604 seen
   CHECK(doubtful > 150'000);       // 185 396 seen
   CHECK(wrong_if_shrunk > 3'500);  // 4 465 seen
+}
+
+TEST_CASE("Times that are soon rounded: kSoonSlack, kSoonTime", "[engines][bounds]") {
+  // Kahan's difference of products rounds twice; r^2 v^2 is of a rounded v^2; the square of h is not rounded.
+  const Carried h{1, 2}, rho2 = one * one * Carried{1, 1}, slack = rho2 - h * h;
+  covers(kSoonSlack, slack.error);
+  // s: low parts of three products and two sums, and those of three components, each a roundoff of |v| |d|;
+  // v^2 has fewer. The quotient, whose divisor's inverse is three roundings off, is mended by what it leaves.
+  Carried low{kRoundoff};
+  for (int part = 1; part < 8; ++part) low = low + Carried{kRoundoff};
+  const Carried rest = (Carried{8 * kRoundoff} + Carried{8 * kRoundoff}) * Carried{1, 4};
+  const double own = (2 * low.error + rest.error) * kRoundoff;
+  // Twice the bound of double-double, so that this is certain, too.
+  is_enough(kSoonTime, 2 * own + 2 * 2 * (2 * kStable + kStableTime));
 }

@@ -215,19 +215,28 @@ class Block {
     const Times<D, kUnit, kBall> times(start, entry, velocity_.scaled);
     V time;
     M is_rounded = no_lane();
-    if (stretch_.rounded) {
-      V error;
-      const Pair t = times.wide(error);
-      time = t.hi + (t.lo + error);
-      is_rounded = time == t.hi + (t.lo - error);
-    } else {
+    if (stretch_.rounded)
+      time = rounded(here, times, entry, is_rounded);
+    else
       time = close(here, times, entry);
-    }
     M in_range;
     time = velocity_.time_of(time, scene_.exponent, in_range);
     lanes_.leave(AndNot(in_range, here));
     time_ = select(here, time, time_);
     rounded_ = Or(rounded_, And(here, is_rounded));
+  }
+
+  HWY_INLINE V rounded(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry,
+                       M& is_rounded) {
+    if (!times.are_soon_rounded()) return times.rounded(is_rounded);
+    V time = times.soon_rounded(is_rounded);
+    const M late = AndNot(is_rounded, And(here, lanes_.active));
+    if (nowhere(late)) return time;
+    if (scene_.atoms.size() == 1) {
+      late_.push(late, at_, entry);
+      return select(is_rounded, time, all(1));
+    }
+    return times.rounded(is_rounded);
   }
 
   HWY_INLINE V close(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry) {

@@ -42,13 +42,13 @@ struct Start {
   }
 
   /// Lanes whose start lies in the obstacle of the home cell. Left over are those for which that is not
-  /// certain, and those near an obstacle of another cell. `leaving` is ignored; if that takes a decision
-  /// which is not certain, `stage2` has it.
+  /// certain, and those that may lie in an obstacle of another cell. `leaving` is ignored; if that takes a
+  /// decision which is not certain, `stage2` has it.
   HWY_INLINE M inside(const Leaving<D>* leaving, Lanes& lanes, M& stage2) const {
     if constexpr (!(kUnit && kBall))
-      if (lattice->reaches_out) lanes.leave(is_near_others());
+      if (lattice->reaches_out) lanes.leave(may_be_in_others(leaving, lanes.active));
     V gap, spread;
-    set_gap(gap, spread);
+    set_gap(d, error, gap, spread);
     const M yes = gap > spread, doubtful = AndNot(yes, Not(gap < Neg(spread)));
     if (leaving == nullptr) {
       lanes.leave(doubtful);
@@ -59,6 +59,30 @@ struct Start {
     lanes.leave(AndNot(home_is_left, doubtful));
     stage2 = Or(stage2, And(And(home_is_left, doubtful), lanes.active));
     return And(AndNot(home_is_left, yes), lanes.active);
+  }
+
+  /// place_of: the obstacle of the cell n, from the home cell in the short basis, as seen from x; returns the
+  /// error of each component.
+  HWY_INLINE V place(const V (&n)[D], Pair (&there)[D]) const {
+    if constexpr (kUnit) {
+      for (int k = 0; k < D; ++k) there[k] = sum_of(n[k], d[k].hi);
+      return error;
+    } else {
+      V size = none(), its_error = error;
+      for (int k = 0; k < D; ++k) {
+        Pair step[D];
+        for (int i = 0; i < D; ++i) {
+          step[i] = pair_of(lattice->basis[i][k]) * pair_of(n[i]);
+          size = size + Abs(step[i].hi);
+        }
+        Pair sum = step[0];
+        for (int i = 1; i < D; ++i) sum = sum + step[i];
+        there[k] = sum + d[k];
+        size = size + Abs(d[k].hi);
+      }
+      for (int i = 0; i < D; ++i) its_error = its_error + Abs(n[i]) * all(lattice->basis_error);
+      return its_error + all(kPlace) * size;
+    }
   }
 
  private:
@@ -127,16 +151,37 @@ struct Start {
     lanes.leave(far);
   }
 
-  // Lanes for which an obstacle of another cell may contain x.
-  HWY_INLINE M is_near_others() const {
-    M near = no_lane();
-    for (int i = 0; i < D; ++i)
-      near = Or(near, Not(Abs(coordinate_from_home(i)) + all(lattice->reach[i]) < all(1 - kMaxHomeError)));
-    return near;
+  // Lanes in which an obstacle of another cell contains x, for all that binary64 knows: up to one step along
+  // each basis vector. Where one is left, all that are near one: such starts are rare.
+  HWY_INLINE M may_be_in_others(const Leaving<D>* leaving, M asked) const {
+    M near[D], any_near = no_lane(), inside = no_lane();
+    V other[D];
+    for (int i = 0; i < D; ++i) {
+      const V coordinate = coordinate_from_home(i);
+      near[i] = AndNot(Abs(coordinate) + all(lattice->reach[i]) < all(1 - kMaxHomeError), asked);
+      other[i] = CopySign(all(1), coordinate);
+      any_near = Or(any_near, near[i]);
+    }
+    if (leaving != nullptr) return any_near;
+    if (nowhere(any_near)) return inside;
+    for (int which = 1; which < 1 << D; ++which) {
+      M here = asked;
+      V n[D], gap, spread;
+      for (int i = 0; i < D; ++i) {
+        n[i] = which >> i & 1 ? other[i] : none();
+        if (which >> i & 1) here = And(here, near[i]);
+      }
+      if (nowhere(here)) continue;
+      Pair there[D];
+      const V its_error = place(n, there);
+      set_gap(there, its_error, gap, spread);
+      inside = Or(inside, AndNot(gap < Neg(spread), here));
+    }
+    return inside;
   }
 
   // r^2 - |d|^2, in the metric of the shape, and the bound of its error.
-  HWY_INLINE void set_gap(V& gap, V& spread) const {
+  HWY_INLINE void set_gap(const Pair (&d)[D], V error, V& gap, V& spread) const {
     const double r = lattice->radius;
     const V limit = all(r * r);
     V square = d[0].hi * d[0].hi, size = Abs(d[0].hi);

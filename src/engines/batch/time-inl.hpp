@@ -43,31 +43,6 @@ struct Entry {
   }
 };
 
-/// place_of: the obstacle as seen from x; returns the error of each component.
-template <int D, bool kUnit, bool kBall>
-HWY_INLINE V place_of(const Start<D, kUnit, kBall>& start, const V (&n)[D], Pair (&d)[D]) {
-  if constexpr (kUnit) {
-    for (int k = 0; k < D; ++k) d[k] = sum_of(n[k], start.d[k].hi);
-    return start.error;
-  } else {
-    const Bravais& lattice = *start.lattice;
-    V size = none(), error = start.error;
-    for (int k = 0; k < D; ++k) {
-      Pair step[D];
-      for (int i = 0; i < D; ++i) {
-        step[i] = pair_of(lattice.basis[i][k]) * pair_of(n[i]);
-        size = size + Abs(step[i].hi);
-      }
-      Pair sum = step[0];
-      for (int i = 1; i < D; ++i) sum = sum + step[i];
-      d[k] = sum + start.d[k];
-      size = size + Abs(start.d[k].hi);
-    }
-    for (int i = 0; i < D; ++i) error = error + Abs(n[i]) * all(lattice.basis_error);
-    return error + all(kPlace) * size;
-  }
-}
-
 /// StableMeeting: the line and one obstacle in double-double.
 template <int D, bool kBall>
 struct Meeting {
@@ -217,14 +192,76 @@ class Times {
       return close_of_ellipsoid(hit);
   }
 
-  /// In double-double, and the bound of its error.
-  HWY_INLINE Pair wide(V& error) const {
+  /// Correctly rounded, in the lanes of is_rounded: in double-double, and the bound of its error.
+  HWY_INLINE V rounded(M& is_rounded) const {
     const Wide wide = wide_of(asked());
-    error = wide.error;
-    return wide.time;
+    const V time = wide.time.hi + (wide.time.lo + wide.error);
+    is_rounded = time == wide.time.hi + (wide.time.lo - wide.error);
+    return time;
   }
 
+  /// The same in few operations, among small balls, in most lanes; in the others is_rounded may be true of
+  /// `rounded`. (q is computed in binary64: it errs by some of its roundoffs, which are few of those of s - q
+  /// if the obstacle is far. docs/bounds.md)
+  HWY_INLINE V soon_rounded(M& is_rounded) const {
+    const double reach = 4 * lattice_.radius;  // rho is less
+    Pair d[D];
+    V here[D], s_error = none();
+    const V place_error = soon_placed(d);
+    for (int k = 0; k < D; ++k) here[k] = d[k].hi;
+    const Pair v2 = soon_product(v_, v_);
+    Pair s = soon_product(here, v_);
+    for (int k = 0; k < D; ++k) s.lo = MulAdd(d[k].lo, v_[k], s.lo);
+    s_error = all(kSoonTime) * (s.hi + all(reach));
+    if constexpr (!kUnit) s_error = s_error + all(64) * place_error;
+    V slack_error;
+    const V q = Sqrt(soon_slack(d, v2.hi, slack_error)), shared = all(1) / (v2.hi * q), inverse = shared * q;
+    const V high = s.hi - q, low = ((s.hi - high) - q) + s.lo;
+    const V rough = high * inverse;
+    const V rest = (NegMulAdd(rough, v2.hi, high) + NegMulAdd(rough, v2.lo, low)) * inverse;
+    const V q_unit = select(s.hi > all(kFarSlack) * q, all(16 * kRoundoff), all(2 * kRoundoff));
+    const V error = all(1 + kAmple) * MulAdd(slack_error + all(4 * reach) * s_error, shared,
+                                             MulAdd(q_unit, q, s_error) * inverse);
+    const V time = rough + (rest + error);
+    is_rounded = And(time == rough + (rest - error), s.hi > all(kNear) * q);
+    return time;
+  }
+
+  /// Are the obstacles so small that it pays?
+  HWY_INLINE bool are_soon_rounded() const { return kBall && lattice_.radius < kSoonRadius; }
+
  private:
+  HWY_INLINE V soon_placed(Pair (&d)[D]) const {
+    if constexpr (!kUnit) return start_.place(entry_.n, d);
+    for (int k = 0; k < D; ++k)
+      d[k] = ordered_sum_of(entry_.n[k], start_.d[k].hi);  // an integer, and 1/2 at most
+    return none();
+  }
+
+  // a . b, but for some squares of the roundoff.
+  static HWY_INLINE Pair soon_product(const V (&a)[D], const V (&b)[D]) {
+    Pair sum = product_of(a[0], b[0]);
+    for (int k = 1; k < D; ++k) {
+      const Pair next = product_of(a[k], b[k]), both = sum_of(sum.hi, next.hi);
+      sum = {both.hi, both.lo + (sum.lo + next.lo)};
+    }
+    return sum;
+  }
+
+  // In the plane from v x d, by Kahan's difference of products: the search's has the errors of large heights.
+  HWY_INLINE V soon_slack(const Pair (&d)[D], V v2, V& error) const {
+    if constexpr (D == 3) {
+      error = entry_.slack_error;
+      return entry_.slack;
+    } else {
+      const V product = d[0].hi * v_[1];
+      const V rest = NegMulAdd(d[0].hi, v_[1], product) + NegMulAdd(d[0].lo, v_[1], d[1].lo * v_[0]);
+      const V h = MulSub(d[1].hi, v_[0], product) + rest, rho2 = all(lattice_.radius * lattice_.radius) * v2;
+      error = all(kSoonSlack * kRoundoff) * rho2;
+      return NegMulAdd(h, h, rho2);
+    }
+  }
+
   struct Asked {
     Start<D, kUnit, kBall> start;
     V n[D], v[D], q;
@@ -249,7 +286,7 @@ class Times {
   static HWY_INLINE Wide measured(const Asked& asked) {
     const Bravais& lattice = *asked.start.lattice;
     Pair d[D];
-    const V d_error = place_of(asked.start, asked.n, d);
+    const V d_error = asked.start.place(asked.n, d);
     const Meeting<D, kBall> meeting(asked.v, d, d_error, lattice);
     Wide wide;
     wide.time = meeting.time(d, d_error, lattice, wide.error);
@@ -270,7 +307,7 @@ class Times {
   static HWY_NOINLINE V near_ball(const Asked& asked) {
     const double r = asked.start.lattice->radius;
     Pair d[D];
-    place_of(asked.start, asked.n, d);
+    asked.start.place(asked.n, d);
     V s = none();
     Pair gap = -product_of(all(r), all(r));
     for (int k = 0; k < D; ++k) {

@@ -9,12 +9,12 @@
 
 namespace lorentz {
 
-/// A lattice vector: integer coefficients in the lattice's short basis; across (units of r) and along.
+/// A lattice vector: integer coefficients in the lattice's short basis; across (units of r) and along. (Like
+/// a double, it is not set unless said so: so are the structures below.)
 struct Arm3 {
-  double n[3]{};
-  double p[2]{};
-  double z = 0;
-  double cancellation = 0;  ///< what the cancelling of large terms leaves of error, in units of the roundoff
+  double n[3];
+  double p[2], z;
+  double cancellation;  ///< what the cancelling of large terms leaves of error, in units of the roundoff
 
   void subtract(double k, const Arm3& other) {
     for (int i = 0; i < 3; ++i) n[i] -= k * other.n[i];
@@ -22,10 +22,10 @@ struct Arm3 {
     z -= k * other.z;
   }
 
-  void point_forward() {
-    if (!(z < 0)) return;
-    for (double& coefficient : n) coefficient = -coefficient;
-    p[0] = -p[0], p[1] = -p[1], z = -z;
+  void point_forward() {  // without a branch: half of all vectors do not
+    const double sign = 1 - 2 * static_cast<double>(z < 0);
+    for (double& coefficient : n) coefficient *= sign;
+    p[0] *= sign, p[1] *= sign, z *= sign;
   }
 };
 
@@ -37,13 +37,13 @@ inline double product(const Arm3& a, const Arm3& b) {
 /// them.
 struct Basis3 {
   Arm3 b[3];
-  double length = 0;                         ///< of a window, in units of s = v . d
-  double dual[3][3]{};                       ///< dual_i . b_j = delta_ij, in (p_0, p_1, z)
-  double slope = 0, inverse_slope = 0;       ///< of dual_2 across the line: its length there
-  double normal[2]{};                        ///< and its direction
-  double dual1_normal = 0, dual1_level = 0;  ///< dual_1 across: along the normal, and perpendicular to it
-  double tilt_error = 0;                     ///< of dual_2's component along the line
-  bool usable = false;                       ///< integers below 2^53, and nearly orthogonal (kMaxDefect)
+  double length;                     ///< of a window, in units of s = v . d
+  double dual[3][3];                 ///< dual_i . b_j = delta_ij, in (p_0, p_1, z)
+  double slope, inverse_slope;       ///< of dual_2 across the line: its length there
+  double normal[2];                  ///< and its direction
+  double dual1_normal, dual1_level;  ///< dual_1 across: along the normal, and perpendicular to it
+  double tilt_error;                 ///< of dual_2's component along the line
+  bool usable;                       ///< integers below 2^53, and nearly orthogonal (kMaxDefect)
 
   /// dual_2's component along the line.
   double tilt() const { return dual[2][2]; }
@@ -79,8 +79,8 @@ struct Basis3 {
     bool nearly = true;
     for (int i = 0; i < 3; ++i) {
       const double defect = product(b[i], b[i]) * square_of(dual[i]);
-      nearly = nearly && defect <= kMaxDefect * kMaxDefect;  // and no NaN
-      for (const double n : b[i].n) nearly = nearly && std::fabs(n) < kMaxCoefficient;
+      nearly &= defect <= kMaxDefect * kMaxDefect;  // and no NaN
+      for (const double n : b[i].n) nearly &= std::fabs(n) < kMaxCoefficient;
     }
     return nearly;
   }

@@ -78,6 +78,10 @@ inline constexpr double kStable = 0x1p-100;
 inline constexpr double kStableForm = 2 * kStable, kStableTime = 2 * kStable, kStableGap = 8 * kStable;
 inline constexpr double kRoot = 2;
 
+/// Many flights at once, a time that is soon rounded: what s, v^2 and the quotient err by, and what
+/// double-double would, relative to |v| |d| (absolutely); 2D, the slack, relative to rho^2.
+inline constexpr double kSoonTime = 0x1p-94, kSoonSlack = 16;
+
 /// The place of an obstacle as seen from x in double-double, relative to its terms (absolutely).
 inline constexpr double kPlace = 0x1p-102;
 
@@ -225,6 +229,10 @@ inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenorm
                      kMaxCandidatesInRow = 16, kMaxWindows = 200, kMaxAnchorPasses = 4,
                      kMaxCandidatesOnLine = 64, kMaxReductionRounds = 60, kMaxReductionSteps = 300,
                      kMaxPlaneReductionSteps = 200;
+
+/// Many flights at once: times of balls of smaller radius are rounded from the slack in binary64, if that
+/// suffices.
+inline constexpr double kSoonRadius = 0x1p-5;
 
 /// Times: nearer than kNear q, s - q would cancel; a slack that errs by more than kGrazing u q s (of
 /// ellipsoids of condition c: kGrazing + kGrazingOfShape c), or a shape more slender than kSlender, takes

@@ -16,7 +16,7 @@ namespace lorentz {
 template <bool kUnit, bool kBall>
 struct Direction3 : Frame3<kUnit, kBall> {
   using Frame = Frame3<kUnit, kBall>;
-  using Frame::form, Frame::inverse_r, Frame::scale, Frame::v2;
+  using Frame::inverse_r, Frame::scale, Frame::v2;
 
   Basis3 basis;
 
@@ -25,9 +25,10 @@ struct Direction3 : Frame3<kUnit, kBall> {
       : Frame(arch, lattice, octant, velocity) {
     basis.length = first_length(lattice);
     const double along = 1 / basis.length;
+    const auto& form = this->form();
     for (int i = 0; i < 3; ++i) {
       Arm3& arm = basis.b[i];
-      arm.n[i] = 1;
+      for (int j = 0; j < 3; ++j) arm.n[j] = i == j;
       arm.p[0] = scale[0] * form[0][i].hi, arm.p[1] = scale[1] * form[1][i].hi, arm.z = along * form[2][i].hi;
     }
     reduce<Arch>(basis);
@@ -69,11 +70,8 @@ struct Direction3 : Frame3<kUnit, kBall> {
       for (Arm3& arm : basis.b) this->template recompute<Arch>(arm, basis.length);
       reduction.refresh();
     }
-    Arm3 sorted[3];
-    reduction.copy_sorted(sorted);
-    std::copy(sorted, sorted + 3, basis.b);
     basis.set_dual();
-    basis.usable = basis.usable && done && reduction.largest < kMaxCoefficient / 2;
+    basis.usable = basis.usable && done && reduction.largest() < kMaxCoefficient / 2;
   }
 };
 

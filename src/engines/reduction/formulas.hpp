@@ -126,17 +126,38 @@ T compensated_height(const Pair& h, const T (&n)[2], const Form (&H)[2]) {
 
 // ---- 3D ---------------------------------------------------------------------------------------------------
 
-/// n_0 f_0 + n_1 f_1 + n_2 f_2, likewise.
-template <class Pair, class T, class Form>
+/// n_0 f_0 + n_1 f_1 + n_2 f_2, likewise; or two terms, if f_2 is zero, or without low parts, if these are.
+template <class Pair, int kTerms = 3, bool kLowParts = true, class T, class Form>
 T compensated_sum(const Form (&f)[3], const T (&n)[3]) {
-  const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi),
-             c = Pair::product(n[2], f[2].hi);
-  const Pair ab = Pair::sum(a.hi, b.hi), all = Pair::sum(ab.hi, c.hi);
-  const T low = (a.lo + n[0] * f[0].lo) + (b.lo + n[1] * f[1].lo) + (c.lo + n[2] * f[2].lo);
-  return all.hi + ((ab.lo + all.lo) + low);
+  const auto low_of = [&](const Pair& product, int i) {
+    if constexpr (kLowParts)
+      return product.lo + n[i] * f[i].lo;
+    else
+      return product.lo;
+  };
+  const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi), ab = Pair::sum(a.hi, b.hi);
+  if constexpr (kTerms == 2) return ab.hi + (ab.lo + (low_of(a, 0) + low_of(b, 1)));
+  const Pair c = Pair::product(n[2], f[2].hi), all = Pair::sum(ab.hi, c.hi);
+  return all.hi + ((ab.lo + all.lo) + (low_of(a, 0) + low_of(b, 1) + low_of(c, 2)));
 }
 
-/// The same from a start, with coefficients in double-double.
+/// The same from a start.
+template <class Pair, int kTerms = 3, bool kLowParts = true, class T, class Form>
+T compensated_sum_from(const Form& start, const Form (&f)[3], const T (&n)[3]) {
+  const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi), ab = Pair::sum(a.hi, b.hi);
+  if constexpr (kTerms == 2) {
+    const Pair all = Pair::sum(ab.hi, start.hi);
+    return all.hi + ((ab.lo + (all.lo + start.lo)) + (a.lo + b.lo));
+  } else {
+    const Pair c = Pair::product(n[2], f[2].hi), abc = Pair::sum(ab.hi, c.hi),
+               all = Pair::sum(abc.hi, start.hi);
+    T low = c.lo;
+    if constexpr (kLowParts) low = low + ((n[0] * f[0].lo + n[1] * f[1].lo) + n[2] * f[2].lo);
+    return all.hi + (((ab.lo + abc.lo) + (all.lo + start.lo)) + ((a.lo + b.lo) + low));
+  }
+}
+
+/// The same with coefficients in double-double.
 template <class Pair, class Form>
 auto compensated_sum(const Form (&f)[3], const Form (&N)[3], const Form& start) {
   const Pair a = Pair::product(N[0].hi, f[0].hi), b = Pair::product(N[1].hi, f[1].hi),

@@ -13,19 +13,22 @@ namespace lorentz {
 template <bool kUnit, bool kBall>
 struct Frame3 {
   static constexpr bool kTurned = kUnit && kBall;
+  /// Of unit lattices of balls: the third term of the first form, and the low parts of the first and the
+  /// last, are zero, and are left out.
+  static constexpr int kFirstTerms = kTurned ? 2 : 3;
+  static constexpr bool kLowParts = !kTurned;
 
-  Vec v;                   ///< turned, components below kTinyComponent taken as zero
-  double v2 = 0, rho = 0;  ///< in the metric of the shape: |v|^2, r |v|
-  double s_rho = 0;        ///< rho, by the name that it has in 2D
-  double scale[2]{};       ///< across = scale * (form . n)
-  double across_ = 0;      ///< of a ball's frame: the length of the first vector
-  double inverse_r = 0;    ///< a vector of this size has an across of 1 at most, and its terms
+  Vec v;             ///< turned, components below kTinyComponent taken as zero
+  double v2, rho;    ///< in the metric of the shape: |v|^2, r |v|
+  double s_rho;      ///< rho, by the name that it has in 2D
+  double scale[2];   ///< across = scale * (form . n)
+  double across_;    ///< of a ball's frame: the length of the first vector
+  double inverse_r;  ///< a vector of this size has an across of 1 at most, and its terms
   double scale_error = kScale * kRoundoff;  ///< of |across|^2, relative, from the scale
   double along_size = 1;                    ///< a vector of size 1 has an s of 4 times this at most
   Wide along[3];                            ///< s = along . d; not used for balls, whose s is v . d
-  Wide cartesian[3][3]{};                   ///< across 0, across 1, along: of the axes
-  Wide form[3][3]{};                        ///< the same of each vector of the short basis
-  double size_of[3]{};                      ///< the size of each vector of the short basis
+  Wide cartesian[3][3];                     ///< across 0, across 1, along: of the axes
+  double size_of[3];                        ///< the size of each vector of the short basis
 
   template <class Arch>
   Frame3(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
@@ -38,6 +41,14 @@ struct Frame3 {
     set_forms<Arch>(lattice);
   }
 
+  /// Across 0, across 1, along: of each vector of the short basis.
+  const Wide (&form() const)[3][3] {
+    if constexpr (kUnit)
+      return cartesian;
+    else
+      return of_basis_;
+  }
+
   /// For balls of another radius: only the scales differ.
   void set_radius(const Bravais& lattice) {
     static_assert(kBall);
@@ -48,9 +59,10 @@ struct Frame3 {
   /// A vector's across and along from its coefficients: the large terms cancel exactly.
   template <class Arch>
   void recompute(Arm3& arm, double length) const {
-    arm.p[0] = scale[0] * compensated_sum<DoubleDouble<Arch>>(form[0], arm.n);
-    arm.p[1] = scale[1] * compensated_sum<DoubleDouble<Arch>>(form[1], arm.n);
-    arm.z = compensated_sum<DoubleDouble<Arch>>(form[2], arm.n) / length;
+    using DD = DoubleDouble<Arch>;
+    arm.p[0] = scale[0] * compensated_sum<DD, kFirstTerms, kLowParts>(form()[0], arm.n);
+    arm.p[1] = scale[1] * compensated_sum<DD>(form()[1], arm.n);
+    arm.z = compensated_sum<DD, 3, kLowParts>(form()[2], arm.n) / length;
     double terms = 0;
     for (int j = 0; j < 3; ++j) terms += std::fabs(arm.n[j]) * size_of[j];
     arm.cancellation = kAnchorTerms / kRoundoff * kForm * inverse_r * terms;
@@ -66,7 +78,12 @@ struct Frame3 {
                z = DD::product(d[2].hi, c[2].hi);
       const DD xy = DD::sum(x.hi, y.hi), all = DD::sum(xy.hi, z.hi);
       double low = (x.lo + y.lo) + z.lo;
-      for (int k = 0; k < 3; ++k) low += d[k].hi * c[k].lo + d[k].lo * c[k].hi;
+      for (int k = 0; k < 3; ++k) {
+        if constexpr (kUnit)  // whose starts have no low parts
+          low += d[k].hi * c[k].lo;
+        else
+          low += d[k].hi * c[k].lo + d[k].lo * c[k].hi;
+      }
       f[i] = Wide(DD::sum(all.hi, (xy.lo + all.lo) + low));
     }
   }
@@ -85,7 +102,7 @@ struct Frame3 {
     const int a = (c + 1) % 3, b = (c + 2) % 3;
     across_ = std::sqrt(sum_of_products(v[a], v[a], v[b], v[b]));
     set_scale(lattice);
-    cartesian[0][a] = Wide(-v[b]), cartesian[0][b] = Wide(v[a]);
+    cartesian[0][a] = Wide(-v[b]), cartesian[0][b] = Wide(v[a]), cartesian[0][c] = Wide(0.0);
     cartesian[1][a] = Wide(-DD::product(v[a], v[c])), cartesian[1][b] = Wide(-DD::product(v[b], v[c]));
     cartesian[1][c] = Wide(DD::product(v[a], v[a]) + DD::product(v[b], v[b]));
     for (int k = 0; k < 3; ++k) cartesian[2][k] = Wide(v[k]);
@@ -168,18 +185,19 @@ struct Frame3 {
   void set_forms(const Bravais& lattice) {
     for (int i = 0; i < 3; ++i) {
       if constexpr (kUnit) {
-        for (int k = 0; k < 3; ++k) form[k][i] = cartesian[k][i];
         size_of[i] = 1;
       } else {
         const Wide B[3] = {lattice.basis[i][0], lattice.basis[i][1], lattice.basis[i][2]};
         Wide f[3];
         forms_of<Arch>(B, f);
-        for (int k = 0; k < 3; ++k) form[k][i] = f[k];
+        for (int k = 0; k < 3; ++k) of_basis_[k][i] = f[k];
         size_of[i] =
             std::fabs(B[0].hi) + std::fabs(B[1].hi) + std::fabs(B[2].hi) + kBasisInSize * lattice.basis_error;
       }
     }
   }
+
+  Wide of_basis_[3][3];  // not on the unit lattices, whose basis is the axes
 };
 
 }  // namespace lorentz

@@ -8,15 +8,21 @@
 
 namespace lorentz {
 
+/// Four numbers, of which three are used, in one register where the processor has such: what one does to a
+/// vector of the lattice then takes two operations, and none of the three leaves the registers. (An extension
+/// of GCC and Clang; without such registers it is compiled to others.)
+using FourNumbers [[gnu::vector_size(32)]] = double;
+
 /// Works on running coordinates, until these have to be computed anew from the coefficients.
 class GreedyReduction {
  public:
-  explicit GreedyReduction(Basis3& basis) : b_{&basis.b[0], &basis.b[1], &basis.b[2]} {}
+  explicit GreedyReduction(Basis3& basis) : basis_(basis) {}
 
-  double largest = 0;  ///< of the coefficients, ever; below 2^52 all steps were exact
+  /// Of the coefficients, ever; below 2^52 all steps were exact.
+  double largest() const { return largest_of(largest_); }
 
   /// Are the coordinates those of the coefficients, or good enough?
-  bool is_accurate(double inverse_r) const { return fresh_ || largest * inverse_r < kGoodRunning; }
+  bool is_accurate(double inverse_r) const { return fresh_ || largest() * inverse_r < kGoodRunning; }
 
   /// The coordinates have been computed anew.
   void refresh() {
@@ -24,72 +30,82 @@ class GreedyReduction {
     limit_ = kNoLimit;
   }
 
-  /// The vectors, shortest first.
-  void copy_sorted(Arm3 (&sorted)[3]) const {
-    for (int i = 0; i < 3; ++i) sorted[i] = *b_[i];
+  /// Leaves the coefficients of short vectors, the shortest first. False if it was interrupted, because the
+  /// coordinates have to be computed anew.
+  bool run() {
+    Vector a(basis_.b[0]), b(basis_.b[1]), c(basis_.b[2]);
+    const bool done = reduce(a, b, c);
+    for (int k = 0; k < 3; ++k)
+      basis_.b[0].n[k] = a.n[k], basis_.b[1].n[k] = b.n[k], basis_.b[2].n[k] = c.n[k];
+    return done;
   }
 
-  /// The two shorter vectors by Lagrange's step, then the longest by the nearest point of their plane. False
-  /// if it was interrupted, because the coordinates have to be computed anew.
-  bool run() {
-    for (int i = 0; i < 3; ++i) size_[i] = product(*b_[i], *b_[i]);
-    sort();
+ private:
+  struct Vector {
+    FourNumbers n, place;  ///< coefficients; across, along
+
+    explicit Vector(const Arm3& arm)
+        : n{arm.n[0], arm.n[1], arm.n[2], 0}, place{arm.p[0], arm.p[1], arm.z, 0} {}
+  };
+
+  // The two shorter vectors by Lagrange's step, then the longest by the nearest point of their plane.
+  bool reduce(Vector& a, Vector& b, Vector& c) {
+    double aa = product(a, a), bb = product(b, b), cc = product(c, c);
+    if (bb < aa) exchange(a, b, aa, bb);
+    if (cc < bb) exchange(b, c, bb, cc);
+    if (bb < aa) exchange(a, b, aa, bb);
     for (int step = 0; step < kMaxReductionSteps; ++step) {
-      double c01 = product(*b_[0], *b_[1]);
-      const double k = std::nearbyint(c01 / size_[0]);
+      double ab = product(a, b);
+      const double k = std::nearbyint(ab / aa);
       if (k != 0) {
         if (std::fabs(k) > kRunningQuotient && !fresh_) return false;
-        subtract(*b_[1], k, *b_[0]);
-        fresh_ = false;
-        size_[1] = product(*b_[1], *b_[1]);
-        if (size_[1] < size_[0]) {
-          std::swap(b_[0], b_[1]);
-          std::swap(size_[0], size_[1]);
+        subtract(b, k, a);
+        bb = product(b, b);
+        if (bb < aa) {
+          exchange(a, b, aa, bb);
           continue;
         }
-        c01 = product(*b_[0], *b_[1]);
+        ab = product(a, b);
       }
-      const double c02 = product(*b_[0], *b_[2]), c12 = product(*b_[1], *b_[2]);
-      const double inverse = 1 / (size_[0] * size_[1] - c01 * c01);
-      const double k0 = std::nearbyint((c02 * size_[1] - c12 * c01) * inverse);
-      const double k1 = std::nearbyint((c12 * size_[0] - c02 * c01) * inverse);
+      const double ac = product(a, c), bc = product(b, c);
+      const double inverse = 1 / (aa * bb - ab * ab);
+      const double k0 = std::nearbyint((ac * bb - bc * ab) * inverse);
+      const double k1 = std::nearbyint((bc * aa - ac * ab) * inverse);
       if (k0 == 0 && k1 == 0) return true;
       if (std::max(std::fabs(k0), std::fabs(k1)) > kRunningQuotient && !fresh_) return false;
-      subtract(*b_[2], k0, *b_[0]);
-      subtract(*b_[2], k1, *b_[1]);
-      const double before = size_[2];
-      size_[2] = product(*b_[2], *b_[2]);
-      fresh_ = false;
-      if (!(size_[2] < before)) return true;
-      if (size_[2] >= size_[1]) return true;
-      if (largest > limit_) return false;
-      sort();
+      subtract(c, k0, a);
+      subtract(c, k1, b);
+      const double before = cc;
+      cc = product(c, c);
+      if (!(cc < before) || cc >= bb) return true;
+      if (largest() > limit_) return false;
+      exchange(b, c, bb, cc);
+      if (bb < aa) exchange(a, b, aa, bb);
     }
     return false;
   }
 
- private:
-  void subtract(Arm3& arm, double k, const Arm3& other) {
-    arm.subtract(k, other);
-    largest = std::max({largest, std::fabs(arm.n[0]), std::fabs(arm.n[1]), std::fabs(arm.n[2])});
+  static double product(const Vector& a, const Vector& b) {
+    const FourNumbers terms = a.place * b.place;
+    return (terms[0] + terms[1]) + terms[2];
   }
 
-  void sort() {
-    order(0, 1);
-    order(1, 2);
-    order(0, 1);
+  static void exchange(Vector& a, Vector& b, double& aa, double& bb) {
+    std::swap(a, b);
+    std::swap(aa, bb);
   }
 
-  void order(int i, int j) {  // without a branch
-    const bool swap = size_[j] < size_[i];
-    Arm3* const first = swap ? b_[j] : b_[i];
-    b_[j] = swap ? b_[i] : b_[j], b_[i] = first;
-    const double smaller = swap ? size_[j] : size_[i];
-    size_[j] = swap ? size_[i] : size_[j], size_[i] = smaller;
+  void subtract(Vector& a, double k, const Vector& b) {
+    a.n -= k * b.n, a.place -= k * b.place;
+    const FourNumbers size = a.n > -a.n ? a.n : -a.n;
+    largest_ = size > largest_ ? size : largest_;
+    fresh_ = false;
   }
 
-  Arm3* b_[3];
-  double size_[3];
+  static double largest_of(const FourNumbers& a) { return std::max({a[0], a[1], a[2]}); }
+
+  Basis3& basis_;
+  FourNumbers largest_{};  // of each of the three coefficients
   double limit_ = kRunningCoefficient;
   bool fresh_ = true;  // the coordinates are those of the coefficients, not sums of rounded ones
 };

@@ -10,9 +10,7 @@ namespace lorentz {
 
 /// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
 struct Point3 {
-  double n[3]{};
-  double p[2]{};
-  double z = 0, size = 0, extent = 0;
+  double n[3], p[2], z, size, extent;
 
   Point3() = default;
   Point3(const Point3& base, double k, const Arm3& arm) {
@@ -147,9 +145,19 @@ class Window3 {
   }
 
   Point3 at(const Wide (&N)[3]) const {
+    const auto& form = to.form();
+    const Wide from = begin == 0 ? start_[2] : start_[2] - Wide(begin);
     Point3 point;
-    for (int i = 0; i < 2; ++i) point.p[i] = to.scale[i] * compensated_sum<DD>(to.form[i], N, start_[i]);
-    point.z = compensated_sum<DD>(to.form[2], N, start_[2] - Wide(begin)) / basis->length;
+    for (double& n : point.n) n = 0;
+    if (N[0].lo == 0 && N[1].lo == 0 && N[2].lo == 0) {  // nearly always; to the same bits
+      const double n[3] = {N[0].hi, N[1].hi, N[2].hi};
+      point.p[0] = to.scale[0] * compensated_sum_from<DD, Direction::kFirstTerms>(start_[0], form[0], n);
+      point.p[1] = to.scale[1] * compensated_sum_from<DD>(start_[1], form[1], n);
+      point.z = compensated_sum_from<DD, 3, Direction::kLowParts>(from, form[2], n) / basis->length;
+    } else {
+      for (int i = 0; i < 2; ++i) point.p[i] = to.scale[i] * compensated_sum<DD>(form[i], N, start_[i]);
+      point.z = compensated_sum<DD>(form[2], N, from) / basis->length;
+    }
     point.size = std::fabs(point.p[0]) + std::fabs(point.p[1]);
     point.extent = std::fabs(point.z);
     return point;
