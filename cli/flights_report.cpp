@@ -156,19 +156,19 @@ std::string FlightsReport::json() const {
       survival += fmt::format("{}[{},{}]", survival.empty() ? "" : ",", found.edges[i], found.beyond[i]);
   const auto& e = found.exponent;
   return fmt::format(
-      "{{\"scene\":{},\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
+      "{{\"scene\":{},{}\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
       "\"never\":{},"
       "\"undecided\":{},\"drawn_anew\":{},\"mean\":{},\"mean_error\":{},\"mean_exact\":{},\"mean_remark\":{},"
       "\"mean_log\":{},\"shortest\":{},\"longest\":{},\"tail_exponent\":{},\"tail_interval\":{},\"tail_"
       "from\":{},"
       "\"tail_count\":{},\"tails\":[{}],\"theory\":[{}],\"no_theory\":{},\"survival\":[{}],\"seconds\":{}}}"
       "\n",
-      json_quoted(scene_name), name_of(plan.from), json_quoted(plan.engine), plan.seed, tally.flights(),
-      plan.count, tally.hits, tally.never, tally.undecided, tally.inside,
-      any ? number_or_null(tally.mean()) : "null", any ? number_or_null(tally.standard_error()) : "null",
-      number_or_null(exact_mean(*this, found)), json_quoted(remark_on_mean(plan.from, found.tails)),
-      any ? number_or_null(tally.mean_log()) : "null", any ? number_or_null(tally.shortest) : "null",
-      any ? number_or_null(tally.longest) : "null",
+      json_quoted(scene_name), radius ? fmt::format("\"radius\":{},", *radius) : "", name_of(plan.from),
+      json_quoted(plan.engine), plan.seed, tally.flights(), plan.count, tally.hits, tally.never,
+      tally.undecided, tally.inside, any ? number_or_null(tally.mean()) : "null",
+      any ? number_or_null(tally.standard_error()) : "null", number_or_null(exact_mean(*this, found)),
+      json_quoted(remark_on_mean(plan.from, found.tails)), any ? number_or_null(tally.mean_log()) : "null",
+      any ? number_or_null(tally.shortest) : "null", any ? number_or_null(tally.longest) : "null",
       number_or_null(e ? std::optional(e->exponent) : std::nullopt),
       e ? fmt::format("[{},{}]", number_or_null(e->low), number_or_null(e->high)) : "null",
       number_or_null(e ? std::optional(e->from) : std::nullopt), e ? e->count : 0, tails, theory,
@@ -178,7 +178,7 @@ std::string FlightsReport::json() const {
 namespace {
 
 // One histogram's rows. Below the first edge nothing is expected but what theory has there.
-void append_rows(std::string& text, const char* bins, const FlightsFindings& found,
+void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
                  const std::vector<std::uint64_t>& counts, const std::function<double(int)>& edge,
                  int bin_count, std::uint64_t below) {
   const auto n = static_cast<double>(found.total);
@@ -197,24 +197,35 @@ void append_rows(std::string& text, const char* bins, const FlightsFindings& fou
   }
 }
 
-}  // namespace
-
-std::string FlightsReport::csv() const {
-  const FlightsFindings found(*this);
-  const Bins& bins = account.tally.bins;
-  std::string text = "bins,from,to,count,density,density_error,survival_at_to";
+// Which laws there are does not depend on the radius.
+std::string csv_names(const FlightsFindings& found, bool with_radius) {
+  std::string text =
+      fmt::format("{}bins,from,to,count,density,density_error,survival_at_to", with_radius ? "radius," : "");
   for (const FlightsFindings::Fit& fit : found.fits) {
     std::string name = fit.law.name;
     std::replace(name.begin(), name.end(), ',', ';');
     text += fmt::format(",{0}: density,{0}: survival_at_to", name);
   }
-  text += '\n';
-  append_rows(
-      text, "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
-      [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
-  append_rows(
-      text, "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); }, Bins::kLinear, 0);
-  return text;
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string csv_of(const std::vector<FlightsReport>& reports) {
+  std::string names, text;
+  for (const FlightsReport& report : reports) {
+    const FlightsFindings found(report);
+    const Bins& bins = report.account.tally.bins;
+    if (names.empty() || found.total > 0) names = csv_names(found, report.radius.has_value());
+    const std::string radius = report.radius ? fmt::format("{},", *report.radius) : "";
+    append_rows(
+        text, radius + "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
+        [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
+    append_rows(
+        text, radius + "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); },
+        Bins::kLinear, 0);
+  }
+  return names + text;
 }
 
 }  // namespace lorentz::cli

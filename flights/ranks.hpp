@@ -21,7 +21,7 @@ class Ranks {
   int rank() const;
   int size() const;
 
-  /// What rank 0 has of the run already, told to all.
+  /// A run begins, the first or the next one: what rank 0 has of it already, told to all.
   void share(Account& account);
 
   /// The other ranks: this is what came of their blocks so far; the last time, of all of them.

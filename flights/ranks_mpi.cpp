@@ -25,8 +25,14 @@ constexpr std::chrono::milliseconds kLook{2};
 struct Ranks::Impl {
   mpi::environment environment{mpi::threading::funneled, false};
   mpi::communicator world;
-  std::vector<std::string> latest = std::vector<std::string>(static_cast<std::size_t>(world.size()));
-  int at_work = world.size() - 1;
+  std::vector<std::string> latest;  // of this run, from each rank
+  int at_work = 0;
+
+  // All of a run's reports have been received before the next one is shared.
+  void begin() {
+    latest.assign(static_cast<std::size_t>(world.size()), "");
+    at_work = world.size() - 1;
+  }
 
   void receive() {
     while (const auto status = world.iprobe()) {
@@ -54,6 +60,7 @@ int Ranks::size() const {
 }
 
 void Ranks::share(Account& account) {
+  impl_->begin();
   std::string text = rank() == 0 ? account.text() : std::string();
   mpi::broadcast(impl_->world, text, 0);
   if (rank() != 0) account = Account::of(text);

@@ -1,6 +1,8 @@
 // lorentz flights as its users call it.
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -81,6 +83,69 @@ TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
   CHECK(contains(folder.read("picture.svg"), "<svg"));
 }
 
+TEST_CASE("Flights: several radii, each as alone", "[flights][flights_command]") {
+  const Folder folder;
+  for (const std::string from : {"uniform", "surface"}) {
+    const std::string what = "flights --count 1e5 --seed 7503 --from " + from + " ";
+    const auto alone = [&](const std::string& radius) {
+      return folder.lorentz(what + "--radius " + radius + " --csv " + folder.file(radius)).out;
+    };
+    const std::string large = alone("0.3"), small = alone("0.01");
+    CHECK(large != small);
+    const Run both = folder.lorentz(what + "--radius 0.3,0.01 --csv " + folder.file("both"));
+    INFO(both.err);
+    CHECK(both.status == 0);
+    CHECK(both.out == large + "\n" + small);
+    CHECK(folder.lorentz(what + "--radius 0.3 --radius 0.01").out == both.out);
+    std::istringstream rows(folder.read("both"));
+    std::string names, text, of_radius[2];
+    std::getline(rows, names);
+    CHECK(names.starts_with("radius,bins,from,to,"));
+    for (std::string row; std::getline(rows, row);) {
+      const auto comma = row.find(',');
+      of_radius[row.substr(0, comma) == "0.01"] += row.substr(comma + 1) + '\n';
+    }
+    names = names.substr(names.find(',') + 1) + '\n';
+    CHECK(names + of_radius[0] == folder.read("0.3"));
+    CHECK(names + of_radius[1] == folder.read("0.01"));
+#ifdef LORENTZ_MPIRUN
+    const Run ranks =
+        folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                   LORENTZ_PROGRAM + " " + what + "--radius 0.3,0.01");
+    INFO(ranks.err);
+    CHECK(ranks.out == both.out);
+#endif
+  }
+  const Run json = folder.lorentz("flights --count 1e4 --json --radius 0.3,1e-2");
+  CHECK(lines(json.out) == 2);
+  CHECK(json.out.starts_with(R"({"scene":"square","radius":0.3,"from":)"));
+  CHECK(contains(json.out,
+                 "\n"
+                 R"({"scene":"square","radius":0.01,"from":)"));
+  CHECK_FALSE(contains(folder.lorentz("flights --count 1e4 --json --radius 0.3").out, "\"radius\""));
+}
+
+TEST_CASE("Flights: pictures of several radii, of survival and density", "[flights][flights_command]") {
+  const Folder folder;
+  const auto drawn = [&](const std::string& options) {
+    const Run run = folder.lorentz("flights " + options + " --svg " + folder.file("survival") +
+                                   " --density-svg " + folder.file("density"));
+    INFO(run.err);
+    CHECK(run.status == 0);
+  };
+  drawn("--count 1e5 --radius 0.3,0.001");
+  for (const char* picture : {"survival", "density"}) {
+    const std::string svg = folder.read(picture);
+    for (const char* part : {"Free paths: square, uniform starts", "100000 flights each", "r = 0.3",
+                             "r = 0.001", "law, r -&gt; 0"})
+      CHECK(contains(svg, part));
+    CHECK_FALSE(contains(svg, "nan"));
+  }
+  CHECK(contains(folder.read("density"), "free path / mean free path between collisions"));
+  drawn("--count 1e4 --scene overlapping-3d --engine certified");  // neither law nor mean
+  CHECK(contains(folder.read("density"), "free path, in the scene's unit of length"));
+}
+
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
           "[flights][flights_command]") {
   const Folder folder;
@@ -114,6 +179,26 @@ TEST_CASE("Flights: what a mean means is said where it is not what it looks like
     CHECK_FALSE(contains(said(finite), "is infinite"));
 }
 
+// Binary64 has no direction that meets discs so small before its numbers end.
+TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[flights][flights_command]") {
+  const Folder folder;
+  const std::string what = "flights --radius 1e-300 --engine certified --count 1000 ";
+  const Run table = folder.lorentz(what + "--csv " + folder.file("csv"));
+  CHECK(table.status == 0);
+  CHECK(contains(table.out, "1000 flights: 0 hits, 1000 never, 0 undecided"));
+  CHECK(contains(table.out, "nothing was hit: there are no free paths to speak of"));
+  CHECK(lines(folder.read("csv")) == 1);
+  const std::string json = folder.lorentz(what + "--json").out;
+  for (const char* part : {"\"hits\":0", "\"never\":1000", "\"mean\":null", "\"shortest\":null"})
+    CHECK(contains(json, part));
+  for (const std::string picture : {"--svg ", "--density-svg "}) {
+    const Run run = folder.lorentz(what + picture + folder.file("picture"));
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "nothing was hit"));
+    CHECK_FALSE(fs::exists(folder.file("picture")));
+  }
+}
+
 TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_command]") {
   const Folder folder;
   const std::vector<std::pair<std::string, std::string>> bad{
@@ -129,6 +214,10 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
       {"--shard 3", "I/N"},
       {"--shard 2/2", "--shard"},
       {"--add /no/such/file", "/no/such/file"},
+      {"--add /dev/zero", "/dev/zero: is no file"},
+      {"--radius 0.1,0.2 --store store", "run several one by one"},
+      {"--radius 0.1,0.2 --shard 0/2", "run several one by one"},
+      {"--radius 0.1,0", "--radius"},
   };
   for (const auto& [arguments, words] : bad) {
     const Run run = folder.lorentz("flights --count 1000 " + arguments);
@@ -137,7 +226,11 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
     CHECK(contains(run.err, words));
     CHECK(run.out.empty());
   }
-  const Run full = folder.lorentz("flights --count 1000 --csv /dev/full");
-  CHECK(full.status == 3);
-  CHECK(contains(full.err, "/dev/full"));
+  for (const std::string file : {"--csv", "--svg", "--density-svg", "--store"}) {
+    const Run full = folder.lorentz("flights --count 1000 " + file + " /dev/full");
+    INFO(file);
+    CHECK(full.status == 3);
+    CHECK(contains(full.err, "/dev/full"));
+  }
+  CHECK(folder.run("sh -c '" LORENTZ_PROGRAM " flights --count 1000 >/dev/full'").status == 3);
 }
