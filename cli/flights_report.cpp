@@ -39,6 +39,18 @@ std::string remark_on_mean(Ensemble from, const std::vector<Tail>& tails) {
   return "";
 }
 
+std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  const auto measured = found.measured_constant_of(tail);
+  if (!measured) return "";
+  const double power = *tail.exponent - 1;
+  std::string text = fmt::format("  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}",
+                                 measured->value, power, measured->error);
+  if (tail.constant)
+    text += fmt::format(": off by {:.2f} of these", (measured->value - *tail.constant) / measured->error);
+  return text +
+         fmt::format("; extrapolated from {} flights longer than {:.6g}\n", measured->count, measured->from);
+}
+
 std::string lines_of_theory(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
@@ -60,7 +72,7 @@ std::string lines_of_theory(const FlightsFindings& found) {
     if (tail.exponent && tail.constant)
       text += fmt::format(", P(tau > t) ~ {:.6g} / t^{:g}", *tail.constant, *tail.exponent - 1);
     if (!tail.remark.empty()) text += fmt::format("{} {}", tail.exponent ? ";" : "", tail.remark);
-    text += '\n';
+    text += '\n' + line_of_measured_constant(tail, found);
   }
   return text;
 }
@@ -85,6 +97,13 @@ std::string table_of_survival(const FlightsFindings& found) {
 
 std::string number_or_null(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{}", *x) : "null";
+}
+
+std::string keys_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  const auto measured = found.measured_constant_of(tail);
+  if (!measured) return "";
+  return fmt::format(",\"measured\":{},\"measured_error\":{},\"measured_from\":{},\"measured_count\":{}",
+                     measured->value, measured->error, measured->from, measured->count);
 }
 
 std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindings& found) {
@@ -147,9 +166,10 @@ std::string FlightsReport::json() const {
         fit.two_percent_more.p_value);
   std::string tails;
   for (const Tail& tail : found.tails)
-    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}}}",
+    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}{}}}",
                          tails.empty() ? "" : ",", json_quoted(tail.when), number_or_null(tail.exponent),
-                         number_or_null(tail.constant), json_quoted(tail.remark));
+                         number_or_null(tail.constant), json_quoted(tail.remark),
+                         keys_of_measured_constant(tail, found));
   std::string survival;
   for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
     if (found.beyond[i] > 0 && found.beyond[i] < found.total)

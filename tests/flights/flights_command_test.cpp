@@ -1,11 +1,23 @@
 // lorentz flights as its users call it.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <sstream>
 
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
+
+namespace {
+
+// Of the first such key from a place on.
+double number_of(const std::string& json, const std::string& key, std::size_t from = 0) {
+  const std::size_t at = json.find("\"" + key + "\":", from);
+  REQUIRE(at != std::string::npos);
+  return std::stod(json.substr(at + key.size() + 3));
+}
+
+}  // namespace
 
 TEST_CASE("Flights: the same words for threads, shards and processes", "[flights][flights_command]") {
   const Folder folder;
@@ -149,11 +161,6 @@ TEST_CASE("Flights: pictures of several radii, of survival and density", "[fligh
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
           "[flights][flights_command]") {
   const Folder folder;
-  const auto number = [](const std::string& out, const std::string& key) {
-    const std::size_t at = out.find("\"" + key + "\":");
-    REQUIRE(at != std::string::npos);
-    return std::stod(out.substr(at + key.size() + 3));
-  };
   for (const char* scene : {"square", "superposition-pi-5"})
     for (const char* from : {"uniform", "surface"}) {
       const Run run = folder.lorentz(
@@ -161,9 +168,32 @@ TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wron
           " --from " + from);
       INFO(scene << ", " << from << ": " << run.out);
       REQUIRE(run.status == 0);
-      CHECK(number(run.out, "p_value") > 0.001);
-      CHECK(number(run.out, "p_value_of_1.02") < 1e-9);
+      CHECK(number_of(run.out, "p_value") > 0.001);
+      CHECK(number_of(run.out, "p_value_of_1.02") < 1e-9);
     }
+}
+
+TEST_CASE("Flights: the constant of a tail in space, extrapolated, is that of its channels",
+          "[flights][flights_command]") {
+  const Folder folder;
+  for (const std::string from : {"uniform", "surface"}) {
+    const Run run = folder.lorentz(
+        "flights --scene cubic --radius 0.2 --count 6e6 --jobs 2 --seed 7504 --json --from " + from);
+    REQUIRE(run.status == 0);
+    const std::size_t at = run.out.find("\"when\":\"t -> infinity\"");
+    REQUIRE(at != std::string::npos);
+    const double exact = number_of(run.out, "constant", at), measured = number_of(run.out, "measured", at),
+                 error = number_of(run.out, "measured_error", at),
+                 t = number_of(run.out, "measured_from", at),
+                 longer = number_of(run.out, "measured_count", at);
+    INFO(from << ": " << measured << " +- " << error << ", exact " << exact);
+    CHECK(std::fabs(measured - exact) < 4 * error);
+    CHECK(error < (from == "uniform" ? 0.03 : 0.15) * exact);
+    // As it is, not extrapolated, it would be far off.
+    CHECK(longer / 6e6 * std::pow(t, from == "uniform" ? 1 : 2) > exact + 5 * error);
+  }
+  CHECK(contains(folder.lorentz("flights --scene cubic --count 1e6").out, "\n  measured: P(tau > t) ~ "));
+  CHECK_FALSE(contains(folder.lorentz("flights --count 1e6").out, "measured"));
 }
 
 TEST_CASE("Flights: what a mean means is said where it is not what it looks like",
