@@ -1,6 +1,8 @@
 // lorentz flights as its users call it.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -227,6 +229,20 @@ TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[
     CHECK(contains(run.err, "nothing was hit"));
     CHECK_FALSE(fs::exists(folder.file("picture")));
   }
+}
+
+// At this radius most flights have a period, of 2^53 and less, and no disc on it.
+TEST_CASE("Flights: what never ends is longer than all that ends", "[flights][flights_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz("flights --radius 1e-17 --engine certified --count 2000 --seed 7505 --json");
+  INFO(run.err << run.out);
+  REQUIRE(run.status == 0);
+  const double hits = number_of(run.out, "hits"), never = number_of(run.out, "never");
+  CHECK(hits > 100);
+  CHECK(never > 100);
+  CHECK(hits + never == 2000);
+  CHECK(contains(run.out, fmt::format(",{}]],\"seconds\"", never)));  // the survival's end
+  CHECK(number_of(run.out, "p_value") < 1e-300);                      // the law has no such flights
 }
 
 TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_command]") {
