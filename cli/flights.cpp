@@ -223,7 +223,7 @@ int act(const Options& options) {
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  const std::unique_ptr<flights::Ranks> ranks = flights::Ranks::join();
+  const std::unique_ptr<flights::Ranks> ranks = ranks::join<flights::Ranks>("--jobs, or --shard and --add");
   if (!ranks) {
     fly_all(tasks, bounds, options, nullptr);
     return kDone;

@@ -180,7 +180,7 @@ TEST_CASE("Flights: the constant of a tail in space, extrapolated, is that of it
   const Folder folder;
   for (const std::string from : {"uniform", "surface"}) {
     const Run run = folder.lorentz(
-        "flights --scene cubic --radius 0.2 --count 6e6 --jobs 2 --seed 7504 --json --from " + from);
+        "flights --scene cubic --radius 0.2 --count 2e6 --jobs 2 --seed 7504 --json --from " + from);
     REQUIRE(run.status == 0);
     const std::size_t at = run.out.find("\"when\":\"t -> infinity\"");
     REQUIRE(at != std::string::npos);
@@ -190,12 +190,12 @@ TEST_CASE("Flights: the constant of a tail in space, extrapolated, is that of it
                  longer = number_of(run.out, "measured_count", at);
     INFO(from << ": " << measured << " +- " << error << ", exact " << exact);
     CHECK(std::fabs(measured - exact) < 4 * error);
-    CHECK(error < (from == "uniform" ? 0.03 : 0.15) * exact);
+    CHECK(error < (from == "uniform" ? 0.04 : 0.15) * exact);
     // As it is, not extrapolated, it would be far off.
-    CHECK(longer / 6e6 * std::pow(t, from == "uniform" ? 1 : 2) > exact + 5 * error);
+    CHECK(longer / 2e6 * std::pow(t, from == "uniform" ? 1 : 2) > exact + 5 * error);
   }
-  CHECK(contains(folder.lorentz("flights --scene cubic --count 1e6").out, "\n  measured: P(tau > t) ~ "));
-  CHECK_FALSE(contains(folder.lorentz("flights --count 1e6").out, "measured"));
+  CHECK(contains(folder.lorentz("flights --scene cubic --count 3e5").out, "\n  measured: P(tau > t) ~ "));
+  CHECK_FALSE(contains(folder.lorentz("flights --count 1e5").out, "measured"));
 }
 
 TEST_CASE("Flights: what a mean means is said where it is not what it looks like",
