@@ -309,6 +309,7 @@ void add_flights(CLI::App& app, Action& action) {
   command->footer(
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"
+      "  lorentz flights --scene square --radius 0.3,0.1,0.01 --density-svg densities.svg\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
       "--svg pi-5.svg");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
