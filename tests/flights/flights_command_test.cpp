@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <regex>
 #include <sstream>
+#include <vector>
 
 #include "tests/support/command_line.hpp"
 
@@ -156,8 +159,47 @@ TEST_CASE("Flights: pictures of several radii, of survival and density", "[fligh
     CHECK_FALSE(contains(svg, "nan"));
   }
   CHECK(contains(folder.read("density"), "free path / mean free path between collisions"));
+  CHECK(contains(folder.read("density"), ">0.5</text>"));
+  CHECK_FALSE(contains(folder.read("density"), ">500</text>"));    // a mean free path at r = 0.001
   drawn("--count 1e4 --scene overlapping-3d --engine certified");  // neither law nor mean
   CHECK(contains(folder.read("density"), "free path, in the scene's unit of length"));
+}
+
+namespace {
+
+using Place = std::pair<double, double>;
+
+std::vector<Place> places_in(const std::string& svg, const std::regex& pattern) {
+  std::vector<Place> places;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), pattern), end; it != end; ++it)
+    places.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("Flights: in the picture of the density the law goes through the points",
+          "[flights][flights_command]") {
+  const Folder folder;
+  CHECK(folder.lorentz("flights --radius 1e-4 --count 4e5 --seed 7506 --density-svg " + folder.file("svg"))
+            .status == 0);
+  const std::string svg = folder.read("svg");
+  auto points = places_in(svg, std::regex(R"re(<circle cx="([0-9.]+)" cy="([0-9.]+)")re"));
+  REQUIRE(points.size() > 30);
+  points.pop_back();  // in the legend
+  const std::size_t end = svg.find(R"(" fill="none" stroke="#777777" stroke-width="2.2")");
+  REQUIRE(end != std::string::npos);
+  const std::size_t begin = svg.rfind("points=", end);
+  const auto law = places_in(svg.substr(begin, end - begin), std::regex(R"re(([0-9.]+),([0-9.]+))re"));
+  REQUIRE(law.size() > points.size());
+  for (const auto& [x, y] : points) {
+    const double at = x;
+    const auto near = std::min_element(law.begin(), law.end(), [at](const Place& a, const Place& b) {
+      return std::fabs(a.first - at) < std::fabs(b.first - at);
+    });
+    CHECK(std::fabs(near->first - x) < 4);
+    CHECK(std::fabs(near->second - y) < 9);  // 450 pixels are 1, and 4 standard errors at most 0.02
+  }
 }
 
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
