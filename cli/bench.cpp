@@ -59,7 +59,16 @@ struct Summary {
 std::string csv_header() {
   return "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,"
          "wrong,wrong_time,mean_ulp,"
-         "ulp_99_percent,max_ulp\n";
+         "ulp_99_percent,max_ulp,path_mean\n";
+}
+
+// The mean length of the flights that hit: what a time is to be divided by for one a length, or a cell.
+std::string mean_path(const std::vector<Answer>& exact) {
+  double sum = 0;
+  std::size_t hits = 0;
+  for (const Answer& answer : exact)
+    if (answer.outcome == Outcome::hit) sum += answer.time.value_or(0), ++hits;
+  return hits > 0 ? fmt::format("{:.6g}", sum / static_cast<double>(hits)) : "";
 }
 
 class Report {
@@ -85,19 +94,20 @@ class Report {
       }
       CaseSet set = all;
       set.cases.resize(count);
-      const Tally t = measure(set, exact_answers(set, terminal()), {summary.all.name}, {},
-                              {oracle::kDefaultUlps, kRounds, timeout_, terminal()})
-                          .front();
+      const std::vector<Answer> exact = exact_answers(set, terminal());
+      const Tally t =
+          measure(set, exact, {summary.all.name}, {}, {oracle::kDefaultUlps, kRounds, timeout_, terminal()})
+              .front();
       failed_ |= t.failed;
       summary.add(t);
       table_.add({what, summary.all.name, std::to_string(t.queries), fmt::format("{:.0f}", t.ns_median),
                   fmt::format("{:.0f}-{:.0f}", t.ns_low, t.ns_high), std::to_string(t.undecided),
                   std::to_string(t.wrong), std::to_string(t.wrong_time), fmt::format("{:.3g}", t.mean_ulp()),
                   fmt::format("{:.3g}", t.ulp_at(0.99)), fmt::format("{:.3g}", t.max_ulp)});
-      csv_ += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{:.4g},{:.4g},{:.4g}\n",
+      csv_ += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{:.4g},{:.4g},{:.4g},{}\n",
                           scene_name, radius, name_of(difficulty), t.name, t.queries, t.ns_per_query,
                           t.ns_median, t.ns_low, t.ns_high, t.undecided, t.wrong, t.wrong_time, t.mean_ulp(),
-                          t.ulp_at(0.99), t.max_ulp);
+                          t.ulp_at(0.99), t.max_ulp, mean_path(exact));
     }
   }
 

@@ -169,8 +169,10 @@ void append_spread(std::string& out, const char* key, const std::vector<double>&
 }
 
 std::string json_of(const std::string& scene, const std::string& seed, const std::vector<Tally>& tallies,
-                    bool judged) {
-  std::string out = fmt::format("{{\"scene\":{},\"seed\":{},\"engines\":[", json_quoted(scene), seed);
+                    const std::optional<std::string>& judge) {
+  const bool judged = judge.has_value();
+  std::string out = fmt::format("{{\"scene\":{},\"seed\":{},\"judge\":{},\"engines\":[", json_quoted(scene),
+                                seed, judged ? json_quoted(*judge) : "null");
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     const Tally& t = tallies[i];
     const auto count = [&](std::size_t n) { return judged ? std::to_string(n) : std::string("null"); };
@@ -296,7 +298,7 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
   const std::string seed_text = std::to_string(seed);
   if (options.json) {
     print(json_of(title(options, set), seed <= 1ull << 53 ? seed_text : json_quoted(seed_text), tallies,
-                  !options.no_oracle));
+                  options.no_oracle ? std::nullopt : std::optional(options.judge)));
     return;
   }
   const bool drawn = !options.queries;

@@ -33,9 +33,9 @@ struct Options {
   std::string scene = "square", engine = "batch", from = "uniform", count = "1000000",
               seed = std::to_string(compare::kDefaultSeed), jobs = "1", shard = "0/1",
               cells = std::to_string(flights::kCellsOfBox);
-  std::optional<std::string> radius, seconds, store, csv, svg;
+  std::optional<std::string> seconds, store, csv, svg, density_svg;
   bool json = false;
-  std::vector<std::string> parts;
+  std::vector<std::string> radii, parts;
 };
 
 flights::Ensemble ensemble_of(const std::string& name) {
@@ -45,9 +45,9 @@ flights::Ensemble ensemble_of(const std::string& name) {
                                json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
 }
 
-Plan plan_of(const Options& options) {
+Plan plan_of(const Options& options, std::optional<double> radius) {
   Plan plan;
-  plan.scene = load_scene(options.scene, positive_number(options.radius, "--radius"));
+  plan.scene = load_scene(options.scene, radius);
   compare::check_name(options.engine);
   if (compare::is_command(options.engine))
     throw InputError(
@@ -59,6 +59,25 @@ Plan plan_of(const Options& options) {
   plan.count = whole_number(options.count, "--count", 1, kMostFlights);
   plan.cells = whole_number(options.cells, "--cells", 1, std::uint64_t{1} << 40);
   return plan;
+}
+
+// What is flown one after the other: a radius after the other, or the scene as it is.
+struct Task {
+  std::optional<double> radius;  // of several
+  Plan plan;
+};
+
+std::vector<Task> tasks_of(const Options& options) {
+  std::vector<Task> tasks;
+  for (const std::string& radius : options.radii) {
+    const std::optional<double> value = positive_number(radius, "--radius");
+    tasks.push_back({value, plan_of(options, value)});
+  }
+  if (tasks.empty()) tasks.push_back({{}, plan_of(options, {})});
+  if (tasks.size() == 1) tasks[0].radius.reset();
+  if (tasks.size() > 1 && (options.store || !options.parts.empty() || options.shard != Options().shard))
+    throw InputError("--store, --add and --shard: counts are kept of one radius; run several one by one");
+  return tasks;
 }
 
 flights::Bounds bounds_of(const Options& options) {
@@ -75,6 +94,8 @@ flights::Bounds bounds_of(const Options& options) {
 }
 
 std::string read_file(const std::string& path) {
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+    throw FileError(fmt::format("{}: is no file", path));
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -107,7 +128,8 @@ Account empty_account(const Plan& plan) {
 Account opened(const Options& options, const Plan& plan) {
   Account account = empty_account(plan);
   std::vector<std::string> files = options.parts;
-  if (options.store && std::filesystem::exists(*options.store)) files.insert(files.begin(), *options.store);
+  if (options.store && std::filesystem::is_regular_file(*options.store))
+    files.insert(files.begin(), *options.store);
   for (const std::string& file : files) {
     const Account stored = read_account(file);
     if (stored.plan != account.plan)
@@ -151,26 +173,20 @@ class News {
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
 };
 
-int report(const Options& options, const FlightsReport& report) {
-  print(options.json ? report.json() : report.table());
-  if (options.csv) write_file(*options.csv, report.csv());
-  if (options.svg) write_file(*options.svg, report.svg());
-  return kDone;
-}
-
 // Another rank's share: flown, and reported to rank 0.
-int fly_share(const Plan& plan, flights::Bounds bounds, const Options& options, flights::Ranks& ranks) {
+void fly_share(const Plan& plan, flights::Bounds bounds, const Options& options, flights::Ranks& ranks) {
   Account known, own = empty_account(plan);
   ranks.share(known);
   bounds.done = known.done;
   News news(options, plan, &ranks);
   flights::run(plan, bounds, own, [&](const Account& account) { news(account); });
   ranks.report(own, true);
-  return kDone;
 }
 
-int fly(const Plan& plan, const flights::Bounds& bounds, const Options& options, flights::Ranks* ranks) {
-  FlightsReport result{options.scene, plan, opened(options, plan), {}};
+FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options& options,
+                  flights::Ranks* ranks) {
+  const Plan& plan = task.plan;
+  FlightsReport result{options.scene, task.radius, plan, opened(options, plan), {}};
   if (ranks) ranks->share(result.account);
   const auto start = std::chrono::steady_clock::now();
   {
@@ -181,24 +197,45 @@ int fly(const Plan& plan, const flights::Bounds& bounds, const Options& options,
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.store) write_file(*options.store, result.account.text());
   say("{:.2f} s", *result.seconds);
+  return result;
+}
+
+// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
+void fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const Options& options,
+             flights::Ranks* ranks) {
+  std::vector<FlightsReport> reports;
+  for (const Task& task : tasks) {
+    FlightsReport report = fly(task, bounds, options, ranks);
+    if (Interrupt::came() && !reports.empty() && report.account.done.size() == 0) continue;
+    print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
+    reports.push_back(std::move(report));
+  }
   if (Interrupt::came())
     say("interrupted; {}",
         options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
-  return report(options, result);
+  if (options.csv) write_file(*options.csv, csv_of(reports));
+  if (options.svg) write_file(*options.svg, survival_svg(reports));
+  if (options.density_svg) write_file(*options.density_svg, density_svg(reports));
 }
 
 int act(const Options& options) {
-  const Plan plan = plan_of(options);
+  const std::vector<Task> tasks = tasks_of(options);
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  const std::unique_ptr<flights::Ranks> ranks = flights::Ranks::join();
-  if (!ranks) return fly(plan, bounds, options, nullptr);
+  const std::unique_ptr<flights::Ranks> ranks = ranks::join<flights::Ranks>("--jobs, or --shard and --add");
+  if (!ranks) {
+    fly_all(tasks, bounds, options, nullptr);
+    return kDone;
+  }
   try {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
-    return ranks->rank() == 0 ? fly(plan, bounds, options, ranks.get())
-                              : fly_share(plan, bounds, options, *ranks);
+    if (ranks->rank() == 0)
+      fly_all(tasks, bounds, options, ranks.get());
+    else
+      for (const Task& task : tasks) fly_share(task.plan, bounds, options, *ranks);
+    return kDone;
   } catch (const std::exception& error) {  // nobody waits for a process that is gone
     say("{}", error.what());
     ranks->abort(kFailed);
@@ -214,7 +251,12 @@ void add_flights(CLI::App& app, Action& action) {
   command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
       ->capture_default_str()
       ->type_name("S");
-  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  command
+      ->add_option("--radius", options->radii,
+                   "radius of every ball; several, with commas between them, are flown one after the other "
+                   "from the same drawn numbers: each gives what it gives alone")
+      ->delimiter(',')
+      ->type_name("R");
   command
       ->add_option(
           "--from", options->from,
@@ -228,7 +270,7 @@ void add_flights(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("E");
   command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
-  command->add_option("--time", options->seconds, "stop after so long")->type_name("SECONDS");
+  command->add_option("--time", options->seconds, "stop after so long (each radius)")->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
   command->add_option("--jobs", options->jobs, "threads; the result is the same")
       ->capture_default_str()
@@ -248,13 +290,26 @@ void add_flights(CLI::App& app, Action& action) {
                    "only the blocks of flights I modulo N, into --store; --add joins them")
       ->capture_default_str()
       ->type_name("I/N");
-  command->add_option("--csv", options->csv, "the histograms, and theory, to a file")->type_name("FILE");
-  command->add_option("--svg", options->svg, "the picture: P(free path > t), theory drawn in")
+  command
+      ->add_option("--csv", options->csv,
+                   "the histograms, and theory, to a file; of several radii one file, its first column the "
+                   "radius: rows are what one filters and plots by")
       ->type_name("FILE");
-  command->add_flag("--json", options->json, "one JSON object instead of a table");
+  command
+      ->add_option("--svg", options->svg,
+                   "the picture: P(free path > t), theory drawn in; several radii in one")
+      ->type_name("FILE");
+  command
+      ->add_option("--density-svg", options->density_svg,
+                   "the picture of the density in linear bins, theory drawn in; several radii in one, in "
+                   "units of the mean free path")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json,
+                    "one JSON object a line instead of a table; of several radii one a radius");
   command->footer(
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"
+      "  lorentz flights --scene square --radius 0.3,0.1,0.01 --density-svg densities.svg\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
       "--svg pi-5.svg");
   command->callback([options, &action] { action = [options] { return act(*options); }; });

@@ -26,6 +26,12 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
   exponent = tail_exponent(edges, counts);
 }
 
+std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& tail) const {
+  if (!tail.exponent || !tail.approach || !mean.value || total == 0) return std::nullopt;
+  const SlowTail slow{*tail.exponent - 1, *tail.approach};
+  return tail_constant(edges, counts, total, slow, tail_begins(slow.power, total) * *mean.value);
+}
+
 // What is shorter than `from` is one bin.
 ChiSquared FlightsFindings::fit_of(const std::function<double(double)>& survival, double from) const {
   std::size_t first = 0;

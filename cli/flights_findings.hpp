@@ -8,6 +8,7 @@
 #include "cli/flights_report.hpp"
 #include "flights/theory/fit.hpp"
 #include "flights/theory/laws.hpp"
+#include "flights/theory/tail_constant.hpp"
 
 namespace lorentz::cli {
 
@@ -28,6 +29,9 @@ struct FlightsFindings {
   std::vector<flights::Tail> tails;
   std::optional<flights::TailExponent> exponent;
   flights::MeanFreePath mean;  ///< from collision to collision
+
+  /// The tail's constant as measured, where the tail is approached so slowly that it must be extrapolated.
+  std::optional<flights::TailConstant> measured_constant_of(const flights::Tail& tail) const;
 
  private:
   flights::ChiSquared fit_of(const std::function<double(double)>& survival, double from) const;

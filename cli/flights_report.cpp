@@ -39,6 +39,18 @@ std::string remark_on_mean(Ensemble from, const std::vector<Tail>& tails) {
   return "";
 }
 
+std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  const auto measured = found.measured_constant_of(tail);
+  if (!measured) return "";
+  const double power = *tail.exponent - 1;
+  std::string text = fmt::format("  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}",
+                                 measured->value, power, measured->error);
+  if (tail.constant)
+    text += fmt::format(": off by {:.2f} of these", (measured->value - *tail.constant) / measured->error);
+  return text +
+         fmt::format("; extrapolated from {} flights longer than {:.6g}\n", measured->count, measured->from);
+}
+
 std::string lines_of_theory(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
@@ -60,7 +72,7 @@ std::string lines_of_theory(const FlightsFindings& found) {
     if (tail.exponent && tail.constant)
       text += fmt::format(", P(tau > t) ~ {:.6g} / t^{:g}", *tail.constant, *tail.exponent - 1);
     if (!tail.remark.empty()) text += fmt::format("{} {}", tail.exponent ? ";" : "", tail.remark);
-    text += '\n';
+    text += '\n' + line_of_measured_constant(tail, found);
   }
   return text;
 }
@@ -85,6 +97,13 @@ std::string table_of_survival(const FlightsFindings& found) {
 
 std::string number_or_null(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{}", *x) : "null";
+}
+
+std::string keys_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  const auto measured = found.measured_constant_of(tail);
+  if (!measured) return "";
+  return fmt::format(",\"measured\":{},\"measured_error\":{},\"measured_from\":{},\"measured_count\":{}",
+                     measured->value, measured->error, measured->from, measured->count);
 }
 
 std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindings& found) {
@@ -147,28 +166,29 @@ std::string FlightsReport::json() const {
         fit.two_percent_more.p_value);
   std::string tails;
   for (const Tail& tail : found.tails)
-    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}}}",
+    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}{}}}",
                          tails.empty() ? "" : ",", json_quoted(tail.when), number_or_null(tail.exponent),
-                         number_or_null(tail.constant), json_quoted(tail.remark));
+                         number_or_null(tail.constant), json_quoted(tail.remark),
+                         keys_of_measured_constant(tail, found));
   std::string survival;
   for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
     if (found.beyond[i] > 0 && found.beyond[i] < found.total)
       survival += fmt::format("{}[{},{}]", survival.empty() ? "" : ",", found.edges[i], found.beyond[i]);
   const auto& e = found.exponent;
   return fmt::format(
-      "{{\"scene\":{},\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
+      "{{\"scene\":{},{}\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
       "\"never\":{},"
       "\"undecided\":{},\"drawn_anew\":{},\"mean\":{},\"mean_error\":{},\"mean_exact\":{},\"mean_remark\":{},"
       "\"mean_log\":{},\"shortest\":{},\"longest\":{},\"tail_exponent\":{},\"tail_interval\":{},\"tail_"
       "from\":{},"
       "\"tail_count\":{},\"tails\":[{}],\"theory\":[{}],\"no_theory\":{},\"survival\":[{}],\"seconds\":{}}}"
       "\n",
-      json_quoted(scene_name), name_of(plan.from), json_quoted(plan.engine), plan.seed, tally.flights(),
-      plan.count, tally.hits, tally.never, tally.undecided, tally.inside,
-      any ? number_or_null(tally.mean()) : "null", any ? number_or_null(tally.standard_error()) : "null",
-      number_or_null(exact_mean(*this, found)), json_quoted(remark_on_mean(plan.from, found.tails)),
-      any ? number_or_null(tally.mean_log()) : "null", any ? number_or_null(tally.shortest) : "null",
-      any ? number_or_null(tally.longest) : "null",
+      json_quoted(scene_name), radius ? fmt::format("\"radius\":{},", *radius) : "", name_of(plan.from),
+      json_quoted(plan.engine), plan.seed, tally.flights(), plan.count, tally.hits, tally.never,
+      tally.undecided, tally.inside, any ? number_or_null(tally.mean()) : "null",
+      any ? number_or_null(tally.standard_error()) : "null", number_or_null(exact_mean(*this, found)),
+      json_quoted(remark_on_mean(plan.from, found.tails)), any ? number_or_null(tally.mean_log()) : "null",
+      any ? number_or_null(tally.shortest) : "null", any ? number_or_null(tally.longest) : "null",
       number_or_null(e ? std::optional(e->exponent) : std::nullopt),
       e ? fmt::format("[{},{}]", number_or_null(e->low), number_or_null(e->high)) : "null",
       number_or_null(e ? std::optional(e->from) : std::nullopt), e ? e->count : 0, tails, theory,
@@ -178,7 +198,7 @@ std::string FlightsReport::json() const {
 namespace {
 
 // One histogram's rows. Below the first edge nothing is expected but what theory has there.
-void append_rows(std::string& text, const char* bins, const FlightsFindings& found,
+void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
                  const std::vector<std::uint64_t>& counts, const std::function<double(int)>& edge,
                  int bin_count, std::uint64_t below) {
   const auto n = static_cast<double>(found.total);
@@ -197,24 +217,35 @@ void append_rows(std::string& text, const char* bins, const FlightsFindings& fou
   }
 }
 
-}  // namespace
-
-std::string FlightsReport::csv() const {
-  const FlightsFindings found(*this);
-  const Bins& bins = account.tally.bins;
-  std::string text = "bins,from,to,count,density,density_error,survival_at_to";
+// Which laws there are does not depend on the radius.
+std::string csv_names(const FlightsFindings& found, bool with_radius) {
+  std::string text =
+      fmt::format("{}bins,from,to,count,density,density_error,survival_at_to", with_radius ? "radius," : "");
   for (const FlightsFindings::Fit& fit : found.fits) {
     std::string name = fit.law.name;
     std::replace(name.begin(), name.end(), ',', ';');
     text += fmt::format(",{0}: density,{0}: survival_at_to", name);
   }
-  text += '\n';
-  append_rows(
-      text, "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
-      [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
-  append_rows(
-      text, "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); }, Bins::kLinear, 0);
-  return text;
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string csv_of(const std::vector<FlightsReport>& reports) {
+  std::string names, text;
+  for (const FlightsReport& report : reports) {
+    const FlightsFindings found(report);
+    const Bins& bins = report.account.tally.bins;
+    if (names.empty() || found.total > 0) names = csv_names(found, report.radius.has_value());
+    const std::string radius = report.radius ? fmt::format("{},", *report.radius) : "";
+    append_rows(
+        text, radius + "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
+        [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
+    append_rows(
+        text, radius + "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); },
+        Bins::kLinear, 0);
+  }
+  return names + text;
 }
 
 }  // namespace lorentz::cli

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "flights/account.hpp"
 #include "flights/plan.hpp"
@@ -10,7 +11,8 @@
 namespace lorentz::cli {
 
 struct FlightsReport {
-  std::string scene_name;  ///< as it was asked for
+  std::string scene_name;        ///< as it was asked for
+  std::optional<double> radius;  ///< of all balls, where several were asked for
   flights::Plan plan;
   flights::Account account;
   std::optional<double> seconds;  ///< of this run
@@ -22,9 +24,15 @@ struct FlightsReport {
   std::string name_with_radius() const;
 
   std::string table() const;
-  std::string json() const;  ///< one object
-  std::string csv() const;   ///< the bins, with what theory expects in them
-  std::string svg() const;
+  std::string json() const;  ///< one object, in a line
 };
+
+/// The bins, with what theory expects in them; of several radii with the radius before each row.
+std::string csv_of(const std::vector<FlightsReport>& reports);
+
+/// Pictures of one scene at one or several radii: P(free path > t) on logarithmic axes, and the density on
+/// linear ones. Throw InputError if nothing was hit.
+std::string survival_svg(const std::vector<FlightsReport>& reports);
+std::string density_svg(const std::vector<FlightsReport>& reports);
 
 }  // namespace lorentz::cli

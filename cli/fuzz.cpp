@@ -102,7 +102,8 @@ int act(const FuzzOptions& options) {
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
   const fuzz::MakeSubject make_subject = fuzz::subject_maker(options.engine, {{}, timeout, terminal()});
-  const std::unique_ptr<fuzz::Ranks> ranks = fuzz::Ranks::join();
+  const std::unique_ptr<fuzz::Ranks> ranks =
+      ranks::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
   if (!ranks) return run_campaign(options, plan, make_subject, nullptr);
   try {
     if (ranks->rank() == 0) return run_campaign(options, plan, make_subject, ranks.get());

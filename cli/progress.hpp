@@ -11,9 +11,17 @@ namespace lorentz::cli {
 
 class Progress {
  public:
-  /// Looks at the clock at every `stride`-th count only.
-  explicit Progress(std::string what, std::size_t total, std::size_t stride = 64)
-      : what_(std::move(what)), total_(total), stride_(stride), shown_(isatty(STDERR_FILENO) == 1) {}
+  using Clock = std::chrono::steady_clock;
+
+  /// Looks at the clock at every `stride`-th count only. `begun`: of several bars one after the other, when
+  /// the first did.
+  explicit Progress(std::string what, std::size_t total, std::size_t stride = 64,
+                    Clock::time_point begun = Clock::now())
+      : what_(std::move(what)),
+        total_(total),
+        stride_(stride),
+        shown_(isatty(STDERR_FILENO) == 1),
+        next_(begun + std::chrono::seconds(1)) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
@@ -32,7 +40,7 @@ class Progress {
   template <class Note>
   void at(std::size_t done, const Note& note) {
     if (!shown_ || done % stride_ != 0) return;
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(200);
     constexpr std::size_t kWidth = 40;
@@ -48,7 +56,7 @@ class Progress {
   std::string what_;
   std::size_t total_, stride_;
   bool shown_, drawn_ = false;
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  Clock::time_point next_;
 };
 
 }  // namespace lorentz::cli

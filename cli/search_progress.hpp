@@ -11,10 +11,10 @@ namespace lorentz::cli {
 /// Draws from the first second on, if stderr is a terminal. What is drawn goes when the last copy of it does.
 inline oracle::SearchProgress search_progress() {
   if (isatty(STDERR_FILENO) != 1) return {};
-  return [bar = std::make_shared<std::unique_ptr<Progress>>()](const std::string& what, std::size_t done,
-                                                               std::size_t total) {
+  return [bar = std::make_shared<std::unique_ptr<Progress>>(), begun = Progress::Clock::now()](
+             const std::string& what, std::size_t done, std::size_t total) {
     if (!*bar || (*bar)->what() != what || (*bar)->total() != total)
-      *bar = std::make_unique<Progress>(what, total, 1);
+      *bar = std::make_unique<Progress>(what, total, 1, begun);
     (*bar)->at(done);
   };
 }

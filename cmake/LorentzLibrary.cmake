@@ -28,14 +28,14 @@ function(lorentz_library name)
   add_library(lorentz::${short} ALIAS ${name})
 endfunction()
 
-# A library whose work mpirun may share out among processes: with MPI or, in its place, without.
-macro(lorentz_ranks target)
+# A library of which one source, STEM_mpi.cpp, uses MPI, or is STEM_none.cpp in a program without it.
+macro(lorentz_mpi_sources target stem)
   if(LORENTZ_MPI)
     find_package(MPI REQUIRED COMPONENTS CXX)
     find_package(Boost 1.74 REQUIRED COMPONENTS mpi serialization)
-    target_sources(${target} PRIVATE ranks_mpi.cpp)
+    target_sources(${target} PRIVATE ${stem}_mpi.cpp)
     target_link_libraries(${target} PRIVATE Boost::mpi Boost::serialization MPI::MPI_CXX)
   else()
-    target_sources(${target} PRIVATE ranks_none.cpp)
+    target_sources(${target} PRIVATE ${stem}_none.cpp)
   endif()
 endmacro()

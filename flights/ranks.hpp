@@ -1,6 +1,4 @@
-// The processes of one run, where mpirun started several: each flies a share of the blocks, and rank 0 keeps
-// the account. Nobody but ranks_mpi.cpp knows MPI; a program built without it has ranks_none.cpp in its
-// place.
+// The processes of one run of flights: each flies a share of the blocks, and rank 0 keeps the account.
 #pragma once
 
 #include <memory>
@@ -8,20 +6,17 @@
 #include <vector>
 
 #include "flights/account.hpp"
+#include "ranks/world.hpp"
 
 namespace lorentz::flights {
 
-/// Used by the one thread that made it.
-class Ranks {
+class Ranks : public ranks::World {
  public:
-  /// Null if this process runs alone. Throws InputError if mpirun started it, but it was built without MPI.
-  static std::unique_ptr<Ranks> join();
+  /// See ranks::join.
+  Ranks();
   ~Ranks();
 
-  int rank() const;
-  int size() const;
-
-  /// What rank 0 has of the run already, told to all.
+  /// A run begins, the first or the next one: what rank 0 has of it already, told to all.
   void share(Account& account);
 
   /// The other ranks: this is what came of their blocks so far; the last time, of all of them.
@@ -31,13 +26,9 @@ class Ranks {
   /// reported for the last time.
   Account sum(const Account& own, bool wait);
 
-  /// Ends all processes with this exit status.
-  [[noreturn]] void abort(int status);
-
  private:
-  struct Impl;
-  explicit Ranks(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  struct Inbox;
+  std::unique_ptr<Inbox> inbox_;
 };
 
 }  // namespace lorentz::flights

@@ -1,14 +1,11 @@
 // Ranks by MPI. What is sent are accounts, as text; each is all that a rank has done so far, so that one that
 // is overtaken by the next is not missed.
-#include <mpi.h>
-
-#include <boost/mpi.hpp>
 #include <boost/serialization/string.hpp>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include "flights/ranks.hpp"
+#include "ranks/world_mpi.hpp"
 
 namespace lorentz::flights {
 namespace {
@@ -22,13 +19,14 @@ constexpr std::chrono::milliseconds kLook{2};
 
 }  // namespace
 
-struct Ranks::Impl {
-  mpi::environment environment{mpi::threading::funneled, false};
-  mpi::communicator world;
-  std::vector<std::string> latest = std::vector<std::string>(static_cast<std::size_t>(world.size()));
-  int at_work = world.size() - 1;
+// Of rank 0: what the others have reported of this run.
+struct Ranks::Inbox {
+  std::vector<std::string> latest;  // from each rank
+  int at_work = 0;
 
-  void receive() {
+  explicit Inbox(int size) : latest(static_cast<std::size_t>(size)), at_work(size - 1) {}
+
+  void receive(const mpi::communicator& world) {
     while (const auto status = world.iprobe()) {
       world.recv(status->source(), status->tag(), latest[static_cast<std::size_t>(status->source())]);
       at_work -= status->tag() == kLast;
@@ -36,48 +34,31 @@ struct Ranks::Impl {
   }
 };
 
-std::unique_ptr<Ranks> Ranks::join() {
-  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (!size) size = std::getenv("PMI_SIZE");
-  if (!size || std::atoi(size) < 2) return nullptr;
-  return std::unique_ptr<Ranks>(new Ranks(std::make_unique<Impl>()));
-}
-
-Ranks::Ranks(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
 
-int Ranks::rank() const {
-  return impl_->world.rank();
-}
-int Ranks::size() const {
-  return impl_->world.size();
-}
-
 void Ranks::share(Account& account) {
+  // All reports of the run before have been received.
+  inbox_ = std::make_unique<Inbox>(size());
   std::string text = rank() == 0 ? account.text() : std::string();
-  mpi::broadcast(impl_->world, text, 0);
+  mpi::broadcast(mpi().world, text, 0);
   if (rank() != 0) account = Account::of(text);
 }
 
 void Ranks::report(const Account& account, bool last) {
-  impl_->world.send(0, last ? kLast : kSoFar, account.text());
+  mpi().world.send(0, last ? kLast : kSoFar, account.text());
 }
 
 Account Ranks::sum(const Account& own, bool wait) {
-  impl_->receive();
-  while (wait && impl_->at_work > 0) {
+  inbox_->receive(mpi().world);
+  while (wait && inbox_->at_work > 0) {
     std::this_thread::sleep_for(kLook);
-    impl_->receive();
+    inbox_->receive(mpi().world);
   }
   Account sum = own;
-  for (const std::string& text : impl_->latest)
+  for (const std::string& text : inbox_->latest)
     if (!text.empty()) sum.add(Account::of(text));
   return sum;
-}
-
-void Ranks::abort(int status) {
-  impl_->world.abort(status);
-  std::abort();
 }
 
 }  // namespace lorentz::flights

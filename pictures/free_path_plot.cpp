@@ -24,21 +24,41 @@ const char* colour_of(int series) {
   return series < 0 ? kGrey : kColours[static_cast<std::size_t>(series) % std::size(kColours)];
 }
 
-// What is on one axis: powers of ten.
+// The smallest of 1, 2, 5, 10, 20, .. that is `least` or more.
+double round_step(double least) {
+  const double decade = std::pow(10, std::floor(std::log10(least)));
+  for (const double digit : {1, 2, 5})
+    if (digit * decade >= least * (1 - 1e-9)) return digit * decade;
+  return 10 * decade;
+}
+
+// What is on one axis: powers of ten; or, linear, from 0 on.
 struct Range {
+  Axes axes = Axes::logarithmic;
   double low = std::numeric_limits<double>::infinity(), high = 0;
 
+  bool can_show(double x) const { return std::isfinite(x) && (axes == Axes::linear ? x >= 0 : x > 0); }
   bool empty() const { return high == 0; }
   void include(double x) {
-    if (!(x > 0) || !std::isfinite(x)) return;
+    if (!can_show(x)) return;
     low = std::min(low, x);
     high = std::max(high, x);
   }
   double decades() const { return std::log10(high / low); }
   bool holds(double x) const { return x >= low * (1 - 1e-12) && x <= high * (1 + 1e-12); }
+  /// Its place on the axis, from 0 to 1.
+  double place(double x) const {
+    return axes == Axes::linear ? (x - low) / (high - low) : std::log10(x / low) / decades();
+  }
 
   // Ends at a digit times a power of ten, and so that no point is on the frame.
   void round() {
+    if (axes == Axes::linear) {
+      const double step = round_step(1.02 * high / 10);
+      low = 0;
+      high = step * std::ceil(1.02 * high / step);
+      return;
+    }
     low = rounded(low / 1.02, [](double digits) { return std::floor(digits); });
     high = rounded(high * 1.02, [](double digits) { return std::ceil(digits); });
   }
@@ -55,25 +75,19 @@ struct Frame {
   double left, right, top, bottom;  // in pixels
 
   Point operator()(double x, double y) const {
-    return {left + (right - left) * std::log10(x / t.low) / t.decades(),
-            bottom - (bottom - top) * std::log10(y / value.low) / value.decades()};
+    return {left + (right - left) * t.place(x), bottom - (bottom - top) * value.place(y)};
   }
+  bool can_show(const MeasuredPoint& point) const {
+    return t.can_show(point.t) && value.can_show(point.value) && std::isfinite(point.error);
+  }
+  bool can_show(const Point& point) const { return t.can_show(point.x) && value.can_show(point.y); }
 };
-
-bool can_be_shown(const MeasuredPoint& point) {
-  return point.t > 0 && point.value > 0 && std::isfinite(point.t) && std::isfinite(point.value) &&
-         std::isfinite(point.error);
-}
-
-bool can_be_shown(const Point& point) {
-  return point.x > 0 && point.y > 0 && std::isfinite(point.x) && std::isfinite(point.y);
-}
 
 // Measured points have to be seen, curves only where there are points, and somewhat beyond.
 void set_ranges(const FreePathPlot& plot, Frame& frame) {
   for (const PlotSeries& series : plot.series)
     for (const MeasuredPoint& point : series.points)
-      if (can_be_shown(point)) {
+      if (frame.can_show(point)) {
         frame.t.include(point.t);
         frame.value.include(point.value);
         frame.value.include(std::max(point.value - point.error, point.value / 3));
@@ -82,11 +96,11 @@ void set_ranges(const FreePathPlot& plot, Frame& frame) {
   if (frame.t.empty())
     for (const PlotCurve& curve : plot.curves)
       for (const Point& point : curve.points)
-        if (can_be_shown(point)) {
+        if (frame.can_show(point)) {
           frame.t.include(point.x);
           frame.value.include(point.y);
         }
-  if (frame.t.empty()) throw std::invalid_argument("nothing above 0 to be drawn");
+  if (frame.t.empty() || frame.value.empty()) throw std::invalid_argument("nothing above 0 to be drawn");
   frame.t.round();
   frame.value.round();
 }
@@ -105,32 +119,68 @@ std::string stroke(const char* colour, double width, const char* more = "") {
   return fmt::format("stroke=\"{}\" stroke-width=\"{}\" {}", colour, width, more);
 }
 
-// Grid, ticks and their numbers along one axis: decades; within them 2 and 5 too, if there is room for them.
-void add_axis(Svg& svg, const Frame& frame, bool along_t) {
+// A tick on one axis at x, and its number, if it has one; a grid line, if its colour is given.
+struct Tick {
+  double x, length;
+  const char* grid = nullptr;
+  std::string label = {};
+};
+
+void add_tick(Svg& svg, const Frame& frame, bool along_t, const Tick& tick) {
+  const Point at = along_t ? frame(tick.x, frame.value.low) : frame(frame.t.low, tick.x),
+              far = along_t ? Point{at.x, frame.top} : Point{frame.right, at.y};
+  if (tick.grid) svg.polyline({at, far}, stroke(tick.grid, 1));
+  if (tick.length > 0)
+    svg.polyline({at, along_t ? Point{at.x, at.y - tick.length} : Point{at.x + tick.length, at.y}},
+                 stroke("#222222", 1.4));
+  if (tick.label.empty()) return;
+  svg.text(along_t ? Point{at.x, at.y + 26} : Point{at.x - 9, at.y + 7}, tick.label,
+           fmt::format("text-anchor=\"{}\"", along_t ? "middle" : "end"));
+}
+
+constexpr const char *kGrid = "#d4d4d4", *kLightGrid = "#ebebeb";
+
+// Along one axis, so far apart are numbers at least, in pixels.
+double apart(bool along_t) {
+  return along_t ? 62 : 34;
+}
+
+// Decades; within them 2 and 5 too, if there is room for them.
+void add_decades(Svg& svg, const Frame& frame, bool along_t, double pixels) {
   const Range& range = along_t ? frame.t : frame.value;
-  const double pixels = along_t ? frame.right - frame.left : frame.bottom - frame.top,
-               decade = pixels / range.decades();
-  const int every = static_cast<int>(std::ceil((along_t ? 62 : 34) / decade));
+  const double decade = pixels / range.decades();
+  const int every = static_cast<int>(std::ceil(apart(along_t) / decade));
   const auto first = static_cast<int>(std::floor(std::log10(range.low))),
              last = static_cast<int>(std::ceil(std::log10(range.high)));
   for (int exponent = first; exponent <= last; ++exponent)
     for (int digit = 1; digit < 10; ++digit) {
       const double x = digit * std::pow(10, exponent);
       if (!range.holds(x)) continue;
-      const Point at = along_t ? frame(x, frame.value.low) : frame(frame.t.low, x),
-                  far = along_t ? Point{at.x, frame.top} : Point{frame.right, at.y};
       const bool major = digit == 1 && exponent % every == 0;
-      if (digit == 1) svg.polyline({at, far}, stroke(major ? "#d4d4d4" : "#ebebeb", 1));
-      const double tick = major ? 9 : digit == 1 ? 6 : 4;
-      if (digit == 1 || decade > 45)
-        svg.polyline({at, along_t ? Point{at.x, at.y - tick} : Point{at.x + tick, at.y}},
-                     stroke("#222222", 1.4));
+      Tick tick{x, major ? 9.0 : digit == 1 ? 6.0 : 4.0};
+      if (digit == 1) tick.grid = major ? kGrid : kLightGrid;
+      if (digit != 1 && decade <= 45) tick.length = 0;
       const bool between = range.decades() < 1.7 && (digit == 2 || digit == 5);
-      if (!major && !between) continue;
-      const std::string label = digit == 1 ? power_of_ten(exponent) : fmt::format("{:.4g}", x);
-      svg.text(along_t ? Point{at.x, at.y + 26} : Point{at.x - 9, at.y + 7}, label,
-               fmt::format("text-anchor=\"{}\"", along_t ? "middle" : "end"));
+      if (major || between) tick.label = digit == 1 ? power_of_ten(exponent) : fmt::format("{:.4g}", x);
+      add_tick(svg, frame, along_t, tick);
     }
+}
+
+// Round numbers, evenly.
+void add_steps(Svg& svg, const Frame& frame, bool along_t, double pixels) {
+  const Range& range = along_t ? frame.t : frame.value;
+  const double step = round_step(range.high * apart(along_t) / pixels);
+  for (int i = 0; i * step <= range.high * (1 + 1e-9); ++i)
+    add_tick(svg, frame, along_t, {i * step, 9, kGrid, fmt::format("{:.4g}", i * step)});
+}
+
+// Grid, ticks and their numbers.
+void add_axis(Svg& svg, const Frame& frame, bool along_t) {
+  const double pixels = along_t ? frame.right - frame.left : frame.bottom - frame.top;
+  if (frame.t.axes == Axes::linear)
+    add_steps(svg, frame, along_t, pixels);
+  else
+    add_decades(svg, frame, along_t, pixels);
 }
 
 void add_axes(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
@@ -181,7 +231,7 @@ void add_marker(Svg& svg, Point at, std::size_t series) {
 void add_series(Svg& svg, const Frame& frame, const PlotSeries& series, std::size_t number) {
   const std::string bar = stroke(colour_of(static_cast<int>(number)), 1.6);
   for (const MeasuredPoint& point : series.points) {
-    if (!can_be_shown(point)) continue;
+    if (!frame.can_show(point)) continue;
     const Point at = frame(point.t, point.value);
     const double low = std::max(point.value - point.error, frame.value.low);
     const Point top = frame(point.t, point.value + point.error), bottom = frame(point.t, low);
@@ -201,7 +251,7 @@ std::string style_of(const PlotCurve& curve) {
 void add_curve(Svg& svg, const Frame& frame, const PlotCurve& curve) {
   std::vector<Point> line;
   for (const Point& point : curve.points)
-    if (can_be_shown(point)) line.push_back(frame(point.x, point.y));
+    if (frame.can_show(point)) line.push_back(frame(point.x, point.y));
   svg.polyline(line, style_of(curve) + " clip-path=\"url(#frame)\"");
 }
 
@@ -215,7 +265,7 @@ std::size_t points_in(const Box& box, const Frame& frame, const FreePathPlot& pl
   std::size_t count = 0;
   for (const PlotSeries& series : plot.series)
     for (const MeasuredPoint& point : series.points) {
-      if (!can_be_shown(point)) continue;
+      if (!frame.can_show(point)) continue;
       const Point at = frame(point.t, point.value);
       count += at.x > box.low.x - 8 && at.x < box.high.x + 8 && at.y > box.low.y - 8 && at.y < box.high.y + 8;
     }
@@ -274,6 +324,7 @@ void add_line(Svg& svg, Point at, const std::string& words, double size, double 
 
 std::string draw_free_paths(const FreePathPlot& plot) {
   Frame frame;
+  frame.t.axes = frame.value.axes = plot.axes;
   set_ranges(plot, frame);
   frame.left = 100;
   frame.right = plot.width - 2 * kMargin;

@@ -1,4 +1,4 @@
-// A picture of free paths: measured points and curves of theory over t, both axes logarithmic.
+// A picture of free paths: measured points and curves of theory over t, both axes logarithmic, or linear.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace lorentz::pictures {
 
-/// A measured value with its standard error. What is not finite and above 0 cannot be shown and is left out;
-/// an error bar that reaches down to 0 goes down to the edge of the picture.
+/// A measured value with its standard error. What is not finite cannot be shown and is left out, as is, where
+/// axes are logarithmic, what is not above 0; an error bar that reaches down to 0 goes down to the edge of
+/// the picture.
 struct MeasuredPoint {
   double t = 0, value = 0, error = 0;
 };
@@ -28,8 +29,12 @@ struct PlotCurve {
   bool dashed = false;
 };
 
+/// Linear ones begin at 0, and show nothing below it.
+enum class Axes { logarithmic, linear };
+
 struct FreePathPlot {
   std::string title, note;  ///< above and below the picture; none if empty
+  Axes axes = Axes::logarithmic;
   std::string t_label = "t", value_label = "P(free path > t)";
   std::vector<PlotSeries> series;
   std::vector<PlotCurve> curves;
@@ -37,7 +42,7 @@ struct FreePathPlot {
 };
 
 /// The picture as SVG. The axes hold all measured points; of curves that reach further as much as is worth
-/// showing. An std::invalid_argument if there is nothing above 0 to show.
+/// showing. An std::invalid_argument if there is nothing to show.
 std::string draw_free_paths(const FreePathPlot& plot);
 
 }  // namespace lorentz::pictures

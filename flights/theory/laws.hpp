@@ -31,10 +31,11 @@ Laws laws_of(const Scene& scene, Ensemble ensemble);
 
 /// How P(tau > t) falls in the end: like constant * t^-(exponent - 1).
 struct Tail {
-  std::string when;                ///< "r -> 0", or "t -> infinity": two limits, of two tails
-  std::optional<double> exponent;  ///< of the density of tau; nothing if there is no such tail
-  std::optional<double> constant;  ///< in the scene's unit to the power exponent - 1; 0: it falls faster
-  std::string remark;              ///< where the constant comes from, or why it or the tail is not known
+  std::string when;                     ///< "r -> 0", or "t -> infinity": two limits, of two tails
+  std::optional<double> exponent;       ///< of the density of tau; nothing if there is no such tail
+  std::optional<double> constant;       ///< in the scene's unit to the power exponent - 1; 0: it falls faster
+  std::string remark;                   ///< where the constant comes from, or why it or the tail is not known
+  std::optional<double> approach = {};  ///< a: the relative distance from it falls like t^-a only
 };
 
 /// Those that are known: at most one for each limit. What is asked of the horizon of a scene of many

@@ -60,9 +60,11 @@ Tail tail_of_horizon(const Scene& scene, Ensemble ensemble, const char* when) {
     if (!horizon.tail_constant) return {when, std::nullopt, std::nullopt, horizon.no_tail_constant};
     if (*horizon.tail_constant == 0)
       return {when, std::nullopt, 0, "no planar channel is open: it falls faster than with one"};
-    return tail_of(
-        when, 1, *horizon.tail_constant, mean_free_path_of(scene).value, ensemble,
-        scene.dimension == 2 ? "of the corridors" : "of the planar channels; approached like t^(-2/3)");
+    const bool flat = scene.dimension == 2;
+    Tail tail = tail_of(when, 1, *horizon.tail_constant, mean_free_path_of(scene).value, ensemble,
+                        flat ? "of the corridors" : "of the planar channels; approached like t^(-2/3)");
+    if (!flat) tail.approach = 2.0 / 3;
+    return tail;
   } catch (const oracle::TooManyChannels& error) {
     return {when, std::nullopt, std::nullopt, error.what()};
   }

@@ -11,24 +11,6 @@ namespace {
 
 constexpr double kFar = 1e6, kExtreme = 1e100;
 
-std::string_view name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::hit:
-      return "hit";
-    case Outcome::never:
-      return "never";
-    case Outcome::inside:
-      return "inside";
-    case Outcome::later:
-      return "later";
-    case Outcome::undecided:
-      return "undecided";
-    case Outcome::error:
-      break;
-  }
-  return "error";
-}
-
 std::string outcomes_of(const Examined& examined) {
   return std::string(name_of(examined.given.outcome)) + " for " +
          std::string(name_of(examined.exact.outcome));

@@ -1,8 +1,5 @@
 // Ranks by MPI. Messages are a report from a rank and orders in return, and nothing else; both sides look for
 // them now and then and sleep in between, because a wait inside MPI keeps a processor busy.
-#include <mpi.h>
-
-#include <boost/mpi.hpp>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
@@ -10,13 +7,13 @@
 #include <boost/serialization/vector.hpp>
 #include <chrono>
 #include <condition_variable>
-#include <cstdlib>
 #include <deque>
 #include <mutex>
 #include <stdexcept>
 
 #include "fuzz/campaign/ledger.hpp"
 #include "fuzz/campaign/ranks.hpp"
+#include "ranks/world_mpi.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -166,62 +163,41 @@ class RemoteWork final : public WorkSource {
   std::condition_variable changed_;
 };
 
+Report received(const mpi::communicator& world, int source) {
+  Report report;
+  world.recv(source, kReport, report);
+  return report;
+}
+
+void take_in(Ledger& ledger, Report& report) {
+  for (Done& done : report.done) ledger.hand_in(std::move(done));
+  if (report.subject_failed) ledger.subject_failed();
+  if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
+}
+
 }  // namespace
 
-struct Ranks::Impl {
-  mpi::environment environment{mpi::threading::funneled, false};
-  mpi::communicator world;
-  int at_work = world.size() - 1;
-
-  Report receive(int source) {
-    Report report;
-    world.recv(source, kReport, report);
-    return report;
-  }
-
-  void take_in(Ledger& ledger, Report& report) {
-    for (Done& done : report.done) ledger.hand_in(std::move(done));
-    if (report.subject_failed) ledger.subject_failed();
-    if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
-    at_work -= report.last;
-  }
-};
-
-std::unique_ptr<Ranks> Ranks::join() {
-  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (!size) size = std::getenv("PMI_SIZE");
-  if (!size || std::atoi(size) < 2) return nullptr;
-  return std::unique_ptr<Ranks>(new Ranks(std::make_unique<Impl>()));
-}
-
-Ranks::Ranks(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Ranks::~Ranks() = default;
-
-int Ranks::rank() const {
-  return impl_->world.rank();
-}
-int Ranks::size() const {
-  return impl_->world.size();
-}
-
 void Ranks::serve(Ledger& ledger) {
-  while (const auto status = impl_->world.iprobe(mpi::any_source, kReport)) {
-    Report report = impl_->receive(status->source());
-    impl_->take_in(ledger, report);
+  const mpi::communicator& world = mpi().world;
+  while (const auto status = world.iprobe(mpi::any_source, kReport)) {
+    Report report = received(world, status->source());
+    take_in(ledger, report);
+    dismissed_ += report.last;
     if (report.last) continue;
     Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};
-    impl_->world.send(status->source(), kOrders, orders);
+    world.send(status->source(), kOrders, orders);
   }
 }
 
 void Ranks::dismiss(Ledger& ledger) {
-  while (impl_->at_work > 0) {
+  while (dismissed_ < size() - 1) {
     serve(ledger);
     std::this_thread::sleep_for(kLook);
   }
 }
 
 void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subject) {
+  const mpi::communicator& world = mpi().world;
   RemoteWork work(jobs);
   Workers workers(plan, make_subject, work, jobs);
   auto last_sent = Clock::now() - kLongestSilence;
@@ -229,27 +205,16 @@ void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subjec
     std::this_thread::sleep_for(kLook);
     if (!work.has_news() && Clock::now() - last_sent < kLongestSilence) continue;
     last_sent = Clock::now();
-    impl_->world.send(0, kReport, work.report());
-    while (!impl_->world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
+    world.send(0, kReport, work.report());
+    while (!world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
     Orders orders;
-    impl_->world.recv(0, kOrders, orders);
+    world.recv(0, kOrders, orders);
     work.obey(std::move(orders));
   }
   workers.join();
   Report report = work.report();
   report.last = true;
-  impl_->world.send(0, kReport, report);
-}
-
-void Ranks::abort(int status) {
-  impl_->world.abort(status);
-  std::abort();
-}
-
-std::string mpi_library() {
-  int major = 0, minor = 0;
-  MPI_Get_version(&major, &minor);
-  return "MPI " + std::to_string(major) + '.' + std::to_string(minor);
+  world.send(0, kReport, report);
 }
 
 }  // namespace lorentz::fuzz

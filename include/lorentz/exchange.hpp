@@ -94,6 +94,9 @@ void append_scene_line(std::string& out, const Scene& scene);
 void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
 
+/// What all formats call it: "hit", "never", ..
+std::string_view name_of(Outcome outcome);
+
 /// What the formats are read with, and its versions.
 std::string exchange_libraries();
 

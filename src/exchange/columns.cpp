@@ -70,22 +70,4 @@ void AnswerRows::refuse_large_cells() {
   large_cells.clear();
 }
 
-std::string_view name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::hit:
-      return "hit";
-    case Outcome::never:
-      return "never";
-    case Outcome::inside:
-      return "inside";
-    case Outcome::later:
-      return "later";
-    case Outcome::undecided:
-      return "undecided";
-    case Outcome::error:
-      break;
-  }
-  return "error";
-}
-
 }  // namespace lorentz

@@ -75,9 +75,6 @@ struct AnswerRows {
   void refuse_large_cells();
 };
 
-/// "hit", "never", ..
-std::string_view name_of(Outcome outcome);
-
 /// Reads queries in columns, part by part.
 class ColumnReader {
  public:

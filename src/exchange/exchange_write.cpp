@@ -73,8 +73,8 @@ void append_obstacle(std::string& out, const ObstacleId& obstacle, int dimension
   out += ']';
 }
 
+// What a hit has besides the obstacle.
 void append_hit(std::string& out, const Answer& answer, int dimension) {
-  append_obstacle(out, answer.obstacle, dimension);
   if (answer.time) {
     out += ",\"time\":";
     append_number(out, *answer.time);
@@ -135,31 +135,38 @@ void append_query_line(std::string& out, const Id& id, const Query& query, int d
   out += "}\n";
 }
 
+std::string_view name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::hit:
+      return "hit";
+    case Outcome::never:
+      return "never";
+    case Outcome::inside:
+      return "inside";
+    case Outcome::later:
+      return "later";
+    case Outcome::undecided:
+      return "undecided";
+    case Outcome::error:
+      break;
+  }
+  return "error";
+}
+
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension) {
   out += "{\"id\":";
   out += id;
-  switch (answer.outcome) {
-    case Outcome::hit:
-      out += ",\"outcome\":\"hit\",";
-      append_hit(out, answer, dimension);
-      break;
-    case Outcome::inside:
-      out += ",\"outcome\":\"inside\",";
-      append_obstacle(out, answer.obstacle, dimension);
-      break;
-    case Outcome::never:
-      out += ",\"outcome\":\"never\"";
-      break;
-    case Outcome::later:
-      out += ",\"outcome\":\"later\"";
-      break;
-    case Outcome::undecided:
-      out += ",\"outcome\":\"undecided\"";
-      break;
-    case Outcome::error:
-      out += ",\"outcome\":\"error\",\"message\":" + json_quoted(answer.message);
-      if (answer.unsupported) out += ",\"reason\":\"unsupported\"";
-      break;
+  out += ",\"outcome\":\"";
+  out += name_of(answer.outcome);
+  out += '"';
+  if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {
+    out += ',';
+    append_obstacle(out, answer.obstacle, dimension);
+  }
+  if (answer.outcome == Outcome::hit) append_hit(out, answer, dimension);
+  if (answer.outcome == Outcome::error) {
+    out += ",\"message\":" + json_quoted(answer.message);
+    if (answer.unsupported) out += ",\"reason\":\"unsupported\"";
   }
   out += "}\n";
 }

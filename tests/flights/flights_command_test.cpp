@@ -1,9 +1,28 @@
 // lorentz flights as its users call it.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <sstream>
+#include <vector>
+
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
+
+namespace {
+
+// Of the first such key from a place on.
+double number_of(const std::string& json, const std::string& key, std::size_t from = 0) {
+  const std::size_t at = json.find("\"" + key + "\":", from);
+  REQUIRE(at != std::string::npos);
+  return std::stod(json.substr(at + key.size() + 3));
+}
+
+}  // namespace
 
 TEST_CASE("Flights: the same words for threads, shards and processes", "[flights][flights_command]") {
   const Folder folder;
@@ -81,14 +100,111 @@ TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
   CHECK(contains(folder.read("picture.svg"), "<svg"));
 }
 
+TEST_CASE("Flights: several radii, each as alone", "[flights][flights_command]") {
+  const Folder folder;
+  for (const std::string from : {"uniform", "surface"}) {
+    const std::string what = "flights --count 1e5 --seed 7503 --from " + from + " ";
+    const auto alone = [&](const std::string& radius) {
+      return folder.lorentz(what + "--radius " + radius + " --csv " + folder.file(radius)).out;
+    };
+    const std::string large = alone("0.3"), small = alone("0.01");
+    CHECK(large != small);
+    const Run both = folder.lorentz(what + "--radius 0.3,0.01 --csv " + folder.file("both"));
+    INFO(both.err);
+    CHECK(both.status == 0);
+    CHECK(both.out == large + "\n" + small);
+    CHECK(folder.lorentz(what + "--radius 0.3 --radius 0.01").out == both.out);
+    std::istringstream rows(folder.read("both"));
+    std::string names, text, of_radius[2];
+    std::getline(rows, names);
+    CHECK(names.starts_with("radius,bins,from,to,"));
+    for (std::string row; std::getline(rows, row);) {
+      const auto comma = row.find(',');
+      of_radius[row.substr(0, comma) == "0.01"] += row.substr(comma + 1) + '\n';
+    }
+    names = names.substr(names.find(',') + 1) + '\n';
+    CHECK(names + of_radius[0] == folder.read("0.3"));
+    CHECK(names + of_radius[1] == folder.read("0.01"));
+#ifdef LORENTZ_MPIRUN
+    const Run ranks =
+        folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
+                   LORENTZ_PROGRAM + " " + what + "--radius 0.3,0.01");
+    INFO(ranks.err);
+    CHECK(ranks.out == both.out);
+#endif
+  }
+  const Run json = folder.lorentz("flights --count 1e4 --json --radius 0.3,1e-2");
+  CHECK(lines(json.out) == 2);
+  CHECK(json.out.starts_with(R"({"scene":"square","radius":0.3,"from":)"));
+  CHECK(contains(json.out,
+                 "\n"
+                 R"({"scene":"square","radius":0.01,"from":)"));
+  CHECK_FALSE(contains(folder.lorentz("flights --count 1e4 --json --radius 0.3").out, "\"radius\""));
+}
+
+TEST_CASE("Flights: pictures of several radii, of survival and density", "[flights][flights_command]") {
+  const Folder folder;
+  const auto drawn = [&](const std::string& options) {
+    const Run run = folder.lorentz("flights " + options + " --svg " + folder.file("survival") +
+                                   " --density-svg " + folder.file("density"));
+    INFO(run.err);
+    CHECK(run.status == 0);
+  };
+  drawn("--count 1e5 --radius 0.3,0.001");
+  for (const char* picture : {"survival", "density"}) {
+    const std::string svg = folder.read(picture);
+    for (const char* part : {"Free paths: square, uniform starts", "100000 flights each", "r = 0.3",
+                             "r = 0.001", "law, r -&gt; 0"})
+      CHECK(contains(svg, part));
+    CHECK_FALSE(contains(svg, "nan"));
+  }
+  CHECK(contains(folder.read("density"), "free path / mean free path between collisions"));
+  CHECK(contains(folder.read("density"), ">0.5</text>"));
+  CHECK_FALSE(contains(folder.read("density"), ">500</text>"));    // a mean free path at r = 0.001
+  drawn("--count 1e4 --scene overlapping-3d --engine certified");  // neither law nor mean
+  CHECK(contains(folder.read("density"), "free path, in the scene's unit of length"));
+}
+
+namespace {
+
+using Place = std::pair<double, double>;
+
+std::vector<Place> places_in(const std::string& svg, const std::regex& pattern) {
+  std::vector<Place> places;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), pattern), end; it != end; ++it)
+    places.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("Flights: in the picture of the density the law goes through the points",
+          "[flights][flights_command]") {
+  const Folder folder;
+  CHECK(folder.lorentz("flights --radius 1e-4 --count 4e5 --seed 7506 --density-svg " + folder.file("svg"))
+            .status == 0);
+  const std::string svg = folder.read("svg");
+  auto points = places_in(svg, std::regex(R"re(<circle cx="([0-9.]+)" cy="([0-9.]+)")re"));
+  REQUIRE(points.size() > 30);
+  points.pop_back();  // in the legend
+  const std::size_t end = svg.find(R"(" fill="none" stroke="#777777" stroke-width="2.2")");
+  REQUIRE(end != std::string::npos);
+  const std::size_t begin = svg.rfind("points=", end);
+  const auto law = places_in(svg.substr(begin, end - begin), std::regex(R"re(([0-9.]+),([0-9.]+))re"));
+  REQUIRE(law.size() > points.size());
+  for (const auto& [x, y] : points) {
+    const double at = x;
+    const auto near = std::min_element(law.begin(), law.end(), [at](const Place& a, const Place& b) {
+      return std::fabs(a.first - at) < std::fabs(b.first - at);
+    });
+    CHECK(std::fabs(near->first - x) < 4);
+    CHECK(std::fabs(near->second - y) < 9);  // 450 pixels are 1, and 4 standard errors at most 0.02
+  }
+}
+
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
           "[flights][flights_command]") {
   const Folder folder;
-  const auto number = [](const std::string& out, const std::string& key) {
-    const std::size_t at = out.find("\"" + key + "\":");
-    REQUIRE(at != std::string::npos);
-    return std::stod(out.substr(at + key.size() + 3));
-  };
   for (const char* scene : {"square", "superposition-pi-5"})
     for (const char* from : {"uniform", "surface"}) {
       const Run run = folder.lorentz(
@@ -96,9 +212,32 @@ TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wron
           " --from " + from);
       INFO(scene << ", " << from << ": " << run.out);
       REQUIRE(run.status == 0);
-      CHECK(number(run.out, "p_value") > 0.001);
-      CHECK(number(run.out, "p_value_of_1.02") < 1e-9);
+      CHECK(number_of(run.out, "p_value") > 0.001);
+      CHECK(number_of(run.out, "p_value_of_1.02") < 1e-9);
     }
+}
+
+TEST_CASE("Flights: the constant of a tail in space, extrapolated, is that of its channels",
+          "[flights][flights_command]") {
+  const Folder folder;
+  for (const std::string from : {"uniform", "surface"}) {
+    const Run run = folder.lorentz(
+        "flights --scene cubic --radius 0.2 --count 2e6 --jobs 2 --seed 7504 --json --from " + from);
+    REQUIRE(run.status == 0);
+    const std::size_t at = run.out.find("\"when\":\"t -> infinity\"");
+    REQUIRE(at != std::string::npos);
+    const double exact = number_of(run.out, "constant", at), measured = number_of(run.out, "measured", at),
+                 error = number_of(run.out, "measured_error", at),
+                 t = number_of(run.out, "measured_from", at),
+                 longer = number_of(run.out, "measured_count", at);
+    INFO(from << ": " << measured << " +- " << error << ", exact " << exact);
+    CHECK(std::fabs(measured - exact) < 4 * error);
+    CHECK(error < (from == "uniform" ? 0.04 : 0.15) * exact);
+    // As it is, not extrapolated, it would be far off.
+    CHECK(longer / 2e6 * std::pow(t, from == "uniform" ? 1 : 2) > exact + 5 * error);
+  }
+  CHECK(contains(folder.lorentz("flights --scene cubic --count 3e5").out, "\n  measured: P(tau > t) ~ "));
+  CHECK_FALSE(contains(folder.lorentz("flights --count 1e5").out, "measured"));
 }
 
 TEST_CASE("Flights: what a mean means is said where it is not what it looks like",
@@ -112,6 +251,40 @@ TEST_CASE("Flights: what a mean means is said where it is not what it looks like
   CHECK(contains(said("--scene cubic"), "the exact mean is infinite"));
   for (const char* finite : {"--scene triangular", "--scene triangular --from surface"})
     CHECK_FALSE(contains(said(finite), "is infinite"));
+}
+
+// Binary64 has no direction that meets discs so small before its numbers end.
+TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[flights][flights_command]") {
+  const Folder folder;
+  const std::string what = "flights --radius 1e-300 --engine certified --count 1000 ";
+  const Run table = folder.lorentz(what + "--csv " + folder.file("csv"));
+  CHECK(table.status == 0);
+  CHECK(contains(table.out, "1000 flights: 0 hits, 1000 never, 0 undecided"));
+  CHECK(contains(table.out, "nothing was hit: there are no free paths to speak of"));
+  CHECK(lines(folder.read("csv")) == 1);
+  const std::string json = folder.lorentz(what + "--json").out;
+  for (const char* part : {"\"hits\":0", "\"never\":1000", "\"mean\":null", "\"shortest\":null"})
+    CHECK(contains(json, part));
+  for (const std::string picture : {"--svg ", "--density-svg "}) {
+    const Run run = folder.lorentz(what + picture + folder.file("picture"));
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "nothing was hit"));
+    CHECK_FALSE(fs::exists(folder.file("picture")));
+  }
+}
+
+// At this radius most flights have a period, of 2^53 and less, and no disc on it.
+TEST_CASE("Flights: what never ends is longer than all that ends", "[flights][flights_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz("flights --radius 1e-17 --engine certified --count 2000 --seed 7505 --json");
+  INFO(run.err << run.out);
+  REQUIRE(run.status == 0);
+  const double hits = number_of(run.out, "hits"), never = number_of(run.out, "never");
+  CHECK(hits > 100);
+  CHECK(never > 100);
+  CHECK(hits + never == 2000);
+  CHECK(contains(run.out, fmt::format(",{}]],\"seconds\"", never)));  // the survival's end
+  CHECK(number_of(run.out, "p_value") < 1e-300);                      // the law has no such flights
 }
 
 TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_command]") {
@@ -129,6 +302,10 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
       {"--shard 3", "I/N"},
       {"--shard 2/2", "--shard"},
       {"--add /no/such/file", "/no/such/file"},
+      {"--add /dev/zero", "/dev/zero: is no file"},
+      {"--radius 0.1,0.2 --store store", "run several one by one"},
+      {"--radius 0.1,0.2 --shard 0/2", "run several one by one"},
+      {"--radius 0.1,0", "--radius"},
   };
   for (const auto& [arguments, words] : bad) {
     const Run run = folder.lorentz("flights --count 1000 " + arguments);
@@ -137,7 +314,11 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
     CHECK(contains(run.err, words));
     CHECK(run.out.empty());
   }
-  const Run full = folder.lorentz("flights --count 1000 --csv /dev/full");
-  CHECK(full.status == 3);
-  CHECK(contains(full.err, "/dev/full"));
+  for (const std::string file : {"--csv", "--svg", "--density-svg", "--store"}) {
+    const Run full = folder.lorentz("flights --count 1000 " + file + " /dev/full");
+    INFO(file);
+    CHECK(full.status == 3);
+    CHECK(contains(full.err, "/dev/full"));
+  }
+  CHECK(folder.run("sh -c '" LORENTZ_PROGRAM " flights --count 1000 >/dev/full'").status == 3);
 }

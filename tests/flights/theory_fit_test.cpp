@@ -2,6 +2,7 @@
 #include "cases/random.hpp"
 #include "flights/theory/fit.hpp"
 #include "flights/theory/limit_law.hpp"
+#include "flights/theory/tail_constant.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -244,4 +245,57 @@ TEST_CASE("Tail exponent: nothing where there is too little", "[flights][fit]") 
   CHECK_FALSE(tail_exponent(edges, Counts{0, 0, 0, 0, 0, 900}));  // does not fall
   CHECK_FALSE(tail_exponent_from(2, edges, Counts{0, 200, 100, 50, 25, 25}));
   CHECK_THROWS_AS(tail_exponent(edges, Counts{1, 2}), std::invalid_argument);
+}
+
+TEST_CASE("Tail constant: extrapolated, and its error is one", "[flights][fit]") {
+  // P(path > t) = 5 t^-power + 60 t^-(power + 2/3) from 100 on, counts about their expectations.
+  const auto edges = octaves(5, 40);
+  for (const double power : {1.0, 2.0}) {
+    const auto survival = [&](double t) {
+      return 5 * std::pow(t, -power) + 60 * std::pow(t, -power - 2.0 / 3);
+    };
+    int within_one = 0, within_two = 0;
+    double sum = 0;
+    constexpr std::uint64_t kPaths = 100'000'000, kSamples = 400;
+    for (std::uint64_t sample = 0; sample < kSamples; ++sample) {
+      Random random(20261122, "constants", sample);
+      Counts counts(edges.size() + 1);
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        double normal = -6;  // Irwin and Hall's
+        for (int k = 0; k < 12; ++k) normal += random.uniform();
+        const double next = i + 1 < edges.size() ? survival(edges[i + 1]) : 0,
+                     expected = kPaths * (survival(edges[i]) - next);
+        counts[i + 1] =
+            static_cast<std::uint64_t>(std::max(0.0, std::round(expected + normal * std::sqrt(expected))));
+      }
+      const auto found = tail_constant(edges, counts, kPaths, {power, 2.0 / 3}, 100);
+      REQUIRE(found);
+      CHECK(found->from == 104);
+      const double off = (found->value - 5) / found->error;
+      within_one += std::fabs(off) < 1, within_two += std::fabs(off) < 2;
+      sum += off;
+    }
+    INFO("power " << power << ": " << within_one << ", " << within_two << ", mean " << sum / kSamples);
+    // 273 +- 9.3, 382 +- 4.2, 0 +- 0.05
+    CHECK(std::abs(within_one - 273) < 4 * 9.3);
+    CHECK(std::abs(within_two - 382) < 4 * 4.2);
+    CHECK(std::fabs(sum / kSamples) < 0.25);
+  }
+}
+
+TEST_CASE("Tail constant: exactly of exact counts; nothing where there is too little", "[flights][fit]") {
+  const std::vector<double> edges{1, 2, 4, 8, 16};
+  // Of 2^12 paths P(path > t) = 1/t: no second term.
+  const Counts counts{0, 2048, 1024, 512, 256, 256};
+  const auto found = tail_constant(edges, counts, 4096, {1, 1}, 1);
+  REQUIRE(found);
+  CHECK(found->value == Approx(1).epsilon(1e-12));
+  CHECK(found->count == 4096);
+  // Twice as many flights of which half are shorter: half the constant.
+  CHECK(tail_constant(edges, counts, 8192, {1, 1}, 1)->value == Approx(0.5).epsilon(1e-12));
+  CHECK(tail_constant(edges, counts, 4096, {1, 1}, 1.5)->count == 2048);
+  CHECK_FALSE(tail_constant(edges, counts, 4096, {1, 1}, 3));
+  CHECK_FALSE(tail_constant(edges, counts, 4096, {1, 1}, 100));
+  CHECK_FALSE(tail_constant(edges, Counts{0, 40, 30, 20, 4, 0}, 94, {1, 1}, 1));
+  CHECK_THROWS_AS(tail_constant(edges, Counts{1, 2}, 3, {1, 1}, 1), std::invalid_argument);
 }

@@ -60,6 +60,36 @@ TEST_CASE("Free paths: both axes are logarithmic", "[pictures][free_path_plot]")
   CHECK(svg.find("font-size=\"20\"") != std::string::npos);
 }
 
+TEST_CASE("Free paths: linear axes begin at 0", "[pictures][free_path_plot]") {
+  FreePathPlot plot;
+  plot.axes = Axes::linear;
+  PlotSeries series{"measured", {}};
+  PlotCurve curve{"theory", {}, 0, false};
+  for (int i = 1; i <= 5; ++i) {
+    series.points.push_back({0.5 * i, 0.2 * (6 - i), 0.01});
+    curve.points.push_back({0.5 * i, 0.2 * (6 - i)});
+  }
+  series.points.push_back({-1, 0.5, 0});  // not shown
+  plot.series = {series};
+  plot.curves = {curve};
+  const std::string svg = draw_free_paths(plot);
+  const auto points = circles(svg);
+  REQUIRE(points.size() == 6);  // and one in the legend
+  for (std::size_t i = 1; i < 5; ++i) {
+    CHECK(points[i].x - points[i - 1].x == Approx(points[1].x - points[0].x).margin(0.03));
+    CHECK(points[i].y - points[i - 1].y == Approx(points[1].y - points[0].y).margin(0.03));
+    CHECK(svg.find(fmt::format("{:.2f},{:.2f}", points[i].x, points[i].y)) != std::string::npos);
+  }
+  // One step before the first is 0, at the left edge.
+  CHECK(svg.find(fmt::format("<rect x=\"{:.2f}\"", 2 * points[0].x - points[1].x)) != std::string::npos);
+  CHECK(svg.find("text-anchor=\"end\">0</text>") != std::string::npos);
+  for (const char* number : {">0.2</text>", ">0.5</text>", ">2</text>"})
+    CHECK(svg.find(number) != std::string::npos);
+  plot.series[0].points = {{1, 0, 0}};
+  plot.curves.clear();
+  CHECK_THROWS_AS(draw_free_paths(plot), std::invalid_argument);
+}
+
 TEST_CASE("Free paths: error bars, also such as reach down to 0", "[pictures][free_path_plot]") {
   FreePathPlot plot = hyperbola();
   plot.curves.clear();

@@ -1,0 +1,228 @@
+// lorentz compare as its users call it: verdicts, where they go, and its exit status.
+#include "tests/support/command_line.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lorentz::test;
+
+TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file that can be run again",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string skipped =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.2}]}]}})"
+      "\n"
+      R"({"id":"skip","x":[-0.04390243902439025,0.1951219512195122],"v":[9,5],"from":{"lattice":0,"atom":0,"cell":[0,0]}})"
+      "\n";
+  const auto queries = folder.write("q", skipped + kGood);
+  const Run run = folder.lorentz("compare --queries " + queries +
+                                 " --engine classical,published --disagreements " + folder.file("d"));
+  INFO(run.out << run.err << folder.read("d"));
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "published"));
+  CHECK(contains(run.out, "1 (100 %)"));
+  CHECK(lines(folder.read("d")) == 2);
+  CHECK(contains(folder.read("d"), R"("engine":"published","verdict":"wrong","departs":)"));
+  CHECK(contains(folder.read("d"),
+                 R"("expected":{"id":"skip","outcome":"hit","lattice":0,"atom":0,"cell":[1,1])"));
+  CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine published").status == 1);
+  CHECK(folder.lorentz("compare --queries " + folder.file("d") + " --engine classical").status == 0);
+
+  const Run json = folder.lorentz("compare --json --queries " + queries + " --engine published");
+  CHECK(json.status == 1);
+  CHECK(contains(
+      json.out,
+      R"("engines":[{"engine":"published","queries":2,"agree":0,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":1,"error":0,"missing":0,)"));
+  CHECK(contains(json.out, "\"ns_median\":"));
+}
+
+TEST_CASE("compare: a wrong time has its own column, and counts with --times only",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  const auto logged = [&](const std::string& answer, const std::string& more) {
+    const auto answers = folder.write("a", R"({"id":"good",)" + answer + "}\n");
+    return folder.lorentz("compare --queries " + queries + " --answers mine=" + answers + " " + more);
+  };
+  const std::string late = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.25000000001)";
+  CHECK(logged(late, "").status == 0);
+  CHECK(logged(late, "--times").status == 1);
+  const Run json = logged(late, "--json");
+  CHECK(contains(json.out, R"("agree":1,"ill_posed":0,"wrong":0,)"));
+  CHECK(
+      contains(json.out, R"("wrong_time":1,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
+  CHECK(contains(logged(late, "").out, "mine: no wrong answer in 1 "));
+  CHECK(contains(logged(late, "").out, "  1 wrong time of right obstacles: off by "));
+  // Another quantity, such as the time to the obstacle's far side, is no time of that collision.
+  const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
+  CHECK(logged(through, "").status == 1);
+  CHECK(contains(logged(through, "--json").out, R"("agree":0,"ill_posed":0,"wrong":1,)"));
+  // Zero is a tolerance, here as elsewhere.
+  CHECK(logged(late, "--times --ulps 0").status == 1);
+  CHECK(logged(late, "--ulps -1").status == 2);
+  const Run file = logged(late, "--times --disagreements " + folder.file("d"));
+  CHECK(contains(folder.read("d"), R"("verdict":"wrong-time")"));
+  CHECK(logged(late, "--disagreements " + folder.file("d")).status == 0);
+  CHECK(lines(folder.read("d")) == 1);  // the scene alone
+}
+
+TEST_CASE("compare: errors and missing answers count with --strict", "[cli][compare_command]") {
+  const Folder folder;
+  const auto judged = [&](const std::string& answers, const std::string& more) {
+    return folder
+        .lorentz("compare --queries " + folder.write("q", kScene + kGood) +
+                 " --answers mine=" + folder.write("a", answers) + more)
+        .status;
+  };
+  const std::string error = R"({"id":"good","outcome":"error","message":"no"})"
+                            "\n";
+  CHECK(judged(error, "") == 0);
+  CHECK(judged(error, " --strict") == 1);
+  CHECK(judged(kGoodAnswer, " --strict") == 0);
+  const auto two = folder.write("two", kScene + kGood + R"({"id":2,"x":[0.5,0.1],"v":[1,0]})");
+  const std::string half = "compare --queries " + two + " --answers mine=" + folder.write("a", kGoodAnswer);
+  CHECK(folder.lorentz(half).status == 0);
+  CHECK(folder.lorentz(half + " --strict").status == 1);
+}
+
+TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][compare_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  const auto logged = [&](const std::string& answer) {
+    const auto answers = folder.write("a", R"({"id":"good",)" + answer + "}\n");
+    return folder.lorentz("compare --queries " + queries + " --answers mine=" + answers).out;
+  };
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[2,0],"time":1.25)"),
+                 "the line meets lattice 0, atom 0, cell (1, 0) by 1 of its radii, and enters it first\n"));
+  CHECK(contains(logged(R"("outcome":"never")"),
+                 "the line meets lattice 0, atom 0, cell (1, 0) by 1 of its radii\n"));
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,1],"time":0.5)"),
+                 "the line misses lattice 0, atom 0, cell (1, 1) by 3 of its radii\n"));
+  CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0)"),
+                 "lattice 0, atom 0, cell (0, 0) lies behind the start\n"));
+  CHECK(contains(logged(R"("outcome":"inside","lattice":0,"atom":0,"cell":[0,0])"),
+                 "x lies outside of lattice 0, atom 0, cell (0, 0) by 1 of its radii\n"));
+}
+
+TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood +
+                                             R"({"id":2,"x":[0,0.5],"v":[1,0]})"
+                                             "\n" +
+                                             R"({"id":3,"x":[0.5,0],"v":[-1,0]})"
+                                             "\n");
+  const auto answers =
+      folder.write("a", kGoodAnswer + R"({"id":2,"outcome":"hit","lattice":0,"atom":0,"cell":[9,9]})"
+                                      "\n");
+  const Run run = folder.lorentz("compare --json --queries " + queries + " --answers mine=" + answers);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(
+      run.out,
+      R"("engine":"mine","queries":3,"agree":1,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":0,"error":0,"missing":1)"));
+  const Run twice = folder.lorentz("compare --queries " + queries +
+                                   " --answers mine=" + folder.write("a2", kGoodAnswer + kGoodAnswer));
+  CHECK(twice.status == 2);
+  CHECK(contains(twice.err, "a2:2: "));
+  CHECK(folder
+            .lorentz("compare --queries " + queries +
+                     " --answers mine=" + folder.write("a3", "rubbish\n" + kGoodAnswer))
+            .status == 2);
+  CHECK(folder.lorentz("compare --queries " + queries + " --answers mine=/no/such/file").status == 3);
+  // The wrong file: none of its answers is to one of these queries.
+  const Run other = folder.lorentz("compare --queries " + queries + " --answers mine=" +
+                                   folder.write("a4", R"({"id":"x","outcome":"never"})"
+                                                      "\n"));
+  CHECK(other.status == 2);
+  CHECK(contains(other.err, "no answer matches any query"));
+  // Ids that come twice in the queries cannot be matched; lines without an id are passed over.
+  CHECK(folder
+            .lorentz("compare --queries " + folder.write("q2", kScene + kGood + kGood) +
+                     " --answers mine=" + folder.write("a5", kGoodAnswer))
+            .status == 2);
+  const std::string error = R"({"id":null,"outcome":"error","message":"not JSON"})"
+                            "\n";
+  CHECK(folder
+            .lorentz("compare --queries " + folder.write("q3", kScene + kGood) +
+                     " --answers mine=" + folder.write("a6", error + kGoodAnswer + error))
+            .status == 0);
+}
+
+TEST_CASE("compare accuses nobody where it cannot judge", "[cli][compare_command]") {
+  const Folder folder;
+  const auto answers = folder.write("a", kGoodAnswer);
+  // A cell of another dimension is bad input, neither right nor wrong.
+  const std::string solid =
+      R"({"scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.25}]}]}})"
+      "\n";
+  const Run flat = folder.lorentz("compare --json --queries " +
+                                  folder.write("q3", solid + R"({"id":"good","x":[0.5,0,0],"v":[1,0,0]})"
+                                                             "\n") +
+                                  " --answers mine=" + answers);
+  CHECK(flat.status == 2);
+  CHECK(contains(flat.err, "a:1: cell: has 2 components"));
+  CHECK(contains(flat.out, R"("agree":0,"ill_posed":0,"wrong":0)"));
+  // Answers to drawn queries there cannot be.
+  CHECK(folder.lorentz("compare --count 5 --answers mine=" + answers).status == 2);
+  // Bad input counts more than a wrong answer.
+  const auto wrong = folder.write("w", R"({"id":"good","outcome":"never"})"
+                                       "\n");
+  CHECK(folder.lorentz("compare --queries " + folder.write("q4", kScene + kGood) + " --answers mine=" + wrong)
+            .status == 1);
+  CHECK(folder
+            .lorentz("compare --queries " + folder.write("q5", kScene + kGood + "bad\n") +
+                     " --answers mine=" + wrong)
+            .status == 2);
+  const Run timed = folder.lorentz("compare --no-oracle --json --count 20 --engine classical");
+  CHECK(timed.status == 0);
+  CHECK(contains(timed.out, R"("queries":20,"agree":null)"));
+}
+
+TEST_CASE("compare --judge certified: the same verdicts, and none of what rests on reduction",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string arguments =
+      "compare --scene cubic --radius 0.1 --count 3000 --seed 5 --engine published --times";
+  const auto departures = [&](const std::string& judge) {
+    const std::string file = folder.file(judge);
+    const Run run = folder.lorentz(arguments + " --judge " + judge + " --disagreements " + file);
+    CHECK(run.status == 1);
+    CHECK(contains(run.out, ", judged by certified") == (judge == "certified"));
+    return folder.read(judge);
+  };
+  const std::string by_oracle = departures("oracle");
+  CHECK(contains(by_oracle, "\"wrong\""));
+  CHECK(departures("certified") == by_oracle);
+  const auto judge_of = [&](const std::string& more) {
+    const std::string json =
+        folder.lorentz("compare --count 3 --engine published --json --seed 5" + more).out;
+    const auto from = json.find("\"judge\":"), to = json.find(",\"engines\"");
+    return json.substr(from, to - from);
+  };
+  CHECK(judge_of("") == R"("judge":"oracle")");
+  CHECK(judge_of(" --judge certified") == R"("judge":"certified")");
+  CHECK(judge_of(" --no-oracle") == R"("judge":null)");
+  const auto refused = [&](const std::string& more) {
+    const Run run = folder.lorentz("compare --count 3 --judge " + more);
+    CHECK(run.status == 2);
+    return run.err;
+  };
+  for (const char* engine : {"reduction", "certified", "batch", "certified-batch"})
+    CHECK(contains(refused("certified -e published," + std::string(engine)),
+                   "no judge of the engine " + std::string(engine) + "; use oracle"));
+  CHECK(contains(refused("nobody"), "\"nobody\" is none; there are oracle and certified"));
+  CHECK(contains(refused("certified --no-oracle -e walk"), "nobody is judged with --no-oracle"));
+}
+
+TEST_CASE("compare is repeatable, and --strict counts undecided answers", "[cli][compare_command]") {
+  const Folder folder;
+  const std::string arguments =
+      "compare --scene cubic --radius 0.2 --count 300 --engine oracle,reduction --seed 5";
+  const Run first = folder.lorentz(arguments + " --json"), second = folder.lorentz(arguments + " --json");
+  CHECK(first.status == 0);
+  CHECK(first.out.substr(0, first.out.find("ns_per_query")) ==
+        second.out.substr(0, second.out.find("ns_per_query")));
+  const auto never = folder.write("q", kScene + R"({"id":2,"x":[0,0.5],"v":[1,0]})"
+                                                "\n");
+  CHECK(folder.lorentz("compare --engine classical --queries " + never).status == 0);
+  CHECK(folder.lorentz("compare --engine classical --strict --queries " + never).status == 1);
+}

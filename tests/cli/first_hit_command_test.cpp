@@ -1,0 +1,175 @@
+// lorentz first-hit on streams in JSON: what it prints where, and its exit status.
+#include "tests/support/command_line.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lorentz::test;
+
+TEST_CASE("first-hit answers a stream, line by line", "[cli][first_hit_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood + "\n" +
+                                             R"({"id":7,"x":[0,0.5],"v":[1,0]})"
+                                             "\n" +
+                                             R"({"id":8,"x":[0.1,0],"v":[1,0]})");
+  for (const std::string engine : {"oracle", "walk", "classical"}) {
+    const Run run = folder.lorentz("first-hit --engine " + engine + " " + queries);
+    INFO(run.out << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    CHECK(lines(run.out) == 3);
+    CHECK(run.out.starts_with(kGoodAnswer));
+    CHECK(contains(run.out, engine == "classical" ? R"({"id":7,"outcome":"undecided"})"
+                                                  : R"({"id":7,"outcome":"never"})"));
+    CHECK(contains(run.out, R"({"id":8,"outcome":"inside","lattice":0,"atom":0,"cell":[0,0]})"));
+  }
+  CHECK(folder.lorentz("first-hit < " + queries).out == folder.lorentz("first-hit - < " + queries).out);
+}
+
+TEST_CASE("Digits, detail and a time limit", "[cli][first_hit_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood);
+  CHECK(contains(folder.lorentz("first-hit --digits 5 " + queries).out, R"("time_decimal":"0.25000")"));
+  CHECK(contains(folder.lorentz("first-hit --detail " + queries).out,
+                 R"("point":[0.75,0],"normal":[-1,0],"impact_parameter":0)"));
+  CHECK(folder.lorentz("first-hit --max-time 0.25 " + queries).out ==
+        "{\"id\":\"good\",\"outcome\":\"later\"}\n");
+  CHECK(folder.lorentz("first-hit --max-time 0.2500001 " + queries).out == kGoodAnswer);
+  CHECK(folder.lorentz("first-hit --max-time 0x1p-2 --engine classical " + queries).out ==
+        "{\"id\":\"good\",\"outcome\":\"later\"}\n");
+}
+
+TEST_CASE("The detail of a hit on an ellipse", "[cli][first_hit_command]") {
+  const Folder folder;
+  const auto queries = folder.write(
+      "q",
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"semiaxes":[[0.25,0],[0,0.1]]}]}]}})"
+      "\n"
+      R"({"id":1,"x":[0.15,0.5],"v":[0,-1]})");
+  const Run run = folder.lorentz("first-hit --detail --engine classical " + queries);
+  INFO(run.out);  // entered at (0.15, 0.08): the normal is along (0.15 / 0.0625, 0.08 / 0.01) = (2.4, 8)
+  CHECK(contains(run.out, R"("cell":[0,0],"time":0.4)"));
+  CHECK(contains(run.out, R"("normal":[0.28734)"));
+  CHECK(contains(run.out, R"("impact_parameter":0.15)"));
+}
+
+TEST_CASE("Bad lines get an error in their place, and the good ones around them their answers",
+          "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string huge(100'000'000, '1');
+  for (const std::string& bad :
+       {std::string("nonsense"), std::string("{\"x\":[0,0.5],\"v\":[0,0]}"),
+        std::string("{\"x\":[0,0.5,0],\"v\":[1,0]}"), std::string("{\"x\":[NaN,0.5],\"v\":[1,0]}"),
+        std::string("{\"x\":[1e999,0.5],\"v\":[1,0]}"), std::string("{\"v\":[1,0]}"),
+        std::string(100000, '['), std::string("\xff\xfe"), huge}) {
+    const Run run = folder.lorentz("first-hit " + folder.write("q", kScene + kGood + bad + "\n" + kGood));
+    INFO(bad.substr(0, 100) << "\n" << run.out << run.err);
+    CHECK(run.status == 2);
+    CHECK(lines(run.out) == 3);
+    CHECK(run.out.starts_with(kGoodAnswer + R"({"id":null,"outcome":"error","message":")"));
+    CHECK(run.out.ends_with(kGoodAnswer));
+    CHECK(contains(run.err, "q:3: "));
+  }
+}
+
+TEST_CASE("After a bad scene every query is an error, until the next good one", "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string dependent =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[0.1,0.2],[0.2,0.4]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})"
+      "\n";
+  const Run run =
+      folder.lorentz("first-hit " + folder.write("q", kGood + dependent + kGood + kScene + kGood));
+  INFO(run.out << run.err);
+  CHECK(run.status == 2);
+  CHECK(lines(run.out) == 4);
+  CHECK(run.out.starts_with(R"({"id":"good","outcome":"error","message":"no scene before this query"})"));
+  CHECK(contains(
+      run.out,
+      R"({"id":null,"outcome":"error","message":"lattice 0: the primitive vectors are linearly dependent)"));
+  CHECK(run.out.ends_with(kGoodAnswer));
+}
+
+TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one before it is over",
+          "[cli][first_hit_command]") {
+  const Folder folder;
+  for (
+      const std::string& bad :
+      {std::string(
+           R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":NaN}]}]}})"),
+       std::string(R"({"scene":{"dimension":2,"lattices":[{"vec)"), std::string(R"( { "scene" : )"),
+       std::string(R"({"id":3,"scene":NaN})"), std::string(R"({"scene":{}} x)")}) {
+    const Run run = folder.lorentz("first-hit " +
+                                   folder.write("q", kScene + kGood + bad + "\n" + kGood + kScene + kGood));
+    INFO(bad << "\n" << run.out);
+    CHECK(run.status == 2);
+    CHECK(lines(run.out) == 4);
+    CHECK(run.out.starts_with(kGoodAnswer + R"({"id":null,"outcome":"error")"));
+    CHECK(contains(run.out, R"({"id":"good","outcome":"error","message":"the scene in line 3 was bad)"));
+    CHECK(run.out.ends_with(kGoodAnswer));
+  }
+  // A bad query is none.
+  const Run query = folder.lorentz(
+      "first-hit " + folder.write("q2", kScene + R"({"id":1,"x":[NaN,0],"v":[1,0]})" + "\n" + kGood));
+  CHECK(query.out.ends_with(kGoodAnswer));
+}
+
+TEST_CASE("An unknown key is warned of once a stream; with --strict it is an error",
+          "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string misspelt = R"({"id":1,"x":[0.5,0],"v":[1,0],"form":{"lattice":0,"atom":0,"cell":[1,0]}})"
+                               "\n";
+  const auto queries = folder.write("q", kScene + misspelt + misspelt);
+  const Run run = folder.lorentz("first-hit " + queries);
+  CHECK(run.status == 0);
+  CHECK(lines(run.out) == 2);
+  CHECK(run.err == "lorentz: warning: " + queries +
+                       ":2: the key \"form\" is not known (did you mean from?), and is ignored (--strict: an "
+                       "error)\n");
+  const Run strict = folder.lorentz("first-hit --strict " + queries);
+  CHECK(strict.status == 2);
+  CHECK(contains(strict.out, R"({"id":1,"outcome":"error","message":"the key \"form\" is not known)"));
+  const auto answers = folder.write("a", R"({"id":"good","outcome":"never","tiem":1})"
+                                         "\n");
+  const std::string judged =
+      "compare --queries " + folder.write("g", kScene + kGood) + " --answers mine=" + answers;
+  CHECK(contains(folder.lorentz(judged).err, "a:1: the key \"tiem\" is not known (did you mean time?)"));
+  CHECK(folder.lorentz(judged + " --strict").status == 2);
+  const std::string both = kScene.substr(0, kScene.size() - 2) + R"(,"x":[0.5,0],"v":[1,0]})"
+                                                                 "\n";
+  CHECK(contains(folder.lorentz("first-hit " + folder.write("b", both)).err,
+                 "\"a query in the line of a scene\" is not known"));
+  CHECK(folder.lorentz("first-hit --strict " + folder.write("b", both)).status == 2);
+  const auto scene = folder.write("s.toml", R"(dimension = 2
+lattices = [{vectors = [[1, 0], [0, 1]], atoms = [{position = [0, 0], radius = 0.25, raduis = 0.3}]}])");
+  CHECK(
+      contains(folder.lorentz("scene show " + scene).err, R"(the key "lattices.atoms.raduis" is not known)"));
+}
+
+TEST_CASE("A scene whose obstacles overlap or touch is answered, with a warning",
+          "[cli][first_hit_command]") {
+  const Folder folder;
+  const auto run = [&](const char* radius) {
+    return folder.lorentz("first-hit --scene square --radius " + std::string(radius) + " " +
+                          folder.write("q", kGood));
+  };
+  CHECK(run("0.4").err.empty());
+  CHECK(contains(run("0.5").err, "touch"));
+  CHECK(contains(run("0.6").err, "overlap"));
+  CHECK(run("0.5").status == 0);
+  // Obstacles of two lattices always overlap somewhere.
+  CHECK(folder.lorentz("first-hit --scene superposition-pi-5 " + folder.write("q", kGood)).err.empty());
+  CHECK(run("0.5").out ==
+        "{\"id\":\"good\",\"outcome\":\"hit\",\"lattice\":0,\"atom\":0,\"cell\":[1,0],\"time\":0}\n");
+}
+
+TEST_CASE("The paper's example has a direction that is not what it seems", "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string file =
+      std::string(LORENTZ_SOURCE_DIR) + "/data/examples/paper-89-directions.queries.ndjson";
+  const Run exact = folder.lorentz("first-hit " + file),
+            published = folder.lorentz("first-hit --engine published " + file);
+  CHECK(lines(exact.out) == 89);
+  CHECK(contains(
+      exact.out,
+      R"({"id":45,"outcome":"hit","lattice":0,"atom":0,"cell":[1933508068799870,1933508068799870],"time":2734393333854587})"));
+  CHECK(contains(published.out, R"({"id":45,"outcome":"never"})"));
+}
