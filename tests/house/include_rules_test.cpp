@@ -90,6 +90,11 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "src/engines/batch", "oracle/certified_batch"},
      {"src/problem", "src/exchange", "compare", "flights/starts", "flights/theory"},
      {"fmt/", "mpi.h ranks_mpi.cpp", "boost/mpi.hpp ranks_mpi.cpp", "boost/serialization/ ranks_mpi.cpp"}},
+    {"chaos",
+     {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "src/trajectory",
+      "src/trajectory/batch"},
+     {"src/problem", "flights/starts", "flights/theory"},
+     {}},
     {"golden",
      {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",
       "oracle/certificate/check"},
@@ -250,8 +255,8 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     INFO(room.folder);
     CHECK(above.insert(room.folder).second);
   }
-  for (const char* floor :
-       {"src", "oracle", "cases", "flights", "compare", "golden", "fuzz", "pictures", "cli", "bench"})
+  for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
+                            "pictures", "cli", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());
