@@ -54,8 +54,8 @@ TEST_CASE("Displacements from places and from velocities are the same", "[chaos]
 }
 
 TEST_CASE("In open corridors displacements grow faster than the time", "[chaos]") {
-  // MSD / t grows by 2 C a unit of ln t, C / t being how the survival of free paths falls. Tails are heavy, and
-  // long times needed: this sees that it grows, at about that rate; no more.
+  // MSD / t grows by 2 C a unit of ln t, C / t being how the survival of free paths falls. Tails are heavy,
+  // and long times needed: this sees that it grows, at about that rate; no more.
   const Scene scene = unit_scene(2, 0.4);
   const Diffusion result = measured(scene, 10'000, 400);
   double constant = 0;
