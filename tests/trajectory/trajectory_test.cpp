@@ -193,6 +193,33 @@ TEST_CASE("A collision is the oracle's, as exact as the state", "[trajectory]") 
   }
 }
 
+TEST_CASE("A collision in binary64 is that in double-double, rounded", "[trajectory]") {
+  Draw draw(29);
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(2, 1e-4), unit_scene(3, 0.1), unit_scene(3, 1e-2),
+                             ellipses(0.3), ellipsoids(), two_lattices()}) {
+    const Reduction engine(scene);
+    const Query start = start_between(draw, scene.dimension);
+    Trajectory rough(engine, scene, start), fine(engine, scene, start, Precision::double_double);
+    double least = HUGE_VAL;
+    for_each_atom(scene, [&](const Atom& atom) {
+      for (int i = 0; i < scene.dimension; ++i)
+        least = std::min(least, length(semiaxes_of(atom, scene.dimension)[i]));
+    });
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+      fine.set_state(rough.state());
+      REQUIRE(rough.advance());
+      REQUIRE(fine.advance());
+      const Particle &a = rough.state(), &b = fine.state();
+      const double speed = length(b.velocity), unit = 0x1p-53 / fine.collision().cosine;
+      const double way = fine.collision().flight * speed + 1;
+      worst = std::max(worst, length(sum(a.offset, scaled(b.offset, -1))) / (unit * way));
+      worst = std::max(worst, length(sum(a.velocity, scaled(b.velocity, -1))) / (unit * way / least * speed));
+    }
+    CHECK(worst < 16);
+  }
+}
+
 TEST_CASE("Far from the origin a trajectory is the same, to the bit", "[trajectory]") {
   for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), ellipses(0.3)}) {
     const Reduction engine(scene);
@@ -313,6 +340,8 @@ TEST_CASE("A trajectory that ends says why", "[trajectory]") {
   CHECK_FALSE(never.advance(7.5));
   CHECK(never.stop() == Stop::time);
   CHECK(never.place() == Vec{7.5, 0.5, 0});
+  CHECK_FALSE(never.advance(3));  // never back
+  CHECK(never.place() == Vec{7.5, 0.5, 0});
   Trajectory inside = from({3.05, 0, 0}, {1, 0, 0});
   CHECK_FALSE(inside.advance());
   CHECK(inside.stop() == Stop::inside);
@@ -382,6 +411,17 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
   CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {1e200, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(scene, {{1e30, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(unit_scene(2, 1e-60), {{0.5, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+  const Particle good = particle_at(scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
+  Trajectory trajectory(AskFirstHit(), scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
+  CHECK_NOTHROW(trajectory.set_state(good));
+  for (const auto& spoil : std::vector<void (*)(Particle&)>{
+           [](Particle& one) { one.atom = 1; }, [](Particle& one) { one.lattice = -1; },
+           [](Particle& one) { one.velocity = {}; }, [](Particle& one) { one.offset[0] = NAN; },
+           [](Particle& one) { one.speed_squared = 0; }}) {
+    Particle bad = good;
+    spoil(bad);
+    CHECK_THROWS_AS(trajectory.set_state(bad), std::invalid_argument);
+  }
   CHECK_NOTHROW(particle_at(unit_scene(2, 1e-20), {{0.5, 0.5, 0}, {1, 0, 0}, {}}));
 }
 
