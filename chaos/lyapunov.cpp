@@ -1,6 +1,7 @@
 #include "chaos/lyapunov.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <lorentz/errors.hpp>
 #include "chaos/free_starts.hpp"
@@ -93,6 +94,10 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
     if (done[number] && all[number].collisions > 0) good.push_back(all[number]);
   const int half = plan.scene.dimension - 1;
   Lyapunov result = told(good, plan.whole_spectrum ? 2 * half : half);
+  if (result.collisions > 0 && !std::isfinite(result.sum.value))
+    throw InputError(
+        "the exponents below zero are lost to rounding: a collision parts neighbours by a factor of 10^8 or "
+        "more, and what shrinks by as much is smaller than the last digit of what grows");
   result.is_whole = std::find(done.begin(), done.end(), false) == done.end();
   return result;
 }

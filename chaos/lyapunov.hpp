@@ -37,7 +37,8 @@ struct Lyapunov {
 
 /// Starts are drawn on the obstacles by the cosine law, the collision map's own measure, so that no collision
 /// is lost to relaxation. The same numbers for any number of jobs. Throws InputError for a scene that the
-/// fast engine does not do (Reduction::beyond), or in which nothing can start.
+/// fast engine does not do (Reduction::beyond), or in which nothing can start; and for a whole spectrum where
+/// exponents are above some 18 (r below 2e-4 in 2D): there the negative ones are lost to rounding.
 Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work = {});
 
 }  // namespace lorentz::chaos

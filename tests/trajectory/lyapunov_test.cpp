@@ -128,6 +128,8 @@ TEST_CASE("Exponents do not depend on the threads", "[chaos]") {
 
 TEST_CASE("Scenes without exponents are refused", "[chaos]") {
   CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 0.6), 1, 1000, false}), InputError);
+  CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, true}), InputError);  // e^-27 of e^27
+  CHECK(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, false}).map[0].value == Approx(27.5).margin(0.1));
 }
 
 TEST_CASE("The closed forms of exponents and diffusion", "[chaos]") {
