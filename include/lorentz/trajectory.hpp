@@ -54,7 +54,7 @@ const char* name_of(Stop stop);
 
 /// A collision, as it happened.
 struct Collision {
-  double flight = 0;  ///< time since the one before, or since the start
+  double flight = 0;  ///< time since the one before, the start, or a halt at a time
   Vec arriving{};     ///< the velocity before
   Vec normal{};       ///< outward, of unit length up to rounding
   double cosine = 0;  ///< of the angle between the velocity after and the normal
