@@ -124,6 +124,8 @@ int run(int argc, char** argv) {
   add_fuzz(app, action);
   add_flights(app, action);
   add_trajectory(app, action);
+  add_lyapunov(app, action);
+  add_diffusion(app, action);
   app.footer(
       statuses +
       "\nExample: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"

@@ -19,6 +19,8 @@ void add_bench(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);
 void add_flights(CLI::App& app, Action& action);
 void add_trajectory(CLI::App& app, Action& action);
+void add_lyapunov(CLI::App& app, Action& action);
+void add_diffusion(CLI::App& app, Action& action);
 void add_fuzz(CLI::App& app, Action& action);
 void add_golden(CLI::App& app, Action& action);
 

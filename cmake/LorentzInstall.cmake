@@ -1,16 +1,16 @@
 # Installing: `cmake --install build --prefix P`, then in another project
-#   find_package(lorentz REQUIRED COMPONENTS engine batch oracle exchange)
+#   find_package(lorentz REQUIRED COMPONENTS engine batch oracle itinerary exchange)
 #   target_link_libraries(.. lorentz::engine lorentz::batch lorentz::oracle lorentz::certified lorentz::walk lorentz::exchange)
 # One export set a component, because they differ in what they need: `engine` the standard library, `batch` Highway,
 # `oracle` GMP (linked;
-# Boost's and CGAL's headers only to build it), `exchange` simdjson and toml++.
+# Boost's and CGAL's headers only to build it), `itinerary` Arb besides, `exchange` simdjson and toml++.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
   lorentz_engine lorentz_trajectory)
-set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction trajectory)
+set(LORENTZ_ENGINE_HEADERS problem geometry errors engine collision flight reduction trajectory rational)
 set(LORENTZ_BATCH_TARGETS lorentz_batch lorentz_trajectory_batch)
 set(LORENTZ_BATCH_HEADERS batch trajectory_batch)
 set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)
@@ -19,6 +19,8 @@ set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lore
   lorentz_margin lorentz_certificate_check lorentz_certificate lorentz_oracle lorentz_walk lorentz_certified)
 set(LORENTZ_ORACLE_HEADERS oracle walk certified verdict margin horizon scene_check continued_fraction certificate
   certificate_check prover)
+set(LORENTZ_ITINERARY_TARGETS lorentz_itinerary)
+set(LORENTZ_ITINERARY_HEADERS itinerary)
 
 function(lorentz_install_component component)
   string(TOUPPER ${component} upper)
@@ -29,7 +31,7 @@ function(lorentz_install_component component)
 endfunction()
 
 # lorentz-COMPONENT.pc, for who does not use CMake. Archives in the order in which a linker wants them.
-function(lorentz_install_pkg_config component requires)
+function(lorentz_install_pkg_config component requires)  # and linker options for what has no .pc
   string(TOUPPER ${component} upper)
   set(libs "")
   set(targets ${LORENTZ_${upper}_TARGETS})
@@ -38,7 +40,7 @@ function(lorentz_install_pkg_config component requires)
     string(APPEND libs " -l${target}")
   endforeach()
   set(LORENTZ_PC_NAME lorentz-${component})
-  set(LORENTZ_PC_LIBS "${libs}")
+  set(LORENTZ_PC_LIBS "${libs} ${ARGN}")
   set(LORENTZ_PC_REQUIRES "${requires}")
   configure_file(${PROJECT_SOURCE_DIR}/cmake/lorentz.pc.in ${PROJECT_BINARY_DIR}/lorentz-${component}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/lorentz-${component}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -57,6 +59,8 @@ endif()
 if(TARGET lorentz_oracle)
   lorentz_install_component(oracle)
   lorentz_install_pkg_config(oracle "lorentz-engine gmpxx gmp")
+  lorentz_install_component(itinerary)
+  lorentz_install_pkg_config(itinerary "lorentz-oracle gmp" "-lflint-arb -lflint")
 endif()
 if(TARGET lorentz)
   install(TARGETS lorentz RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -54,7 +54,7 @@ const char* name_of(Stop stop);
 
 /// A collision, as it happened.
 struct Collision {
-  double flight = 0;  ///< time since the one before, or since the start
+  double flight = 0;  ///< time since the one before, the start, or a halt at a time
   Vec arriving{};     ///< the velocity before
   Vec normal{};       ///< outward, of unit length up to rounding
   double cosine = 0;  ///< of the angle between the velocity after and the normal
@@ -67,10 +67,11 @@ using AskFirstHit = std::function<void(const Query& query, double max_time, Answ
 /// incidence, the speed is kept.
 ///
 ///  1. Each collision is that of the state before it, with the obstacle that the engine named, computed from
-///     that obstacle alone and not from the engine's time. In binary64 offset and velocity err by some ulps
-///     of the flight's length and of the speed; in double_double by 2^-98 of them, or less. Of ellipsoids
-///     also times the ratio of their semiaxes.
+///     that obstacle alone and not from the engine's time. The offset errs by some u times the flight's
+///     length, the direction by that over the radius, both times 1 / cosine; u is 2^-53 in binary64, 2^-102
+///     in double_double. Of ellipsoids also times the ratio of their semiaxes.
 ///     held by "A collision is the oracle's, as exact as the state",
+///             "A collision in binary64 is that in double-double, rounded",
 ///             "Problem 2 of the 100-digit challenge: the digits that each precision has"
 ///  2. After each collision the particle is on the obstacle's surface and has its first speed, both up to
 ///     some ulps, however many collisions there were.
@@ -84,7 +85,7 @@ using AskFirstHit = std::function<void(const Query& query, double max_time, Answ
 ///     changes no velocity; the second is not noticed. That is what 2^-50 of the flight's length decides.
 ///     held by "A line that grazes goes on unchanged"
 ///  5. Whatever happens, it stops and says why (Stop); the state is then that of the last collision, or that
-///     at the time asked for. Nothing is thrown but by the engine, or by a constructor.
+///     at the time asked for. Nothing is thrown but by the engine, a constructor, or set_state.
 ///     held by "A trajectory that ends says why"
 ///  6. Constant memory: nothing is kept of the past.
 ///
@@ -113,11 +114,13 @@ class Trajectory {
   const Particle& state() const { return particle_; }
 
   /// Takes another state in its place: one of another trajectory in this scene, say, to go on with it. One
-  /// with low parts makes a start of more than 53 bits.
+  /// with low parts makes a start of more than 53 bits. Throws std::invalid_argument for one that names an
+  /// obstacle that is not there, or has no velocity or speed_squared.
   void set_state(const Particle& particle);
 
   /// Makes one collision, unless it came after the time `until`: then the particle is brought to where it is
-  /// at `until`, and can go on from there. False: there was no collision, and stop() says why.
+  /// at `until`, and can go on from there; never back in time. False: there was no collision, and stop() says
+  /// why.
   bool advance(double until = std::numeric_limits<double>::infinity());
 
   /// The last collision.

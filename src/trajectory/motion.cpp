@@ -51,9 +51,11 @@ Wide time_left(const Particle& particle, double until) {
   return (Wide(until) - Wide(particle.time)) - Wide(particle.time_low);
 }
 
+// Never back.
 template <class Real>
 void move(Particle& particle, double until) {
   const Wide left = time_left(particle, until);
+  if (!(left.hi > 0)) return;
   const Point<Real> v = joined<Real>(particle.velocity, particle.velocity_low);
   put(plus(joined<Real>(particle.offset, particle.offset_low), joined<Real>(left.hi, left.lo), v),
       particle.offset, particle.offset_low);
@@ -123,9 +125,10 @@ Point<Real> Motion<Real>::step_in_scene(const Particle& particle, const Named& n
 template <class Real>
 bool Motion<Real>::see(const Particle& particle, const Named& named, Point<Real>& w,
                        std::array<std::int64_t, 3>& cell) const {
-  cell = named.cell;
+  cell = {};
   for (int i = 0; i < places_.scene().dimension; ++i) {
     if (is_far(named.cell[i])) return false;
+    cell[i] = named.cell[i];
     if (one_lattice_ && __builtin_add_overflow(particle.cell[i], named.cell[i], &cell[i])) return false;
   }
   const Point<Real> step = one_lattice_ ? step_at_home(particle, named) : step_in_scene(particle, named);

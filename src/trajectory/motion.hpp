@@ -35,6 +35,8 @@ class Places {
 
   const Scene& scene() const { return scene_; }
   Particle at(const Query& start, Precision precision) const;
+  /// Throws std::invalid_argument for what is no particle in this scene.
+  void check(const Particle& particle) const;
   Point<Wide> centre(std::int32_t lattice, std::int32_t atom, const std::array<std::int64_t, 3>& cell) const;
   Point<Wide> place(const Particle& particle) const;
 

@@ -79,6 +79,17 @@ Particle Places::at(const Query& start, Precision precision) const {
   return particle;
 }
 
+void Places::check(const Particle& particle) const {
+  const auto number = [](std::int32_t i, std::size_t count) {
+    return i >= 0 && static_cast<std::size_t>(i) < count;
+  };
+  bool good = number(particle.lattice, scene_.lattices.size()) &&
+              number(particle.atom, scene_.lattices[particle.lattice].atoms.size());
+  for (const double x : particle.offset) good &= std::fabs(x) <= kLargest;
+  good &= in_range(particle.velocity) && particle.speed_squared > 0 && std::isfinite(particle.time);
+  if (!good) throw std::invalid_argument("this is no state of a particle in this scene");
+}
+
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,
                            const std::array<std::int64_t, 3>& cell) const {
   Point<Wide> sum = exact(scene_.lattices[lattice].atoms[atom].position);

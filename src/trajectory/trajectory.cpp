@@ -86,6 +86,7 @@ Trajectory::~Trajectory() = default;
 Trajectory::Trajectory(Trajectory&&) noexcept = default;
 
 void Trajectory::set_state(const Particle& particle) {
+  inside_->places().check(particle);
   particle_ = particle;
   stop_ = Stop::none;
 }

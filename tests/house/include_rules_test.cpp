@@ -64,6 +64,10 @@ const std::vector<Room> kHouse{
      {"oracle/integers", "oracle/exact"},
      {}},
     {"oracle", {"src/problem"}, {"oracle/integers", "oracle/exact", "oracle/first_hit"}, {}},
+    {"oracle/itinerary",
+     {"src/problem"},
+     {"oracle/integers", "oracle/exact", "oracle/first_hit"},
+     {"arb.h ball.hpp", "flint/ ball.cpp", "Eigen/ error_box.hpp"}},
     {"oracle/walk", {"src/problem"}, {}, {"CGAL/ walk.cpp"}},
     {"oracle/certified", {"src/problem", "src/engines/base", "src/engines/reduction", "oracle"}, {}, {}},
     {"oracle/certified_batch",
@@ -91,6 +95,11 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "src/engines/batch", "oracle/certified_batch"},
      {"src/problem", "src/exchange", "compare", "ranks", "flights/starts", "flights/theory"},
      {"fmt/", "boost/serialization/ ranks_mpi.cpp"}},
+    {"chaos",
+     {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "src/trajectory",
+      "src/trajectory/batch"},
+     {"src/problem", "flights/starts", "flights/theory"},
+     {}},
     {"golden",
      {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",
       "oracle/certificate/check"},
@@ -117,15 +126,15 @@ const std::vector<Room> kHouse{
     // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     {"pictures", {"src/problem"}, {"src/problem"}, {"fmt/"}},
     {"cli",
-     {"src/problem", "src/exchange", "oracle", "oracle/exact", "oracle/contacts", "oracle/horizon",
-      "oracle/margin", "oracle/walk"},
+     {"src/problem", "src/exchange", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
+      "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
      {"src/problem", "src/exchange", "cases", "compare", "golden", "flights", "flights/sample",
-      "flights/theory", "fuzz/examine", "fuzz/campaign", "pictures"},
+      "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h output.cpp", "unistd.h progress.hpp",
       "unistd.h whole_file.cpp"}},
     {"bench",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
-      "oracle", "oracle/certified", "oracle/certified_batch"},
+      "src/trajectory/batch", "oracle", "oracle/certified", "oracle/certified_batch"},
      {"src/engines/published", "cases/families", "compare", "fuzz/campaign"},
      {"fmt/", "benchmark/ first_hit_benchmark.cpp", "rapidjson/ json_readers.cpp",
       "simdjson.h json_readers.cpp"}},
@@ -135,6 +144,7 @@ const std::vector<Room> kHouse{
 const std::map<std::string, std::string> kPublic{
     {"problem", "src/problem"},
     {"errors", "src/problem"},
+    {"rational", "src/problem"},
     {"geometry", "src/problem"},
     {"exchange", "src/exchange"},
     {"line_reader", "src/exchange"},
@@ -153,6 +163,7 @@ const std::map<std::string, std::string> kPublic{
     {"certificate_check", "oracle/certificate/check"},
     {"prover", "oracle/certificate"},
     {"oracle", "oracle"},
+    {"itinerary", "oracle/itinerary"},
     {"walk", "oracle/walk"},
     {"certified", "oracle/certified"},
     {"batch", "src/engines/batch"},
@@ -250,8 +261,8 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     INFO(room.folder);
     CHECK(above.insert(room.folder).second);
   }
-  for (const char* floor :
-       {"src", "oracle", "cases", "flights", "compare", "golden", "fuzz", "pictures", "cli", "bench"})
+  for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
+                            "pictures", "cli", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());

@@ -48,7 +48,7 @@ Scene ellipsoids() {
 
 Scene two_lattices() {
   Scene scene = unit_scene(2, 0.1);
-  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.5, 0.5, 0}, 0.05, {}}}});
+  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.1, 0.5, 0}, 0.05, {}}}});
   return scene;
 }
 
@@ -145,6 +145,22 @@ TEST_CASE("Speed and surface are kept over many collisions", "[trajectory]") {
     }
 }
 
+TEST_CASE("Times add up without loss", "[trajectory]") {
+  const Scene scene = unit_scene(2, 0.2);
+  const Reduction engine(scene);
+  Draw draw(13);
+  Trajectory trajectory(engine, scene, start_between(draw, 2));
+  long double sum = 0;  // of 64 bits
+  trajectory.run(100'000, kForEver, [&](const Trajectory& now) {
+    sum += now.collision().flight;
+    return true;
+  });
+  const Particle& now = trajectory.state();
+  CHECK(now.time_low != 0);
+  CHECK(std::fabs(now.time_low) <= std::ldexp(now.time, -53));
+  CHECK(std::fabs(static_cast<double>(sum - now.time - now.time_low)) < std::ldexp(now.time, -57));
+}
+
 TEST_CASE("A collision is the oracle's, as exact as the state", "[trajectory]") {
   // The flight of each state is asked again, exactly, in the frame of the obstacle that it leaves.
   Draw draw(7);
@@ -174,6 +190,33 @@ TEST_CASE("A collision is the oracle's, as exact as the state", "[trajectory]") 
         }
       }
     }
+  }
+}
+
+TEST_CASE("A collision in binary64 is that in double-double, rounded", "[trajectory]") {
+  Draw draw(29);
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(2, 1e-4), unit_scene(3, 0.1), unit_scene(3, 1e-2),
+                             ellipses(0.3), ellipsoids(), two_lattices()}) {
+    const Reduction engine(scene);
+    const Query start = start_between(draw, scene.dimension);
+    Trajectory rough(engine, scene, start), fine(engine, scene, start, Precision::double_double);
+    double least = HUGE_VAL;
+    for_each_atom(scene, [&](const Atom& atom) {
+      for (int i = 0; i < scene.dimension; ++i)
+        least = std::min(least, length(semiaxes_of(atom, scene.dimension)[i]));
+    });
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+      fine.set_state(rough.state());
+      REQUIRE(rough.advance());
+      REQUIRE(fine.advance());
+      const Particle &a = rough.state(), &b = fine.state();
+      const double speed = length(b.velocity), unit = 0x1p-53 / fine.collision().cosine;
+      const double way = fine.collision().flight * speed + 1;
+      worst = std::max(worst, length(sum(a.offset, scaled(b.offset, -1))) / (unit * way));
+      worst = std::max(worst, length(sum(a.velocity, scaled(b.velocity, -1))) / (unit * way / least * speed));
+    }
+    CHECK(worst < 16);
   }
 }
 
@@ -244,6 +287,49 @@ TEST_CASE("Turned round, a particle finds back to its start", "[trajectory]") {
 
 // ---- ends
 
+TEST_CASE("At a time that is asked for a particle is where it is then, and goes on from there",
+          "[trajectory]") {
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3), two_lattices()}) {
+    Draw draw(19);
+    const Query start = start_between(draw, scene.dimension);
+    for (const char* name : {"reduction", "classical"}) {
+      const auto engine = make_engine(name, scene);
+      Trajectory straight(*engine, scene, start, Precision::double_double),
+          halting(*engine, scene, start, Precision::double_double),
+          hurried(*engine, scene, start, Precision::double_double);
+      for (int n = 0; n < 12; ++n) {
+        REQUIRE(straight.advance());
+        const double time = straight.state().time, flight = straight.collision().flight;
+        // Twice on the way, and a little before it is there.
+        for (const double until : {time - 0.7 * flight, time - 0.3 * flight, time - 1e-9}) {
+          const Vec before = halting.place();
+          const double left = until - halting.state().time;
+          REQUIRE_FALSE(halting.advance(until));
+          REQUIRE(halting.stop() == Stop::time);
+          CHECK(halting.state().time == until);
+          for (int k = 0; k < 3; ++k)
+            CHECK(halting.place()[k] ==
+                  Approx(before[k] + left * halting.state().velocity[k]).epsilon(0).margin(1e-13));
+        }
+        CHECK(halting.state().collisions == static_cast<std::uint64_t>(n));
+        REQUIRE(halting.advance(time + 1e-9));
+        CHECK(cell_of(halting) == cell_of(straight));
+        CHECK(halting.state().time == Approx(time).epsilon(0).margin(1e-12));
+        if (n < 2) {  // not many of the 106 bits are lost yet
+          const Particle &a = halting.state(), &b = straight.state();
+          for (int k = 0; k < 3; ++k)
+            CHECK(std::fabs((a.offset[k] - b.offset[k]) + (a.offset_low[k] - b.offset_low[k])) < 1e-26);
+          CHECK(std::fabs((a.time - b.time) + (a.time_low - b.time_low)) < 1e-26);
+        }
+        // A collision just before the time is made, and is the same.
+        REQUIRE(hurried.advance(time * (1 + 0x1p-52)));
+        CHECK(cell_of(hurried) == cell_of(straight));
+        CHECK(hurried.state().offset == straight.state().offset);
+      }
+    }
+  }
+}
+
 TEST_CASE("A trajectory that ends says why", "[trajectory]") {
   const Scene scene = unit_scene(2, 0.1);
   const Reduction engine(scene);
@@ -253,6 +339,8 @@ TEST_CASE("A trajectory that ends says why", "[trajectory]") {
   CHECK(never.stop() == Stop::never);
   CHECK_FALSE(never.advance(7.5));
   CHECK(never.stop() == Stop::time);
+  CHECK(never.place() == Vec{7.5, 0.5, 0});
+  CHECK_FALSE(never.advance(3));  // never back
   CHECK(never.place() == Vec{7.5, 0.5, 0});
   Trajectory inside = from({3.05, 0, 0}, {1, 0, 0});
   CHECK_FALSE(inside.advance());
@@ -299,21 +387,22 @@ TEST_CASE("Cells beyond 64 bits are an overflow, and the state stays", "[traject
 }
 
 TEST_CASE("A line that grazes goes on unchanged", "[trajectory]") {
-  // The engine says that the tangent of a disc enters it; so it would be for a state that is a rounding away.
+  // The engine says that a line enters a disc which it touches, or passes by a rounding: so it would be for a
+  // state that is a rounding away. What passes by more is no rounding.
   const Scene scene = unit_scene(2, 0.125);
-  const Query start{{0.25, 0.125, 0}, {1, 0, 0}, {}};
-  for (const Precision precision : {Precision::binary64, Precision::double_double}) {
-    Trajectory trajectory(
-        [](const Query&, double, Answer& given) {
-          given = Answer::hit({0, 0, {1, 0}}, 0.5);
-        },
-        scene, start, precision);
-    REQUIRE(trajectory.advance());
-    CHECK(trajectory.collision().cosine == 0);
-    CHECK(trajectory.state().velocity == start.v);
-    CHECK(trajectory.state().offset == Vec{0, 0.125, 0});
-    CHECK(trajectory.state().time == 0.75);
-  }
+  const auto engine = [](const Query&, double, Answer& given) { given = Answer::hit({0, 0, {1, 0}}, 0.75); };
+  for (const Precision precision : {Precision::binary64, Precision::double_double})
+    for (const double above : {0.0, 0x1p-51, 0x1p-40}) {
+      const Query start{{0.25, 0.125 + above, 0}, {1, 0, 0}, {}};
+      Trajectory trajectory(engine, scene, start, precision);
+      CHECK(trajectory.advance() == (above < 0x1p-45));
+      CHECK(trajectory.stop() == (above < 0x1p-45 ? Stop::none : Stop::missed));
+      if (trajectory.stop() != Stop::none) continue;
+      CHECK(trajectory.collision().cosine == 0);
+      CHECK(trajectory.state().velocity == start.v);
+      CHECK(trajectory.state().offset == Vec{0, 0.125, 0});
+      CHECK(trajectory.state().time == 0.75);
+    }
 }
 
 TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]") {
@@ -322,6 +411,17 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
   CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {1e200, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(scene, {{1e30, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(unit_scene(2, 1e-60), {{0.5, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+  const Particle good = particle_at(scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
+  Trajectory trajectory(AskFirstHit(), scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
+  CHECK_NOTHROW(trajectory.set_state(good));
+  for (const auto& spoil : std::vector<void (*)(Particle&)>{
+           [](Particle& one) { one.atom = 1; }, [](Particle& one) { one.lattice = -1; },
+           [](Particle& one) { one.velocity = {}; }, [](Particle& one) { one.offset[0] = NAN; },
+           [](Particle& one) { one.speed_squared = 0; }}) {
+    Particle bad = good;
+    spoil(bad);
+    CHECK_THROWS_AS(trajectory.set_state(bad), std::invalid_argument);
+  }
   CHECK_NOTHROW(particle_at(unit_scene(2, 1e-20), {{0.5, 0.5, 0}, {1, 0, 0}, {}}));
 }
 

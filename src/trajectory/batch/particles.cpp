@@ -92,6 +92,7 @@ void Particles::add(const Query& start) {
 }
 
 void Particles::add(const Particle& particle) {
+  inside_->places().check(particle);
   going_.push_back(particles_.size());
   particles_.push_back(particle);
   stops_.push_back(Stop::none);

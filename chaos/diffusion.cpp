@@ -1,0 +1,159 @@
+#include "chaos/diffusion.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include "chaos/free_starts.hpp"
+
+namespace lorentz::chaos {
+namespace {
+
+constexpr std::uint64_t kTogether = 512;
+
+Vec plus(const Vec& a, double f, const Vec& b) {
+  return {a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2]};
+}
+
+// One particle's way so far, and what it was at the times.
+struct Way {
+  Vec first_velocity{}, displacement{}, integral{};  ///< of the displacement over time
+  double time = 0;
+  int next = 0;  ///< of the times
+  std::array<double, kTimes> square{}, from_velocity{};
+
+  // A flight with the velocity v until the time `until`.
+  void fly(const Vec& v, double until, const std::vector<double>& times) {
+    for (; next < kTimes && times[next] <= until; ++next) {
+      const double s = times[next] - time;
+      const Vec x = plus(displacement, s, v);
+      square[next] = dot(x, x);
+      from_velocity[next] = 2 * dot(first_velocity, integral_after(s, v));
+    }
+    const double s = until - time;
+    integral = integral_after(s, v);
+    displacement = plus(displacement, s, v);
+    time = until;
+  }
+
+ private:
+  Vec integral_after(double s, const Vec& v) const {
+    return plus(plus(integral, s, displacement), s * s / 2, v);
+  }
+};
+
+struct Sums {
+  std::array<double, kTimes> square{}, from_velocity{};
+  std::uint64_t particles = 0, collisions = 0, stopped = 0;
+
+  void add(const Way& way) {
+    for (int k = 0; k < kTimes; ++k) square[k] += way.square[k], from_velocity[k] += way.from_velocity[k];
+    ++particles;
+  }
+};
+
+// The particles [first, last), to the time T.
+void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& starts, Share share,
+         const std::vector<double>& times, Sums& sums) {
+  Particles particles(engine, plan.scene);
+  add_free_starts(starts, engine.one_at_a_time(), share.first, share.last, particles);
+  std::vector<Way> ways(particles.size());
+  for (std::size_t i = 0; i < ways.size(); ++i) ways[i].first_velocity = particles[i].velocity;
+  const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
+    ways[i].fly(collision.arriving, particle.time, times);
+    return true;
+  };
+  while (particles.advance(plan.time, visit) > 0) continue;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    sums.collisions += particles[i].collisions;
+    if (particles.stop(i) != Stop::time) {
+      ++sums.stopped;
+      continue;
+    }
+    ways[i].fly(particles[i].velocity, plan.time, times);
+    sums.add(ways[i]);
+  }
+}
+
+// The slope of the straight line nearest to the points, by least squares.
+double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  double mx = 0, my = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
+  return xy / xx;
+}
+
+// Of one group.
+double coefficient_of(const Sums& sums, int dimension, const std::vector<double>& times) {
+  const auto n = static_cast<double>(sums.particles);
+  const int last = kTimes - 1;
+  return (sums.square[last] - sums.square[last - 2]) / n / (dimension * times[last]);
+}
+
+double logarithmic_of(const Sums& sums, const std::vector<double>& times) {
+  std::vector<double> logs, rates;
+  for (int k = kTimes - 9; k < kTimes; ++k) {
+    logs.push_back(std::log(times[k]));
+    rates.push_back(sums.square[k] / static_cast<double>(sums.particles) / times[k]);
+  }
+  return slope_of(logs, rates);
+}
+
+template <class Of>
+Estimate estimate_over(const std::vector<Sums>& groups, const Of& of) {
+  std::vector<double> parts;
+  for (const Sums& group : groups) parts.push_back(of(group));
+  return estimate_of(parts);
+}
+
+Diffusion told(const std::vector<Sums>& groups, int dimension, const std::vector<double>& times) {
+  Diffusion result;
+  for (int k = 0; k < kTimes; ++k) {
+    const auto mean = [k](const std::array<double, kTimes> Sums::*which) {
+      return [=](const Sums& sums) { return (sums.*which)[k] / static_cast<double>(sums.particles); };
+    };
+    result.displacements.push_back({times[k], estimate_over(groups, mean(&Sums::square)),
+                                    estimate_over(groups, mean(&Sums::from_velocity))});
+  }
+  result.coefficient =
+      estimate_over(groups, [&](const Sums& sums) { return coefficient_of(sums, dimension, times); });
+  result.logarithmic = estimate_over(groups, [&](const Sums& sums) { return logarithmic_of(sums, times); });
+  for (const Sums& group : groups) {
+    result.particles += group.particles;
+    result.collisions += group.collisions, result.stopped += group.stopped;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> times_of(double longest) {
+  std::vector<double> times;
+  for (int k = kTimes - 1; k >= 0; --k)
+    times.push_back(std::ldexp(k % 2 ? longest * 0x1.6a09e667f3bcdp-1 : longest, -(k / 2)));
+  return times;
+}
+
+Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
+  if (const auto why = Reduction::beyond(plan.scene))
+    throw InputError("trajectories of many particles are flown by the engine batch, which " + *why);
+  const Batch engine(plan.scene);
+  const flights::Starts starts(plan.scene, plan.from, plan.seed);
+  const std::vector<double> times = times_of(plan.time);
+  std::vector<Sums> all(kGroups), good;
+  const std::vector<bool> done = for_each_group(work, [&](std::uint64_t group) {
+    Share share = share_of(group, plan.count);
+    for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
+      fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times,
+          all[group]);
+  });
+  for (std::uint64_t group = 0; group < kGroups; ++group)
+    if (done[group] && all[group].particles > 0) good.push_back(all[group]);
+  Diffusion result = told(good, plan.scene.dimension, times);
+  result.is_whole = std::find(done.begin(), done.end(), false) == done.end();
+  return result;
+}
+
+}  // namespace lorentz::chaos

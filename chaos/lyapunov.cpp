@@ -1,0 +1,105 @@
+#include "chaos/lyapunov.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/errors.hpp>
+#include "chaos/free_starts.hpp"
+#include "chaos/tangents.hpp"
+
+namespace lorentz::chaos {
+namespace {
+
+// What all particles of a group came to.
+struct Sums {
+  std::array<double, Tangents::kMost> growth{};
+  double flight = 0;
+  std::uint64_t collisions = 0, stopped = 0;
+};
+
+class Group {
+ public:
+  Group(const LyapunovPlan& plan, const Batch& engine, const Work& work)
+      : plan_(plan),
+        engine_(engine),
+        work_(work),
+        curvatures_(plan.scene),
+        each_((plan.collisions + kGroups * kParticles - 1) / (kGroups * kParticles)) {}
+
+  Sums run(const flights::Starts& starts, std::uint64_t number) const {
+    Particles particles(engine_, plan_.scene);
+    add_free_starts(starts, engine_.one_at_a_time(), number * kParticles, (number + 1) * kParticles,
+                    particles);
+    const int half = plan_.scene.dimension - 1, count = plan_.whole_spectrum ? 2 * half : half;
+    std::vector<Tangents> tangents;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      tangents.emplace_back(particles[i].velocity, plan_.scene.dimension, count);
+    Sums sums;
+    const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
+      std::array<double, Tangents::kMost> growth{};
+      tangents[i].pass(particle, collision, curvatures_, growth);
+      if (particle.collisions <= kUncounted) return true;
+      for (int k = 0; k < Tangents::kMost; ++k) sums.growth[k] += growth[k];
+      sums.flight += collision.flight;
+      ++sums.collisions;
+      return true;
+    };
+    for (std::uint64_t n = 0; n < kUncounted + each_ && !work_.is_stopped(); ++n)
+      particles.advance(HUGE_VAL, visit);
+    sums.stopped = particles.size() - particles.going();
+    return sums;
+  }
+
+ private:
+  const LyapunovPlan& plan_;
+  const Batch& engine_;
+  const Work& work_;
+  const Curvatures curvatures_;
+  const std::uint64_t each_;
+};
+
+// Of all exponents, and of their sum.
+Lyapunov told(const std::vector<Sums>& groups, int exponents) {
+  Lyapunov result;
+  std::vector<double> part, sum(groups.size()), flight;
+  for (int k = 0; k < exponents; ++k) {
+    part.clear();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      part.push_back(groups[g].growth[k] / static_cast<double>(groups[g].collisions));
+      sum[g] += part.back();
+    }
+    result.map.push_back(estimate_of(part));
+  }
+  result.sum = estimate_of(sum);
+  for (const Sums& group : groups) {
+    flight.push_back(group.flight / static_cast<double>(group.collisions));
+    result.collisions += group.collisions, result.stopped += group.stopped;
+  }
+  result.mean_flight = estimate_of(flight);
+  return result;
+}
+
+}  // namespace
+
+Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
+  if (const auto why = Reduction::beyond(plan.scene))
+    throw InputError("trajectories of many particles are flown by the engine batch, which " + *why);
+  const Batch engine(plan.scene);
+  const flights::Starts starts(plan.scene, flights::Ensemble::surface, plan.seed);
+  const Group group(plan, engine, work);
+  std::vector<Sums> all(kGroups), good;
+  const std::vector<bool> done =
+      for_each_group(work, [&](std::uint64_t number) { all[number] = group.run(starts, number); });
+  for (std::uint64_t number = 0; number < kGroups; ++number)
+    if (done[number] && all[number].collisions > 0) good.push_back(all[number]);
+  const int half = plan.scene.dimension - 1;
+  Lyapunov result = told(good, plan.whole_spectrum ? 2 * half : half);
+  if (result.collisions > 0 && !std::isfinite(result.sum.value))
+    throw InputError(
+        "the exponents below zero are lost to rounding: a collision parts neighbours by a factor of 10^8 or "
+        "more, and what shrinks by as much is smaller than the last digit of what grows");
+  result.is_whole = std::find(done.begin(), done.end(), false) == done.end();
+  return result;
+}
+
+}  // namespace lorentz::chaos

@@ -1,0 +1,41 @@
+// Private to cli/lyapunov.cpp and cli/diffusion.cpp: what the statistics of trajectories have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <lorentz/problem.hpp>
+#include "chaos/groups.hpp"
+
+namespace lorentz::cli {
+
+struct ChaosOptions {
+  std::string scene = "square", seed, jobs = "1";
+  std::optional<std::string> radius;
+  bool json = false;
+
+  ChaosOptions();
+};
+
+void add_chaos_options(CLI::App& command, ChaosOptions& options);
+
+/// The scene, with its radii; the seed. Throw InputError or FileError.
+Scene scene_of(const ChaosOptions& options);
+std::uint64_t seed_of(const ChaosOptions& options);
+
+/// Calls `run(work)` with threads, progress and Ctrl-C; says how long it took.
+void with_work(const ChaosOptions& options, const std::function<void(const chaos::Work&)>& run);
+
+/// "square", or "square, r = 0.1" if all are balls of one radius.
+std::string name_with_radius(const std::string& name, const Scene& scene);
+
+/// A JSON number, or null if it is not finite.
+std::string finite_or_null(double x);
+
+/// What a result that is not whole says of itself, or nothing.
+std::string remark_on_end(bool is_whole);
+
+}  // namespace lorentz::cli

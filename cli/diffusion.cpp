@@ -1,0 +1,179 @@
+// lorentz diffusion: how far particles come.
+#include "chaos/diffusion.hpp"
+#include <lorentz/errors.hpp>
+#include <lorentz/exchange.hpp>
+#include "chaos/theory.hpp"
+#include "cli/app.hpp"
+#include "cli/chaos_options.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/table.hpp"
+#include "cli/whole_file.hpp"
+#include "compare/nearest_name.hpp"
+#include "flights/theory/laws.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using chaos::Diffusion;
+using chaos::DiffusionPlan;
+using chaos::Displacement;
+using chaos::Estimate;
+using flights::Ensemble;
+
+struct Options : ChaosOptions {
+  std::string count = "100000", from = "uniform";
+  std::optional<std::string> time, csv;
+};
+
+// What was found, with all that stands beside it.
+struct Report {
+  std::string scene;
+  DiffusionPlan plan;
+  Diffusion found;
+  std::optional<double> random_walk;  ///< Machta and Zwanzig's coefficient
+  flights::Tail tail;                 ///< of free paths from uniform starts, t -> infinity
+
+  bool is_uniform() const { return plan.from == Ensemble::uniform; }
+  bool has_corridors() const { return tail.constant.value_or(0) > 0 && tail.exponent == 2.0; }
+
+  /// MSD / (2 d t).
+  Estimate rate(const Displacement& at) const {
+    const double all = 2 * plan.scene.dimension * at.time;
+    return {at.square.value / all, at.square.error / all};
+  }
+
+  std::string lines_of_theory() const;
+  std::string table() const;
+  std::string csv() const;
+  std::string json() const;
+};
+
+std::string Report::lines_of_theory() const {
+  std::string text;
+  if (random_walk)
+    text += fmt::format("theory, gaps -> 0 (Machta and Zwanzig): D = {:.6g}; here {:.4f} of it\n",
+                        *random_walk, found.coefficient.value / *random_walk);
+  if (has_corridors())
+    return text + fmt::format(
+                      "open corridors: MSD ~ 2 C t ln t in the end, and D grows without end\n"
+                      "theory: 2 C = {:.6g}; slope of MSD / t in ln t from T / 16 on: {:.4g} +- {:.1g} "
+                      "(heavy tails: "
+                      "the error is too small)\n",
+                      2 * *tail.constant, found.logarithmic.value, found.logarithmic.error);
+  return text + fmt::format("long free paths: {}\n", tail.remark);
+}
+
+std::string Report::table() const {
+  std::string text = fmt::format("scene {}, {} starts, seed {}\n{} particles until t = {:g}, {} collisions",
+                                 name_with_radius(scene, plan.scene), is_uniform() ? "uniform" : "surface",
+                                 plan.seed, found.particles, plan.time, found.collisions);
+  if (found.stopped > 0) text += fmt::format("; {} ended before, and are not counted", found.stopped);
+  text += '\n' + remark_on_end(found.is_whole) + '\n';
+  std::vector<std::string> header{"t", "MSD", "+-", "MSD / (2 d t)", "+-"};
+  if (is_uniform()) header.insert(header.end(), {"MSD by velocities", "+-"});
+  Table table(header);
+  for (const Displacement& at : found.displacements) {
+    std::vector<std::string> row{fmt::format("{:.6g}", at.time), fmt::format("{:.6g}", at.square.value),
+                                 fmt::format("{:.1e}", at.square.error),
+                                 fmt::format("{:.6g}", rate(at).value),
+                                 fmt::format("{:.1e}", rate(at).error)};
+    if (is_uniform())
+      row.insert(row.end(), {fmt::format("{:.5g}", at.from_velocity.value),
+                             fmt::format("{:.1e}", at.from_velocity.error)});
+    table.add(row);
+  }
+  return text + table.text() +
+         fmt::format("\nD = {:.6g} +- {:.1e}, (MSD(T) - MSD(T/2)) / (d T)\n", found.coefficient.value,
+                     found.coefficient.error) +
+         lines_of_theory();
+}
+
+std::string Report::csv() const {
+  std::string text = "t,msd,msd_error,msd_by_velocities,msd_by_velocities_error\n";
+  for (const Displacement& at : found.displacements)
+    text += fmt::format("{},{},{},{},{}\n", at.time, at.square.value, at.square.error,
+                        is_uniform() ? fmt::format("{}", at.from_velocity.value) : "",
+                        is_uniform() ? fmt::format("{}", at.from_velocity.error) : "");
+  return text;
+}
+
+std::string Report::json() const {
+  std::string rows;
+  for (const Displacement& at : found.displacements)
+    rows += fmt::format(
+        "{}{{\"t\":{},\"msd\":{},\"msd_error\":{},\"by_velocities\":{},\"by_velocities_error\":{}}}",
+        rows.empty() ? "" : ",", at.time, finite_or_null(at.square.value), finite_or_null(at.square.error),
+        is_uniform() ? finite_or_null(at.from_velocity.value) : "null",
+        is_uniform() ? finite_or_null(at.from_velocity.error) : "null");
+  return fmt::format(
+      "{{\"scene\":{},\"from\":\"{}\",\"seed\":{},\"particles\":{},\"collisions\":{},\"stopped\":{},"
+      "\"whole\":{},"
+      "\"displacements\":[{}],\"D\":{},\"D_error\":{},\"machta_zwanzig\":{},\"logarithmic\":{},"
+      "\"logarithmic_error\":{},\"two_C\":{}}}\n",
+      json_quoted(scene), is_uniform() ? "uniform" : "surface", plan.seed, found.particles, found.collisions,
+      found.stopped, found.is_whole, rows, finite_or_null(found.coefficient.value),
+      finite_or_null(found.coefficient.error), random_walk ? finite_or_null(*random_walk) : "null",
+      finite_or_null(found.logarithmic.value), finite_or_null(found.logarithmic.error),
+      has_corridors() ? finite_or_null(2 * *tail.constant) : "null");
+}
+
+Ensemble ensemble_of(const std::string& name) {
+  if (name == "uniform") return Ensemble::uniform;
+  if (name == "surface") return Ensemble::surface;
+  throw InputError(fmt::format("--from: {} is no kind of start{}; there are uniform and surface",
+                               json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
+}
+
+flights::Tail tail_of(const Scene& scene) {
+  for (const flights::Tail& tail : flights::tails_of(scene, Ensemble::uniform))
+    if (tail.when == "t -> infinity") return tail;
+  return {};
+}
+
+int act(const Options& options) {
+  Report report;
+  report.scene = options.scene;
+  report.plan = {scene_of(options), ensemble_of(options.from), seed_of(options),
+                 whole_number(options.count, "--count", 1, std::uint64_t{1} << 52),
+                 positive_number(options.time, "--time").value_or(100)};
+  with_work(options, [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
+  if (report.found.particles == 0) {
+    say("no part was done: there is nothing to report");
+    return kFailed;
+  }
+  report.random_walk = chaos::machta_zwanzig(report.plan.scene);
+  report.tail = tail_of(report.plan.scene);
+  print(options.json ? report.json() : report.table());
+  if (options.csv) {
+    WholeFile file(*options.csv);
+    file.write(report.csv());
+    file.commit();
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_diffusion(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "diffusion", "Mean squared displacements of many particles, and theory beside them.");
+  add_chaos_options(*command, *options);
+  command->add_option("--count", options->count, "how many particles")->capture_default_str()->type_name("N");
+  command->add_option("--time", options->time, "until when they are followed, at speed 1 [100]")
+      ->type_name("T");
+  command
+      ->add_option("--from", options->from,
+                   "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)")
+      ->capture_default_str()
+      ->type_name("KIND");
+  command->add_option("--csv", options->csv, "the displacements to a file")->type_name("FILE");
+  command->footer(
+      "docs/chaos.md: what is measured, how, and what theory knows.\n"
+      "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

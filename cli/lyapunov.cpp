@@ -1,0 +1,137 @@
+// lorentz lyapunov: how fast neighbouring particles part.
+#include "chaos/lyapunov.hpp"
+#include <lorentz/exchange.hpp>
+#include "chaos/theory.hpp"
+#include "cli/app.hpp"
+#include "cli/chaos_options.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/table.hpp"
+#include "flights/theory/laws.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using chaos::Estimate;
+using chaos::Lyapunov;
+using chaos::LyapunovPlan;
+
+struct Options : ChaosOptions {
+  std::string collisions = "1000000";
+  bool spectrum = false;
+};
+
+// What was found, with all that stands beside it.
+struct Report {
+  std::string scene;
+  LyapunovPlan plan;
+  Lyapunov found;
+  flights::MeanFreePath exact;
+  std::optional<double> limit;  ///< of the first exponent (2D) or the sum of those above zero (3D), as r -> 0
+
+  double mean_free_path() const { return exact.value.value_or(found.mean_flight.value); }
+  Estimate flow(std::size_t k) const {
+    return {found.map[k].value / mean_free_path(), found.map[k].error / mean_free_path()};
+  }
+  Estimate growing() const;
+  const char* limit_of() const {
+    return plan.scene.dimension == 2 ? "the exponent above zero" : "the sum of those above zero";
+  }
+
+  std::string table() const;
+  std::string json() const;
+};
+
+// The entropy a collision. Of a whole spectrum the sum of all is no use; and errors of parts don't add up.
+Estimate Report::growing() const {
+  if (!plan.whole_spectrum) return found.sum;
+  Estimate sum;
+  for (std::size_t k = 0; k < found.map.size() / 2; ++k)
+    sum.value += found.map[k].value, sum.error += found.map[k].error;
+  return sum;
+}
+
+std::string plus_minus(const Estimate& estimate) {
+  return fmt::format("{:.7g} +- {:.2g}", estimate.value, estimate.error);
+}
+
+std::string Report::table() const {
+  std::string text =
+      fmt::format("scene {}, seed {}\n{} collisions of {} particles", name_with_radius(scene, plan.scene),
+                  plan.seed, found.collisions, chaos::kGroups * chaos::kParticles);
+  if (found.stopped > 0) text += fmt::format(", {} of which ended on the way", found.stopped);
+  text += '\n' + remark_on_end(found.is_whole) + '\n';
+  Table table({"exponent", "a collision", "+-", "a unit of time", "+-"});
+  for (std::size_t k = 0; k < found.map.size(); ++k)
+    table.add({fmt::format("{}", k + 1), fmt::format("{:.6f}", found.map[k].value),
+               fmt::format("{:.1e}", found.map[k].error), fmt::format("{:.6g}", flow(k).value),
+               fmt::format("{:.1e}", flow(k).error)});
+  text += table.text() + '\n';
+  if (plan.whole_spectrum) text += fmt::format("sum of all, a collision: {:.1e}\n", found.sum.value);
+  if (plan.scene.dimension == 3)
+    text += fmt::format("sum of those above zero, a collision: {}\n", plus_minus(growing()));
+  if (limit)
+    text += fmt::format("theory, r -> 0: {:.7g} a collision, {}; here {:+.2g} of it\n", *limit, limit_of(),
+                        growing().value - *limit);
+  text += fmt::format("mean free path {}; ", plus_minus(found.mean_flight));
+  return text + (exact.value ? fmt::format("exact {:.10g}, by which exponents a unit of time are taken\n",
+                                           *exact.value)
+                             : fmt::format("the exact one is {}\n", exact.how));
+}
+
+std::string Report::json() const {
+  std::string exponents;
+  for (std::size_t k = 0; k < found.map.size(); ++k)
+    exponents +=
+        fmt::format("{}{{\"map\":{},\"map_error\":{},\"flow\":{},\"flow_error\":{}}}", k > 0 ? "," : "",
+                    finite_or_null(found.map[k].value), finite_or_null(found.map[k].error),
+                    finite_or_null(flow(k).value), finite_or_null(flow(k).error));
+  return fmt::format(
+      "{{\"scene\":{},\"seed\":{},\"collisions\":{},\"particles\":{},\"stopped\":{},\"whole\":{},"
+      "\"exponents\":[{}],\"sum\":{},\"sum_error\":{},\"growing\":{},\"small_obstacles\":{},"
+      "\"mean_flight\":{},\"mean_flight_error\":{},\"mean_free_path\":{}}}\n",
+      json_quoted(scene), plan.seed, found.collisions, chaos::kGroups * chaos::kParticles, found.stopped,
+      found.is_whole, exponents, finite_or_null(found.sum.value), finite_or_null(found.sum.error),
+      finite_or_null(growing().value), limit ? finite_or_null(*limit) : "null",
+      finite_or_null(found.mean_flight.value), finite_or_null(found.mean_flight.error),
+      exact.value ? finite_or_null(*exact.value) : "null");
+}
+
+int act(const Options& options) {
+  Report report;
+  report.scene = options.scene;
+  report.plan = {scene_of(options), seed_of(options),
+                 whole_number(options.collisions, "--collisions", 1, std::uint64_t{1} << 52),
+                 options.spectrum};
+  const Scene& scene = report.plan.scene;
+  with_work(options, [&](const chaos::Work& work) { report.found = chaos::lyapunov_of(report.plan, work); });
+  if (report.found.collisions == 0) {
+    say("no part was done: there is nothing to report");
+    return kFailed;
+  }
+  report.exact = flights::mean_free_path_of(scene);
+  report.limit =
+      scene.dimension == 2 ? chaos::exponent_of_small_discs(scene) : chaos::exponents_of_small_balls(scene);
+  print(options.json ? report.json() : report.table());
+  return kDone;
+}
+
+}  // namespace
+
+void add_lyapunov(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.");
+  add_chaos_options(*command, *options);
+  command->add_option("--collisions", options->collisions, "how many are counted, of 4096 particles together")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag("--spectrum", options->spectrum, "the exponents below zero, too");
+  command->footer(
+      "docs/chaos.md: what is measured, how, and what theory knows.\n"
+      "Example:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,64 @@
+// lorentz lyapunov and lorentz diffusion as their users call them.
+#include <catch2/catch.hpp>
+
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz::test;
+
+TEST_CASE("lorentz lyapunov: theory stands beside, and threads change nothing", "[chaos][chaos_command]") {
+  const Folder folder;
+  const std::string what = "lyapunov --scene square --radius 0.2 --collisions 1e5 --seed 9301 ";
+  const Run one = folder.lorentz(what);
+  INFO(one.out << one.err);
+  REQUIRE(one.status == 0);
+  CHECK(contains(one.out, "scene square, r = 0.2, seed 9301"));
+  CHECK(contains(one.out, "exact 2.185840735"));
+  CHECK(contains(one.out, "theory, r -> 0: 3.0905"));  // - 2 ln 0.2 - 0.1283720411
+  CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
+  const Run json = folder.lorentz(what + "--json --spectrum");
+  CHECK(json.status == 0);
+  CHECK(contains(json.out, R"({"scene":"square","seed":9301,)"));
+  CHECK(contains(json.out, R"("mean_free_path":2.185840734)"));
+  CHECK(lines(json.out) == 1);
+  CHECK(contains(folder.lorentz("lyapunov --scene cubic --radius 0.2 --collisions 1e4").out,
+                 "sum of those above zero, a collision: 7."));
+}
+
+TEST_CASE("lorentz diffusion: theory stands beside, and threads change nothing", "[chaos][chaos_command]") {
+  const Folder folder;
+  const std::string what = "diffusion --scene triangular --count 2000 --time 20 --seed 9302 ";
+  const Run one = folder.lorentz(what + "--csv " + folder.file("csv"));
+  INFO(one.out << one.err);
+  REQUIRE(one.status == 0);
+  CHECK(contains(one.out, "2000 particles until t = 20"));
+  CHECK(contains(one.out, "theory, gaps -> 0 (Machta and Zwanzig): D = 0.06"));
+  CHECK(contains(one.out, "every path ends"));
+  CHECK(lines(folder.read("csv")) == 18);
+  CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
+  const Run open = folder.lorentz("diffusion --radius 0.4 --count 500 --time 20 --from surface");
+  CHECK(contains(open.out, "theory: 2 C = 0.102403"));
+  CHECK_FALSE(contains(open.out, "by velocities"));  // of uniform starts only
+  const Run json = folder.lorentz("diffusion --radius 0.4 --count 500 --time 20 --json");
+  CHECK(contains(json.out, R"("two_C":0.10240)"));
+  CHECK(lines(json.out) == 1);
+}
+
+TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {
+  const Folder folder;
+  for (const char* words :
+       {"lyapunov --radius 0.6", "lyapunov --collisions 0", "lyapunov --jobs 0", "lyapunov --seed x",
+        "lyapunov --radius -1", "diffusion --time 0", "diffusion --time x", "diffusion --from nowhere",
+        "diffusion --count 0", "diffusion --scene ellipse --radius 1"}) {
+    const Run run = folder.lorentz(words);
+    INFO(words << ": " << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "lorentz: "));
+    CHECK(run.out.empty());
+  }
+  CHECK(contains(folder.lorentz("lyapunov --radius 0.6").err, "the engine batch, which does"));
+  CHECK(contains(folder.lorentz("diffusion --from unifrom").err, "uniform?"));
+  CHECK(folder.lorentz("diffusion --count 100 --time 5 --csv /nowhere/x").status == 3);
+  for (const char* command : {"lyapunov", "diffusion"})
+    CHECK(contains(folder.lorentz(std::string(command) + " --help").out,
+                   std::string("Example:\n  lorentz ") + command));
+}

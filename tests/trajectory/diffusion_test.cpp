@@ -1,0 +1,80 @@
+// Mean squared displacements, and what they say of diffusion.
+#include "chaos/diffusion.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "chaos/theory.hpp"
+#include "flights/theory/laws.hpp"
+
+using namespace lorentz;
+using namespace lorentz::chaos;
+
+namespace {
+
+// Discs of radius 1 with gaps of width w.
+Scene triangular(double w) {
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].vectors = {Vec{2 + w, 0, 0}, {(2 + w) / 2, (2 + w) * std::sqrt(0.75), 0}};
+  return scene;
+}
+
+Diffusion measured(const Scene& scene, std::uint64_t count, double time, unsigned jobs = 2) {
+  return diffusion_of({scene, flights::Ensemble::uniform, 9201, count, time},
+                      {.jobs = jobs, .stop = nullptr, .on_progress = {}});
+}
+
+}  // namespace
+
+TEST_CASE("Diffusion among discs of a triangular lattice is that of another program", "[chaos]") {
+  // 4 10^5 trajectories, (MSD(80) - MSD(40)) / 160.
+  const Diffusion wide = measured(triangular(0.3), 15'000, 40),
+                  narrow = measured(triangular(0.1), 15'000, 40);
+  INFO(wide.coefficient.value << " +- " << wide.coefficient.error << ", " << narrow.coefficient.value
+                              << " +- " << narrow.coefficient.error);
+  CHECK(std::fabs(wide.coefficient.value - 0.2484) < 4 * std::hypot(wide.coefficient.error, 0.0008));
+  CHECK(std::fabs(narrow.coefficient.value - 0.0997) < 4 * std::hypot(narrow.coefficient.error, 0.0003));
+  CHECK(wide.coefficient.error < 0.008);
+  CHECK(*machta_zwanzig(triangular(0.3)) == Approx(0.175441).epsilon(1e-5));
+  CHECK(*machta_zwanzig(triangular(0.1)) == Approx(0.103585).epsilon(1e-5));
+}
+
+TEST_CASE("Displacements from places and from velocities are the same", "[chaos]") {
+  // <x(t)^2> = 2 <v(0) . integral of x from 0 to t>, of a gas in equilibrium, at every t.
+  for (const Scene& scene : {triangular(0.3), unit_scene(2, 0.3), unit_scene(3, 0.4)}) {
+    const Diffusion result = measured(scene, 40'000, 16);
+    for (const Displacement& at : result.displacements) {
+      INFO("t = " << at.time << ": " << at.square.value << ", " << at.from_velocity.value << " +- "
+                  << at.from_velocity.error);
+      CHECK(std::fabs(at.square.value - at.from_velocity.value) <
+            4 * std::hypot(at.square.error, at.from_velocity.error));
+      CHECK(at.square.value <= at.time * at.time * (1 + 1e-12));
+    }
+  }
+}
+
+TEST_CASE("In open corridors displacements grow faster than the time", "[chaos]") {
+  // MSD / t grows by 2 C a unit of ln t, C / t being how the survival of free paths falls. Tails are heavy,
+  // and long times needed: this sees that it grows, at about that rate; no more.
+  const Scene scene = unit_scene(2, 0.4);
+  const Diffusion result = measured(scene, 10'000, 400);
+  double constant = 0;
+  for (const flights::Tail& tail : flights::tails_of(scene, flights::Ensemble::uniform))
+    if (tail.when == "t -> infinity") constant = tail.constant.value_or(0);
+  INFO(result.logarithmic.value << " +- " << result.logarithmic.error << ", 2 C = " << 2 * constant);
+  CHECK(constant == Approx(0.0512014).epsilon(1e-5));
+  CHECK(std::fabs(result.logarithmic.value - 2 * constant) < 4 * result.logarithmic.error + 0.03);
+  const Displacement& at_100 = result.displacements[kTimes - 5];
+  CHECK(at_100.time == 100);
+  INFO(at_100.square.value / 100 << " +- " << at_100.square.error / 100);
+  CHECK(std::fabs(at_100.square.value / 100 - 1.323) < 4 * std::hypot(at_100.square.error / 100, 0.015));
+}
+
+TEST_CASE("Diffusion does not depend on the threads", "[chaos]") {
+  const Diffusion one = measured(triangular(0.2), 2'000, 20, 1),
+                  four = measured(triangular(0.2), 2'000, 20, 4);
+  CHECK(one.coefficient.value == four.coefficient.value);
+  CHECK(one.coefficient.error == four.coefficient.error);
+  CHECK(one.collisions == four.collisions);
+  CHECK(one.particles == 2'000);
+}

@@ -1,0 +1,146 @@
+// Lyapunov exponents, held against values that other programs measured.
+#include "chaos/lyapunov.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include <lorentz/reduction.hpp>
+#include "chaos/tangents.hpp"
+#include "chaos/theory.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::chaos;
+using namespace lorentz::test;
+
+namespace {
+
+// Within 4 standard errors of both.
+void check(const Estimate& measured, double value, double error) {
+  INFO(measured.value << " +- " << measured.error << ", should be " << value << " +- " << error);
+  CHECK(std::fabs(measured.value - value) < 4 * std::hypot(measured.error, error));
+  CHECK(measured.error < 0.03);
+}
+
+Lyapunov measured(const Scene& scene, std::uint64_t collisions, bool whole = false) {
+  return lyapunov_of({scene, 9101, collisions, whole}, {.jobs = 2, .stop = nullptr, .on_progress = {}});
+}
+
+}  // namespace
+
+TEST_CASE("The exponent of a square lattice is the one of another program", "[chaos]") {
+  // By the recursion of a pencil's curvature, 10^7 collisions, a walk from column to column.
+  check(measured(unit_scene(2, 0.4), 500'000).map[0], 1.70288, 0.00016);
+  check(measured(unit_scene(2, 0.2), 500'000).map[0], 3.21347, 0.00025);
+  check(measured(unit_scene(2, 0.01), 500'000).map[0], 9.09321, 0.00051);
+}
+
+TEST_CASE("The exponents of a cubic lattice are those of another program", "[chaos]") {
+  // By two tangent vectors, 2 10^6 collisions.
+  const Lyapunov result = measured(unit_scene(3, 0.2), 300'000);
+  check(result.map[0], 4.1561, 0.0009);
+  check(result.map[1], 3.7951, 0.0008);
+  check(result.mean_flight, (1 - 4 * M_PI * 0.008 / 3) / (M_PI * 0.04), 0);
+}
+
+TEST_CASE("The exponents of a scene add up to nothing, and come in pairs", "[chaos]") {
+  Scene ellipses = unit_scene(2, 1);
+  ellipses.lattices[0].atoms = {{{0.01, 0, 0}, 0, {{0.27, 0.06, 0}, {-0.03, 0.15, 0}}},
+                                {{0.47, 0.02, 0}, 0.03, {}}};
+  Scene ellipsoids = unit_scene(3, 1);
+  ellipsoids.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0.05}, {0.02, 0.2, 0}, {0, 0.04, 0.25}}}};
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3), ellipses, ellipsoids}) {
+    const Lyapunov result = measured(scene, 50'000, true);
+    const std::size_t n = result.map.size();
+    REQUIRE(n == 2 * static_cast<std::size_t>(scene.dimension - 1));
+    CHECK(std::fabs(result.sum.value) < 1e-9);
+    for (std::size_t k = 0; k < n / 2; ++k) {
+      CHECK(result.map[k].value > 0.5);
+      CHECK(result.map[k].value + result.map[n - 1 - k].value == Approx(0).margin(0.01));
+    }
+  }
+}
+
+TEST_CASE("A tangent vector is the difference of two trajectories", "[chaos]") {
+  // In double-double, 1e-20 apart: after six collisions the difference is that of the first order to 1e-8.
+  Scene ellipsoids = unit_scene(3, 1);
+  ellipsoids.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0.05}, {0.02, 0.2, 0}, {0, 0.04, 0.25}}}};
+  Scene ellipse = unit_scene(2, 1);
+  ellipse.lattices[0].atoms = {{{}, 0, {{0.27, 0.06, 0}, {-0.03, 0.15, 0}}}};
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3), ellipse, ellipsoids}) {
+    const Reduction engine(scene);
+    Draw draw(41);
+    Query start{{0.5, 0.45, scene.dimension == 3 ? 0.55 : 0}, draw.vec(scene.dimension, -1, 1), {}};
+    Trajectory one(engine, scene, start, Precision::double_double);
+    Trajectory other(engine, scene, start, Precision::double_double);
+    // The first tangent vector: dv = e across v, dq = unit e.
+    Tangents tangents(start.v, scene.dimension, 1);
+    const Curvatures curvatures(scene);
+    Vec e = scene.dimension == 2
+                ? Vec{-start.v[1], start.v[0], 0}
+                : cross(start.v, std::fabs(start.v[0]) < std::fabs(start.v[1]) ? Vec{1, 0, 0} : Vec{0, 1, 0});
+    e = scaled(e, 1 / length(e));
+    Particle moved = other.state();
+    constexpr double kApart = 1e-20;
+    for (int k = 0; k < 3; ++k) {
+      moved.offset_low[k] += kApart * curvatures.unit() * e[k];
+      moved.velocity_low[k] += kApart * e[k];
+    }
+    other.set_state(moved);
+    double logarithm = 0;
+    for (int n = 0; n < 6; ++n) {
+      REQUIRE(one.advance());
+      REQUIRE(other.advance());
+      std::array<double, Tangents::kMost> growth{};
+      tangents.pass(one.state(), one.collision(), curvatures, growth);
+      logarithm += growth[0];
+    }
+    // Lengths at the start: sqrt(2) in units of the offset's, so that growth counts from there.
+    const auto difference = [](double a, double a_low, double b, double b_low) {
+      return (a - b) + (a_low - b_low);
+    };
+    Vec dv{};
+    for (int k = 0; k < 3; ++k)
+      dv[k] = difference(other.state().velocity[k], other.state().velocity_low[k], one.state().velocity[k],
+                         one.state().velocity_low[k]);
+    Vec q = {}, p = {};
+    tangents.deviation(0, q, p);
+    const Vec expected = scaled(p, std::exp(logarithm) * std::sqrt(2) * kApart);
+    INFO(expected[0] << ' ' << dv[0] << ", " << expected[1] << ' ' << dv[1]);
+    CHECK(length(sum(dv, scaled(expected, -1))) < 1e-6 * length(dv));
+  }
+}
+
+TEST_CASE("Exponents do not depend on the threads", "[chaos]") {
+  const Scene scene = unit_scene(2, 0.3);
+  const Lyapunov one = lyapunov_of({scene, 5, 20'000, true}, {.jobs = 1, .stop = nullptr, .on_progress = {}});
+  const Lyapunov four =
+      lyapunov_of({scene, 5, 20'000, true}, {.jobs = 4, .stop = nullptr, .on_progress = {}});
+  REQUIRE(one.map.size() == four.map.size());
+  for (std::size_t k = 0; k < one.map.size(); ++k) {
+    CHECK(one.map[k].value == four.map[k].value);
+    CHECK(one.map[k].error == four.map[k].error);
+  }
+  CHECK(one.mean_flight.value == four.mean_flight.value);
+}
+
+TEST_CASE("Scenes without exponents are refused", "[chaos]") {
+  CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 0.6), 1, 1000, false}), InputError);
+  CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, true}), InputError);  // e^-27 of e^27
+  CHECK(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, false}).map[0].value == Approx(27.5).margin(0.1));
+}
+
+TEST_CASE("The closed forms of exponents and diffusion", "[chaos]") {
+  CHECK(*exponent_of_small_discs(unit_scene(2, 0.001)) == Approx(13.815510558 - 0.1283720411).epsilon(1e-10));
+  CHECK(*exponents_of_small_balls(unit_scene(3, 0.01)) == Approx(27.631021 - 1.9851).epsilon(1e-5));
+  CHECK_FALSE(exponent_of_small_discs(unit_scene(3, 0.1)));
+  CHECK_FALSE(machta_zwanzig(unit_scene(2, 0.4)));
+  // Twice the size in another unit.
+  Scene large = unit_scene(2, 0.002);
+  for (Vec& u : large.lattices[0].vectors) u = scaled(u, 2);
+  CHECK(*exponent_of_small_discs(large) == Approx(*exponent_of_small_discs(unit_scene(2, 0.001))));
+  for (const double r : {0.1, 0.3, 0.45})  // the eigenvalues of the bounce's matrix: one and its inverse
+    CHECK(head_on_multiplier(1, r) + 1 / head_on_multiplier(1, r) == Approx(2 / r - 2));
+}
