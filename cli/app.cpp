@@ -124,6 +124,7 @@ int run(int argc, char** argv) {
   add_fuzz(app, action);
   add_flights(app, action);
   add_trajectory(app, action);
+  add_survival(app, action);
   add_lyapunov(app, action);
   add_diffusion(app, action);
   app.footer(

@@ -18,6 +18,7 @@ void add_demo(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);
 void add_flights(CLI::App& app, Action& action);
+void add_survival(CLI::App& app, Action& action);
 void add_trajectory(CLI::App& app, Action& action);
 void add_lyapunov(CLI::App& app, Action& action);
 void add_diffusion(CLI::App& app, Action& action);

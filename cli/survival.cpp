@@ -1,0 +1,254 @@
+// lorentz survival: how many collisions arithmetic of so many bits gets right.
+#include <algorithm>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/itinerary.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+#include "cli/numbers.hpp"
+#include "cli/progress.hpp"
+#include "cli/scene_option.hpp"
+#include "cli/table.hpp"
+#include "cli/trajectory_rival.hpp"
+#include "cli/whole_file.hpp"
+#include "compare/registry.hpp"
+#include "compare/sampling.hpp"
+#include "flights/starts/starts.hpp"
+#include "pictures/free_path_plot.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using oracle::CertifiedCollision;
+using oracle::Itinerary;
+
+struct Options {
+  std::string scene = "square", engine = "reduction", count = "100", collisions = "500",
+              seed = std::to_string(compare::kDefaultSeed);
+  std::vector<std::string> bits{"53,106,128,256"};
+  std::optional<std::string> radius, csv, svg;
+  bool json = false;
+};
+
+/// Arithmetic of so many bits: 53 and 106 are an engine's trajectory in binary64 and double-double, others
+/// the plain one of RoundedItinerary.
+struct Arithmetic {
+  long bits;
+  std::vector<std::uint64_t> right{};  ///< of each start: collisions before the first wrong one
+
+  std::string name(const std::string& engine) const {
+    if (bits == 53) return engine + ", binary64";
+    if (bits == 106) return engine + ", double-double";
+    return fmt::format("{} bits", bits);
+  }
+  double mean() const {
+    double sum = 0;
+    for (const std::uint64_t collisions : right) sum += static_cast<double>(collisions);
+    return sum / static_cast<double>(right.size());
+  }
+  /// The share of starts with at least k right collisions.
+  double share(std::uint64_t k) const {
+    const auto lasting = std::count_if(right.begin(), right.end(), [k](std::uint64_t n) { return n >= k; });
+    return static_cast<double>(lasting) / static_cast<double>(right.size());
+  }
+};
+
+// One start in one arithmetic, as long as it is right.
+class Runner {
+ public:
+  Runner(const Arithmetic& arithmetic, const std::string& engine, const RationalScene& scene,
+         const Start& start) {
+    if (arithmetic.bits == 53 || arithmetic.bits == 106)
+      rival_ = std::make_unique<Rival>(
+          engine, arithmetic.bits == 53 ? Precision::binary64 : Precision::double_double, scene, start);
+    else
+      rounded_ = std::make_unique<oracle::RoundedItinerary>(scene, start, arithmetic.bits);
+  }
+
+  /// False from the first wrong obstacle on.
+  bool meet(const CertifiedCollision& truth) {
+    if (!is_right_) return false;
+    if (rival_) rival_->meet(truth);
+    is_right_ = rival_ ? !rival_->diverged() : rounded_->next() == truth.obstacle;
+    right_ += is_right_;
+    return is_right_;
+  }
+  std::uint64_t right() const { return right_; }
+
+ private:
+  std::unique_ptr<Rival> rival_;
+  std::unique_ptr<oracle::RoundedItinerary> rounded_;
+  bool is_right_ = true;
+  std::uint64_t right_ = 0;
+};
+
+struct Survival {
+  std::string scene, engine;
+  std::uint64_t seed = 0, collisions = 0;
+  std::vector<Arithmetic> arithmetics;
+
+  std::string table() const;
+  std::string json() const;
+  std::string csv() const;
+  std::string svg() const;
+  std::uint64_t longest() const {
+    std::uint64_t most = 0;
+    for (const Arithmetic& one : arithmetics)
+      most = std::max(most, *std::max_element(one.right.begin(), one.right.end()));
+    return most;
+  }
+};
+
+std::string Survival::table() const {
+  std::string text = fmt::format("right collisions from {} starts (of {} at most)\n\n", arithmetics[0].right.size(),
+                                 collisions);
+  text += fmt::format("{:<28} {:>8} {:>8} {:>8}\n", "arithmetic", "mean", "least", "most");
+  for (const Arithmetic& one : arithmetics) {
+    const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
+    text += fmt::format("{:<28} {:>8.2f} {:>8} {:>8}\n", one.name(engine), one.mean(), *least, *most);
+  }
+  return text;
+}
+
+std::string Survival::json() const {
+  std::string text = fmt::format("{{\"scene\":{},\"engine\":{},\"seed\":{},\"count\":{},\"arithmetics\":[",
+                                 json_quoted(scene), json_quoted(engine), seed, arithmetics[0].right.size());
+  for (const Arithmetic& one : arithmetics)
+    text += fmt::format("{}{{\"bits\":{},\"mean\":{:.6g},\"right\":[{}]}}",
+                        &one == &arithmetics[0] ? "" : ",", one.bits, one.mean(), fmt::join(one.right, ","));
+  return text + "]}\n";
+}
+
+std::string Survival::csv() const {
+  std::string text = "collision";
+  for (const Arithmetic& one : arithmetics) text += fmt::format(",bits{}", one.bits);
+  text += '\n';
+  for (std::uint64_t k = 1; k <= longest() + 1; ++k) {
+    text += std::to_string(k);
+    for (const Arithmetic& one : arithmetics) text += fmt::format(",{}", one.share(k));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string Survival::svg() const {
+  pictures::FreePathPlot plot;
+  plot.title = fmt::format("trajectories that are still right: {}", scene);
+  plot.axes = pictures::Axes::linear;
+  plot.t_label = "collisions";
+  plot.value_label = "share of starts";
+  for (const Arithmetic& one : arithmetics) {
+    pictures::PlotSeries series{one.name(engine), {}};
+    for (std::uint64_t k = 1; k <= longest() + 1; ++k)
+      series.points.push_back({static_cast<double>(k), one.share(k), 0});
+    plot.series.push_back(std::move(series));
+  }
+  return pictures::draw_free_paths(plot);
+}
+
+// Start `index`, off the surface of an obstacle by the cosine law: the first candidate that lies in no other.
+Start start_of(const flights::Starts& starts, const oracle::Oracle& oracle, std::uint64_t index) {
+  Query query;
+  for (std::uint64_t attempt = 0; attempt < flights::Starts::kMostAttempts; ++attempt) {
+    starts.draw(index, attempt, query);
+    if (oracle.first_hit(query).outcome == Outcome::inside) continue;
+    Start start;
+    for (int i = 0; i < 3; ++i) start.x[i] = query.x[i], start.v[i] = Surd(Rational(query.v[i]));
+    start.from = query.from;
+    return start;
+  }
+  throw InputError("--scene: the obstacles leave no surface to start from");
+}
+
+void follow(const RationalScene& scene, const Start& start, Survival& survival) {
+  std::vector<Runner> runners;
+  for (const Arithmetic& one : survival.arithmetics) runners.emplace_back(one, survival.engine, scene, start);
+  oracle::Journey journey;
+  journey.collisions = survival.collisions;
+  Itinerary(scene).follow(start, journey, [&](const CertifiedCollision& truth) {
+    bool any = false;
+    for (Runner& runner : runners) any |= runner.meet(truth);
+    return any && !Interrupt::came();
+  });
+  for (std::size_t i = 0; i < runners.size(); ++i)
+    survival.arithmetics[i].right.push_back(runners[i].right());
+}
+
+std::vector<Arithmetic> arithmetics_of(const Options& options) {
+  std::vector<Arithmetic> all;
+  for (const std::string& name : compare::names_in(options.bits))
+    all.push_back({static_cast<long>(whole_number(name, "--bits", 24, 100'000))});
+  return all;
+}
+
+int act(const Options& options) {
+  compare::check_name(options.engine);
+  const auto radius = positive_number(options.radius, "--radius");
+  const Scene scene = load_scene(options.scene, radius);
+  Survival survival{options.scene, options.engine};
+  survival.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  survival.collisions = whole_number(options.collisions, "--collisions", 1, 1'000'000);
+  survival.arithmetics = arithmetics_of(options);
+  const std::uint64_t count = whole_number(options.count, "--count", 1, 10'000'000);
+  const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
+  const oracle::Oracle oracle(scene);
+  const RationalScene exact = rational(scene);
+  const Interrupt interrupt;
+  Progress progress("following", count, 1);
+  for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
+    follow(exact, start_of(starts, oracle, i), survival);
+  if (survival.arithmetics[0].right.empty()) return kFailed;
+  print(options.json ? survival.json() : survival.table());
+  const auto write = [](const std::optional<std::string>& path, const std::string& text) {
+    if (!path) return;
+    WholeFile file(*path);
+    file.write(text);
+    file.commit();
+  };
+  write(options.csv, survival.csv());
+  if (options.svg) write(options.svg, survival.svg());
+  return kDone;
+}
+
+}  // namespace
+
+void add_survival(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "survival", "How many collisions of a trajectory are right, in binary64 and in more bits.");
+  command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
+      ->capture_default_str()
+      ->type_name("S");
+  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
+  command
+      ->add_option("-e,--engine", options->engine,
+                   "whose flights binary64 and double-double have: one of " + compare::names_for_help())
+      ->capture_default_str()
+      ->type_name("E");
+  command
+      ->add_option("--bits", options->bits,
+                   "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
+                   "arithmetic of so many bits")
+      ->capture_default_str()
+      ->type_name("LIST");
+  command->add_option("--count", options->count, "starts, off the surface of an obstacle (cosine law)")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--collisions", options->collisions, "at most so many of each start")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
+  command->add_option("--csv", options->csv, "shares of starts that are right after k collisions, to a file")
+      ->type_name("FILE");
+  command->add_option("--svg", options->svg, "the same as a picture")->type_name("FILE");
+  command->add_flag("--json", options->json, "one JSON object instead of a table");
+  command->footer(
+      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits another\n"
+      "obstacle. docs/itineraries.md has figures.\n"
+      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli
