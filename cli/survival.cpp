@@ -102,8 +102,8 @@ struct Survival {
 };
 
 std::string Survival::table() const {
-  std::string text = fmt::format("right collisions from {} starts (of {} at most)\n\n", arithmetics[0].right.size(),
-                                 collisions);
+  std::string text = fmt::format("right collisions from {} starts (of {} at most)\n\n",
+                                 arithmetics[0].right.size(), collisions);
   text += fmt::format("{:<28} {:>8} {:>8} {:>8}\n", "arithmetic", "mean", "least", "most");
   for (const Arithmetic& one : arithmetics) {
     const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
@@ -187,7 +187,9 @@ int act(const Options& options) {
   compare::check_name(options.engine);
   const auto radius = positive_number(options.radius, "--radius");
   const Scene scene = load_scene(options.scene, radius);
-  Survival survival{options.scene, options.engine};
+  Survival survival;
+  survival.scene = options.scene;
+  survival.engine = options.engine;
   survival.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   survival.collisions = whole_number(options.collisions, "--collisions", 1, 1'000'000);
   survival.arithmetics = arithmetics_of(options);
@@ -245,7 +247,8 @@ void add_survival(CLI::App& app, Action& action) {
   command->add_option("--svg", options->svg, "the same as a picture")->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->footer(
-      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits another\n"
+      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
+      "another\n"
       "obstacle. docs/itineraries.md has figures.\n"
       "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg");
   command->callback([options, &action] { action = [options] { return act(*options); }; });

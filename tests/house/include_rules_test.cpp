@@ -129,7 +129,7 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
       "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
      {"src/problem", "src/exchange", "cases", "compare", "golden", "flights", "flights/sample",
-      "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures"},
+      "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h output.cpp", "unistd.h progress.hpp",
       "unistd.h whole_file.cpp"}},
     {"bench",

@@ -92,3 +92,34 @@ TEST_CASE("Itinerary: an exact state is decided exactly, whatever the family") {
       }
     }
 }
+
+TEST_CASE("Itinerary: with the fewest bits that will do, and with many, the same") {
+  // Dense scenes, in which other obstacles are near, and precisions at which the state is barely known: what
+  // is said to be certain then is held against 600 bits.
+  constexpr std::uint64_t kSeed = 1803;
+  const auto both = [](const RationalScene& scene, const Start& start, long bits) {
+    Journey barely = collisions(10, 1), amply = collisions(10, 1);
+    barely.first_bits = bits;
+    barely.most_bits = bits;
+    amply.first_bits = 600;
+    const Told few = follow(scene, start, barely), many = follow(scene, start, amply);
+    REQUIRE(many.collisions.size() == 10);
+    for (std::size_t k = 0; k < few.collisions.size(); ++k)
+      REQUIRE(few.collisions[k].obstacle == many.collisions[k].obstacle);
+    return few.collisions.size();
+  };
+  std::size_t certain = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    cases::Random random(kSeed, "itinerary", i);
+    const bool in_space = random.one_in(3);
+    RationalScene scene = in_space ? unit(3, "0.55") : unit(2, random.one_in(2) ? "0.499" : "0.35");
+    Start start;
+    const Vec v = random.direction(in_space ? 3 : 2);
+    for (int k = 0; k < (in_space ? 3 : 2); ++k) {
+      start.x[k] = 0.5 + random.between(-0.01, 0.01);
+      start.v[k] = Surd(Rational(v[k]));
+    }
+    certain += both(scene, start, 32 + static_cast<long>(random.below(40)));
+  }
+  CHECK(certain > 1000);  // of 4000, so that the test is about something
+}
