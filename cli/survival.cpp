@@ -141,8 +141,9 @@ std::string Survival::svg() const {
   plot.value_label = "share of starts";
   for (const Arithmetic& one : arithmetics) {
     pictures::PlotSeries series{one.name(engine), {}};
-    for (std::uint64_t k = 1; k <= longest() + 1; ++k)
-      series.points.push_back({static_cast<double>(k), one.share(k), 0});
+    double share = 1;
+    for (std::uint64_t k = 1; share > 0; ++k)
+      series.points.push_back({static_cast<double>(k), share = one.share(k), 0});
     plot.series.push_back(std::move(series));
   }
   return pictures::draw_free_paths(plot);

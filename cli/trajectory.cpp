@@ -167,7 +167,10 @@ class Picture {
     drawing_.scene = oracle::nearest(scene);
     drawing_.path.push_back(oracle::nearest(start).x);
   }
-  void collision(const CertifiedCollision& c) { drawing_.path.push_back(place_of(drawing_.scene, c)); }
+  void collision(const CertifiedCollision& c) {
+    ++drawing_.collisions;
+    drawing_.path.push_back(place_of(drawing_.scene, c));
+  }
 
   void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
     if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)

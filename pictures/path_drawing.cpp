@@ -68,8 +68,7 @@ double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obst
   const auto note = [&](const std::string& words, const char* its_colour) {
     svg.text({kMargin, top += kLegendLine}, words, fmt::format("fill=\"{}\" font-size=\"15\"", its_colour));
   };
-  note(fmt::format("the certified path, from the ring on: {} collisions", drawing.path.size() - 1),
-       kPathColour);
+  note(fmt::format("the certified path, from the ring on: {} collisions", drawing.collisions), kPathColour);
   if (!drawing.other.empty())
     note(fmt::format("{}: another obstacle at collision {}", drawing.other_name, drawing.parting),
          kOtherColour);

@@ -9,7 +9,8 @@
 namespace lorentz::pictures {
 
 struct PathDrawing {
-  Scene scene;              ///< in two dimensions
+  Scene scene;  ///< in two dimensions
+  std::size_t collisions = 0;
   std::vector<Vec> path;    ///< the start, places of collisions, perhaps an end
   std::vector<Vec> other;   ///< the same of another path; empty: there is none
   std::size_t parting = 0;  ///< the first place in which they differ, in `other`

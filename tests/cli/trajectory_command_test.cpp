@@ -1,0 +1,159 @@
+// lorentz trajectory and lorentz survival, as their users call them.
+#include <catch2/catch.hpp>
+
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+const std::string kChallenge = R"({"id":"siam","x":["1/2","1/10"],"v":[1,0]})"
+                               "\n";
+
+std::string last_line(const std::string& text) {
+  return text.substr(text.rfind('\n', text.size() - 2) + 1);
+}
+
+}  // namespace
+
+TEST_CASE("trajectory: a line a collision, and the end", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write("starts", kChallenge);
+  const Run run = folder.lorentz("trajectory --scene square --radius 1/3 --time 10 --digits 30 " + starts);
+  CHECK(run.status == 0);
+  CHECK(lines(run.out) == 15);
+  CHECK(run.out.starts_with(
+      R"({"id":"siam","collision":1,"lattice":0,"atom":0,"cell":[1,0],"time":"0.182020266194351439152743990231","bits":)"));
+  const std::string end = last_line(run.out);
+  CHECK(end.starts_with(R"({"id":"siam","end":"time","collisions":14,"bits":)"));
+  CHECK(contains(end, R"("x":["-0.736292698609618310775737171866",)"));
+  CHECK(contains(end, R"("distance":"0.995262919443354160890311809427"})"));
+}
+
+TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts =
+      folder.write("starts", R"({"id":7,"x":["1/2","1/10"],"direction":{"degrees":"36"}})");
+  const std::string command = "trajectory --scene square --radius 1/10 --collisions 30 " + starts;
+  const Run run = folder.lorentz(command + " --engine reduction --csv " + folder.file("table") + " --svg " +
+                                 folder.file("picture"));
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, R"("engine_bits":)"));
+  CHECK(contains(last_line(run.out), R"("diverged":8)"));
+  CHECK(folder.read("table").starts_with(
+      "id,collision,lattice,atom,cell1,cell2,time,bits,engine_bits\n7,1,0,0,3,2,3.0657078058760461,"));
+  CHECK(lines(folder.read("table")) == 31);
+  CHECK(contains(folder.read("picture"), "reduction: another obstacle at collision 8"));
+  // Twice the digits, twice the collisions; another program is an engine, too.
+  const Run twice = folder.lorentz(command + " --engine reduction --precision double-double");
+  CHECK(contains(last_line(twice.out), R"("diverged":16)"));
+  const Run program = folder.lorentz(command + " --engine cmd:" LORENTZ_NAIVE_ENGINE);
+  CHECK(contains(last_line(program.out), R"("diverged":8)"));
+  const Run exact = folder.lorentz(command + " --collisions 5 --engine oracle");
+  CHECK(contains(last_line(exact.out), R"("diverged":null)"));
+}
+
+TEST_CASE("trajectory: scenes in a stream, numbers exactly as they are written", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write(
+      "starts",
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[["1/3",0],[0,"1/3"]],"atoms":[{"position":[0,0],"radius":"1/9"}]}]}})"
+      "\n"
+      R"({"id":1,"x":["1/6","1/30"],"v":["1/3",0]})"
+      "\n"
+      R"({"id":2,"x":[0.5,"0.1"],"v":[1,"sqrt(2)"]
+})"
+      "\n");
+const Run run = folder.lorentz("trajectory --time 10 --digits 25 " + starts);
+CHECK(run.status == 0);
+// The challenge again, in a unit three times as long: its distance divided by 3.
+CHECK(contains(run.out, R"({"id":1,"end":"time","collisions":14,)"));
+CHECK(contains(run.out, R"("distance":"0.3317543064811180536301040")"));
+CHECK(contains(run.out, R"({"id":2,"end":"time",)"));
+}
+
+TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
+  const Folder folder;
+  const auto refused = [&](const std::string& line, const std::string& message) {
+    const std::string starts = folder.write("starts", line + "\n" + kChallenge);
+    const Run run = folder.lorentz("trajectory --scene square --collisions 1 " + starts);
+    INFO(line << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "starts:1: " + message));
+    CHECK(contains(run.out, R"("outcome":"error")"));
+    CHECK(contains(run.out, R"({"id":"siam","collision":1)"));  // the rest goes on
+  };
+  refused(R"({"x":["1/0",0],"v":[1,0]})", R"(x: "1/0" is no rational number)");
+  refused(R"({"x":["sqrt(2)",0],"v":[1,0]
+})", R"(x: "sqrt(2)" is no rational number)");
+  refused(R"({"x":["1/2",0],"v":["sqrt(-2)",0]
+})", R"(v: "sqrt(-2)" is no number that is known)");
+  refused(R"({"x":["1/2",0],"v":[0,"0/7"]})", "v is zero");
+refused(R"({"x":["1/2",0]})", "v is missing");
+refused(R"({"x":["1/2",0],"v":[1,0],"direction":{"degrees":3}})", "has both v and direction");
+refused(R"({"x":["1/2",0],"direction":{"gradient":3}})", R"(direction: needs one of "degrees" and "slope")");
+refused(R"({"x":["1/2"],"v":[1,0]})", "x: has 1 components");
+refused(R"({"x":["1/2",0],"v":[1,0],"from":{"lattice":1,"atom":0,"cell":[0,0]}})", "from names lattice 1");
+refused(R"({"scene":{"dimension":2,"lattices":[]}})", "a scene needs at least one lattice");
+}
+
+TEST_CASE("trajectory: options that are none, and files that cannot be written", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write("starts", kChallenge);
+  const auto status = [&](const std::string& arguments, const std::string& message) {
+    const Run run = folder.lorentz("trajectory --scene square " + arguments + " " + starts);
+    INFO(arguments << "\n" << run.err);
+    CHECK(contains(run.err, message));
+    return run.status;
+  };
+  CHECK(status("", "needs --collisions N or --time T") == 2);
+  CHECK(status("--time 0", "--time: \"0\" is no rational number above zero") == 2);
+  CHECK(status("--collisions 5 --radius -1/3", "--radius: \"-1/3\" is no") == 2);
+  CHECK(status("--collisions 5 --engine reductoin", "did you mean") == 2);
+  CHECK(status("--collisions 5 --precision double", "there are binary64, double-double") == 2);
+  CHECK(status("--collisions 5 --digits 0", "--digits") == 2);
+  CHECK(status("--collisions 5 --csv /dev/full", "/dev/full") == 3);
+  CHECK(status("--collisions 5 --svg /dev/full", "/dev/full") == 3);
+  const Run gone = folder.lorentz("trajectory --scene square --collisions 1 " + folder.file("nowhere"));
+  CHECK(gone.status == 3);
+  const Run none = folder.lorentz("trajectory --collisions 1 " + starts);
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, "no scene before this start"));
+  const int full = std::system((std::string(LORENTZ_PROGRAM) + " trajectory --scene square --collisions 5 " +
+                                starts + " >/dev/full 2>/dev/null")
+                                   .c_str());
+  CHECK(WEXITSTATUS(full) == 3);
+}
+
+TEST_CASE("trajectory: what no precision decides says so", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write("starts", R"({"x":["1/2",0],"direction":{"degrees":150}})");
+  const Run run =
+      folder.lorentz("trajectory --scene square --radius 1/4 --collisions 3 --max-bits 2000 " + starts);
+  CHECK(run.status == 0);
+  CHECK(run.out == "{\"id\":null,\"end\":\"undecided\",\"collisions\":0,\"bits\":2000}\n");
+  CHECK(contains(run.err, "undecided at collision 1 with 2000 bits"));
+}
+
+TEST_CASE("survival: more bits, more right collisions", "[cli][survival]") {
+  const Folder folder;
+  const Run run = folder.lorentz("survival --scene square --radius 0.1 --count 40 --json --csv " +
+                                 folder.file("table") + " --svg " + folder.file("picture"));
+  CHECK(run.status == 0);
+  // A collision costs lambda / ln 2 = 6.6 bits: 53 bits make 8, and 106, 128, 256 as many more.
+  const auto mean = [&](const std::string& bits) {
+    const std::string key = "{\"bits\":" + bits + ",\"mean\":";
+    const std::size_t at = run.out.find(key);
+    REQUIRE(at != std::string::npos);
+    return std::stod(run.out.substr(at + key.size()));
+  };
+  CHECK(mean("53") == Approx(8.1).margin(0.8));
+  CHECK(mean("106") == Approx(16.3).margin(1));
+  CHECK(mean("128") == Approx(19.3).margin(1));
+  CHECK(mean("256") == Approx(38.7).margin(1.2));
+  CHECK(folder.read("table").starts_with("collision,bits53,bits106,bits128,bits256\n1,1,1,1,1\n"));
+  CHECK(contains(folder.read("picture"), "double-double"));
+  CHECK(folder.lorentz("survival --count 0").status == 2);
+  CHECK(folder.lorentz("survival --bits 5").status == 2);
+}

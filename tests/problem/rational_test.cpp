@@ -1,0 +1,55 @@
+// Numbers that are texts: exactly what they say.
+#include <lorentz/rational.hpp>
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace lorentz;
+
+namespace {
+
+// "numerator/denominator", or the binary64 in its own way.
+std::string told(std::string_view text) {
+  const auto number = rational_from(text);
+  if (!number) return "none";
+  if (const double* value = std::get_if<double>(&*number)) return "double " + std::to_string(*value);
+  const auto& fraction = std::get<Fraction>(*number);
+  return fraction.numerator.decimal() + "/" + fraction.denominator.decimal();
+}
+
+}  // namespace
+
+TEST_CASE("Rational numbers from texts") {
+  CHECK(told("1/3") == "1/3");
+  CHECK(told("-22/7") == "-22/7");
+  CHECK(told("+2/4") == "2/4");
+  CHECK(told("0.1") == "1/10");
+  CHECK(told("-.5") == "-5/10");
+  CHECK(told("5.") == "5/1");
+  CHECK(told("2.5e-3") == "25/10000");
+  CHECK(told("12e2") == "1200/1");
+  CHECK(told("1.25E+1") == "1250/100");
+  CHECK(told("007") == "7/1");
+  CHECK(told("123456789012345678901234567890/3") == "123456789012345678901234567890/3");
+  CHECK(told("0x1.8p-1") == "double 0.750000");
+  CHECK(told("-0x1p+3") == "double -8.000000");
+  for (const char* text :
+       {"",   "-",     "1/0",  "1/", "/3",     "1/-3", "1//3", "1/3/5",   "a",   "1e",
+        "e5", "1.2.3", "1 /3", "0x", "0x1.8p", "inf",  "nan",  "1e99999", "--1", "0x1.00000000000001p0",
+        "."})
+    CHECK(told(text) == "none");
+}
+
+TEST_CASE("Numbers with a square root from texts") {
+  const auto root = surd_from("-sqrt(2/3)");
+  REQUIRE(root);
+  CHECK(std::get<double>(root->scale) == -1);
+  CHECK(std::get<Fraction>(*root->root).denominator == Integer(3));
+  const auto golden = surd_from("golden");
+  REQUIRE(golden);
+  CHECK(std::get<double>(golden->shift) == 0.5);
+  CHECK(std::get<double>(*golden->root) == 5);
+  CHECK(!surd_from("1/3")->root);
+  for (const char* text : {"sqrt(-2)", "sqrt()", "sqrt(2", "sqrt 2", "silver", "sqrt(sqrt(2))"})
+    CHECK(!surd_from(text));
+}
