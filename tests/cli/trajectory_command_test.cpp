@@ -24,7 +24,7 @@ TEST_CASE("trajectory: a line a collision, and the end", "[cli][trajectory]") {
   CHECK(run.status == 0);
   CHECK(lines(run.out) == 15);
   CHECK(run.out.starts_with(
-      R"({"id":"siam","collision":1,"lattice":0,"atom":0,"cell":[1,0],"time":"0.182020266194351439152743990231","bits":)"));
+      R"({"id":"siam","collision":1,"lattice":0,"atom":0,"cell":[1,0],"time":"0.182020266194351450282459471326","bits":)"));
   const std::string end = last_line(run.out);
   CHECK(end.starts_with(R"({"id":"siam","end":"time","collisions":14,"bits":)"));
   CHECK(contains(end, R"("x":["-0.736292698609618310775737171866",)"));
@@ -45,12 +45,20 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
       "id,collision,lattice,atom,cell1,cell2,time,bits,engine_bits\n7,1,0,0,3,2,3.0657078058760461,"));
   CHECK(lines(folder.read("table")) == 31);
   CHECK(contains(folder.read("picture"), "reduction: another obstacle at collision 8"));
-  // Twice the digits, twice the collisions; another program is an engine, too.
-  const Run twice = folder.lorentz(command + " --engine reduction --precision double-double");
-  CHECK(contains(last_line(twice.out), R"("diverged":16)"));
+  // Twice the digits, twice the collisions, if the start's numbers are binary64.
+  const std::string dyadic = folder.write("dyadic", R"({"x":[0.5,0.1],"v":[0.75,0.6]})");
+  const std::string of_dyadic = "trajectory --scene square --radius 0x1.999999999999ap-4 --collisions 30 " +
+                                dyadic + " --engine reduction --precision ";
+  const auto diverged = [&](const std::string& precision) {
+    const std::string end = last_line(folder.lorentz(of_dyadic + precision).out);
+    return std::stoi(end.substr(end.find("\"diverged\":") + 11));
+  };
+  CHECK(diverged("double-double") >= 2 * diverged("binary64") - 3);
+  // Another program is an engine, too; and the truth does not part from itself for a few collisions.
   const Run program = folder.lorentz(command + " --engine cmd:" LORENTZ_NAIVE_ENGINE);
   CHECK(contains(last_line(program.out), R"("diverged":8)"));
-  const Run exact = folder.lorentz(command + " --collisions 5 --engine oracle");
+  const Run exact =
+      folder.lorentz("trajectory --scene square --radius 1/10 --collisions 5 --engine oracle " + starts);
   CHECK(contains(last_line(exact.out), R"("diverged":null)"));
 }
 
@@ -62,15 +70,13 @@ TEST_CASE("trajectory: scenes in a stream, numbers exactly as they are written",
       "\n"
       R"({"id":1,"x":["1/6","1/30"],"v":["1/3",0]})"
       "\n"
-      R"({"id":2,"x":[0.5,"0.1"],"v":[1,"sqrt(2)"]
-})"
-      "\n");
-const Run run = folder.lorentz("trajectory --time 10 --digits 25 " + starts);
-CHECK(run.status == 0);
-// The challenge again, in a unit three times as long: its distance divided by 3.
-CHECK(contains(run.out, R"({"id":1,"end":"time","collisions":14,)"));
-CHECK(contains(run.out, R"("distance":"0.3317543064811180536301040")"));
-CHECK(contains(run.out, R"({"id":2,"end":"time",)"));
+      "{\"id\":2,\"x\":[0.5,\"0.1\"],\"v\":[1,\"sqrt(2)\"]}\n");
+  const Run run = folder.lorentz("trajectory --time 10 --digits 25 " + starts);
+  CHECK(run.status == 0);
+  // The challenge again, in a unit three times as long: its distance divided by 3.
+  CHECK(contains(run.out, R"({"id":1,"end":"time","collisions":14,)"));
+  CHECK(contains(run.out, R"("distance":"0.3317543064811180536301039")"));
+  CHECK(contains(run.out, R"({"id":2,"end":"time",)"));
 }
 
 TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
@@ -85,17 +91,21 @@ TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
     CHECK(contains(run.out, R"({"id":"siam","collision":1)"));  // the rest goes on
   };
   refused(R"({"x":["1/0",0],"v":[1,0]})", R"(x: "1/0" is no rational number)");
-  refused(R"({"x":["sqrt(2)",0],"v":[1,0]
-})", R"(x: "sqrt(2)" is no rational number)");
-  refused(R"({"x":["1/2",0],"v":["sqrt(-2)",0]
-})", R"(v: "sqrt(-2)" is no number that is known)");
+  refused("{\"x\":[\"sqrt(2)\",0],\"v\":[1,0]}", "x: \"sqrt(2)\" is no rational number");
+  refused("{\"x\":[\"1/2\",0],\"v\":[\"sqrt(-2)\",0]}", "v: \"sqrt(-2)\" is no number that is known");
   refused(R"({"x":["1/2",0],"v":[0,"0/7"]})", "v is zero");
-refused(R"({"x":["1/2",0]})", "v is missing");
-refused(R"({"x":["1/2",0],"v":[1,0],"direction":{"degrees":3}})", "has both v and direction");
-refused(R"({"x":["1/2",0],"direction":{"gradient":3}})", R"(direction: needs one of "degrees" and "slope")");
-refused(R"({"x":["1/2"],"v":[1,0]})", "x: has 1 components");
-refused(R"({"x":["1/2",0],"v":[1,0],"from":{"lattice":1,"atom":0,"cell":[0,0]}})", "from names lattice 1");
-refused(R"({"scene":{"dimension":2,"lattices":[]}})", "a scene needs at least one lattice");
+  refused(R"({"x":["1/2",0]})", "v is missing");
+  refused(R"({"x":["1/2",0],"v":[1,0],"direction":{"degrees":3}})", "has both v and direction");
+  refused(R"({"x":["1/2",0],"direction":{"gradient":3}})",
+          R"(direction: needs one of "degrees" and "slope")");
+  refused(R"({"x":["1/2"],"v":[1,0]})", "x: has 1 components");
+  refused(R"({"x":["1/2",0],"v":[1,0],"from":{"lattice":1,"atom":0,"cell":[0,0]}})", "from names lattice 1");
+  const Run no_scene =
+      folder.lorentz("trajectory --collisions 1 " +
+                     folder.write("starts", "{\"scene\":{\"dimension\":2,\"lattices\":[]}}\n" + kChallenge));
+  CHECK(no_scene.status == 2);
+  CHECK(contains(no_scene.err, "starts:1: a scene needs at least one lattice"));
+  CHECK(contains(no_scene.err, "starts:2: the scene in line 1 was bad"));
 }
 
 TEST_CASE("trajectory: options that are none, and files that cannot be written", "[cli][trajectory]") {

@@ -28,7 +28,7 @@ TEST_CASE("Rational numbers from texts") {
   CHECK(told("5.") == "5/1");
   CHECK(told("2.5e-3") == "25/10000");
   CHECK(told("12e2") == "1200/1");
-  CHECK(told("1.25E+1") == "1250/100");
+  CHECK(told("1.25E+1") == "125/10");
   CHECK(told("007") == "7/1");
   CHECK(told("123456789012345678901234567890/3") == "123456789012345678901234567890/3");
   CHECK(told("0x1.8p-1") == "double 0.750000");
