@@ -14,7 +14,7 @@ import sys
 from fractions import Fraction
 
 COARSE = 224  # bits after the point that show of most obstacles that they are not entered
-MOST_BITS = 1 << 18
+MOST_BITS = 1 << 15
 MOST_COLUMNS = 10**7  # of cells along one flight
 MOST_QUICK = 300  # collisions of a record that --quick flies
 HEADER = {"format", "name", "description", "generator", "version", "digits", "count"}
@@ -418,6 +418,8 @@ def fly(record, scene, digits, bits):
     for number, target in enumerate(record["itinerary"], 1):
         target = scene.obstacle(target)
         try:
+            if target == leaving:
+                raise Refuted("the particle leaves it")
             approach, until = flight_to(particle, scene.atoms, target)
             check_first(particle, particle.coarse(coarse_shapes), scene.atoms, leaving, target, until)
             particle.anchor, leaving, time = approach.centre, target, time + until
