@@ -123,11 +123,11 @@ void check_dimension(const char* what, std::size_t count, int dimension) {
                      " components, the scene has dimension " + std::to_string(dimension));
 }
 
-// What golden records and files of disagreements have beside the query.
+// What golden records, golden itineraries and files of disagreements have beside the query.
 bool is_beside_query(std::string_view key) {
-  constexpr std::string_view kKeys[] = {"golden",  "tags",      "expect",      "time_decimal",
-                                        "margin",  "condition", "certificate", "engine",
-                                        "verdict", "departs",   "expected",    "given"};
+  constexpr std::string_view kKeys[] = {"golden",    "tags",        "expect",    "time_decimal", "margin",
+                                        "condition", "certificate", "itinerary", "times",        "end",
+                                        "engine",    "verdict",     "departs",   "expected",     "given"};
   return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
 }
 

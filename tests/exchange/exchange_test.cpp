@@ -319,11 +319,11 @@ TEST_CASE("Unknown keys: their place is told, and whoever objects makes the line
              R"("atoms":[{"position":[0,0],"radius":0.25,"colour":"red"}]}]}})") ==
         Keys{"name", "lattices.basis", "lattices.atoms.colour"});
   CHECK(item.kind == StreamItem::Kind::scene);
-  // What golden records and files of disagreements have besides is known.
+  // What golden records, golden itineraries and files of disagreements have besides is known.
   CHECK(
       read(R"({"id":1,"tags":[],"x":[0.5,0],"v":[1,0],"expect":{"outcome":"never"},"margin":1,"condition":2,)"
            R"("certificate":{},"time_decimal":"1","engine":"e","verdict":"wrong","departs":9,"expected":{},)"
-           R"("given":{}})")
+           R"("given":{},"itinerary":[[0,0,1,0]],"times":{"1":"0.25"},"end":{}})")
           .empty());
   Id id;
   Answer answer;
