@@ -72,6 +72,15 @@ std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
   return {result, exponent};
 }
 
+// The ray of a state's middle, which is a rational one.
+template <std::size_t D>
+ExactQuery<D> exact_ray(const Seen<D>& seen) {
+  auto [x, length_exponent] = exact_middles<D>(seen.state.y);
+  const auto [v, velocity_exponent] = exact_middles<D>(seen.state.v);
+  for (std::size_t i = 0; i < D; ++i) x[i] += shifted_left(seen.centre[i], -length_exponent);
+  return ExactQuery<D>(x, length_exponent, v, velocity_exponent, seen.from);
+}
+
 template <std::size_t D>
 IntegerScene<D> grown_scene(IntegerScene<D> scene, long level) {
   const auto finer = [&](Z& length) { length = shifted_left(length, level); };
@@ -103,14 +112,24 @@ Bound inscribed_radius(const ExactAtom<D>& atom) {
 
 }  // namespace
 
+namespace {
+
+template <std::size_t D>
+bool all_exact(const BallVec<D>& balls, const std::array<Bound, D>& errors) {
+  return std::all_of(balls.begin(), balls.end(), [](const Ball& ball) { return ball.is_exact(); }) &&
+         std::all_of(errors.begin(), errors.end(), [](const Bound& bound) { return bound.is_zero(); });
+}
+
+}  // namespace
+
+template <std::size_t D>
+bool Seen<D>::place_is_exact() const {
+  return all_exact<D>(state.y, y_error);
+}
+
 template <std::size_t D>
 bool Seen<D>::is_exact() const {
-  const auto exact = [](const Ball& ball) { return ball.is_exact(); };
-  const auto zero = [](const Bound& bound) { return bound.is_zero(); };
-  return std::all_of(state.y.begin(), state.y.end(), exact) &&
-         std::all_of(state.v.begin(), state.v.end(), exact) &&
-         std::all_of(y_error.begin(), y_error.end(), zero) &&
-         std::all_of(v_error.begin(), v_error.end(), zero);
+  return place_is_exact() && all_exact<D>(state.v, v_error);
 }
 
 template <std::size_t D>
@@ -142,6 +161,7 @@ const ExactScene<D>& Sight<D>::grown(long level) {
 template <std::size_t D>
 std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
   if (seen.is_exact()) return next_exactly(seen);
+  if (seen.place_is_exact() && smallest_around(exact_, exact_ray(seen))) return Unseen::around;
   const long finest = std::max(kUsual, Ball::Precision::now());  // a state of so many bits allows no more
   long level = kUsual;
   for (bool coarser = false, finer = false; level <= finest;) {
@@ -157,11 +177,7 @@ std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
 
 template <std::size_t D>
 std::variant<ObstacleId, Unseen> Sight<D>::next_exactly(const Seen<D>& seen) const {
-  auto [x, length_exponent] = exact_middles<D>(seen.state.y);
-  const auto [v, velocity_exponent] = exact_middles<D>(seen.state.v);
-  for (std::size_t i = 0; i < D; ++i) x[i] += shifted_left(seen.centre[i], -length_exponent);
-  const auto sighting =
-      first_entry(exact_, ExactQuery<D>(x, length_exponent, v, velocity_exponent, seen.from));
+  const auto sighting = first_entry(exact_, exact_ray(seen));
   if (sighting.around) return Unseen::around;
   if (!sighting.earliest.found()) return Unseen::never;
   return obstacle_of(sighting.earliest.entry());

@@ -28,10 +28,11 @@ struct Seen {
   const std::optional<ObstacleId>& from;
 
   bool is_exact() const;
+  bool place_is_exact() const;
 };
 
 enum class Unseen {
-  around,  ///< an obstacle around the start (exact states only)
+  around,  ///< an obstacle around the start
   never,   ///< nothing is ever entered (exact states only)
   blurred  ///< the state is not known well enough
 };

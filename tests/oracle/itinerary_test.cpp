@@ -139,6 +139,8 @@ TEST_CASE("Itinerary: how journeys end") {
   SECTION("inside") {
     const Arrival end = end_of(start_at({"1/8", "0"}, {"1", "0"}), collisions(5));
     CHECK(end.end == JourneyEnd::inside);
+    // Whichever way it would fly.
+    CHECK(end_of(start_at({"1/8", "0"}, {"1", "golden"}), collisions(5)).end == JourneyEnd::inside);
   }
   SECTION("a line that touches is no hit") {
     const Told told = follow(unit(2, "1/4"), start_at({"0", "1/4"}, {"1", "0"}), collisions(1));
