@@ -7,7 +7,8 @@
 
 namespace lorentz::oracle {
 
-/// What a flight meets: an obstacle around its start, or the earliest entry, or neither: it enters none, ever.
+/// What a flight meets: an obstacle around its start, or the earliest entry, or neither: it enters none,
+/// ever.
 template <std::size_t D>
 struct Sighting {
   std::optional<ObstacleId> around;  ///< the smallest that contains x

@@ -199,9 +199,9 @@ Ball dot(const BallVec<N>& a, const BallVec<N>& b) {
   return sum;
 }
 
-/// A decimal text of `digits` significant digits, the number correctly rounded, if the whole ball rounds to the
-/// same one; positional for exponents -7 to `digits` - 1, else d.ddde+x. Of a ball around 0 with a radius below
-/// 10^-digits / 2: a zero with `digits` decimals. Otherwise nothing.
+/// A decimal text of `digits` significant digits, the number correctly rounded, if the whole ball rounds to
+/// the same one; positional for exponents -7 to `digits` - 1, else d.ddde+x. Of a ball around 0 with a radius
+/// below 10^-digits / 2: a zero with `digits` decimals. Otherwise nothing.
 std::optional<std::string> certain_decimal(const Ball& a, int digits);
 
 }  // namespace lorentz::oracle

@@ -62,11 +62,11 @@ inline Ball across_squared(const BallVec<3>& w, const BallVec<3>& u) {
 
 template <std::size_t D>
 struct Collision {
-  Ball flight;       ///< t
-  Ball root;         ///< sqrt(D), above 0
-  BallVec<D> w, m;   ///< w', m
-  Ball m2;           ///< m.m
-  State<D> before;   ///< y from the centre of the obstacle that is hit
+  Ball flight;      ///< t
+  Ball root;        ///< sqrt(D), above 0
+  BallVec<D> w, m;  ///< w', m
+  Ball m2;          ///< m.m
+  State<D> before;  ///< y from the centre of the obstacle that is hit
   State<D> after;
 };
 

@@ -4,8 +4,8 @@
 // State = middle + Q e, Q near to orthogonal, |e_i| <= width_i. A collision maps this into
 // F(middle) + J Q e, J the derivative anywhere in the box (mean value theorem), and Q' = the orthogonal
 // factor of J Q's columns, longest first, makes of it Q' e' with e' = Q'^-1 (J Q e + rounding). So the box is
-// long where the flow stretches and thin elsewhere, and grows by what the flow stretches; boxes along the axes
-// would grow by some 4 bits a collision more. (R. Lohner's method for differential equations.)
+// long where the flow stretches and thin elsewhere, and grows by what the flow stretches; boxes along the
+// axes would grow by some 4 bits a collision more. (R. Lohner's method for differential equations.)
 #pragma once
 
 #include <Eigen/Dense>
@@ -61,7 +61,8 @@ class ErrorBox {
       }
       largest = larger(largest, next[i]);
     }
-    // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1: |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|, largest components.
+    // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1: |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|, largest
+    // components.
     const Bound slant = beyond_orthogonal();
     for (int i = 0; i < N; ++i) widths_[i] = next[i] + slant * largest;
   }
@@ -92,8 +93,8 @@ class ErrorBox {
       Bound largest;
       for (int i = 0; i < N; ++i) largest = larger(largest, moved[i][order[k]].size());
       for (int i = 0; i < N; ++i)
-        columns(i, k) = largest.is_zero() ? (i == k ? 1 : 0)
-                                          : scaled(moved[i][order[k]], -largest.exponent()).nearest();
+        columns(i, k) =
+            largest.is_zero() ? (i == k ? 1 : 0) : scaled(moved[i][order[k]], -largest.exponent()).nearest();
     }
     return Eigen::HouseholderQR<Turn>(columns).householderQ();
   }

@@ -1,5 +1,5 @@
-// A scene and a start of rational numbers as integers: all lengths times one number, and the velocity times the
-// same, so that times stay what they are. Private to oracle/itinerary.
+// A scene and a start of rational numbers as integers: all lengths times one number, and the velocity times
+// the same, so that times stay what they are. Private to oracle/itinerary.
 #pragma once
 
 #include <lorentz/itinerary.hpp>

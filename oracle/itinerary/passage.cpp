@@ -125,7 +125,7 @@ std::optional<Collision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre
 
 template <std::size_t D>
 typename ErrorBox<Passage<D>::N>::Matrix Passage<D>::derivative_of(const Collision<D>& anywhere,
-                                                                 const Form<D>& form) const {
+                                                                   const Form<D>& form) const {
   const Ball::Precision precision(kDerivativeBits);
   typename ErrorBox<N>::Matrix result;
   for (int k = 0; k < N; ++k) {
@@ -258,8 +258,7 @@ bool Passage<D>::describe(const Ball* time, std::vector<std::string>& x, std::ve
   const Ball unit(route_.problem.unit);
   for (int i = 0; i < static_cast<int>(D); ++i) {
     const auto x_text = decimal(enclosed(place(i, time)) / unit);
-    const auto v_text =
-        decimal(scaled(component(static_cast<int>(D) + i) / unit, -velocity_exponent_));
+    const auto v_text = decimal(scaled(component(static_cast<int>(D) + i) / unit, -velocity_exponent_));
     if (!x_text || !v_text) return false;
     x.push_back(*x_text);
     v.push_back(*v_text);
@@ -313,7 +312,8 @@ template <std::size_t D>
 double Passage<D>::part_done() const {
   double part = 0;
   if (route_.journey.collisions)
-    part = static_cast<double>(collisions_) / static_cast<double>(std::max<std::uint64_t>(1, *route_.journey.collisions));
+    part = static_cast<double>(collisions_) /
+           static_cast<double>(std::max<std::uint64_t>(1, *route_.journey.collisions));
   if (route_.journey.time) part = std::max(part, (state_.t / end_time()).nearest());
   return part;
 }

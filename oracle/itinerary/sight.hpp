@@ -1,4 +1,5 @@
-// Which obstacle a particle meets next, when its state is known to some bits only. Private to oracle/itinerary.
+// Which obstacle a particle meets next, when its state is known to some bits only. Private to
+// oracle/itinerary.
 //
 // The exact search of oracle/first_hit knows no intervals, and needs none. Let the obstacles grow by a factor
 // 1 + 2^-m, to at least eta in every direction. Let a rational ray (x', v') be so near to the true one that
@@ -6,8 +7,8 @@
 // What the true ray enters at a time t <= T holds x' + t v' when it has grown, and is entered by the rational
 // ray at t or before. So ask the exact search for the first grown obstacle o on the rational ray, at t1, and
 // for the next one on the same ray from t1 on, at t2. If the true ray certainly enters o at t <= T < t2, then
-// it enters nothing else before: the answer is certain, though every number in it was rounded. If x' stands in
-// a grown obstacle, or t2 comes too soon, m must be larger; the state's own error sets an end to that.
+// it enters nothing else before: the answer is certain, though every number in it was rounded. If x' stands
+// in a grown obstacle, or t2 comes too soon, m must be larger; the state's own error sets an end to that.
 #pragma once
 
 #include <map>
