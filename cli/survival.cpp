@@ -173,6 +173,7 @@ void follow(const RationalScene& scene, const Start& start, Survival& survival) 
     for (Runner& runner : runners) any |= runner.meet(truth);
     return any && !Interrupt::came();
   });
+  if (Interrupt::came()) return;  // the last start is not whole
   for (std::size_t i = 0; i < runners.size(); ++i)
     survival.arithmetics[i].right.push_back(runners[i].right());
 }
@@ -186,6 +187,9 @@ std::vector<Arithmetic> arithmetics_of(const Options& options) {
 
 int act(const Options& options) {
   compare::check_name(options.engine);
+  if (compare::is_command(options.engine))
+    throw InputError(
+        "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
   const auto radius = positive_number(options.radius, "--radius");
   const Scene scene = load_scene(options.scene, radius);
   Survival survival;
@@ -202,6 +206,8 @@ int act(const Options& options) {
   Progress progress("following", count, 1);
   for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
     follow(exact, start_of(starts, oracle, i), survival);
+  if (Interrupt::came())
+    say("interrupted: after {} of {} starts", survival.arithmetics[0].right.size(), count);
   if (survival.arithmetics[0].right.empty()) return kFailed;
   print(options.json ? survival.json() : survival.table());
   const auto write = [](const std::optional<std::string>& path, const std::string& text) {

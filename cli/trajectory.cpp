@@ -89,6 +89,16 @@ std::string cell_text(const ObstacleId& obstacle, int dimension, const char* sep
   return text;
 }
 
+// An id as a table's field.
+std::string in_table(const Id& id) {
+  const bool is_plain_text = id.starts_with('"') && id.find_first_of(",\\\"", 1) == id.size() - 1;
+  if (is_plain_text) return id.substr(1, id.size() - 2);
+  if (!id.starts_with('"')) return id;
+  std::string field = "\"";
+  for (const char c : id) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + '"';
+}
+
 // What comes of one start: lines on stdout, rows of a table, a path for the picture.
 class Report {
  public:
@@ -121,8 +131,8 @@ class Report {
     line += "}\n";
     out_.flush_if_due();
     if (!csv_) return;
-    csv_->write(fmt::format("{},{},{},{},{},{},{}", id_, number_, c.obstacle.lattice, c.obstacle.atom,
-                            cell_text(c.obstacle, dimension_, ","), c.time, c.bits));
+    csv_->write(fmt::format("{},{},{},{},{},{},{}", in_table(id_), number_, c.obstacle.lattice,
+                            c.obstacle.atom, cell_text(c.obstacle, dimension_, ","), c.time, c.bits));
     csv_->write(rival ? fmt::format(",{:.1f}\n", rival->bits_right()) : "\n");
   }
 
@@ -163,7 +173,6 @@ void append_error(std::string& out, const Id& id, const std::string& message) {
 class Picture {
  public:
   void begin(const RationalScene& scene, const Start& start) {
-    if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
     drawing_.scene = oracle::nearest(scene);
     drawing_.path.push_back(oracle::nearest(start).x);
   }
@@ -198,15 +207,19 @@ struct Run {
   Precision precision;
   Report& report;
   std::optional<Picture> picture;
-  bool drawn = false, undecided = false;
+  bool drawn = false, failed = false;
 };
 
 void follow(Run& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
   if (run.options.engine) rival = std::make_unique<Rival>(*run.options.engine, run.precision, scene, start);
-  Picture* picture = run.options.svg && !run.drawn ? &run.picture.emplace() : nullptr;
-  run.drawn = true;
-  if (picture) picture->begin(scene, start);
+  Picture* picture = nullptr;
+  if (run.options.svg && !run.drawn) {
+    if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
+    run.drawn = true;
+    picture = &run.picture.emplace();
+    picture->begin(scene, start);
+  }
   run.report.begin(id, scene.dimension);
   const Arrival arrival =
       Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
@@ -215,14 +228,15 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
         if (picture) picture->collision(collision);
         return !Interrupt::came();
       });
+  if (Interrupt::came()) return;  // nothing is said of an end that is none
   if (rival && arrival.end != JourneyEnd::undecided)
     rival->finish(arrival.collisions, arrival.end == JourneyEnd::time
                                           ? std::optional(oracle::nearest(*run.journey.time))
                                           : std::nullopt);
   run.report.end(arrival, rival.get());
+  run.failed |= rival && rival->failed();
   if (picture) picture->end(arrival, rival.get(), run.options.engine.value_or(""));
   if (arrival.end == JourneyEnd::undecided) {
-    run.undecided = true;
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
         "obstacle, or two obstacles that are entered at once, no precision decides)",
         id, arrival.collisions + 1, arrival.bits);
@@ -252,8 +266,13 @@ int act(const Options& options) {
     }
   }
   output.flush();
+  if (Interrupt::came()) {
+    say("interrupted: the last start has no end");
+    return kFailed;
+  }
   report.commit();
   if (run.picture) run.picture->write(*options.svg);
+  if (run.failed) return kFailed;
   return refused || stream.had_bad_input() ? kBadInput : kDone;
 }
 
@@ -280,7 +299,7 @@ void add_trajectory(CLI::App& app, Action& action) {
       ->type_name("B");
   command
       ->add_option("--max-bits", options->most_bits,
-                   "precision at which to give up, undecided (default: 262144)")
+                   "precision at which to give up, undecided (default: 262144, or as --digits needs)")
       ->type_name("B");
   command
       ->add_option(

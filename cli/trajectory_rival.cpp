@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/terminal.hpp"
 #include "compare/registry.hpp"
 
 namespace lorentz::cli {
@@ -56,7 +57,9 @@ Rival::Rival(const std::string& engine, Precision precision, const RationalScene
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
   if (compare::is_command(engine)) {
-    command_ = compare::make_answerer(engine, {});
+    compare::AnswererOptions options;
+    options.listener = terminal();
+    command_ = compare::make_answerer(engine, options);
     command_->set_scene(scene_);
     ask = ask_command(*command_);
   } else {

@@ -32,6 +32,8 @@ class Rival {
   std::optional<std::uint64_t> diverged() const { return diverged_; }
   /// Bits in which it agreed with the last certified collision's place, seen from the obstacle; at most 53.
   double bits_right() const { return bits_right_; }
+  /// True if it was another program, and that broke.
+  bool failed() const { return command_ && command_->failed(); }
   /// Why it stopped, if it did; else empty.
   std::string stopped() const;
   const std::vector<Vec>& path() const { return path_; }

@@ -19,10 +19,10 @@ struct Journey {
   int digits = 17;                          ///< of times, places, velocities
   bool states = false;                      ///< place and velocity at each collision, too
   long first_bits = 0;                      ///< the precision to begin with (0: by the digits); it grows ..
-  long most_bits = 1L << 18;                ///< .. as it must, to this at most
+  long most_bits = 0;                       ///< .. as it must, to this at most (0: 2^18, or what digits need)
 };
 
-/// A collision of which everything is certain. Decimals are correctly rounded (but see certain digits below).
+/// A collision of which everything is certain. Decimals are correctly rounded.
 struct CertifiedCollision {
   ObstacleId obstacle;
   std::string time;            ///< since the start

@@ -104,9 +104,6 @@ std::optional<std::string> certain_decimal(const Ball& a, int digits) {
   if (!a.is_finite()) return std::nullopt;
   if (!a.is_positive() && !a.is_negative()) {
     if (a.is_exact()) return "0";
-    // 10^digits > 2 |a|, so that nothing of it shows
-    const Bound whole(power(10, digits).get_d());
-    if (whole.is_finite() && (whole + whole) * a.size() < Bound(1)) return "0." + std::string(digits, '0');
     return std::nullopt;
   }
   const auto text = [&](const Ball& end) {

@@ -38,12 +38,14 @@ template <std::size_t D>
 Arrival follow_in(const RationalScene& scene, const Start& start, const Journey& journey,
                   const Itinerary::OnCollision& on_collision) {
   Route<D> route(scene, start, journey, on_collision);
+  constexpr long kMostBits = 1L << 18;
   const long enough = static_cast<long>(kBitsADigit * journey.digits) + 64;
+  const long most = journey.most_bits > 0 ? journey.most_bits : std::max(kMostBits, 2 * enough);
   for (long bits = journey.first_bits > 0 ? journey.first_bits : enough;;) {
-    bits = std::min(bits, journey.most_bits);
+    bits = std::min(bits, most);
     Passage<D> passage(route, bits);
     const bool arrived = passage.go();
-    if (arrived || bits == journey.most_bits) return passage.arrival();
+    if (arrived || bits == most) return passage.arrival();
     bits = next_bits(passage, journey, passage.part_done());
   }
 }

@@ -29,9 +29,9 @@ Passage<D>::Passage(Route<D>& route, long bits) : route_(route), bits_(bits), fr
   const Bound size = largest_size<D>(v);
   if (size.is_zero()) throw InputError("v: is zero");
   // As large as a cell, so that times are as large as free paths.
-  Bound cell;
-  for (const Z& length : route.problem.scene.lattices[0].vectors[0]) cell = larger(cell, Ball(length).size());
-  velocity_exponent_ = cell.exponent() - size.exponent();
+  for (const Z& length : route.problem.scene.lattices[0].vectors[0])
+    cell_ = larger(cell_, Ball(length).size());
+  velocity_exponent_ = cell_.exponent() - size.exponent();
   typename ErrorBox<N>::Bounds widths;
   for (std::size_t i = 0; i < D; ++i) {
     const Ball component = scaled(v[i], velocity_exponent_);
@@ -256,9 +256,11 @@ Ball Passage<D>::component(int i) const {
 template <std::size_t D>
 bool Passage<D>::describe(const Ball* time, std::vector<std::string>& x, std::vector<std::string>& v) const {
   const Ball unit(route_.problem.unit);
+  const Bound length = length_scale(), speed = speed_scale();
   for (int i = 0; i < static_cast<int>(D); ++i) {
-    const auto x_text = decimal(enclosed(place(i, time)) / unit);
-    const auto v_text = decimal(scaled(component(static_cast<int>(D) + i) / unit, -velocity_exponent_));
+    const auto x_text = decimal(enclosed(place(i, time)) / unit, &length);
+    const auto v_text =
+        decimal(scaled(component(static_cast<int>(D) + i) / unit, -velocity_exponent_), &speed);
     if (!x_text || !v_text) return false;
     x.push_back(*x_text);
     v.push_back(*v_text);
@@ -266,28 +268,48 @@ bool Passage<D>::describe(const Ball* time, std::vector<std::string>& x, std::ve
   return true;
 }
 
+// In the scene's own unit.
+template <std::size_t D>
+Bound Passage<D>::length_scale() const {
+  return cell_ / Ball(route_.problem.unit).least_size();
+}
+
+template <std::size_t D>
+Bound Passage<D>::speed_scale() const {
+  return largest_size<D>(state_.v) * Bound::power_of_two(-velocity_exponent_) /
+         Ball(route_.problem.unit).least_size();
+}
+
 template <std::size_t D>
 bool Passage<D>::describe_distance(const Ball* time, std::string& text) const {
   std::array<Function, D> places;
   for (std::size_t i = 0; i < D; ++i) places[i] = place(static_cast<int>(i), time);
-  const auto decimals = decimal(distance(places) / Ball(route_.problem.unit));
+  const Bound length = length_scale();
+  const auto decimals = decimal(distance(places) / Ball(route_.problem.unit), &length);
   if (decimals) text = *decimals;
   return decimals.has_value();
 }
 
 // The digits that were asked for. A number that is known much better, and still could be rounded to either
-// side, is midway between two decimals or all but so: then one digit or two less.
+// side, is midway between two decimals or all but so: then a digit or two more. One that is 0 as far as can
+// be seen, far below its `scale` (of which time has none: it is above 0), is "0e-k": less than 10^-k, no
+// digit is certain.
 template <std::size_t D>
-std::optional<std::string> Passage<D>::decimal(const Ball& number) const {
-  constexpr double kBitsADigit = 3.33;
-  constexpr long kMidway = 96;
+std::optional<std::string> Passage<D>::decimal(const Ball& number, const Bound* scale) const {
+  constexpr double kBitsADigit = 3.33, kDigitsABit = 0.30102;
+  constexpr long kMidway = 96, kNothing = 256;
   const int digits = route_.journey.digits;
   if (auto text = certain_decimal(number, digits)) return text;
+  if (!number.is_finite()) return std::nullopt;
   const Bound size = number.size(), radius = number.radius();
-  if (radius.is_zero() || size.exponent() - radius.exponent() < kBitsADigit * digits + kMidway)
-    return std::nullopt;
-  for (int fewer = digits - 1; fewer > 0 && fewer >= digits - 2; --fewer)
-    if (auto text = certain_decimal(number, fewer)) return text;
+  const auto enough = static_cast<long>(kBitsADigit * digits);
+  if (!number.is_positive() && !number.is_negative()) {
+    if (!scale || scale->exponent() - size.exponent() < enough + kNothing) return std::nullopt;
+    return "0e-" + std::to_string(static_cast<long>(-kDigitsABit * static_cast<double>(size.exponent())));
+  }
+  if (size.exponent() - radius.exponent() < enough + kMidway) return std::nullopt;
+  for (int more = digits + 1; more <= digits + 2; ++more)
+    if (auto text = certain_decimal(number, more)) return text;
   return std::nullopt;
 }
 

@@ -73,12 +73,15 @@ class Passage {
   Ball component(int i) const;
   bool describe(const Ball* time, std::vector<std::string>& x, std::vector<std::string>& v) const;
   bool describe_distance(const Ball* time, std::string& text) const;
-  std::optional<std::string> decimal(const Ball& number) const;
+  std::optional<std::string> decimal(const Ball& number, const Bound* scale = nullptr) const;
+  Bound length_scale() const;
+  Bound speed_scale() const;
   Ball end_time() const;
   long working_bits() const;
 
   Route<D>& route_;
   const long bits_;
+  Bound cell_;                  // the size of a cell
   long velocity_exponent_ = 0;  // the velocity here is the true one (in the problem's unit) times 2^this
   State<D> state_;              // its middle: balls without radius
   ZVec<D> centre_;              // of the obstacle at which the particle is, or 0

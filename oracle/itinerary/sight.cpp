@@ -82,9 +82,9 @@ ExactQuery<D> exact_ray(const Seen<D>& seen) {
 }
 
 template <std::size_t D>
-IntegerScene<D> grown_scene(IntegerScene<D> scene, long level) {
+IntegerScene<D> resized(IntegerScene<D> scene, long level, int sign) {
   const auto finer = [&](Z& length) { length = shifted_left(length, level); };
-  const auto grown = [&](Z& length) { length += shifted_left(length, level); };
+  const auto grown = [&](Z& length) { length = shifted_left(length, level) + sign * length; };
   scene.exponent -= level;
   for (auto& lattice : scene.lattices) {
     for (auto& vector : lattice.vectors) std::for_each(vector.begin(), vector.end(), finer);
@@ -154,7 +154,15 @@ template <std::size_t D>
 const ExactScene<D>& Sight<D>::grown(long level) {
   auto place = grown_.find(level);
   if (place == grown_.end())
-    place = grown_.emplace(level, ExactScene<D>(grown_scene(integers_, level))).first;
+    place = grown_.emplace(level, ExactScene<D>(resized(integers_, level, +1))).first;
+  return place->second;
+}
+
+template <std::size_t D>
+const ExactScene<D>& Sight<D>::shrunk(long level) {
+  auto place = shrunk_.find(level);
+  if (place == shrunk_.end())
+    place = shrunk_.emplace(level, ExactScene<D>(resized(integers_, level, -1))).first;
   return place->second;
 }
 
@@ -167,6 +175,7 @@ std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
   for (bool coarser = false, finer = false; level <= finest;) {
     const auto result = next_at(seen, level);
     if (const auto* obstacle = std::get_if<ObstacleId>(&result)) return *obstacle;
+    if (const auto* instead = std::get_if<Unseen>(&result)) return *instead;
     const bool closer = std::get<Doubt>(result) == Doubt::look_closer;
     if (closer ? coarser : finer || level == kCoarsest) return Unseen::blurred;
     (closer ? finer : coarser) = true;
@@ -184,7 +193,8 @@ std::variant<ObstacleId, Unseen> Sight<D>::next_exactly(const Seen<D>& seen) con
 }
 
 template <std::size_t D>
-std::variant<ObstacleId, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<D>& seen, long level) {
+std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<D>& seen,
+                                                                             long level) {
   const Ball::Precision precision(kDecisionBits + level);
   const Bound allowed = Bound::power_of_two(-level) * least_radius_;
   const Bound y_error = sum<D>(seen.y_error), v_error = sum<D>(seen.v_error);
@@ -192,6 +202,9 @@ std::variant<ObstacleId, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<
     const ExactQuery<D> ray = rational_ray(seen, bits);
     if (all_zero<D>(ray.velocity.v)) return Doubt::look_closer;
     const auto first = first_entry(grown(level), ray);
+    if (first.around && !(allowed < y_error + Bound(D) * Bound::power_of_two(-bits)) &&
+        smallest_around(shrunk(level), ray))
+      return Unseen::around;
     if (first.around || !first.earliest.found()) return Doubt::look_closer;
     const ObstacleId obstacle = obstacle_of(first.earliest.entry());
 

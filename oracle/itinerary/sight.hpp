@@ -55,15 +55,16 @@ class Sight {
  private:
   enum class Doubt { grow_less, look_closer };
   std::variant<ObstacleId, Unseen> next_exactly(const Seen<D>& seen) const;
-  std::variant<ObstacleId, Doubt> next_at(const Seen<D>& seen, long level);
+  std::variant<ObstacleId, Unseen, Doubt> next_at(const Seen<D>& seen, long level);
   bool is_alone(long level, const ExactQuery<D>& ray, const Entry<D>& entry, const Ball& flight);
   const ExactScene<D>& grown(long level);
+  const ExactScene<D>& shrunk(long level);
 
   IntegerScene<D> integers_;
   ExactScene<D> exact_;
   std::vector<std::vector<Form<D>>> forms_;
   Bound least_radius_;
-  std::map<long, ExactScene<D>> grown_;  // by level
+  std::map<long, ExactScene<D>> grown_, shrunk_;  // by level
 };
 
 }  // namespace lorentz::oracle

@@ -141,6 +141,16 @@ TEST_CASE("Itinerary: how journeys end") {
     CHECK(end.end == JourneyEnd::inside);
     // Whichever way it would fly.
     CHECK(end_of(start_at({"1/8", "0"}, {"1", "golden"}), collisions(5)).end == JourneyEnd::inside);
+    // Out of a disc that it leaves, by mistake, into one that overlaps it: after the collision it is inside.
+    RationalScene scene = unit(2, "2/5");
+    scene.lattices[0].atoms.push_back(scene.lattices[0].atoms[0]);
+    scene.lattices[0].atoms[1].position[0] = exact("1/5");
+    scene.lattices[0].atoms[1].radius = exact("1/10");
+    Start wrong = start_at({"-1/10", "1/50"}, {"1", "0"});
+    wrong.from = ObstacleId{0, 0, {0, 0, 0}};
+    const Told told = follow(scene, wrong, collisions(4));
+    CHECK(told.end.end == JourneyEnd::inside);
+    CHECK(told.end.collisions == 1);
   }
   SECTION("a line that touches is no hit") {
     const Told told = follow(unit(2, "1/4"), start_at({"0", "1/4"}, {"1", "0"}), collisions(1));
@@ -209,4 +219,35 @@ TEST_CASE("Itinerary: scenes and starts with a flaw are errors with a place") {
   CHECK_THROWS_WITH(Itinerary(unit(2, "-1/4")), Catch::Contains("lattices[0].atoms[0].radius"));
   CHECK_THROWS_AS(Itinerary(unit(2, "1/4")).follow(start_at({"1/2", "1/2"}, {"0", "sqrt(0)"}), collisions(1)),
                   InputError);
+}
+
+TEST_CASE("Itinerary: numbers far below the unit have digits, too") {
+  // From 10^-20 off the line between two discs that touch: the first time is 3e-40.
+  const Told told = follow(unit(2, "1/2"), start_at({"1/2", "1e-20"}, {"1/3", "1/7"}), collisions(3));
+  REQUIRE(told.collisions.size() == 3);
+  CHECK(told.collisions[0].time == "3.0000000000000000e-40");
+  CHECK(told.collisions[1].time == "9.0000000000000000e-40");
+  // In a unit of 10^-20.
+  RationalScene scene = unit(2, "5e-21");
+  for (int i : {0, 1}) scene.lattices[0].vectors[i][i] = exact("1e-20");
+  oracle::Journey journey = collisions(2, 1);
+  journey.states = true;
+  const Told small = follow(scene, start_at({"4e-21", "5e-21"}, {"1e-20", "3e-21"}), journey);
+  REQUIRE(small.collisions.size() == 2);
+  for (const auto& c : small.collisions)
+    for (const std::string& text : {c.time, c.x[0], c.x[1], c.v[0], c.v[1]}) CHECK(std::stod(text) != 0);
+  // An orbit along an axis, with a speed that is irrational: y is 0, as far as can be told.
+  const Told axis = follow(unit(2, "1/4"), start_at({"1/2", "0"}, {"sqrt(2)", "0"}), journey);
+  CHECK(begins(axis.collisions.back().x[1], "0e-"));
+  CHECK(std::stod(axis.collisions.back().x[1]) == 0);
+}
+
+TEST_CASE("Itinerary: a number midway between two decimals has a digit more") {
+  const auto x_at = [](const std::string& time, int digits) {
+    return follow(unit(2, "1/10"), start_at({"0.5", "1/2"}, {"1", "0"}), until(time, digits)).end.x[0];
+  };
+  CHECK(x_at("0.123456789012345675", 17) == "0.623456789012345675");
+  CHECK(x_at("0.35", 1) == "0.85");
+  // 3.0000000000000000 and the like are no such numbers.
+  CHECK(x_at("2.5", 3) == "3.00");
 }
