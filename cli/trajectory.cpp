@@ -28,7 +28,7 @@ using oracle::JourneyEnd;
 struct Options {
   std::string starts = "-", precision = "binary64";
   std::optional<std::string> scene, radius, collisions, time, digits, bits, most_bits, engine, csv, svg;
-  bool detail = false, strict = false;
+  bool detail = false, strict = false, json = false;
 };
 
 Rational positive_rational(const std::string& text, const char* option) {
@@ -312,6 +312,7 @@ void add_trajectory(CLI::App& app, Action& action) {
       ->type_name("P");
   command->add_option("--csv", options->csv, "collisions as a table, to a file")->type_name("FILE");
   command->add_option("--svg", options->svg, "a picture of the first start's path (2D)")->type_name("FILE");
+  command->add_flag("--json", options->json, "lines of JSON, which is what there is without it, too");
   command->add_flag("--strict", options->strict, kStrictKeysHelp);
   command->footer(
       "docs/itineraries.md: what is certified, and how. `bits`: of a collision, by how many bits an error of "
