@@ -109,7 +109,7 @@ TEST_CASE("Itinerary: with the fewest bits that will do, and with many, the same
     return few.collisions.size();
   };
   std::size_t certain = 0;
-  for (std::uint64_t i = 0; i < 400; ++i) {
+  for (std::uint64_t i = 0; i < 300; ++i) {
     cases::Random random(kSeed, "itinerary", i);
     const bool in_space = random.one_in(3);
     RationalScene scene = in_space ? unit(3, "0.55") : unit(2, random.one_in(2) ? "0.499" : "0.35");
@@ -121,5 +121,5 @@ TEST_CASE("Itinerary: with the fewest bits that will do, and with many, the same
     }
     certain += both(scene, start, 32 + static_cast<long>(random.below(40)));
   }
-  CHECK(certain > 1000);  // of 4000, so that the test is about something
+  CHECK(certain > 750);  // of 3000, so that the test is about something
 }
