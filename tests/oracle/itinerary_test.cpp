@@ -251,3 +251,28 @@ TEST_CASE("Itinerary: a number midway between two decimals has a digit more") {
   // 3.0000000000000000 and the like are no such numbers.
   CHECK(x_at("2.5", 3) == "3.00");
 }
+
+TEST_CASE("Itinerary: whatever the bits, what is said is true") {
+  // The challenge at every precision up to the one that it needs: an end, and digits, are right or not there.
+  // Times to end next to that of the seventh collision, 5.91119415526806614.., are the hardest.
+  const auto told_with = [](long bits, const std::string& time, int digits) {
+    oracle::Journey journey = until(time, digits);
+    journey.first_bits = journey.most_bits = bits;
+    return follow(unit(2, "1/3"), start_at({"1/2", "1/10"}, {"1", "0"}), journey).end;
+  };
+  std::size_t said = 0;
+  for (const std::string time : {"10", "5.91119415", "5.91119416", "5.911194155268", "5.911194155269"})
+    for (const int digits : {1, 4, 9, 17}) {
+      const Arrival truth = told_with(600, time, digits);
+      for (long bits = 32; bits < 140; ++bits) {
+        const Arrival end = told_with(bits, time, digits);
+        if (end.end == JourneyEnd::undecided) continue;
+        ++said;
+        REQUIRE(end.collisions == truth.collisions);
+        REQUIRE(end.x == truth.x);
+        REQUIRE(end.v == truth.v);
+        REQUIRE(end.distance == truth.distance);
+      }
+    }
+  CHECK(said > 500);
+}
