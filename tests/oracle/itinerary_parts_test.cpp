@@ -67,3 +67,54 @@ TEST_CASE("Itinerary: a box of errors grows by every rounding, and by what its m
   CHECK(width(box, 0) <= 8 * 12.2e-9);
   CHECK(width(box, 1) >= 1e-9);
 }
+
+namespace {
+
+// Every component of the state moved by 2^-200, one after another: what the derivative says of it against
+// what the collision makes of it.
+template <std::size_t D>
+void check_derivative(const ExactAtom<D>& atom, const State<D>& state) {
+  const Ball::Precision precision(600);
+  const Form<D> form(atom);
+  const auto before = collide(state, form);
+  REQUIRE(before);
+  const Ball step = scaled(Ball(1), -200);
+  for (std::size_t k = 0; k < 2 * D + 1; ++k) {
+    State<D> change, moved = state;
+    (k < D ? change.y[k] : k < 2 * D ? change.v[k - D] : change.t) = Ball(1);
+    (k < D ? moved.y[k] : k < 2 * D ? moved.v[k - D] : moved.t) += step;
+    const auto after = collide(moved, form);
+    REQUIRE(after);
+    const State<D> told = derivative(*before, form, change);
+    const auto same = [&](const Ball& a, const Ball& b, const Ball& says) {
+      CHECK(((b - a) / step).nearest() == Approx(says.nearest()).margin(1e-12));
+    };
+    for (std::size_t i = 0; i < D; ++i) {
+      same(before->after.y[i], after->after.y[i], told.y[i]);
+      same(before->after.v[i], after->after.v[i], told.v[i]);
+    }
+    same(before->after.t, after->after.t, told.t);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Itinerary: the derivative of a collision is what small changes become") {
+  IntegerScene<2> plane = discs();
+  plane.lattices[0].atoms[0].semiaxes = {ZVec<2>{200, 50}, ZVec<2>{-30, 100}};
+  State<2> flat;
+  flat.y = {Ball(-700), Ball(-120)};
+  flat.v = {Ball(3), Ball(1)};
+  check_derivative(ExactScene<2>(discs()).lattices[0].atoms[0], flat);
+  check_derivative(ExactScene<2>(plane).lattices[0].atoms[0], flat);
+  IntegerScene<3> space;
+  auto& lattice = space.lattices.emplace_back();
+  lattice.vectors = {ZVec<3>{1000, 0, 0}, ZVec<3>{0, 1000, 0}, ZVec<3>{0, 0, 1000}};
+  lattice.atoms.push_back({{0, 0, 0}, 300, std::nullopt});
+  lattice.atoms.push_back(
+      {{0, 0, 0}, 0, std::array<ZVec<3>, 3>{ZVec<3>{300, 20, 0}, ZVec<3>{0, 200, 10}, ZVec<3>{30, 0, 150}}});
+  State<3> state;
+  state.y = {Ball(-800), Ball(-60), Ball(90)};
+  state.v = {Ball(18), Ball(2), Ball(-1)};
+  for (const auto& atom : ExactScene<3>(space).lattices[0].atoms) check_derivative(atom, state);
+}

@@ -4,26 +4,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 
 #include <lorentz/trajectory_batch.hpp>
+#include "tests/support/count_allocations.hpp"
 
-namespace {
-long allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+using lorentz::test::allocations;
 
 TEST_CASE("Many collisions take no memory", "[trajectory][allocation]") {
   using namespace lorentz;
