@@ -103,7 +103,7 @@ TEST_CASE("Itinerary: the derivative of a collision is what small changes become
   IntegerScene<2> plane = discs();
   plane.lattices[0].atoms[0].semiaxes = {ZVec<2>{200, 50}, ZVec<2>{-30, 100}};
   State<2> flat;
-  flat.y = {Ball(-700), Ball(-120)};
+  flat.y = {Ball(-700), Ball(-215)};
   flat.v = {Ball(3), Ball(1)};
   check_derivative(ExactScene<2>(discs()).lattices[0].atoms[0], flat);
   check_derivative(ExactScene<2>(plane).lattices[0].atoms[0], flat);
