@@ -1,10 +1,13 @@
-// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal.
+// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal. LORENTZ_PROGRESS_AFTER says
+// from which second of the work on it is drawn, 1 unless set: with 0, even short work shows it.
 #pragma once
 
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 namespace lorentz::cli {
@@ -21,7 +24,7 @@ class Progress {
         total_(total),
         stride_(stride),
         shown_(isatty(STDERR_FILENO) == 1),
-        next_(begun + std::chrono::seconds(1)) {}
+        next_(begun + patience()) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
@@ -31,7 +34,7 @@ class Progress {
   const std::string& what() const { return what_; }
   std::size_t total() const { return total_; }
 
-  /// `done` of the total are done; draws a few times a second, from the first second on.
+  /// `done` of the total are done; draws a few times a second, once the work has taken a while.
   void at(std::size_t done) {
     at(done, [] { return std::string(); });
   }
@@ -53,6 +56,11 @@ class Progress {
   }
 
  private:
+  static std::chrono::milliseconds patience() {
+    const char* seconds = std::getenv("LORENTZ_PROGRESS_AFTER");
+    return std::chrono::milliseconds(seconds ? std::lround(1e3 * std::atof(seconds)) : 1000);
+  }
+
   std::string what_;
   std::size_t total_, stride_;
   bool shown_, drawn_ = false;
