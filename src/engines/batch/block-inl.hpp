@@ -242,9 +242,9 @@ class Block {
   HWY_INLINE V close(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry) {
     if constexpr (kBall) {
       if (kUnit || scene_.atoms.size() == 1) {
-        const M plain = times.is_plain(), late = AndNot(plain, And(here, lanes_.active));
+        const M late = And(times.is_grazed(), And(here, lanes_.active));
         if (any(late)) late_.push(late, at_, entry);
-        return select(plain, times.plain(), all(1));
+        return select(late, all(1), times.plain_or_near());
       }
     }
     return times.close(here);

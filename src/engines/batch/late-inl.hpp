@@ -16,7 +16,7 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Hits whose obstacle is grazed or near, in a scene with one atom.
+/// Hits in a scene with one atom: of balls that are grazed, or whose time is not soon rounded.
 template <int D, bool kUnit, bool kBall>
 class LateTimes {
  public:
@@ -54,7 +54,7 @@ class LateTimes {
     const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
     M in_range;
     M is_rounded = no_lane();
-    const V found = stretch.rounded ? times.rounded(is_rounded) : times.close(lanes.active);
+    const V found = stretch.rounded ? times.rounded(is_rounded) : times.grazed();
     store(scaled.time_of(found, scene.exponent, in_range), time);
     const unsigned good = bits_of(in_range), rounded = bits_of(is_rounded);
     for (std::size_t lane = 0; lane < length; ++lane) {

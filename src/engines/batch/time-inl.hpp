@@ -177,12 +177,25 @@ class Times {
     for (int k = 1; k < D; ++k) s = s + v_[k] * distance(k);
     return (s - Sqrt(entry_.slack)) / v2;
   }
+  /// The same where the obstacle may be near: near_ball, and one division for both.
+  HWY_INLINE V plain_or_near() const {
+    const V q = Sqrt(entry_.slack);
+    const M near = is_near(q);
+    if (nowhere(near)) return plain();
+    Pair d[D];
+    start_.place(entry_.n, d);
+    V v2 = none(), s = none();
+    for (int k = 0; k < D; ++k) {
+      const V place = kUnit ? d[k].hi : select(near, d[k].hi, distance(k));  // the bits of a single flight
+      v2 = v2 + v_[k] * v_[k], s = s + v_[k] * place;
+    }
+    return select(near, gap_of_ball(d, lattice_.radius), s - q) / select(near, s + q, v2);
+  }
+  HWY_INLINE M is_grazed() const { return is_grazing(Sqrt(entry_.slack)); }
+  /// In double-double, for lanes of balls in which the obstacle is grazed.
+  HWY_INLINE V grazed() const { return rare(); }
   HWY_INLINE M is_grazing(V q) const { return entry_.slack_error > all(kGrazing * kRoundoff) * q * entry_.s; }
   HWY_INLINE M is_near(V q) const { return Not(entry_.s > all(kNear) * q); }
-  HWY_INLINE M is_plain() const {
-    const V q = Sqrt(entry_.slack);
-    return Not(Or(is_grazing(q), is_near(q)));
-  }
 
   /// Within a few ulps, for the lanes of `hit`.
   HWY_INLINE V close(M hit) const {
@@ -305,17 +318,21 @@ class Times {
   HWY_INLINE V rare() const { return rare_of(asked()); }
 
   static HWY_NOINLINE V near_ball(const Asked& asked) {
-    const double r = asked.start.lattice->radius;
     Pair d[D];
     asked.start.place(asked.n, d);
     V s = none();
+    for (int k = 0; k < D; ++k) s = s + asked.v[k] * d[k].hi;
+    return gap_of_ball(d, asked.start.lattice->radius) / (s + asked.q);
+  }
+
+  // |d|^2 - r^2, at least 0.
+  static HWY_INLINE V gap_of_ball(const Pair (&d)[D], double r) {
     Pair gap = -product_of(all(r), all(r));
     for (int k = 0; k < D; ++k) {
       const Pair square = product_of(d[k].hi, d[k].hi), sum = sum_of(gap.hi, square.hi);
       gap = Pair{sum.hi, sum.lo + (gap.lo + square.lo + all(2) * d[k].hi * d[k].lo)};
-      s = s + asked.v[k] * d[k].hi;
     }
-    return Max(gap.value(), none()) / (s + asked.q);
+    return Max(gap.value(), none());
   }
 
   HWY_INLINE V close_of_ellipsoid(M hit) const {
