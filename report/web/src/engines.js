@@ -26,11 +26,11 @@ export function looksOf(names) {
 
 /** A legend as a part of an SVG, so that it goes along when that is downloaded: {group, height}. */
 export function legend(items, width, { lines = false } = {}) {
-  const group = svgElement("g", { class: "legend", "font-size": 12, "aria-hidden": "true" });
+  const group = svgElement("g", { class: "legend", "font-size": 12, "text-anchor": "start", "aria-hidden": "true" });
   let x = 4, y = 12;
   for (const { name, look, note } of items) {
     const text = note ? `${name}  ${note}` : name;
-    const wide = 30 + 6.7 * text.length;
+    const wide = 36 + 7 * text.length;
     if (x + wide > width && x > 4) [x, y] = [4, y + 19];
     const item = svgElement("g", { transform: `translate(${x},${y})` });
     if (lines)

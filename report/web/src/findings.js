@@ -9,7 +9,7 @@ import { verdictOf } from "./verdicts.js";
 
 const ANY = "any";
 const SORTS = {
-  simplest: ["simplest first", null],
+  causes: ["one of each cause first", null],
   closest: ["closest call first", (f) => Math.abs(f.by_radii ?? Infinity)],
   farthest: ["farthest off first", (f) => -Math.abs(f.by_radii ?? 0)],
   frequent: ["most frequent first", (f) => -(f.count ?? 1)],
@@ -25,6 +25,15 @@ function textOf(finding) {
   return texts.get(finding);
 }
 
+// The how-manieth of its cause each finding is: reports name the simplest first.
+function ranks(findings) {
+  const seen = new Map();
+  return new Map(findings.map((f) => {
+    seen.set(f.cause, (seen.get(f.cause) ?? -1) + 1);
+    return [f, seen.get(f.cause)];
+  }));
+}
+
 function valuesOf(findings, key) {
   const counts = new Map();
   for (const f of findings) counts.set(f[key] ?? "", (counts.get(f[key] ?? "") ?? 0) + 1);
@@ -34,6 +43,7 @@ function valuesOf(findings, key) {
 export function findingsSection(report) {
   const findings = report.findings ?? [];
   if (!findings.length) return null;
+  const rank = ranks(findings);
   let shown = findings, words = "";
   const list = h("div", { class: "finding-list" });
   const status = h("p", { class: "status", role: "status" });
@@ -54,9 +64,8 @@ export function findingsSection(report) {
 
   function arrange(page) {
     const all = Object.values(choices).every((c) => c.value === ANY) && !words;
-    shown = all ? [...findings] : findings.filter(keeps);
-    const by = SORTS[sort.value][1];
-    if (by) shown.sort((a, b) => by(a) - by(b));
+    const by = SORTS[sort.value][1] ?? ((f) => rank.get(f));
+    shown = (all ? [...findings] : findings.filter(keeps)).sort((a, b) => by(a) - by(b));
     pages.set(shown.length, Number(size.value), page);
     fill();
   }

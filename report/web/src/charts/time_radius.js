@@ -1,11 +1,11 @@
 // What a query costs as obstacles shrink: time against radius, a power law through each engine's points.
 import * as Plot from "@observablehq/plot";
 import { h } from "../dom.js";
-import { chart, logDomain, plot } from "../chart.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
 import { groupChoices, inGroup, nameOfCell } from "../cells.js";
 import { swatch } from "../engines.js";
-import { duration, isNumber, number, powerTick } from "../numbers.js";
+import { duration, isNumber, number } from "../numbers.js";
 import { indexOf, onSelect } from "../selection.js";
 import { powerLaw } from "../statistics.js";
 
@@ -41,14 +41,13 @@ export function timeRadius(report, looks) {
     const fits = fitsOf(points), look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width, height: Math.max(300, Math.min(430, 0.62 * width)),
-      x: { type: "log", label: "radius r", domain: logDomain(points.map((p) => p.x), 1.4), reverse: true, tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "log", label: cost.axis, domain: logDomain(points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y])), tickFormat: (t) => (powerTick(t) ? cost.show(t) : ""), labelAnchor: "center" },
+      x: { ...logAxis("radius r", points.map((p) => p.x), width / 80, { air: 1.4 }), reverse: true },
+      y: logAxis(cost.axis, points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y]), 7, { show: cost.show }),
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
         fits.filter((f) => f.fit).map((f) => Plot.line(f.ends.map((r) => [r, f.fit.factor * r ** f.fit.exponent]),
-          { stroke: looks.get(f.engine).colour, strokeDasharray: looks.get(f.engine).dash || null, strokeWidth: 1.6, ariaLabel: "fit" })),
+          { stroke: looks.get(f.engine).colour, strokeDasharray: looks.get(f.engine).dash || null, strokeWidth: 1.6 })),
         Plot.ruleX(points.filter((p) => p.low > 0 && p.high > 0), { x: "x", y1: "low", y2: "high", stroke: (p) => look(p).colour, strokeWidth: 3, strokeOpacity: 0.35 }),
-        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 5, fill: (p) => look(p).colour, ariaLabel: "cells" }),
+        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 5, fill: (p) => look(p).colour }),
       ],
     });
     return { svg, fits, ...shown(svg, points, fits, cost, looks) };
