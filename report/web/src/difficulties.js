@@ -4,8 +4,8 @@ import { difficultiesChart } from "./charts/difficulties.js";
 import { count, duration, isNumber, number } from "./numbers.js";
 import { choosableTable } from "./table.js";
 
-const COUNTS = [["queries", "queries"], ["agree", "agree"], ["wrong", "wrong"], ["ill_posed", "ill-posed"], ["wrong_time", "wrong time"],
-  ["undecided", "undecided"], ["unsupported", "unsupported"], ["error", "errors"], ["missing", "missing"]];
+const COUNTS = [["wrong", "wrong"], ["ill_posed", "ill-posed"], ["wrong_time", "wrong time"], ["undecided", "undecided"],
+  ["unsupported", "unsupported"], ["error", "errors"], ["missing", "missing"], ["agree", "agree"], ["queries", "queries"]];
 
 export function difficultiesSection(report) {
   const rows = report.difficulties ?? [];

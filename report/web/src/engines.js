@@ -1,5 +1,5 @@
 // An engine has one colour, one symbol and one dash wherever it is drawn, whatever else the report has in it.
-import { svgElement } from "./dom.js";
+import { shortened, svgElement } from "./dom.js";
 
 // The project's own engines have theirs in every report; others take what is left, in the order of their names.
 const KNOWN = ["reduction", "published", "certified", "classical", "float", "oracle", "binary64", "batch"];
@@ -30,13 +30,14 @@ export function legend(items, width, { lines = false } = {}) {
   let x = 4, y = 12;
   for (const { name, look, note } of items) {
     const text = note ? `${name}  ${note}` : name;
-    const wide = 36 + 7 * text.length;
+    const shown = shortened(text, Math.min(64, Math.floor((width - 40) / 7)));
+    const wide = 36 + 7 * shown.length;
     if (x + wide > width && x > 4) [x, y] = [4, y + 19];
     const item = svgElement("g", { transform: `translate(${x},${y})` });
     if (lines)
       item.append(svgElement("line", { x1: 0, x2: 20, stroke: look.colour, "stroke-width": 2, "stroke-dasharray": look.dash }));
     item.append(mark(look, 10));
-    item.append(svgElement("text", { x: 26, dy: "0.34em", fill: "currentColor" }, text.length > 64 ? `${text.slice(0, 63)}…` : text));
+    item.append(svgElement("text", { x: 26, dy: "0.34em", fill: "currentColor" }, shown));
     group.append(item);
     x += wide;
   }

@@ -1,5 +1,6 @@
 // Errors of the times of right hits: one histogram an engine, over bins of powers of two.
 import * as Plot from "@observablehq/plot";
+import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
 import { groupChoices, inGroup } from "../cells.js";
@@ -43,10 +44,10 @@ export function histograms(report, looks) {
       marks: [
         Plot.frame({ strokeOpacity: 0.2 }),
         Plot.rect(bars, { fy: "engine", x1: "at", x2: (b) => b.at + 1, y1: floor, y2: "share", fill: (b) => looks.get(b.engine).colour, fillOpacity: (b) => (b.at < leftmost ? 0.55 : 0.9), insetLeft: 0.5, insetRight: 0.5 }),
-        Plot.text(sums, { fy: "engine", text: (s) => `${s.engine} · 99 %: ${number(s.sum.p99)} · max: ${number(s.sum.max)}`, frameAnchor: "top-right", dx: -6, dy: 5, fontWeight: 600, stroke: "var(--surface)", strokeWidth: 4, fill: "currentColor" }),
+        Plot.text(sums, { fy: "engine", text: (s) => `${shortened(s.engine, 24)} · 99 %: ${number(s.sum.p99)} · max: ${number(s.sum.max)}`, frameAnchor: "top-right", dx: -6, dy: 5, fontWeight: 600, stroke: "var(--surface)", strokeWidth: 4, fill: "currentColor" }),
       ],
     });
-    return { svg, ...shown(svg, bars, sums, unitText) };
+    return { svg, ...shown(svg, bars, sums, unitText, leftmost) };
   }
 
   const made = chart({
@@ -65,13 +66,13 @@ function ticksOf(from, to, withZero, width) {
   return ticks;
 }
 
-function shown(svg, bars, sums, unitText) {
+function shown(svg, bars, sums, unitText, leftmost) {
   const [sx, sy, sf] = [svg.scale("x"), svg.scale("y"), svg.scale("fy")];
   const top = sf.apply(sums[0].engine);
   return {
     points: bars.map((b) => ({
       x: sx.apply(b.at + 0.5), y: sy.apply(b.share) + sf.apply(b.engine) - top, key: null,
-      lines: [b.engine, `error ${b.text} ${b.text === "no error" ? "" : unitText}`.trim(), `${percent(b.share)} of right hits`, count(b.count)],
+      lines: [b.engine, b.at < leftmost ? b.text : `error ${b.text} ${unitText}`, `${percent(b.share)} of right hits`, count(b.count)],
     })),
     legend: [],
     summary: `Errors of the time in ${unitText}. ${sums.map((s) => `${s.engine}: 99 % below ${number(s.sum.p99)}, at most ${number(s.sum.max)}`).join("; ")}.`,

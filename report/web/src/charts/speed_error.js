@@ -1,5 +1,6 @@
 // Speed against error: each cell a point, and the front of those that no other beats in both.
 import * as Plot from "@observablehq/plot";
+import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
 import { groupChoices, inGroup, nameOfCell, ALL } from "../cells.js";
@@ -51,7 +52,7 @@ function frontsOf(points) {
 function names(points, [left, right]) {
   const isRight = (p) => Math.log(p.x / left) > 0.7 * Math.log(right / left);
   return [["start", 11, (p) => !isRight(p)], ["end", -11, isRight]].map(([textAnchor, dx, here]) =>
-    Plot.text(points.filter(here), { x: "x", y: "y", text: (p) => p.cell.engine, textAnchor, dx, dy: -10, stroke: "var(--surface)", strokeWidth: 4, fill: "currentColor", fontWeight: 600 }));
+    Plot.text(points.filter(here), { x: "x", y: "y", text: (p) => shortened(p.cell.engine, 24), textAnchor, dx, dy: -10, stroke: "var(--surface)", strokeWidth: 4, fill: "currentColor", fontWeight: 600 }));
 }
 
 export function speedError(report, looks) {
