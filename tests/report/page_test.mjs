@@ -262,7 +262,7 @@ test("Everything has a name for screen readers", async () => {
         return [
           ...bad("button, a, summary, figure, [role=region], [role=group], section, nav", named),
           ...bad("select, input", (e) => e.labels.length === 1 && e.labels[0].textContent),
-          ...bad(".plot > svg, .paper > svg", (e) => e.getAttribute("role") === "img" && e.getAttribute("aria-label").length > 20),
+          ...bad(".plot > svg, .paper > svg", (e) => e.getAttribute("role") === "img" && (e.getAttribute("aria-label") ?? "").length > 20),
           ...bad("table", (e) => e.caption || e.getAttribute("aria-labelledby")),
           ...bad("th", (e) => e.scope),
         ];
