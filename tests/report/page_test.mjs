@@ -83,6 +83,11 @@ for (const name of Object.keys(SAMPLES))
           assert.deepEqual(Object.keys(found).sort(), Object.keys(expected).sort());
           for (const [chart, marks] of Object.entries(expected))
             for (const [mark, count] of Object.entries(marks)) assert.equal(found[chart][mark], count, `${chart}: ${mark} at ${width}`);
+          const covered = await page.evaluate(() => {
+            const boxes = [...document.querySelectorAll(".labels text")].map((e) => e.getBoundingClientRect());
+            return boxes.filter((a, i) => boxes.some((b, j) => i < j && a.left < b.right && b.left < a.right && a.top < b.bottom - 3 && b.top < a.bottom - 3)).length;
+          });
+          assert.equal(covered, 0, `names over each other at ${width}`);
           const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
           assert.ok(overflow <= 0, `${overflow} pixels too wide at ${width}`);
           const [back, ink] = await page.evaluate(() => { const s = getComputedStyle(document.documentElement); return [s.backgroundColor, s.color]; });
@@ -151,6 +156,7 @@ test("The fitted exponents are those of the data", async () => {
       const numbers = rows.find((r) => r.includes(engine)).replaceAll("−", "-").match(/-?\d+\.\d+/g).map(Number);
       assert.ok(Math.abs(numbers[0] - truth) < 0.03 && numbers[1] < numbers[0] && numbers[0] < numbers[2], `${engine}: ${numbers}`);
     }
+    assert.match(rows.find((r) => r.includes("float")), /−0\.051\s+−0\.061 … −0\.041\s+10⁻⁵ … 0\.01/);  // the report's own
   });
 });
 

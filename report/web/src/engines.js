@@ -2,7 +2,7 @@
 import { shortened, svgElement } from "./dom.js";
 
 // The project's own engines have theirs in every report; others take what is left, in the order of their names.
-const KNOWN = ["reduction", "published", "certified", "classical", "float", "oracle", "binary64", "batch"];
+const KNOWN = ["reduction", "published", "certified", "classical", "published-float", "oracle", "published-dd", "published-128"];
 const SYMBOLS = ["circle", "triangle", "square", "diamond", "star", "wye", "cross", "times"];
 const DASHES = ["", "7 3", "2 3", "9 3 2 3", "4 2", "12 4", "1 3", "6 2 2 2"];
 

@@ -1,9 +1,9 @@
 // Speed against error: each cell a point, and the front of those that no other beats in both.
 import * as Plot from "@observablehq/plot";
-import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { groupChoices, inGroup, nameOfCell, ALL } from "../cells.js";
+import { groupChoices, inGroup, nameOfCell } from "../cells.js";
+import { putLabels } from "../labels.js";
 import { duration, isNumber, number, percent } from "../numbers.js";
 import { indexOf, onSelect } from "../selection.js";
 import { paretoFront } from "../statistics.js";
@@ -48,13 +48,6 @@ function frontsOf(points) {
   return [...groups].flatMap(([group, members]) => paretoFront(members).map((p) => ({ x: p.x, y: p.y, group, cell: p.cell })));
 }
 
-// Names beside the marks, towards the middle.
-function names(points, [left, right]) {
-  const isRight = (p) => Math.log(p.x / left) > 0.7 * Math.log(right / left);
-  return [["start", 11, (p) => !isRight(p)], ["end", -11, isRight]].map(([textAnchor, dx, here]) =>
-    Plot.text(points.filter(here), { x: "x", y: "y", text: (p) => shortened(p.cell.engine, 24), textAnchor, dx, dy: -10, stroke: "var(--surface)", strokeWidth: 4, fill: "currentColor", fontWeight: 600 }));
-}
-
 export function speedError(report, looks) {
   const cells = report.cells.filter((cell) => !cell.skipped && isNumber(cell.ns?.median));
   const errors = ERRORS.filter((error) => cells.some((cell) => error.of(cell)));
@@ -77,10 +70,11 @@ export function speedError(report, looks) {
         Plot.line(front, { x: "x", y: "y", z: "group", curve: "step-after", stroke: "var(--front)", strokeWidth: single ? 2 : 1, strokeOpacity: single ? 0.9 : 0.35 }),
         Plot.ruleX(points.filter((p) => p.high), { x: "x", y1: (p) => p.low || y.domain[0], y2: "high", stroke: (p) => look(p).colour, strokeOpacity: single ? 0.6 : 0.25 }),
         Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 6, fill: (p) => (p.none ? "var(--surface)" : look(p).colour), stroke: (p) => look(p).colour, strokeWidth: 1.8 }),
-        ...(single ? names(points, x.domain) : []),
       ],
     });
-    return { svg, ...shown(svg, points, front, error, looks) };
+    const drawn = { svg, ...shown(svg, points, front, error, looks) };
+    if (single) putLabels(svg, drawn.points.map((p) => ({ x: p.x, y: p.y, text: p.lines[0] })), { x: 62, y: 4, width: width - 66 });
+    return drawn;
   }
 
   const made = chart({

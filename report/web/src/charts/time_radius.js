@@ -18,12 +18,20 @@ const signed = (value) => value.toFixed(3).replace("-", "−");
 const interval = (fit) => (fit.low === null ? "" : ` (95 %: ${signed(fit.low)} to ${signed(fit.high)})`);
 const fitText = (fit) => (fit ? `r^${signed(fit.exponent)}${interval(fit)}` : "no fit: one radius");
 
-function fitsOf(points) {
-  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => ({
-    engine, radii: new Set(members.map((p) => p.x)).size,
-    fit: powerLaw(members.map((p) => [p.x, p.y])),
-    ends: [Math.min(...members.map((p) => p.x)), Math.max(...members.map((p) => p.x))],
-  }));
+// The report's own fit, if it has one for this engine: it says over which radii.
+function fitOf(members, reported) {
+  if (!reported) return powerLaw(members.map((p) => [p.x, p.y]));
+  const fitted = members.filter((p) => p.x >= reported.from && p.x <= reported.to);
+  const mean = (of) => fitted.reduce((sum, p) => sum + Math.log(of(p)), 0) / fitted.length;
+  return { ...reported, factor: Math.exp(mean((p) => p.y) - reported.exponent * mean((p) => p.x)) };
+}
+
+function fitsOf(points, reported) {
+  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => {
+    const own = reported.find((f) => f.engine === engine && members.every(({ cell }) => cell.scene === f.scene && cell.difficulty === f.difficulty));
+    const radii = members.map((p) => p.x);
+    return { engine, fit: fitOf(members, own), ends: own ? [own.from, own.to] : [Math.min(...radii), Math.max(...radii)] };
+  });
 }
 
 export function timeRadius(report, looks) {
@@ -38,7 +46,7 @@ export function timeRadius(report, looks) {
     const points = cells.filter((c) => inGroup(c, groups) && cost.of(c) > 0)
       .map((cell) => ({ cell, x: cell.radius, y: cost.of(cell), low: cost.low(cell) ?? null, high: cost.high(cell) ?? null }));
     if (!points.length) return null;
-    const fits = fitsOf(points), look = (p) => looks.get(p.cell.engine);
+    const fits = fitsOf(points, cost.value === "ns" ? report.fits ?? [] : []), look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width, height: Math.max(300, Math.min(430, 0.62 * width)),
       x: { ...logAxis("radius r", points.map((p) => p.x), width / 80, { air: 1.4 }), reverse: true },
@@ -83,10 +91,10 @@ function shown(svg, points, fits, cost, looks) {
 function fitTable(fits, looks) {
   return h("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Fitted exponents" }, h("table", { class: "fits" },
     h("caption", { class: "unseen" }, "Fitted exponents of the time in r"),
-    h("thead", {}, h("tr", {}, ["engine", "exponent", "95 % interval", "radii"].map((name, i) => h("th", { scope: "col", class: i ? "figure" : null }, name)))),
-    h("tbody", {}, fits.map(({ engine, fit, radii }) => h("tr", {},
+    h("thead", {}, h("tr", {}, ["engine", "exponent", "95 % interval", "of radii"].map((name, i) => h("th", { scope: "col", class: i ? "figure" : null }, name)))),
+    h("tbody", {}, fits.map(({ engine, fit, ends }) => h("tr", {},
       h("th", { scope: "row" }, swatch(looks.get(engine)), engine),
       h("td", { class: "figure" }, fit ? signed(fit.exponent) : "–"),
       h("td", { class: "figure" }, fit && fit.low !== null ? `${signed(fit.low)} … ${signed(fit.high)}` : "–"),
-      h("td", { class: "figure" }, String(radii)))))));
+      h("td", { class: "figure" }, fit ? ends.map((r) => number(r)).join(" … ") : "–"))))));
 }
