@@ -66,7 +66,7 @@ function judge() {
   };
 }
 
-const ENGINES = [["reduction", 800, 0, -0.02, 2], ["published", 420, 2e-3, -0.08, 5], ["classical", 300, 3e-4, -0.9, 9], ["binary128", 21000, 0, -0.03, 0.5], ["float", 260, 0.04, -0.05, 5e8]];
+const ENGINES = [["reduction", 800, 0, -0.02, 2], ["published", 420, 2e-3, -0.08, 5], ["classical", 300, 2e-4, -0.9, 9], ["binary128", 21000, 0, -0.03, 0.5], ["float", 260, 0.04, -0.05, 5e8]];
 const RADII = [0.1, 0.01, 1e-3, 1e-4, 1e-5];
 
 function histogram(draw, n, scale) {
