@@ -110,6 +110,7 @@ test("The verdict is at the top, and the first finding tells what is wrong", asy
     const kinds = await page.locator(".kinds li").allInnerTexts();
     assert.equal(kinds.length, 4);
     assert.match(kinds[1], /wrong time\s+time-of-grazing-hit\s+7 ×\s+The time of a grazing hit loses half/);
+    assert.match(await page.locator("#failures tbody tr").first().innerText(), /^grazing-counted-as-hit\s+6\s+3$/);
     // One of each cause is on the first page.
     assert.equal(new Set((await page.locator(".finding h3").allInnerTexts()).map((t) => t.split(" ").pop())).size, 4);
   });

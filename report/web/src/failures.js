@@ -42,24 +42,24 @@ const causeOf = (finding) => finding.cause ?? "–";
 
 function top(findings, of, most) {
   const counts = new Map();
-  for (const f of findings) counts.set(of(f), (counts.get(of(f)) ?? 0) + (f.count ?? 1));
+  for (const f of findings) counts.set(of(f), (counts.get(of(f)) ?? 0) + 1);
   return [...counts].sort((a, b) => b[1] - a[1]).slice(0, most).map(([value]) => value);
 }
 
+// Cases, not how often a cause was seen: of that a report says the sum alone, and where its simplest case is from.
 function ofFindings(findings, only) {
   const causes = top(findings, causeOf, MOST_ROWS), places = top(findings, placeOf, MOST_COLUMNS);
-  if (causes.length < 2 && places.length < 2) return null;
-  const total = findings.reduce((s, f) => s + (f.count ?? 1), 0);
+  if (places.length < 2 || new Set(findings.map((f) => causeOf(f) + f.verdict)).size === findings.length) return null;
   const table = new Map();
   for (const f of findings) {
     const at = JSON.stringify([causeOf(f), placeOf(f)]);
-    table.set(at, (table.get(at) ?? 0) + (f.count ?? 1));
+    table.set(at, (table.get(at) ?? 0) + 1);
   }
-  return matrix("Findings by cause and place", "cause", places.map((place) => place || "–"), causes.map((cause) => ({
+  return matrix("Cases by cause and place", "cause", places.map((place) => place || "–"), causes.map((cause) => ({
     name: h("button", { type: "button", class: "row", title: "show these findings only", onclick: () => only({ cause }) }, cause),
     cells: places.map((place) => {
       const n = table.get(JSON.stringify([cause, place]));
-      return n ? { text: count(n), share: n / total, bad: true } : null;
+      return n ? { text: count(n), share: n / findings.length, bad: true } : null;
     }),
   })));
 }
@@ -70,5 +70,5 @@ export function failuresSection(report, looks, findings) {
     new Set(cells.map((c) => c.engine)).size > 1 ? ofCells(cells, looks) : null,
     report.findings?.length > 1 ? ofFindings(report.findings, findings.only) : null,
   ];
-  return section("failures", "Who fails what", cells.length ? "✗: share of wrong answers; ✓ ?: nothing wrong, but so many undecided; –: not asked." : "How often each cause was seen, and where.", both);
+  return section("failures", "Who fails what", cells.length ? "✗: share of wrong answers; ✓ ?: nothing wrong, but so many undecided; –: not asked." : "The cases above, by cause and by where they are from.", both);
 }
