@@ -121,7 +121,8 @@ void FindingCase::take_hardest_decision() {
       about_order(exact.obstacle, decision->obstacle);
       break;
   }
-  words += fmt::format(" (the hard decision: {:.3g} ulps of the inputs change it)", decision->margin);
+  margin = fmt::format("The hardest decision of this flight: {:.3g} ulps in each input change it.",
+                       decision->margin);
 }
 
 void FindingCase::about_line(const ObstacleId& id, const Approach& approach) {
@@ -150,10 +151,11 @@ void FindingCase::about_order(const ObstacleId& first, const ObstacleId& later) 
   obstacle = first;
   second = later;
   distance = in_radii(surroundings.way(query, PlaceOnLine::at(first), PlaceOnLine::at(later)));
-  words = distance == 0 ? fmt::format("{} and {} are entered at the same time: the first is the answer",
-                                      name_of(first), name_of(later))
-                        : fmt::format("{} is entered {:.4g} of its radii before {}", name_of(first), distance,
-                                      name_of(later));
+  words = distance == 0
+              ? fmt::format("{} and {} are entered at the same time; the answer is the first of them",
+                            name_of(first), name_of(later))
+              : fmt::format("{} is entered {:.4g} of its radii before {}", name_of(first), distance,
+                            name_of(later));
 }
 
 void FindingCase::about_time(double time) {

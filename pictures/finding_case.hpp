@@ -40,7 +40,8 @@ class FindingCase {
   /// x (start) from its surface, below 0 inside; the way along the flight from its entry to that of `second`
   /// (order), or to where the flight is at the time given (time).
   double distance = 0;
-  std::string words;  ///< the same in a sentence
+  std::string words;   ///< the same in a sentence
+  std::string margin;  ///< how hard the decision is, if that is why it is shown
 
   /// Where an answer lets the flight end; nothing if it does not, or nobody knows where.
   std::optional<oracle::PlaceOnLine> end_of(const Answer& answer) const;
@@ -49,6 +50,9 @@ class FindingCase {
   bool names_obstacle(const Answer& answer) const;
 
   const Atom& atom_of(const ObstacleId& id) const { return scene.lattices[id.lattice].atoms[id.atom]; }
+
+  /// A way along the flight in radii of the obstacle in question.
+  double in_radii(double way) const;
 
   /// "cell (2, -1)", with atom and lattice where there are several.
   std::string name_of(const ObstacleId& id) const;
@@ -61,7 +65,6 @@ class FindingCase {
   void about_start(const ObstacleId& id, const oracle::Approach& approach);
   void about_order(const ObstacleId& first, const ObstacleId& later);
   void about_time(double time);
-  double in_radii(double way) const;
 };
 
 /// The rows of A^-1 of an obstacle { position + A y : |y| < 1 }.

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "pictures/finding_parts.hpp"
 
 namespace lorentz::pictures {
 namespace {
 
-constexpr double kWidth = 640, kHeight = 400;
-constexpr Panel kFlightPanel{12, 48, 616, 180}, kInsetPanel{316, 252, 312, 136},
-    kSidePanel{196, 276, 108, 108};
+constexpr double kWidth = 640, kHeight = 410;
+constexpr Panel kFlightPanel{12, 74, 616, 168}, kWholePanel{12, 74, 616, 320},
+    kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
 constexpr double kLine = 15;
 
 std::string fill_of(Ink ink) {
@@ -68,6 +69,12 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
   return lines;
 }
 
+// Two digits of it.
+std::string in_short(double a) {
+  const std::string text = fmt::format("{:.2g}", a);
+  return a >= 10 && a < 1e5 ? fmt::format("{:g}", std::strtod(text.c_str(), nullptr)) : text;
+}
+
 class Sheet {
  public:
   explicit Sheet(const FindingCase& finding) : case_(finding) {}
@@ -75,7 +82,8 @@ class Sheet {
 
  private:
   void add_answer(double y, const char* who, const Answer& answer, Ink ink, const std::string& style);
-  void add_words(const std::vector<std::string>& notes);
+  void add_text(double& y, const std::string& text, std::size_t letters, const std::string& style);
+  void add_details(const FlightPanel& flight);
   void add_inset(const FlightPanel& flight, const Axes& axes);
   std::string label() const;
 
@@ -92,20 +100,23 @@ void Sheet::add_answer(double y, const char* who, const Answer& answer, Ink ink,
   svg_.close();
 }
 
-void Sheet::add_words(const std::vector<std::string>& notes) {
-  const bool side_view = case_.scene.dimension == 3 && case_.issue != Issue::none;
-  const std::size_t letters = side_view ? 29 : 47;
-  double y = kInsetPanel.top;
-  const auto add = [&](const std::string& text, const char* style) {
-    for (const std::string& line : wrapped(shortened(text, 9 * letters), letters)) {
-      if (y > kHeight - 6) return;
-      svg_.text({12, y}, shortened(line, letters + 3), paint(kInk) + style);
-      y += kLine;
-    }
-  };
-  add(case_.words, " font-weight=\"bold\" font-size=\"12\"");
-  y += 4;
-  for (const std::string& note : notes) add(note, " font-size=\"11\"");
+void Sheet::add_text(double& y, const std::string& text, std::size_t letters, const std::string& style) {
+  for (const std::string& line : wrapped(text, letters)) {
+    svg_.text({12, y}, shortened(line, letters), paint(kInk) + style);
+    y += kLine;
+  }
+}
+
+// What stands below the flight.
+void Sheet::add_details(const FlightPanel& flight) {
+  const Axes axes = axes_of(case_);
+  const bool in_space = case_.scene.dimension == 3;
+  double y = kInsetPanel.top + 8;
+  const std::size_t letters = in_space ? 28 : 46;
+  add_text(y, case_.margin, letters, " font-size=\"11\"");
+  for (const std::string& note : flight.notes) add_text(y, note, letters, " font-size=\"11\"");
+  if (in_space) draw_side_view(svg_, case_, axes, kSidePanel);
+  add_inset(flight, axes);
 }
 
 // The inset, and a square around what it shows.
@@ -119,10 +130,8 @@ void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
                   outline(kInk, 0.6));
   }
   const double scale = draw_inset(svg_, case_, axes, kInsetPanel);
-  const double before =
-      flight.scale /
-      length(mapped(to_ball(case_.atom_of(case_.obstacle), case_.scene.dimension), case_.along));
-  std::string words = fmt::format("magnified {:.2g} times", scale / before);
+  const double before = flight.scale / case_.in_radii(1);
+  std::string words = fmt::format("magnified {} times", in_short(scale / before));
   if (!case_.atom_of(case_.obstacle).is_ball())
     words += case_.scene.dimension == 2 ? "; coordinates in which the ellipse is a disc"
                                         : "; coordinates in which the ellipsoid is a ball";
@@ -137,15 +146,17 @@ std::string Sheet::label() const {
 }
 
 std::string Sheet::draw() {
-  add_answer(18, "exact", case_.exact, kExactInk, outline(kExactInk, 2.6));
-  if (case_.given) add_answer(36, "given", *case_.given, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
-  const FlightPanel flight = draw_flight(svg_, case_, kFlightPanel);
-  add_words(flight.notes);
-  if (case_.issue != Issue::none) {
-    const Axes axes = axes_of(case_);
-    if (case_.scene.dimension == 3) draw_side_view(svg_, case_, axes, kSidePanel);
-    add_inset(flight, axes);
-  }
+  double y = 17;
+  add_answer(y, "exact", case_.exact, kExactInk, outline(kExactInk, 2.6));
+  if (case_.given)
+    add_answer(y += 18, "given", *case_.given, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
+  add_text(y += 20, shortened(case_.words, 170), 88, " font-weight=\"bold\" font-size=\"12\"");
+  const bool has_inset = case_.issue != Issue::none;
+  const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
+  if (has_inset)
+    add_details(flight);
+  else if (!flight.notes.empty())
+    add_text(y = kHeight - 4, flight.notes[0], 100, " font-size=\"11\"");
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"{2}\" "

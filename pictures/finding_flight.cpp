@@ -14,7 +14,8 @@ using oracle::PlaceOnLine;
 constexpr double kWhole = 20;                 // cells: a flight of so many is not broken
 constexpr double kTogether = 5;               // cells: places nearer than this share a stretch
 constexpr double kBreak = 46;                 // pixels of a zigzag
-constexpr std::size_t kMostNeighbours = 150;  // of an atom in a stretch
+constexpr std::size_t kMostLookedAt = 4000;   // obstacles of an atom in a stretch
+constexpr std::size_t kMostNeighbours = 250;  // drawn in a stretch
 constexpr double kSmallest = 2;               // pixels: radius of an obstacle
 
 // A part of the line, in lengths from its anchor, and on paper.
@@ -38,13 +39,17 @@ class FlightDrawing {
     return case_.surroundings.way(case_.query, from, to);
   }
   std::optional<Point> on_line(const PlaceOnLine& place) const;
+  Point on_paper_of(const Stretch& stretch, const Vec& place) const {
+    return {stretch.left + (dot(place, axes_.along) - stretch.low) * result_.scale,
+            panel_.middle() - dot(place, axes_.across) * result_.scale};
+  }
   void add_stretch(const Stretch& stretch);
   void add_neighbours(const Stretch& stretch, const Panel& window);
   void add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
-  void add_shadow(const Atom& atom, Point at, const std::string& style);
-  void add_section(const Atom& atom, Point at, double depth, const std::string& style);
+  void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint);
   void add_line(const Stretch& stretch, const Answer& answer, const std::string& style, Ink ink);
   void add_breaks();
+  void add_compass();
   void add_ends();
 
   Svg& svg_;
@@ -111,80 +116,67 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
   return std::nullopt;
 }
 
-// What stands in the plane of the drawing, faint.
+// An ellipse about a point, in lengths from it. What is too small to be seen is enlarged.
+void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::string& style,
+                                const std::string& hint) {
+  const double size = result_.scale;
+  EllipseShape shape{size * ellipse.shape.rx, size * ellipse.shape.ry, -ellipse.shape.angle};
+  if (!(shape.rx >= kSmallest)) {
+    enlarged_ = true;
+    shape = {kSmallest, kSmallest, 0};
+  }
+  svg_.ellipse({on_paper(at.x + size * ellipse.centre.x), on_paper(at.y - size * ellipse.centre.y)},
+               {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
+}
+
+// The obstacles beside the flight, faint: in space those that the plane of the drawing cuts, and shadows of
+// those that are near it.
 void FlightDrawing::add_neighbours(const Stretch& stretch, const Panel& window) {
+  const bool flat = case_.scene.dimension == 2;
   const double half_height = panel_.height / 2 / result_.scale;
   const double reach = std::hypot(std::max(stretch.high, -stretch.low), half_height) + cell_;
-  const auto found = case_.surroundings.around(case_.query, stretch.anchor, reach, kMostNeighbours);
-  if (!found.complete) incomplete_ = true;
+  const auto found = case_.surroundings.around(case_.query, stretch.anchor, reach, kMostLookedAt);
+  incomplete_ |= !found.complete;
+  svg_.open(paint(kFaintInk, kFaintInk, 0.8) + " fill-opacity=\"0.22\"");
+  std::size_t drawn = 0;
   for (const oracle::Neighbour& one : found.obstacles) {
     if (ink_of(case_, one.obstacle)) continue;
-    const Point at{stretch.left + (dot(one.centre, axes_.along) - stretch.low) * result_.scale,
-                   panel_.middle() - dot(one.centre, axes_.across) * result_.scale};
+    const Point at = on_paper_of(stretch, one.centre);
     const Atom& atom = case_.atom_of(one.obstacle);
-    const double radius = length(atom.is_ball() ? Vec{atom.radius, 0, 0} : atom.semiaxes[0]) * result_.scale;
-    if (at.x < window.left - 4 * radius || at.x > window.right() + 4 * radius) continue;
-    open_hint(svg_, case_.name_of(one.obstacle));
-    add_section(atom, at, dot(one.centre, axes_.depth),
-                paint(kFaintInk, kFaintInk, 0.8) + " fill-opacity=\"0.22\"");
-    svg_.close();
+    const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+    const double radius = shadow.shape.rx * result_.scale;
+    if (at.x < window.left - radius || at.x > window.right() + radius || at.y < window.top - radius ||
+        at.y > window.bottom() + radius)
+      continue;
+    const double depth = dot(one.centre, axes_.depth);
+    const auto section = flat ? std::optional(shadow) : section_of(atom, axes_, depth);
+    if (!section && std::fabs(depth) > cell_ / 2) continue;
+    if (++drawn > kMostNeighbours) {
+      incomplete_ = true;
+      break;
+    }
+    if (section)
+      add_ellipse(at, *section, "", case_.name_of(one.obstacle));
+    else
+      add_ellipse(at, shadow, "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
+                  case_.name_of(one.obstacle) + (depth > 0 ? ", in front" : ", behind"));
   }
-}
-
-// { M y : |y| < 1 } on paper, M the first two rows of the semiaxes in the drawing's axes.
-void FlightDrawing::add_shadow(const Atom& atom, Point at, const std::string& style) {
-  const auto columns = semiaxes_of(atom, case_.scene.dimension);
-  Vec along{}, across{};
-  for (int i = 0; i < 3; ++i) {
-    along[i] = dot(axes_.along, columns[i]);
-    across[i] = dot(axes_.across, columns[i]);
-  }
-  EllipseShape shape = ellipse_of(scaled(along, result_.scale), scaled(across, result_.scale));
-  if (!(shape.rx >= kSmallest)) {
-    enlarged_ = true;
-    shape = {kSmallest, kSmallest, 0};
-  }
-  svg_.ellipse({on_paper(at.x), on_paper(at.y)}, {on_paper(shape.rx), on_paper(shape.ry), -shape.angle},
-               style);
-}
-
-// The part of it in the plane of the drawing, which passes its centre at -depth; nothing if it misses it.
-// With y = B w + q, B the two columns of A^-1 for the drawing's axes: |w - w0|^2_S < 1, S = B^T B / k.
-void FlightDrawing::add_section(const Atom& atom, Point at, double depth, const std::string& style) {
-  if (case_.scene.dimension == 2) return add_shadow(atom, at, style);
-  const auto rows = to_ball(atom, 3);
-  const Vec a = mapped(rows, axes_.along), b = mapped(rows, axes_.across),
-            q = mapped(rows, scaled(axes_.depth, -depth));
-  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
-  const double aq = dot(a, q), bq = dot(b, q);
-  const double x = (ab * bq - bb * aq) / det, y = (ab * aq - aa * bq) / det;  // where it is nearest
-  const Vec nearest = sum(q, sum(scaled(a, x), scaled(b, y)));
-  const double k = 1 - dot(nearest, nearest);
-  if (!(k > 0)) return;
-  // w = L^-T u for S = L L^T, |u| < 1.
-  const double l11 = std::sqrt(aa / k), l21 = ab / k / l11, l22 = std::sqrt(det / aa / k);
-  const double size = result_.scale;
-  EllipseShape shape = ellipse_of({size / l11, -size * l21 / (l11 * l22), 0}, {0, size / l22, 0});
-  if (!(shape.rx >= kSmallest)) {
-    enlarged_ = true;
-    shape = {kSmallest, kSmallest, 0};
-  }
-  svg_.ellipse({on_paper(at.x + size * x), on_paper(at.y - size * y)},
-               {on_paper(shape.rx), on_paper(shape.ry), -shape.angle}, style);
+  svg_.close();
 }
 
 // One that an answer names, or that is in question.
 void FlightDrawing::add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre) {
-  const Point at{stretch.left + (dot(centre, axes_.along) - stretch.low) * result_.scale,
-                 panel_.middle() - dot(centre, axes_.across) * result_.scale};
-  if (std::fabs(at.x) > 1e4 || std::fabs(at.y) > 1e4) return;
+  const Point at = on_paper_of(stretch, centre);
+  if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
   const Ink ink = *ink_of(case_, id);
   const Atom& atom = case_.atom_of(id);
-  open_hint(svg_, hint_of(case_, id));
-  add_section(atom, at, dot(centre, axes_.depth), paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"");
-  if (case_.scene.dimension == 3)
-    add_shadow(atom, at, outline(ink, 0.8) + " fill=\"none\" stroke-dasharray=\"2 3\"");
-  svg_.close();
+  const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
+  if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint_of(case_, id));
+  add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"",
+              hint_of(case_, id));
+  if (const auto section = section_of(atom, axes_, dot(centre, axes_.depth)))
+    add_ellipse(at, *section, filled, hint_of(case_, id));
 }
 
 void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const std::string& style,
@@ -233,6 +225,21 @@ void FlightDrawing::add_breaks() {
   }
 }
 
+// The axes of the scene, as the drawing turns them.
+void FlightDrawing::add_compass() {
+  constexpr double kArm = 16;
+  const Point middle{panel_.left + 22, panel_.top + 20};
+  svg_.open(fmt::format("color=\"{1}\" style=\"color:var({0},{1})\"", kInk.variable, kInk.otherwise));
+  for (int k = 0; k < case_.scene.dimension; ++k) {
+    const double x = axes_.along[k], y = axes_.across[k];
+    if (std::hypot(x, y) < 0.25) continue;  // it points at the reader
+    svg_.arrow(middle, {middle.x + kArm * x, middle.y - kArm * y}, 5, "currentColor", 1);
+    svg_.text({middle.x + 1.5 * kArm * x - 3, middle.y - 1.5 * kArm * y + 3}, std::string(1, "xyz"[k]),
+              paint(kInk) + " font-size=\"10\"");
+  }
+  svg_.close();
+}
+
 void FlightDrawing::add_ends() {
   const auto add = [&](const Answer& answer, Ink ink, bool cross) {
     const auto end = case_.end_of(answer);
@@ -262,12 +269,15 @@ FlightPanel FlightDrawing::draw() {
   for (const Stretch& stretch : stretches_) add_stretch(stretch);
   add_breaks();
   add_ends();
+  add_compass();
   if (case_.issue != Issue::none) result_.at = on_line(place_in_question(case_));
+  if (result_.at && case_.issue == Issue::line && case_.distance < 0)  // in the middle of the chord
+    result_.at->x += std::sqrt(-case_.distance * (2 + case_.distance)) * result_.scale / case_.in_radii(1);
   if (enlarged_) result_.notes.push_back("Obstacles are smaller than they are drawn.");
   if (incomplete_) result_.notes.push_back("There are more obstacles than are drawn.");
   if (case_.scene.dimension == 3)
     result_.notes.push_back(
-        "Above: the plane of the flight and the obstacle's centre; dotted: what is in front or behind.");
+        "Above: the plane of the flight and the obstacle's centre; dotted: in front or behind.");
   return std::move(result_);
 }
 

@@ -6,6 +6,7 @@
 // from a point of it, as the curve |y0 + B w| = 1 with w the place relative to that point.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pictures/finding_parts.hpp"
 
@@ -34,21 +35,23 @@ std::vector<Point> curve_of(const Surface& surface, double scale) {
   const Point tangent{-normal.y, normal.x};
   const auto image = [&](Point p) { return sum(scaled(surface.right, p.x), scaled(surface.up, p.y)); };
   const Vec n = image(normal), t = image(tangent);
-  // At u tangent - h normal: h^2 a - 2 h b + c = 0; the near side is the smaller root.
-  const double a = dot(n, n) / scale;
+  // At u tangent - h normal: h^2 a - 2 h b + c = 0, b = p u + q, c = r u^2; the near side is the smaller
+  // root.
+  const double a = dot(n, n) / scale, p = dot(t, n) / scale, q = dot(n, surface.y0), r = dot(t, t) / scale;
+  // Both roots are one where (p^2 - a r) u^2 + 2 p q u + q^2 = 0: as far as the surface is seen along n.
+  const double rest = std::sqrt(std::max(0.0, a * r)), ahead = q / (rest - p), behind = q / (rest + p);
   std::vector<Point> near, far;
-  constexpr int kSteps = 240;
+  constexpr int kSteps = 100;
   for (int k = -kSteps; k <= kSteps; ++k) {
-    const double u = 800 * std::pow(std::fabs(k) / static_cast<double>(kSteps), 2) * (k < 0 ? -1 : 1);
-    const double b = u * dot(t, n) / scale + dot(n, surface.y0), c = u * u * dot(t, t) / scale;
-    const double root = b * b - a * c;
-    if (!(root >= 0)) continue;
+    const double share = std::sin(std::numbers::pi / 2 * k / kSteps);
+    const double u = share * std::min(800.0, share < 0 ? behind : ahead);
+    const double b = p * u + q, c = r * u * u, root = std::sqrt(std::max(0.0, b * b - a * c));
     const auto at = [&](double h) {
       h = std::min(h, kBeyond);
       return Point{u * tangent.x - h * normal.x, u * tangent.y - h * normal.y};
     };
-    near.push_back(at(c / (b + std::sqrt(root))));
-    far.push_back(at(a > 0 ? (b + std::sqrt(root)) / a : kBeyond));
+    near.push_back(at(c / (b + root)));
+    far.push_back(at(a > 0 ? (b + root) / a : kBeyond));
   }
   near.insert(near.end(), far.rbegin(), far.rend());
   return near;
@@ -126,7 +129,7 @@ void Inset::add_surface(const ObstacleId& id, const Surface& surface, double x, 
   for (Point& p : points) p = paper(p.x + x, p.y + y);
   const Ink ink = ink_of(case_, id).value_or(kInk);
   open_hint(svg_, hint_of(case_, id));
-  svg_.polygon(points, paint(ink, ink, 1.8) + " fill-opacity=\"0.25\"");
+  svg_.polygon(points, paint(ink, ink, 1) + " fill-opacity=\"0.25\"");
   svg_.close();
 }
 
@@ -141,7 +144,9 @@ void Inset::add_way(double from, double to, Ink ink, double width, const char* m
 void Inset::add_distance(Point from, Point to, Point label, const char* anchor) {
   svg_.polyline({from, to}, outline(kInk, 1.2));
   for (const Point& end : {from, to}) svg_.ellipse(end, {2.2, 2.2, 0}, paint(kInk));
-  svg_.text(label, fmt::format("{:.4g} radii", std::fabs(case_.distance)),
+  const std::string words =
+      case_.distance == 0 ? "at one point" : fmt::format("{:.4g} radii", std::fabs(case_.distance));
+  svg_.text(label, words,
             paint(kInk, kPaper, 3) +
                 " paint-order=\"stroke\" font-size=\"12\" font-weight=\"bold\" text-anchor=\"" + anchor +
                 '"');
@@ -162,6 +167,10 @@ void Inset::draw_line() {
     add_way(behind, ends ? -half_chord : kBeyond, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6,
             is_given ? kGivenDashes : "");
   }
+  if (gap < 0 && half_chord > panel_.width / 2)
+    svg_.text({panel_.left + 8, paper(0, 0).y - 5},
+              fmt::format("the line, {:.3g} radii after it enters", half_chord / scale_),
+              paint(kInk) + " font-size=\"10\"");
   add_distance(paper(0, 0), paper(0, gap), {paper(8, 0).x, paper(0, gap / 2).y + 4}, "start");
 }
 
@@ -214,7 +223,7 @@ void Inset::add_scale_bar() {
   const double bar = (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;
   const double left = panel_.left + 10, y = panel_.bottom() - 10, right = left + bar * scale_;
   svg_.polyline({{left, y - 4}, {left, y}, {right, y}, {right, y - 4}}, outline(kInk, 1.5));
-  svg_.text({left, y - 8}, fmt::format("{:.0e} radii", bar),
+  svg_.text({left, y - 8}, fmt::format("{:g} radii", bar),
             paint(kInk, kPaper, 3) + " paint-order=\"stroke\" font-size=\"11\"");
 }
 

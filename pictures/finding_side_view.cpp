@@ -2,44 +2,38 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pictures/drawing_parts.hpp"
 #include "pictures/finding_parts.hpp"
 
 namespace lorentz::pictures {
 namespace {
 
-struct Shadow {
+struct Seen {
   ObstacleId obstacle;
   double x, y;  // of its centre, in lengths
   EllipseShape shape;
 };
 
-Shadow shadow_of(const FindingCase& finding, const Axes& axes, const ObstacleId& id) {
+Seen seen_along(const FindingCase& finding, const Axes& axes, const ObstacleId& id) {
   const Vec centre = finding.surroundings.centre(finding.query, oracle::PlaceOnLine::at(id), id);
-  const auto columns = semiaxes_of(finding.atom_of(id), 3);
-  Vec right{}, up{};
-  for (int i = 0; i < 3; ++i) {
-    right[i] = dot(axes.depth, columns[i]);
-    up[i] = dot(axes.across, columns[i]);
-  }
-  return {id, dot(centre, axes.depth), dot(centre, axes.across), ellipse_of(right, up)};
+  return {id, dot(centre, axes.depth), dot(centre, axes.across),
+          shadow_of(finding.atom_of(id), 3, axes.depth, axes.across)};
 }
 
 }  // namespace
 
 void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel) {
-  std::vector<Shadow> shadows;
+  std::vector<Seen> shadows;
   double reach = 0;
   for (const ObstacleId& id : marked_obstacles(finding)) {
-    shadows.push_back(shadow_of(finding, axes, id));
-    const Shadow& one = shadows.back();
+    shadows.push_back(seen_along(finding, axes, id));
+    const Seen& one = shadows.back();
     reach = std::max(reach, std::max(std::fabs(one.x), std::fabs(one.y)) + one.shape.rx);
   }
   if (!(reach > 0) || !std::isfinite(reach)) return;
   const double scale = 0.95 * panel.height / 2 / reach;
   const Point middle{panel.left + panel.width / 2, panel.middle()};
   open_clip(svg, panel);
-  for (const Shadow& one : shadows) {
+  for (const Seen& one : shadows) {
     const Ink ink = *ink_of(finding, one.obstacle);
     svg.ellipse({on_paper(middle.x + scale * one.x), on_paper(middle.y - scale * one.y)},
                 {on_paper(std::max(1.0, scale * one.shape.rx)), on_paper(std::max(1.0, scale * one.shape.ry)),
