@@ -125,9 +125,9 @@ void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
     const Point at = *flight.at;
     const Panel seen{at.x - 6, at.y - 6, 12, 12};
     frame(svg_, seen, outline(kInk, 1.2));
-    svg_.polyline({{seen.left, seen.bottom()}, {kInsetPanel.left, kInsetPanel.top}}, outline(kInk, 0.6));
+    svg_.polyline({{seen.left, seen.bottom()}, {kInsetPanel.left, kInsetPanel.top}}, outline(kFaintInk, 0.6));
     svg_.polyline({{seen.right(), seen.bottom()}, {kInsetPanel.right(), kInsetPanel.top}},
-                  outline(kInk, 0.6));
+                  outline(kFaintInk, 0.6));
   }
   const double scale = draw_inset(svg_, case_, axes, kInsetPanel);
   const double before = flight.scale / case_.in_radii(1);

@@ -46,7 +46,8 @@ class FlightDrawing {
   void add_stretch(const Stretch& stretch);
   void add_neighbours(const Stretch& stretch, const Panel& window);
   void add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
-  void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint);
+  void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint,
+                   bool is_dot);
   void add_line(const Stretch& stretch, const Answer& answer, const std::string& style, Ink ink);
   void add_breaks();
   void add_compass();
@@ -116,12 +117,12 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
   return std::nullopt;
 }
 
-// An ellipse about a point, in lengths from it. What is too small to be seen is enlarged.
+// An ellipse about a point, in lengths from it; a dot if the obstacle is too small to be seen.
 void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::string& style,
-                                const std::string& hint) {
+                                const std::string& hint, bool is_dot) {
   const double size = result_.scale;
   EllipseShape shape{size * ellipse.shape.rx, size * ellipse.shape.ry, -ellipse.shape.angle};
-  if (!(shape.rx >= kSmallest)) {
+  if (is_dot) {
     enlarged_ = true;
     shape = {kSmallest, kSmallest, 0};
   }
@@ -156,10 +157,11 @@ void FlightDrawing::add_neighbours(const Stretch& stretch, const Panel& window) 
       break;
     }
     if (section)
-      add_ellipse(at, *section, "", case_.name_of(one.obstacle));
+      add_ellipse(at, *section, "", case_.name_of(one.obstacle), radius < kSmallest);
     else
-      add_ellipse(at, shadow, "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
-                  case_.name_of(one.obstacle) + (depth > 0 ? ", in front" : ", behind"));
+      add_ellipse(at, shadow,
+                  radius < kSmallest ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
+                  case_.name_of(one.obstacle) + (depth > 0 ? ", in front" : ", behind"), radius < kSmallest);
   }
   svg_.close();
 }
@@ -172,11 +174,13 @@ void FlightDrawing::add_obstacle(const Stretch& stretch, const ObstacleId& id, c
   const Atom& atom = case_.atom_of(id);
   const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
   const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
-  if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint_of(case_, id));
-  add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"",
-              hint_of(case_, id));
+  const std::string hint = hint_of(case_, id);
+  const bool is_dot = shadow.shape.rx * result_.scale < kSmallest;
+  if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint, is_dot);
+  add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"", hint,
+              is_dot);
   if (const auto section = section_of(atom, axes_, dot(centre, axes_.depth)))
-    add_ellipse(at, *section, filled, hint_of(case_, id));
+    add_ellipse(at, *section, filled, hint, is_dot);
 }
 
 void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const std::string& style,
@@ -216,7 +220,9 @@ void FlightDrawing::add_breaks() {
     open_hint(svg_, fmt::format("{:.6g} cells of the flight are left out", cells));
     for (const double side : {-6.0, 6.0}) {
       std::vector<Point> zigzag;
-      for (int k = -9; k <= 9; ++k) zigzag.push_back({x + side + (k % 2 == 0 ? -3 : 3), y + 10.0 * k});
+      const int teeth = static_cast<int>(panel_.height / 20) - 1;
+      for (int k = -teeth; k <= teeth; ++k)
+        zigzag.push_back({x + side + (k % 2 == 0 ? -3 : 3), y - 8 + 10.0 * k});
       svg_.polyline(zigzag, outline(kFaintInk, 1));
     }
     svg_.close();
@@ -230,6 +236,7 @@ void FlightDrawing::add_compass() {
   constexpr double kArm = 16;
   const Point middle{panel_.left + 22, panel_.top + 20};
   svg_.open(fmt::format("color=\"{1}\" style=\"color:var({0},{1})\"", kInk.variable, kInk.otherwise));
+  svg_.ellipse(middle, {20, 20, 0}, paint(kPaper) + " fill-opacity=\"0.8\"");
   for (int k = 0; k < case_.scene.dimension; ++k) {
     const double x = axes_.along[k], y = axes_.across[k];
     if (std::hypot(x, y) < 0.25) continue;  // it points at the reader

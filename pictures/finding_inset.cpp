@@ -171,7 +171,8 @@ void Inset::draw_line() {
     svg_.text({panel_.left + 8, paper(0, 0).y - 5},
               fmt::format("the line, {:.3g} radii after it enters", half_chord / scale_),
               paint(kInk) + " font-size=\"10\"");
-  add_distance(paper(0, 0), paper(0, gap), {paper(8, 0).x, paper(0, gap / 2).y + 4}, "start");
+  const double beside = gap == 0 ? side_ * 14 : 0;  // of the line and the surface, which are one there
+  add_distance(paper(0, 0), paper(0, gap), {paper(8, 0).x, paper(0, gap / 2).y + 4 + beside}, "start");
 }
 
 // x, and the surface where it is nearest to it.
@@ -223,7 +224,7 @@ void Inset::add_scale_bar() {
   const double bar = (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;
   const double left = panel_.left + 10, y = panel_.bottom() - 10, right = left + bar * scale_;
   svg_.polyline({{left, y - 4}, {left, y}, {right, y}, {right, y - 4}}, outline(kInk, 1.5));
-  svg_.text({left, y - 8}, fmt::format("{:g} radii", bar),
+  svg_.text({left, y - 8}, fmt::format("{:g} {}", bar, bar == 1 ? "radius" : "radii"),
             paint(kInk, kPaper, 3) + " paint-order=\"stroke\" font-size=\"11\"");
 }
 
