@@ -126,11 +126,15 @@ const std::vector<Room> kHouse{
      {"sys/mman.h input_file.hpp", "sys/mman.h input_file.cpp", "unistd.h input_file.cpp"}},
     // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     {"pictures", {"src/problem", "oracle/margin", "oracle/surroundings"}, {"src/problem"}, {"fmt/"}},
+    {"report",
+     {"src/problem", "src/exchange", "src/engines/batch"},
+     {},
+     {"fmt/", "boost/math/ share.cpp", "sys/utsname.h manifest.cpp"}},
     {"cli",
      {"src/problem", "src/exchange", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
       "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
      {"src/problem", "src/exchange", "cases", "compare", "golden", "flights", "flights/sample",
-      "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures"},
+      "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures", "report"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h output.cpp", "unistd.h progress.hpp",
       "unistd.h whole_file.cpp"}},
     {"bench",
@@ -264,7 +268,7 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     CHECK(above.insert(room.folder).second);
   }
   for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
-                            "pictures", "cli", "bench"})
+                            "pictures", "report", "cli", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());

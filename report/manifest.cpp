@@ -1,0 +1,69 @@
+#include "report/manifest.hpp"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include <lorentz/batch.hpp>
+#include <lorentz/exchange.hpp>
+#include "report/commit.inc"  // made with each build: kCommit
+
+namespace lorentz::report {
+namespace {
+
+// As Linux calls it; the word of whom builds for another system stands in the field `system`.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+  return "unknown processor";
+}
+
+std::string system_text() {
+  utsname names{};
+  return uname(&names) == 0 ? fmt::format("{} {} {}", names.sysname, names.release, names.machine)
+                            : "unknown";
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm date{};
+  gmtime_r(&now, &date);
+  return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
+}
+
+}  // namespace
+
+Manifest manifest_of(std::uint64_t seed, std::string command) {
+  Manifest manifest;
+  manifest.version = LORENTZ_VERSION;
+  manifest.commit = kCommit;
+  manifest.compiler = LORENTZ_COMPILER;
+  manifest.flags = LORENTZ_FLAGS;
+  manifest.machine = fmt::format("{}, {} threads", processor(), std::thread::hardware_concurrency());
+  manifest.instructions = Batch::instruction_sets().front();
+  manifest.system = system_text();
+  manifest.date = today();
+  manifest.seed = seed;
+  manifest.command = std::move(command);
+  return manifest;
+}
+
+void append_manifest(std::string& out, const Manifest& manifest) {
+  const std::pair<const char*, const std::string&> texts[] = {
+      {"version", manifest.version}, {"commit", manifest.commit},   {"compiler", manifest.compiler},
+      {"flags", manifest.flags},     {"machine", manifest.machine}, {"instructions", manifest.instructions},
+      {"system", manifest.system},   {"date", manifest.date}};
+  out += '{';
+  for (const auto& [name, text] : texts) out += fmt::format("\"{}\":{},", name, json_quoted(text));
+  out += "\"seed\":";
+  append_integer(out, Integer::from_decimal(std::to_string(manifest.seed)).value());
+  out += ",\"command\":" + json_quoted(manifest.command) + '}';
+}
+
+}  // namespace lorentz::report

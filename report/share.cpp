@@ -1,0 +1,33 @@
+#include "report/share.hpp"
+
+#include <boost/math/special_functions/beta.hpp>
+
+#include <stdexcept>
+
+#include <lorentz/exchange.hpp>
+
+namespace lorentz::report {
+
+namespace {
+
+constexpr double kEachTail = 0.025;
+
+}  // namespace
+
+// P(k or more of n | share p) = I_p(k, n - k + 1), the incomplete beta function.
+Share share_of(std::size_t count, std::size_t total) {
+  if (count > total) throw std::invalid_argument("share_of: more than all");
+  const auto k = static_cast<double>(count), others = static_cast<double>(total - count);
+  return {count, count == 0 ? 0 : boost::math::ibeta_inv(k, others + 1, kEachTail),
+          count == total ? 1 : boost::math::ibetac_inv(k + 1, others, kEachTail)};
+}
+
+void append_share(std::string& out, const Share& share) {
+  out += "{\"count\":" + std::to_string(share.count) + ",\"low\":";
+  append_number(out, share.low);
+  out += ",\"high\":";
+  append_number(out, share.high);
+  out += '}';
+}
+
+}  // namespace lorentz::report
