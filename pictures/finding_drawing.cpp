@@ -12,7 +12,7 @@ namespace lorentz::pictures {
 namespace {
 
 constexpr double kWidth = 640, kHeight = 410;
-constexpr Panel kFlightPanel{12, 74, 616, 168}, kWholePanel{12, 74, 616, 320},
+constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
 constexpr double kLine = 15;
 
@@ -31,12 +31,13 @@ std::string shortened(const std::string& text, std::size_t most) {
   return text.substr(0, end) + "...";
 }
 
+// Of an answer as it was given, in whatever unit.
 std::string words_of(const FindingCase& finding, const Answer& answer) {
   const std::string name =
       finding.names_obstacle(answer) ? finding.name_of(answer.obstacle) : "an obstacle that there is not";
   switch (answer.outcome) {
     case Outcome::hit:
-      return answer.time ? fmt::format("hits {} at t = {}", name, *answer.time) : "hits " + name;
+      return (answer.time ? fmt::format("at t = {} it hits ", *answer.time) : "hits ") + name;
     case Outcome::never:
       return "never hits anything";
     case Outcome::inside:
@@ -77,7 +78,9 @@ std::string in_short(double a) {
 
 class Sheet {
  public:
-  explicit Sheet(const FindingCase& finding) : case_(finding) {}
+  /// The answers as they were given; `finding` has them in its own unit.
+  Sheet(const FindingCase& finding, const Answer* given, const Answer& exact)
+      : case_(finding), given_(given), exact_(exact) {}
   std::string draw();
 
  private:
@@ -88,6 +91,8 @@ class Sheet {
   std::string label() const;
 
   const FindingCase& case_;
+  const Answer* const given_;
+  const Answer& exact_;
   Svg svg_;
 };
 
@@ -96,7 +101,7 @@ void Sheet::add_answer(double y, const char* who, const Answer& answer, Ink ink,
   const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
   open_hint(svg_, words);
   svg_.polyline({{12, y - 4}, {42, y - 4}}, style);
-  svg_.text({50, y}, shortened(words, 88), paint(ink));
+  svg_.text({50, y}, shortened(words, 86), paint(ink) + " font-size=\"12\"");
   svg_.close();
 }
 
@@ -140,17 +145,16 @@ void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
 }
 
 std::string Sheet::label() const {
-  std::string label = "A flight. Exact: " + words_of(case_, case_.exact) + '.';
-  if (case_.given) label += " Given: " + words_of(case_, *case_.given) + '.';
+  std::string label = "A flight. Exact: " + words_of(case_, exact_) + '.';
+  if (given_) label += " Given: " + words_of(case_, *given_) + '.';
   return label + (case_.words.empty() ? "" : ' ' + case_.words + '.');
 }
 
 std::string Sheet::draw() {
   double y = 17;
-  add_answer(y, "exact", case_.exact, kExactInk, outline(kExactInk, 2.6));
-  if (case_.given)
-    add_answer(y += 18, "given", *case_.given, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
-  add_text(y += 20, shortened(case_.words, 170), 88, " font-weight=\"bold\" font-size=\"12\"");
+  add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
+  if (given_) add_answer(y += 18, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
+  add_text(y += 20, shortened(case_.words, 160), 82, " font-weight=\"bold\" font-size=\"12\"");
   const bool has_inset = case_.issue != Issue::none;
   const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
   if (has_inset)
@@ -258,8 +262,9 @@ std::string hint_of(const FindingCase& finding, const ObstacleId& id) {
       finding.surroundings.way(finding.query, oracle::PlaceOnLine::start(), oracle::PlaceOnLine::at(id));
   return fmt::format(
       "{}: the line {} it by {:.6g} of its radii, {:.9g} of length from the start; x lies {} it by {:.6g}",
-      finding.name_of(id), approach.gap < 0 ? "meets" : "misses", std::fabs(approach.gap), way,
-      approach.start_gap < 0 ? "inside" : "outside of", std::fabs(approach.start_gap));
+      finding.name_of(id), approach.gap < 0 ? "meets" : "misses", std::fabs(approach.gap),
+      std::ldexp(way, finding.exponent), approach.start_gap < 0 ? "inside" : "outside of",
+      std::fabs(approach.start_gap));
 }
 
 namespace {
@@ -271,10 +276,28 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
+std::string draw_sheet(const FindingCase& finding, const Answer* given, const Answer& exact) {
+  return Sheet(finding, given, exact).draw();
+}
+
+// An answer in other units of length, with v as it is.
+Answer scaled_answer(Answer answer, int exponent) {
+  if (answer.time) answer.time = std::ldexp(*answer.time, -exponent);
+  return answer;
+}
+
 std::string drawing(const Scene& scene, const Query& query, const Answer* given, const Answer& exact) {
   if (!can_be_drawn(scene, query, exact)) return "";
-  const FindingCase finding(scene, query, given, exact);
-  return Sheet(finding).draw();
+  Scene its_scene = scene;
+  Query its_query = query;
+  int exponent = length_exponent(scene);
+  if (exponent == 0 || !scale_lengths(exponent, its_scene, its_query))
+    return draw_sheet(FindingCase(scene, query, given, exact), given, exact);
+  const Answer its_exact = scaled_answer(exact, exponent);
+  const std::optional<Answer> its_given =
+      given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
+  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, exponent);
+  return draw_sheet(finding, given, exact);
 }
 
 }  // namespace

@@ -253,7 +253,7 @@ void FlightDrawing::add_ends() {
     const auto at = end ? on_line(*end) : std::nullopt;
     if (!at) return;
     open_hint(svg_, fmt::format("{}: {:.9g} of length from the start", cross ? "given" : "exact",
-                                way(PlaceOnLine::start(), *end)));
+                                std::ldexp(way(PlaceOnLine::start(), *end), case_.exponent)));
     if (cross) {
       svg_.polyline({{at->x - 5, at->y - 5}, {at->x + 5, at->y + 5}}, outline(ink, 2));
       svg_.polyline({{at->x - 5, at->y + 5}, {at->x + 5, at->y - 5}}, outline(ink, 2));
