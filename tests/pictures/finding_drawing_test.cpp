@@ -104,6 +104,8 @@ TEST_CASE("Surroundings: places that no binary64 holds", "[pictures][finding_dra
   }
   CHECK_FALSE(surroundings.around(query, far, 0.75, 3).complete);
   CHECK(surroundings.way(query, PlaceOnLine::start(), far) == 0x1p60);
+  const ObstacleId beside = cell((1ll << 60) + 1, 2);  // nearest after 2^60 + 1/2, which is no binary64
+  CHECK(surroundings.centre(query, PlaceOnLine::at(beside), beside) == Vec{0, 1.5, 0});
   // Two entries 2^-70 apart, 2^40 cells away; and one from where the line is nearest to a disc that it
   // misses.
   const Query through{{-0x1p40, 0}, {2, 0}, {}};
@@ -150,6 +152,16 @@ TEST_CASE("What the inset measures, against numbers by hand", "[pictures][findin
   CHECK(passed_over.distance == -in_radii);
   CHECK(contains(finding_drawing(scene, lower, never, hit),
                  gap == 0x1p-32 ? "the line, 4.32e-05 radii after" : "the line, 4.21e-08 radii after"));
+}
+
+TEST_CASE("A gap far below the last bit of every coordinate is drawn", "[pictures][finding_drawing]") {
+  // |(1/4, 2^-40)| = 1/4 + 2^-79: 2^-77 radii.
+  const std::string svg = finding_drawing(unit_scene(3, 0.25), {{-0.5, 0.25, 0x1p-40}, {1, 0, 0}, {}},
+                                          Answer::hit(cell(0, 0), 0.5), Answer::never());
+  CHECK(contains(svg, ">6.617e-24 radii<"));
+  const auto ends = measured(svg);
+  REQUIRE(ends.size() == 2);
+  CHECK(std::fabs(ends[0][1] - ends[1][1]) == Approx(0.36 * kInsetHeight).margin(0.02));
 }
 
 TEST_CASE("What is in question: start, order, time, the hardest decision", "[pictures][finding_drawing]") {
