@@ -219,9 +219,10 @@ TEST_CASE("Texts of engines stay texts; no ids, no scripts, nothing from elsewhe
   const Scene scene = unit_scene(2, 0.25);
   const Query query{{-0.5, 0}, {1, 0}, {}};
   const std::string hostile = "</text></svg><script>alert(1)</script>\" onload=\"x' & \x01 \xc3\xa9";
-  std::string longer = hostile;
-  for (int i = 0; i < 40; ++i) longer += "\xc3\xa9\xe2\x82\xac";  // of two and three bytes: cut between
-  for (const std::string& message : {hostile, longer}) {
+  std::string longer;
+  for (int i = 0; i < 40; ++i) longer += "\xc3\xa9\xe2\x82\xac";  // of two and three bytes: cut somewhere
+  for (std::size_t begin = 0; begin < 6; ++begin) {
+    const std::string message = begin == 5 ? hostile : std::string(begin, 'x') + longer;
     const std::string svg =
         finding_drawing(scene, query, Answer::error(message), Answer::hit(cell(0, 0), 0.25));
     CHECK(xml_flaw(svg) == "");
