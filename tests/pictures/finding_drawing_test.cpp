@@ -104,6 +104,8 @@ TEST_CASE("Surroundings: places that no binary64 holds", "[pictures][finding_dra
   }
   CHECK_FALSE(surroundings.around(query, far, 0.75, 3).complete);
   CHECK(surroundings.way(query, PlaceOnLine::start(), far) == 0x1p60);
+  const PlaceOnLine further{std::nullopt, 0x1p59, 0.25};
+  CHECK(surroundings.centre(query, further, cell((1ll << 60) + 1, 1)) == Vec{0.25, 0.5, 0});
   const ObstacleId beside = cell((1ll << 60) + 1, 2);  // nearest after 2^60 + 1/2, which is no binary64
   CHECK(surroundings.centre(query, PlaceOnLine::at(beside), beside) == Vec{0, 1.5, 0});
   // Two entries 2^-70 apart, 2^40 cells away; and one from where the line is nearest to a disc that it
