@@ -62,7 +62,7 @@ class FlightDrawing {
   const double cell_;
   std::vector<Stretch> stretches_;
   FlightPanel result_;
-  bool enlarged_ = false, incomplete_ = false;
+  bool enlarged_ = false, incomplete_ = false, leaves_ = false;
 };
 
 // In order along the line.
@@ -169,11 +169,14 @@ bool FlightDrawing::add_neighbour(const Stretch& stretch, const ObstacleId& id, 
   if (at.y < panel_.top - radius || at.y > panel_.bottom() + radius) return false;
   const double depth = dot(centre, axes_.depth);
   const bool is_dot = radius < kSmallest;
-  const std::string name = case_.name_of(id);
+  const bool is_left = case_.query.from == id;
+  const std::string name = case_.name_of(id) + (is_left ? ", which the flight leaves" : "");
+  const std::string style = is_left ? "stroke-width=\"2\" stroke-dasharray=\"7 3\"" : "";
+  leaves_ |= is_left;
   if (case_.scene.dimension == 2) {
-    add_ellipse(at, shadow, "", name, is_dot);
+    add_ellipse(at, shadow, style, name, is_dot);
   } else if (const auto section = section_of(atom, axes_, depth)) {
-    add_ellipse(at, *section, "", name, is_dot);
+    add_ellipse(at, *section, style, name, is_dot);
   } else if (std::fabs(depth) < cell_ / 2) {
     add_ellipse(at, shadow, is_dot ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
                 name + (depth > 0 ? ", in front" : ", behind"), is_dot);
@@ -305,6 +308,7 @@ FlightPanel FlightDrawing::draw() {
   if (case_.issue != Issue::none) result_.at = on_line(place_in_question(case_));
   if (result_.at && case_.issue == Issue::line && case_.distance < 0)  // in the middle of the chord
     result_.at->x += std::sqrt(-case_.distance * (2 + case_.distance)) * result_.scale / case_.in_radii(1);
+  if (leaves_) result_.notes.push_back("Dashed: the obstacle that the flight leaves.");
   if (enlarged_) result_.notes.push_back("Obstacles are smaller than they are drawn.");
   if (incomplete_) result_.notes.push_back("There are more obstacles than are drawn.");
   if (case_.scene.dimension == 3)
