@@ -105,7 +105,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     lines.push_back(text.substr(begin, end - begin));
-  if (finding.severity() == Severity::ill_posed)
+  if (finding.severity() == Severity::ill_posed && example.judgement.departs > 0)
     lines.push_back(
         fmt::format("inputs moved by {:.3g} ulps would make it right", example.judgement.departs));
   return lines;
@@ -116,13 +116,16 @@ const char* name_of(Severity severity) {
   return kNames[static_cast<int>(severity)];
 }
 
+// In full, but for what rounding of the inputs explains.
 std::string text_of(const Finding& finding, const std::string& engine, int number) {
   const Example& example = finding.simplest;
   std::string text =
       fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
-  text += fmt::format("   {} {}, first in {}; the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n",
-                      finding.count, finding.count == 1 ? "answer" : "answers", finding.where,
-                      scene_line(example), readable_query(example), answer_object(example.given, example),
+  text += fmt::format("   {} {}; for one {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
+                      finding.where);
+  if (finding.severity() == Severity::ill_posed) return text;
+  text += fmt::format("   the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n", scene_line(example),
+                      readable_query(example), answer_object(example.given, example),
                       answer_object(exact_of(example), example));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
   for (const std::string& command : commands_of(finding, engine)) text += "   $ " + command + '\n';
@@ -225,8 +228,8 @@ std::string faults_text(const JudgeReport& report) {
     if (!simplest || complexity < least) simplest = &finding, least = complexity;
   }
   if (!simplest) return "";
-  return kinds == 1 ? simplest->explanation()
-                    : fmt::format("{} kinds of fault, the simplest: {}", kinds, simplest->explanation());
+  return kinds == 1 ? simplest->summary()
+                    : fmt::format("{} kinds of fault, the simplest: {}", kinds, simplest->summary());
 }
 
 std::string heading(const JudgeReport& report) {

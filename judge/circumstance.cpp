@@ -14,6 +14,7 @@ constexpr double kCommon = 0.5, kByChance = 1e-3;
 struct Predicate {
   std::string text;
   std::function<bool(const Features&)> holds;
+  bool is_of_depth = false;
 };
 
 std::vector<Predicate> plain_predicates() {
@@ -25,7 +26,6 @@ std::vector<Predicate> plain_predicates() {
           {"in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
           {"among ellipses or ellipsoids", [](const Features& f) { return f.ellipsoids; }},
           {"in cells other than the unit square or cube", [](const Features& f) { return f.other_cell; }},
-          {"in the unit square or cubic lattice", [](const Features& f) { return !f.other_cell; }},
           {"where nothing is ever hit", [](const Features& f) { return f.never; }}};
 }
 
@@ -60,9 +60,13 @@ std::optional<Predicate> from(const std::vector<Features>& failing, Quantity qua
 
 std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
   std::vector<Predicate> all = plain_predicates();
+  if (auto depth = below(failing, &Features::depth,
+                         "where the line enters the obstacle by less than {:g} of its radii")) {
+    depth->is_of_depth = true;
+    all.push_back(*depth);
+  }
   for (auto& one :
-       {below(failing, &Features::depth, "where the line enters the obstacle by less than {:g} of its radii"),
-        below(failing, &Features::radius, "at radii below {:g} lattice vectors"),
+       {below(failing, &Features::radius, "at radii below {:g} lattice vectors"),
         from(failing, &Features::radius, "at radii of {:g} lattice vectors or more"),
         from(failing, &Features::flight, "after flights of {:g} lattice vectors or more"),
         below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
@@ -86,7 +90,7 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
     // Of so many right answers a share that was not seen may still be this large.
     const double possible = std::max(share, 3 / static_cast<double>(right.size()));
     if (share > kCommon || std::pow(possible, failing.size()) > kByChance) continue;
-    if (!rarest || share < rarest->share) rarest = Circumstance{predicate.text, share};
+    if (!rarest || share < rarest->share) rarest = Circumstance{predicate.text, share, predicate.is_of_depth};
   }
   return rarest;
 }

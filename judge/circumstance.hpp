@@ -10,8 +10,9 @@
 namespace lorentz::judge {
 
 struct Circumstance {
-  std::string text;  ///< a clause after "all of them "
-  double share = 0;  ///< of the right answers: so many have it, too
+  std::string text;          ///< a clause after "only "
+  double share = 0;          ///< of the right answers: so many have it, too
+  bool is_of_depth = false;  ///< that the obstacle is only just entered
 };
 
 /// Something that is true of all the failing questions and of at most half of the right ones, and that would

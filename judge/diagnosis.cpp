@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "fuzz/examine/tie.hpp"
+
 namespace lorentz::judge {
 namespace {
 
@@ -42,7 +44,8 @@ Fault of_false_hit(const Question& question, const Answer& given) {
   if (named.gap >= 0) return graded(Cause::false_hit_grazing, Cause::false_hit, named.gap);
   if (!named.ahead && named.start_gap >= 0) return {Cause::behind};
   if (question.exact.outcome != Outcome::hit) return {Cause::false_hit, std::fabs(named.gap)};
-  if (question.setting->judge().judge(question.query, question.exact, given, 0).departs == 0)
+  if (fuzz::is_tie(question.setting->scene(), question.setting->judge(), question.query, question.exact,
+                   given))
     return {Cause::tie};
   const double gap = question.setting->margins().approach(question.query, question.exact.obstacle).gap;
   return graded(Cause::passed_over_grazing, Cause::passed_over, gap);
@@ -95,33 +98,34 @@ std::string power_of_ten_above(double x) {
 }
 
 std::string sentence_of(Cause cause, std::optional<double> by_radii) {
-  const auto up_to = [&](const char* what) {
-    return by_radii ? fmt::format("{}, by up to {:.3g} of its radii", what, *by_radii) : std::string(what);
+  const auto up_to = [&](const char* what, const char* how) {
+    return by_radii ? fmt::format("{} ({} by up to {:.3g} of its radii)", what, how, *by_radii)
+                    : std::string(what);
   };
   const auto below = [&](const char* what) {
     return by_radii && *by_radii > 0
                ? fmt::format("{} by less than {} of their radii", what, power_of_ten_above(*by_radii))
-               : fmt::format("{} at a point", what);
+               : fmt::format("{} at one point only", what);
   };
   switch (cause) {
     case Cause::passed_over_grazing:
       return below("passes over obstacles that the line enters");
     case Cause::passed_over:
-      return up_to("passes over the obstacle that is hit first, and names a later one; the line enters it");
+      return up_to("passes over the obstacle that is hit first, and names a later one", "entered");
     case Cause::never_for_hit:
-      return up_to("says never where the line meets an obstacle; it enters it");
+      return up_to("says never where an obstacle is hit", "entered");
     case Cause::false_hit_grazing:
       return below("hits obstacles that the line misses");
     case Cause::false_hit:
-      return up_to("hits an obstacle that the line misses");
+      return up_to("hits an obstacle that the line misses", "missed");
     case Cause::behind:
       return "hits an obstacle that lies behind the start";
     case Cause::leaving:
       return "hits the obstacle that the particle leaves (from), which is to be ignored";
     case Cause::inside_not_seen:
-      return up_to("does not see that the start lies inside an obstacle");
+      return up_to("does not see that the start lies inside an obstacle", "inside");
     case Cause::inside_not_so:
-      return up_to("says inside of an obstacle that the start lies outside of");
+      return up_to("says inside of an obstacle that the start lies outside of", "outside");
     case Cause::inside_another:
       return "names, of several obstacles that contain the start, another than the first by name";
     case Cause::tie:

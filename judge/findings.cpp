@@ -18,17 +18,23 @@ long complexity_of(const Question& question) {
                              : static_cast<long>(question.text.size());
 }
 
-std::string percent(double share) {
-  return share == 0 ? "no right answer is" : fmt::format("{:.2g} % of the right answers are", 100 * share);
+std::string share_text(double share) {
+  return share == 0 ? "none of the right answers" : fmt::format("{:.2g} % of the right answers", 100 * share);
 }
 
 }  // namespace
 
+std::string Finding::summary() const {
+  const std::string text = sentence_of(cause(), by_radii);
+  // A grazing one says that of itself.
+  const bool is_said = cause() == Cause::passed_over_grazing && circumstance && circumstance->is_of_depth;
+  return circumstance && !is_said ? text + ", only " + circumstance->text : text;
+}
+
 std::string Finding::explanation() const {
-  std::string text = sentence_of(cause(), by_radii);
-  if (circumstance)
-    text += fmt::format("; all {} are {}, {}", count, circumstance->text, percent(circumstance->share));
-  return text;
+  return circumstance ? fmt::format("{} (all {} wrong ones, and {})", summary(), count,
+                                    share_text(circumstance->share))
+                      : summary();
 }
 
 void Findings::add(const Example& example) {

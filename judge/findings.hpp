@@ -29,7 +29,9 @@ struct Finding {
 
   Cause cause() const { return simplest.diagnosis.cause; }
   Severity severity() const { return simplest.diagnosis.severity; }
-  /// What went wrong, and where it does.
+  /// What went wrong, and what sets the questions apart, if that is known.
+  std::string summary() const;
+  /// The same with numbers: of how many, and of how many right answers it is true as well.
   std::string explanation() const;
 };
 

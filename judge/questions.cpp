@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
+#include <tuple>
 
 #include "cases/families/target.hpp"
 #include "fuzz/examine/variants.hpp"
@@ -94,7 +97,7 @@ class Campaign {
  public:
   Campaign(std::uint64_t seed, const fuzz::Scope& scope) : seed_(seed), scope_(scope) {
     for (const cases::Target& target : cases::targets())
-      if (scope_.meets(target, seed_)) targets_.push_back(&target);
+      if (scope_.meets(target, seed_)) tracks_.push_back({&target});
   }
 
   std::optional<Question> next() {
@@ -108,11 +111,26 @@ class Campaign {
  private:
   static constexpr std::size_t kTries = 10'000;  // scenes in a row that the scope leaves out
 
-  // Some cases of the next target's next scene, and the variants of one of them.
+  // A target, how far it is, and what it took: all get equal times, for some take a hundred times as long.
+  struct Track {
+    const cases::Target* target;
+    std::uint64_t next = 0;
+    double seconds = 0;
+  };
+
   void make() {
-    if (targets_.empty()) return;
-    const cases::Target& target = *targets_[turn_ % targets_.size()];
-    const std::uint64_t begin = turn_++ / targets_.size() * cases::kCasesPerScene;
+    if (tracks_.empty()) return;
+    Track& track = *std::min_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) {
+      return std::tie(a.seconds, a.next) < std::tie(b.seconds, b.next);
+    });
+    const auto start = std::chrono::steady_clock::now();
+    make(*track.target, track.next);
+    track.next += cases::kCasesPerScene;
+    track.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  // Some cases of a scene of the target's, and the variants of one of them.
+  void make(const cases::Target& target, std::uint64_t begin) {
     const cases::Case base = target.make(seed_, begin);
     if (!scope_.admits(base.scene)) return;
     auto setting = std::make_shared<Setting>(base.scene);
@@ -139,8 +157,7 @@ class Campaign {
 
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
-  std::vector<const cases::Target*> targets_;
-  std::uint64_t turn_ = 0;
+  std::vector<Track> tracks_;
   std::deque<Question> questions_;
 };
 
