@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
+#include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
@@ -17,6 +18,7 @@ using fuzz::Stored;
 struct Options {
   std::string store;
   bool json = false, all = false;
+  CaseFiles files;
 };
 
 struct MergeOptions {
@@ -93,11 +95,34 @@ std::string text_of(const std::string& id, const fuzz::Finding& f) {
   return out + lines_of(heading_of_shrunk(f), f.shrunk) + lines_of("as found:", f.text);
 }
 
+// Of the shrunk case, which is the one to be looked at.
+CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& files) {
+  const fuzz::Finding& finding = one.finding;
+  fuzz::ReadCase read = fuzz::case_in(finding.shrunk);
+  CaseReport report;
+  report.title = "finding " + one.label();
+  report.command = fmt::format("lorentz fuzz show {} --store {}{}", one.label(), shell_quoted(store.path()),
+                               files.as_typed());
+  report.cause = finding.cause;
+  if (!finding.words.empty()) report.explanation = "Asked in other words: " + finding.words;
+  report.where = "campaign target " + finding.target;
+  report.verdict = finding.kind == "wrong time" ? "wrong-time" : finding.kind;
+  report.scene = std::move(read.scene);
+  report.query = read.query;
+  report.given = read.given;
+  report.exact = read.exact;
+  if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;
+  for (const fuzz::Campaign& campaign : store.campaigns())
+    if (campaign.id == one.campaign) report.engine = campaign.manifest.engine;
+  return report;
+}
+
 int show(const Options& options, const std::string& id) {
   const Store store(options.store, Store::Access::read);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
     print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
+    if (options.files.any()) options.files.write(case_report(store, one, options.files));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
@@ -147,6 +172,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   auto id = std::make_shared<std::string>();
   command->add_option("ID", *id, "CAMPAIGN/TARGET/INDEX, as in the list")->required();
   command->add_flag("--json", options->json, "one JSON object");
+  options->files.add_options(*command);
   command->footer("Example:\n  lorentz fuzz show 1/leaving/98.1 --store published.campaign");
   command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
 

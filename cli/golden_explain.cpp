@@ -3,6 +3,7 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
+#include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct Options {
   std::string id, most = "12";
   std::vector<std::string> sets;
+  CaseFiles files;
 };
 
 std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, const ObstacleId& hit,
@@ -60,6 +62,30 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
           passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
 }
 
+// The tags are what the record is out to break: they name it, and their notes explain it.
+CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& read, const CaseFiles& files) {
+  const golden::Record& record = read.record;
+  CaseReport report;
+  report.title = fmt::format("golden record {} of {}", record.id, reader.header().name);
+  report.command = "lorentz golden explain " + record.id + files.as_typed();
+  report.where = "golden " + reader.header().name;
+  report.verdict = "exact";
+  for (const auto& [tag, note] : reader.header().tags)
+    for (const std::string& own : record.tags)
+      if (own == tag) {
+        report.cause += (report.cause.empty() ? "" : ", ") + tag;
+        report.explanation += (report.explanation.empty() ? "" : "; ") + note;
+      }
+  if (report.cause.empty()) report.cause = reader.header().name;
+  report.scene = reader.scene();
+  report.query = *read.query;
+  report.exact = record.expect;
+  if (record.condition)
+    report.more.push_back(
+        fmt::format("An ulp in each input moves the time by up to {:.4g} of its ulps.", *record.condition));
+  return report;
+}
+
 int act(const Options& options) {
   const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
   std::set<std::string> ids;
@@ -79,7 +105,11 @@ int act(const Options& options) {
   golden::Reader reader(place);
   for (golden::ReadRecord read; reader.next(read);)
     if (read.record.id.starts_with(options.id)) {
+      if (options.files.any() && !read.query)
+        throw InputError(fmt::format("{}: the record is no valid query, and there is nothing to be drawn",
+                                     read.record.id));
       explain(reader, read, most);
+      if (options.files.any()) options.files.write(case_report(reader, read, options.files));
       break;
     }
   return kDone;
@@ -98,7 +128,8 @@ void add_golden_explain(CLI::App& golden, Action& action) {
   command->add_option("--most", options->most, "list so many obstacles")
       ->capture_default_str()
       ->type_name("N");
-  command->footer("Example:\n  lorentz golden explain 9cbb135e");
+  options->files.add_options(*command);
+  command->footer("Example:\n  lorentz golden explain 9cbb135e --html record.html");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }
 

@@ -12,9 +12,11 @@
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
+#include "cli/whole_file.hpp"
 #include "compare/measure.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
+#include "report/page.hpp"
 
 namespace lorentz::cli {
 
@@ -25,8 +27,8 @@ using judge::Place;
 namespace {
 
 struct Options {
-  std::string engine, command, seed = std::to_string(compare::kDefaultSeed);
-  std::optional<std::string> ulps, timeout;
+  std::string engine, seed = std::to_string(compare::kDefaultSeed);
+  std::optional<std::string> ulps, timeout, html;
   bool quick = false, json = false, times = false, strict = false;
 };
 
@@ -186,10 +188,21 @@ std::function<void(const std::string&)> clock_of(const Plan& plan) {
   };
 }
 
+// The options as a shell takes them; not where the report goes.
+std::string command_of(const Options& o) {
+  std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
+  if (o.quick) command += " --quick";
+  if (o.seed != Options{}.seed) command += " --seed " + o.seed;
+  if (o.ulps) command += " --ulps " + *o.ulps;
+  if (o.timeout) command += " --timeout " + *o.timeout;
+  if (o.times) command += " --times";
+  return command;
+}
+
 JudgeReport judged(const Options& options, const Plan& plan) {
   JudgeReport report;
   report.engine = options.engine;
-  report.command = options.command;
+  report.command = command_of(options);
   report.times = options.times;
   report.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   const double ulps = tolerance(options.ulps);
@@ -214,10 +227,20 @@ JudgeReport judged(const Options& options, const Plan& plan) {
 
 int act(const Options& options) {
   compare::check_name(options.engine);
+  std::optional<WholeFile> html;
+  if (options.html) {
+    report::page("{}");  // throws if the program has none: now rather than after two minutes
+    html.emplace(*options.html);
+  }
   const Interrupt interrupt;
   const JudgeReport report = judged(options, options.quick ? kQuick : kWhole);
   print(options.json ? report.json() : report.text());
-  if (Interrupt::came()) say("interrupted: this is what was found so far");
+  if (Interrupt::came()) {
+    say("interrupted: this is what was found so far{}", html ? "; no page is written of it" : "");
+  } else if (html) {
+    html->write(report::page(report.json()));
+    html->commit();
+  }
   return exit_status(report, options);
 }
 
@@ -236,6 +259,8 @@ void add_judge(CLI::App& app, Action& action) {
                    "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)")
       ->type_name("K");
   command->add_option("--timeout", options->timeout, compare::kTimeoutHelp)->type_name("SECONDS");
+  command->add_option("--html", options->html, "write the report there as a page, whole or not at all")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of tables");
   command->add_flag("--times", options->times, "wrong times count: in the verdict, and exit status 1");
   command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "fuzz/examine/shrink.hpp"
+#include "pictures/finding_drawing.hpp"
 #include "report/manifest.hpp"
 
 namespace lorentz::cli {
@@ -20,56 +22,19 @@ using judge::Severity;
 
 namespace {
 
-// ---- Cases as lines
-
-std::string without_line_end(std::string line) {
-  line.pop_back();
-  return line;
+int dimension_of(const Example& example) {
+  return example.question.setting->scene().dimension;
 }
 
-std::string scene_line(const Example& example) {
-  std::string line;
-  append_scene_line(line, example.question.setting->scene());
-  return without_line_end(line);
+// What is no question stands as it was asked.
+std::string members_of(const Example& example) {
+  return example.question.is_query() ? query_members(example.question.query, dimension_of(example))
+                                     : example.question.text;
 }
 
-void append_vector(std::string& out, const char* key, const Vec& a, int dimension) {
-  out += fmt::format("\"{}\":[", key);
-  for (int i = 0; i < dimension; ++i) out += fmt::format("{}\"{:a}\"", i ? "," : "", a[i]);
-  out += ']';
-}
-
-// The members of the query, without braces and id, its numbers in hexadecimal.
-std::string query_members(const Example& example) {
-  if (!example.question.is_query()) return example.question.text;
-  const Query& query = example.question.query;
-  const int dimension = example.question.setting->scene().dimension;
-  std::string out;
-  append_vector(out, "x", query.x, dimension);
-  out += ',';
-  append_vector(out, "v", query.v, dimension);
-  if (!query.from) return out;
-  out +=
-      fmt::format(",\"from\":{{\"lattice\":{},\"atom\":{},\"cell\":[", query.from->lattice, query.from->atom);
-  for (int i = 0; i < dimension; ++i) {
-    if (i > 0) out += ',';
-    append_integer(out, query.from->cell[i]);
-  }
-  return out + "]}";
-}
-
-// The same for people.
 std::string readable_query(const Example& example) {
-  if (!example.question.is_query()) return '{' + example.question.text + '}';
-  std::string line;
-  append_query_line(line, "0", example.question.query, example.question.setting->scene().dimension);
-  return '{' + without_line_end(line).substr(std::string_view("{\"id\":0,").size());
-}
-
-std::string answer_object(const Answer& answer, const Example& example) {
-  std::string line;
-  append_answer_line(line, "0", answer, example.question.setting->scene().dimension);
-  return '{' + without_line_end(line).substr(std::string_view("{\"id\":0,").size());
+  return example.question.is_query() ? query_object(example.question.query, dimension_of(example))
+                                     : '{' + example.question.text + '}';
 }
 
 Answer exact_of(const Example& example) {
@@ -79,8 +44,7 @@ Answer exact_of(const Example& example) {
 // ---- Findings
 
 std::vector<std::string> commands_of(const Finding& finding, const std::string& engine) {
-  const std::string lines = fmt::format("printf '%s\\n' {} {}", shell_quoted(scene_line(finding.simplest)),
-                                        shell_quoted("{\"id\":1," + query_members(finding.simplest) + '}'));
+  const std::string lines = printed(finding.simplest.question.setting->scene(), members_of(finding.simplest));
   std::vector<std::string> commands;
   if (finding.simplest.question.is_query())
     commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
@@ -100,11 +64,8 @@ std::vector<std::string> reason_lines(const Finding& finding) {
     return {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
                         example.judgement.departs)};
   const judge::Setting& setting = *example.question.setting;
-  const std::string text = reason_of(setting.margins(), setting.scene(), example.question.query,
-                                     example.question.exact, example.given, "");
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-    lines.push_back(text.substr(begin, end - begin));
+  std::vector<std::string> lines = lines_of(reason_of(
+      setting.margins(), setting.scene(), example.question.query, example.question.exact, example.given, ""));
   if (finding.severity() == Severity::ill_posed && example.judgement.departs > 0)
     lines.push_back(
         fmt::format("inputs moved by {:.3g} ulps would make it right", example.judgement.departs));
@@ -119,48 +80,47 @@ const char* name_of(Severity severity) {
 // In full, but for what rounding of the inputs explains.
 std::string text_of(const Finding& finding, const std::string& engine, int number) {
   const Example& example = finding.simplest;
+  const int dimension = dimension_of(example);
   std::string text =
       fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
   text += fmt::format("   {} {}; for one {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
                       finding.where);
   if (finding.severity() == Severity::ill_posed) return text;
-  text += fmt::format("   the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n", scene_line(example),
-                      readable_query(example), answer_object(example.given, example),
-                      answer_object(exact_of(example), example));
+  text += fmt::format("   the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n",
+                      scene_line(example.question.setting->scene()), readable_query(example),
+                      answer_object(example.given, dimension), answer_object(exact_of(example), dimension));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
   for (const std::string& command : commands_of(finding, engine)) text += "   $ " + command + '\n';
   return text;
 }
 
-std::string json_array(const std::vector<std::string>& texts) {
-  std::string out = "[";
-  for (const std::string& text : texts) out += (out.size() > 1 ? "," : "") + json_quoted(text);
-  return out + ']';
+// Nothing is drawn of what is no question, nor where nothing can be.
+std::string drawing_of(const Example& example) {
+  if (!example.question.is_query()) return "null";
+  const std::string drawing = pictures::finding_drawing(
+      example.question.setting->scene(), example.question.query, example.given, example.question.exact);
+  return drawing.empty() ? "null" : json_quoted(drawing);
 }
 
-std::string number_or_null(std::optional<double> value) {
-  std::string out;
-  if (value && !std::isnan(*value))
-    append_number(out, *value);
-  else
-    out = "null";
-  return out;
+// How far the inputs must move for the answer to be right, or how much tolerance the time would need.
+std::optional<double> ulps_of(const Example& example) {
+  const double departs = example.judgement.departs;
+  return departs > 0 ? std::optional(departs) : std::nullopt;
 }
 
 std::string json_of(const Finding& finding, const std::string& engine) {
   const Example& example = finding.simplest;
-  const std::string scene = scene_line(example);  // {"scene":{..}}
-  const std::size_t key = std::string_view("{\"scene\":").size();
+  const int dimension = dimension_of(example);
   return fmt::format(
       "{{\"cause\":{},\"explanation\":{},\"count\":{},\"where\":{},\"verdict\":{},\"scene\":{},"
       "\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
-      "\"commands\":{},\"drawing\":null}}",
+      "\"commands\":{},\"drawing\":{}}}",
       json_quoted(judge::name_of(finding.cause())), json_quoted(finding.explanation()), finding.count,
       json_quoted(finding.where), json_quoted(name_of(finding.severity())),
-      scene.substr(key, scene.size() - key - 1), query_members(example),
-      answer_object(example.given, example), answer_object(exact_of(example), example),
-      number_or_null(example.diagnosis.by_radii), number_or_null(example.judgement.ulps),
-      json_array(reason_lines(finding)), json_array(commands_of(finding, engine)));
+      scene_object(example.question.setting->scene()), members_of(example),
+      answer_object(example.given, dimension), answer_object(exact_of(example), dimension),
+      number_or_null(example.diagnosis.by_radii), number_or_null(ulps_of(example)),
+      array_of(reason_lines(finding)), array_of(commands_of(finding, engine)), drawing_of(example));
 }
 
 // ---- The verdict

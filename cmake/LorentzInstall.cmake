@@ -16,8 +16,8 @@ set(LORENTZ_BATCH_HEADERS batch trajectory_batch)
 set(LORENTZ_EXCHANGE_TARGETS lorentz_exchange)
 set(LORENTZ_EXCHANGE_HEADERS exchange line_reader)
 set(LORENTZ_ORACLE_TARGETS lorentz_integers lorentz_exact lorentz_first_hit lorentz_contacts lorentz_horizon
-  lorentz_margin lorentz_certificate_check lorentz_certificate lorentz_oracle lorentz_walk lorentz_certified)
-set(LORENTZ_ORACLE_HEADERS oracle walk certified verdict margin horizon scene_check continued_fraction certificate
+  lorentz_margin lorentz_surroundings lorentz_certificate_check lorentz_certificate lorentz_oracle lorentz_walk lorentz_certified)
+set(LORENTZ_ORACLE_HEADERS oracle walk certified verdict margin surroundings horizon scene_check continued_fraction certificate
   certificate_check prover)
 set(LORENTZ_ITINERARY_TARGETS lorentz_itinerary)
 set(LORENTZ_ITINERARY_HEADERS itinerary)

@@ -39,6 +39,7 @@ class Svg {
   /// Anything else, e.g. definitions.
   void raw(const std::string& xml) { body_ += xml; }
 
+  const std::string& body() const { return body_; }
   std::string document(double width, double height, const std::string& title) const;
 
  private:

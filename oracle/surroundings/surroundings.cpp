@@ -1,0 +1,134 @@
+// Places on a flight's line as integers, finer by far than the numbers of the scene: what stands around them
+// is enumerated exactly.
+#include <lorentz/surroundings.hpp>
+
+#include <algorithm>
+#include <variant>
+
+#include "oracle/exact/exact_query.hpp"
+#include "oracle/exact/inside.hpp"
+#include "oracle/exact/real.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+constexpr long kFiner = 64;  // what is rounded to an integer is so many bits below the scene's numbers
+constexpr double kHuge = 1e300;
+
+double rounded(const Real& a) {
+  return a < 0 ? -to_double(-a, kHuge) : to_double(a, kHuge);
+}
+
+template <std::size_t D>
+class Sight {
+ public:
+  Sight(const ExactScene<D>& scene, const Query& query) : scene_(scene), query_(scene, query, kFiner) {}
+
+  double way(const PlaceOnLine& from, const PlaceOnLine& to) const {
+    const Real length = (time_of(to) - time_of(from)) * sqrt(real(query_.velocity.v2));
+    return rounded(in_own_units(length));
+  }
+
+  Vec centre(const PlaceOnLine& seen_from, const ObstacleId& id) const {
+    return rounded_vector(
+        centre_of<D>(scene_, id.lattice, id.atom, to_zvec<D>(id.cell), point(seen_from), exponent()));
+  }
+
+  Neighbourhood around(const PlaceOnLine& place, double reach, std::size_t most) const {
+    Neighbourhood found;
+    const ZVec<D> middle = point(place);
+    const Z radius = ceiling(times_power_of_two(Real(reach), -exponent()));
+    for_each_atom(scene_, [&](int l, int a) { visit(l, a, middle, radius * radius, most, found); });
+    return found;
+  }
+
+ private:
+  long exponent() const { return query_.length_exponent; }
+  Real in_own_units(const Real& length) const { return times_power_of_two(length, exponent()); }
+
+  // In the units of the exact query, in which x + t v is a place, too.
+  Real time_of(const PlaceOnLine& place) const {
+    if (!place.obstacle)
+      return times_power_of_two(Real(place.time), query_.velocity_exponent - query_.length_exponent);
+    const ObstacleId& id = *place.obstacle;
+    const View<D> view = query_.view(scene_, id.lattice, id.atom);
+    ZVec<D> c =
+        centre_of<D>(scene_, id.lattice, id.atom, to_zvec<D>(id.cell), query_.x, query_.length_exponent);
+    if (const auto& frame = scene_.lattices[id.lattice].atoms[id.atom].frame) c = frame->to_ball * c;
+    const Z s = dot(view.velocity.v, c), v2 = view.velocity.v2;
+    const Z d = view.radius2 * v2 - (v2 * dot(c, c) - s * s);  // rho^2 - |h|^2
+    return (d > 0 ? Real(real(s) - sqrt(real(d))) : real(s)) / real(v2);
+  }
+
+  ZVec<D> point(const PlaceOnLine& place) const {
+    const Real time = time_of(place);
+    ZVec<D> result = query_.x;
+    for (std::size_t k = 0; k < D; ++k) result[k] += ceiling(time * real(query_.velocity.v[k]));
+    return result;
+  }
+
+  Vec rounded_vector(const ZVec<D>& a) const {
+    Vec result{};
+    for (std::size_t k = 0; k < D; ++k) result[k] = rounded(in_own_units(real(a[k])));
+    return result;
+  }
+
+  // The lattice as it stands, whatever the shape of the obstacles: a ball around the place is one in space.
+  void visit(int l, int a, const ZVec<D>& middle, const Z& radius2, std::size_t most,
+             Neighbourhood& found) const {
+    Basis<D> basis = scene_.lattices[l].reduced;
+    for (auto& b : basis)
+      for (Z& component : b.p) component = shifted_left(component, scene_.exponent - exponent());
+    LatticePoint<D> offset;
+    offset.p = centre_of<D>(scene_, l, a, offset.n, middle, exponent());
+    const ZVec<D> coordinates = cramer(basis, offset.p);
+    const Z det = determinant<D>(basis);
+    for (std::size_t i = 0; i < D; ++i) offset.add_multiple(-floor_div(coordinates[i], det), basis[i]);
+    std::size_t count = 0;
+    const RowVisitor<D> row = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+      LatticePoint<D> point = first;
+      for (Z k = 0; k <= last && count <= most; ++k, point.add_multiple(1, step))
+        if (++count <= most)
+          found.obstacles.push_back({{l, a, to_cell<D>(point.n)}, rounded_vector(point.p)});
+      return count > most;
+    };
+    if (visit_ball<D>(basis, offset, radius2, row)) found.complete = false;
+  }
+
+  const ExactScene<D>& scene_;
+  const ExactQuery<D> query_;
+};
+
+}  // namespace
+
+struct Surroundings::Impl {
+  std::variant<ExactScene<2>, ExactScene<3>> scene;
+
+  template <class Work>
+  auto with(const Query& query, const Work& work) const {
+    return std::visit([&]<std::size_t D>(const ExactScene<D>& exact) { return work(Sight<D>(exact, query)); },
+                      scene);
+  }
+};
+
+Surroundings::Surroundings(const Scene& scene)
+    : impl_(scene.dimension == 2 ? std::make_unique<const Impl>(Impl{ExactScene<2>(scene)})
+                                 : std::make_unique<const Impl>(Impl{ExactScene<3>(scene)})) {}
+Surroundings::Surroundings(Surroundings&&) noexcept = default;
+Surroundings& Surroundings::operator=(Surroundings&&) noexcept = default;
+Surroundings::~Surroundings() = default;
+
+double Surroundings::way(const Query& query, const PlaceOnLine& from, const PlaceOnLine& to) const {
+  return impl_->with(query, [&](const auto& sight) { return sight.way(from, to); });
+}
+
+Vec Surroundings::centre(const Query& query, const PlaceOnLine& seen_from, const ObstacleId& obstacle) const {
+  return impl_->with(query, [&](const auto& sight) { return sight.centre(seen_from, obstacle); });
+}
+
+Neighbourhood Surroundings::around(const Query& query, const PlaceOnLine& place, double reach,
+                                   std::size_t most) const {
+  return impl_->with(query, [&](const auto& sight) { return sight.around(place, reach, most); });
+}
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,81 @@
+// What a drawing of a finding is about: which obstacle is in question, and by how much. Private to
+// finding_*.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <lorentz/geometry.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/surroundings.hpp>
+
+namespace lorentz::pictures {
+
+enum class Issue {
+  none,   ///< nothing
+  line,   ///< does the line meet `obstacle`?
+  start,  ///< does `obstacle` contain x?
+  order,  ///< `obstacle` is entered, and `second` after it
+  time    ///< where is `obstacle` entered?
+};
+
+/// One question with its exact answer and perhaps another one.
+class FindingCase {
+ public:
+  /// `given` may be null, else it lives as long as this.
+  FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact);
+
+  const Scene& scene;
+  const Query& query;
+  const Answer* const given;
+  const Answer& exact;
+  const oracle::Margins margins;
+  const oracle::Surroundings surroundings;
+  const Vec along;  ///< the flight's direction, of length 1
+
+  Issue issue = Issue::none;
+  ObstacleId obstacle;
+  std::optional<ObstacleId> second;
+  /// In radii of `obstacle`, in the coordinates in which it is a ball: the distance of the line (line) or of
+  /// x (start) from its surface, below 0 inside; the way along the flight from its entry to that of `second`
+  /// (order), or to where the flight is at the time given (time).
+  double distance = 0;
+  std::string words;   ///< the same in a sentence
+  std::string margin;  ///< how hard the decision is, if that is why it is shown
+
+  /// Where an answer lets the flight end; nothing if it does not, or nobody knows where.
+  std::optional<oracle::PlaceOnLine> end_of(const Answer& answer) const;
+
+  /// The answer names an obstacle of the scene.
+  bool names_obstacle(const Answer& answer) const;
+
+  const Atom& atom_of(const ObstacleId& id) const { return scene.lattices[id.lattice].atoms[id.atom]; }
+
+  /// A way along the flight in radii of the obstacle in question.
+  double in_radii(double way) const;
+
+  /// "cell (2, -1)", with atom and lattice where there are several.
+  std::string name_of(const ObstacleId& id) const;
+
+ private:
+  void find_issue();
+  void compare_answers();
+  void take_hardest_decision();
+  void about_line(const ObstacleId& id, const oracle::Approach& approach);
+  void about_start(const ObstacleId& id, const oracle::Approach& approach);
+  void about_order(const ObstacleId& first, const ObstacleId& later);
+  void about_time(double time);
+};
+
+/// The rows of A^-1 of an obstacle { position + A y : |y| < 1 }.
+std::array<Vec, 3> to_ball(const Atom& atom, int dimension);
+
+/// Rows times vector.
+inline Vec mapped(const std::array<Vec, 3>& rows, const Vec& a) {
+  return coordinates(rows, a);
+}
+
+/// a / |a|, whatever the size; of 0 the first axis.
+Vec unit(const Vec& a);
+
+}  // namespace lorentz::pictures

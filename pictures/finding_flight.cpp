@@ -1,0 +1,301 @@
+// The panel of the flight: where it starts, where it ends by each answer, and what stands beside it. A long
+// flight is broken; its stretches have one scale.
+#include <algorithm>
+#include <cmath>
+
+#include "pictures/drawing_parts.hpp"
+#include "pictures/finding_parts.hpp"
+
+namespace lorentz::pictures {
+namespace {
+
+using oracle::PlaceOnLine;
+
+constexpr double kWhole = 20;                 // cells: a flight of so many is not broken
+constexpr double kTogether = 5;               // cells: places nearer than this share a stretch
+constexpr double kBreak = 46;                 // pixels of a zigzag
+constexpr std::size_t kMostLookedAt = 4000;   // obstacles of an atom in a stretch
+constexpr std::size_t kMostNeighbours = 250;  // drawn in a stretch
+constexpr double kSmallest = 2;               // pixels: radius of an obstacle
+
+// A part of the line, in lengths from its anchor, and on paper.
+struct Stretch {
+  PlaceOnLine anchor;
+  double low = 0, high = 0, left = 0;
+};
+
+class FlightDrawing {
+ public:
+  FlightDrawing(Svg& svg, const FindingCase& finding, const Panel& panel)
+      : svg_(svg), case_(finding), panel_(panel), axes_(axes_of(finding)), cell_(cell_size(finding.scene)) {}
+
+  FlightPanel draw();
+
+ private:
+  std::vector<PlaceOnLine> places() const;
+  void lay_out();
+  void widen();
+  double way(const PlaceOnLine& from, const PlaceOnLine& to) const {
+    return case_.surroundings.way(case_.query, from, to);
+  }
+  std::optional<Point> on_line(const PlaceOnLine& place) const;
+  Point on_paper_of(const Stretch& stretch, const Vec& place) const {
+    return {stretch.left + (dot(place, axes_.along) - stretch.low) * result_.scale,
+            panel_.middle() - dot(place, axes_.across) * result_.scale};
+  }
+  void add_stretch(const Stretch& stretch);
+  void add_neighbours(const Stretch& stretch, const Panel& window);
+  void add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
+  void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint,
+                   bool is_dot);
+  void add_line(const Stretch& stretch, const Answer& answer, const std::string& style, Ink ink);
+  void add_breaks();
+  void add_compass();
+  void add_ends();
+
+  Svg& svg_;
+  const FindingCase& case_;
+  const Panel panel_;
+  const Axes axes_;
+  const double cell_;
+  std::vector<Stretch> stretches_;
+  FlightPanel result_;
+  bool enlarged_ = false, incomplete_ = false;
+};
+
+// In order along the line.
+std::vector<PlaceOnLine> FlightDrawing::places() const {
+  std::vector<PlaceOnLine> places{PlaceOnLine::start()};
+  for (const Answer* answer : {&case_.exact, case_.given})
+    if (answer)
+      if (auto end = case_.end_of(*answer)) places.push_back(*end);
+  if (case_.issue != Issue::none) places.push_back(place_in_question(case_));
+  if (case_.second) places.push_back(PlaceOnLine::at(*case_.second));
+  std::sort(places.begin(), places.end(),
+            [&](const PlaceOnLine& a, const PlaceOnLine& b) { return way(b, a) < 0; });
+  return places;
+}
+
+// Places that stand together share a stretch, or all do if the flight is short.
+void FlightDrawing::lay_out() {
+  const std::vector<PlaceOnLine> all = places();
+  const bool whole = way(all.front(), all.back()) <= kWhole * cell_;
+  const double margin = 0.7 * cell_;
+  for (const PlaceOnLine& place : all) {
+    const double from_last = stretches_.empty() ? 0 : way(stretches_.back().anchor, place);
+    if (!stretches_.empty() && (whole || from_last + margin - stretches_.back().high < kTogether * cell_))
+      stretches_.back().high = std::max(stretches_.back().high, from_last + margin);
+    else
+      stretches_.push_back({place, -margin, margin, 0});
+  }
+  widen();
+}
+
+// As large as the panel allows: not so large that less than a cell and a half is seen across the flight.
+void FlightDrawing::widen() {
+  const double n = static_cast<double>(stretches_.size());
+  const double room = panel_.width - kBreak * (n - 1);
+  double total = 0;
+  for (const Stretch& stretch : stretches_) total += stretch.high - stretch.low;
+  result_.scale = std::min(room / total, panel_.height / (1.5 * cell_));
+  const double more = (room / result_.scale - total) / (2 * n);
+  double left = panel_.left;
+  for (Stretch& stretch : stretches_) {
+    stretch.low -= more;
+    stretch.high += more;
+    stretch.left = left;
+    left += (stretch.high - stretch.low) * result_.scale + kBreak;
+  }
+}
+
+std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
+  for (const Stretch& stretch : stretches_) {
+    const double at = way(stretch.anchor, place);
+    if (at >= stretch.low && at <= stretch.high)
+      return Point{stretch.left + (at - stretch.low) * result_.scale, panel_.middle()};
+  }
+  return std::nullopt;
+}
+
+// An ellipse about a point, in lengths from it; a dot if the obstacle is too small to be seen.
+void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::string& style,
+                                const std::string& hint, bool is_dot) {
+  const double size = result_.scale;
+  EllipseShape shape{size * ellipse.shape.rx, size * ellipse.shape.ry, -ellipse.shape.angle};
+  if (is_dot) {
+    enlarged_ = true;
+    shape = {kSmallest, kSmallest, 0};
+  }
+  svg_.ellipse({on_paper(at.x + size * ellipse.centre.x), on_paper(at.y - size * ellipse.centre.y)},
+               {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
+}
+
+// The obstacles beside the flight, faint: in space those that the plane of the drawing cuts, and shadows of
+// those that are near it.
+void FlightDrawing::add_neighbours(const Stretch& stretch, const Panel& window) {
+  const bool flat = case_.scene.dimension == 2;
+  const double half_height = panel_.height / 2 / result_.scale;
+  const double reach = std::hypot(std::max(stretch.high, -stretch.low), half_height) + cell_;
+  const auto found = case_.surroundings.around(case_.query, stretch.anchor, reach, kMostLookedAt);
+  incomplete_ |= !found.complete;
+  svg_.open(paint(kFaintInk, kFaintInk, 0.8) + " fill-opacity=\"0.22\"");
+  std::size_t drawn = 0;
+  for (const oracle::Neighbour& one : found.obstacles) {
+    if (ink_of(case_, one.obstacle)) continue;
+    const Point at = on_paper_of(stretch, one.centre);
+    const Atom& atom = case_.atom_of(one.obstacle);
+    const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+    const double radius = shadow.shape.rx * result_.scale;
+    if (at.x < window.left - radius || at.x > window.right() + radius || at.y < window.top - radius ||
+        at.y > window.bottom() + radius)
+      continue;
+    const double depth = dot(one.centre, axes_.depth);
+    const auto section = flat ? std::optional(shadow) : section_of(atom, axes_, depth);
+    if (!section && std::fabs(depth) > cell_ / 2) continue;
+    if (++drawn > kMostNeighbours) {
+      incomplete_ = true;
+      break;
+    }
+    if (section)
+      add_ellipse(at, *section, "", case_.name_of(one.obstacle), radius < kSmallest);
+    else
+      add_ellipse(at, shadow,
+                  radius < kSmallest ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
+                  case_.name_of(one.obstacle) + (depth > 0 ? ", in front" : ", behind"), radius < kSmallest);
+  }
+  svg_.close();
+}
+
+// One that an answer names, or that is in question.
+void FlightDrawing::add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre) {
+  const Point at = on_paper_of(stretch, centre);
+  if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
+  const Ink ink = *ink_of(case_, id);
+  const Atom& atom = case_.atom_of(id);
+  const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
+  const std::string hint = hint_of(case_, id);
+  const bool is_dot = shadow.shape.rx * result_.scale < kSmallest;
+  if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint, is_dot);
+  add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"", hint,
+              is_dot);
+  if (const auto section = section_of(atom, axes_, dot(centre, axes_.depth)))
+    add_ellipse(at, *section, filled, hint, is_dot);
+}
+
+void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const std::string& style,
+                             Ink ink) {
+  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::never) return;
+  const auto end = case_.end_of(answer);
+  if (answer.outcome == Outcome::hit && !end) return;
+  const double from = std::max(stretch.low, way(stretch.anchor, PlaceOnLine::start()));
+  const double to = end ? std::min(stretch.high, way(stretch.anchor, *end)) : stretch.high;
+  if (!(from < to)) return;
+  const auto at = [&](double place) {
+    return Point{on_paper(stretch.left + (place - stretch.low) * result_.scale), panel_.middle()};
+  };
+  svg_.polyline({at(from), at(to)}, style);
+  if (answer.outcome == Outcome::never && &stretch == &stretches_.back())
+    svg_.polygon({{at(to).x, at(to).y}, {at(to).x - 12, at(to).y - 5}, {at(to).x - 12, at(to).y + 5}},
+                 paint(ink));
+}
+
+void FlightDrawing::add_stretch(const Stretch& stretch) {
+  const Panel window{stretch.left, panel_.top, (stretch.high - stretch.low) * result_.scale, panel_.height};
+  open_clip(svg_, window);
+  add_neighbours(stretch, window);
+  for (const ObstacleId& id : marked_obstacles(case_))
+    add_obstacle(stretch, id, case_.surroundings.centre(case_.query, stretch.anchor, id));
+  add_line(stretch, case_.exact, outline(kExactInk, 2.6), kExactInk);
+  if (case_.given) add_line(stretch, *case_.given, outline(kGivenInk, 1.8) + kGivenDashes, kGivenInk);
+  close_clip(svg_);
+}
+
+// A zigzag between stretches, with the number of cells left out.
+void FlightDrawing::add_breaks() {
+  for (std::size_t i = 1; i < stretches_.size(); ++i) {
+    const Stretch &before = stretches_[i - 1], &after = stretches_[i];
+    const double cells = (way(before.anchor, after.anchor) + after.low - before.high) / cell_;
+    const double x = after.left - kBreak / 2, y = panel_.middle();
+    open_hint(svg_, fmt::format("{:.6g} cells of the flight are left out", cells));
+    for (const double side : {-6.0, 6.0}) {
+      std::vector<Point> zigzag;
+      const int teeth = static_cast<int>(panel_.height / 20) - 1;
+      for (int k = -teeth; k <= teeth; ++k)
+        zigzag.push_back({x + side + (k % 2 == 0 ? -3 : 3), y - 8 + 10.0 * k});
+      svg_.polyline(zigzag, outline(kFaintInk, 1));
+    }
+    svg_.close();
+    svg_.text({x, panel_.bottom() - 2}, fmt::format("{:.3g} cells", cells),
+              paint(kInk) + " text-anchor=\"middle\" font-size=\"10\"");
+  }
+}
+
+// The axes of the scene, as the drawing turns them.
+void FlightDrawing::add_compass() {
+  constexpr double kArm = 16;
+  const Point middle{panel_.left + 22, panel_.top + 20};
+  svg_.open(fmt::format("color=\"{1}\" style=\"color:var({0},{1})\"", kInk.variable, kInk.otherwise));
+  svg_.ellipse(middle, {20, 20, 0}, paint(kPaper) + " fill-opacity=\"0.8\"");
+  for (int k = 0; k < case_.scene.dimension; ++k) {
+    const double x = axes_.along[k], y = axes_.across[k];
+    if (std::hypot(x, y) < 0.25) continue;  // it points at the reader
+    svg_.arrow(middle, {middle.x + kArm * x, middle.y - kArm * y}, 5, "currentColor", 1);
+    svg_.text({middle.x + 1.5 * kArm * x - 3, middle.y - 1.5 * kArm * y + 3}, std::string(1, "xyz"[k]),
+              paint(kInk) + " font-size=\"10\"");
+  }
+  svg_.close();
+}
+
+void FlightDrawing::add_ends() {
+  const auto add = [&](const Answer& answer, Ink ink, bool cross) {
+    const auto end = case_.end_of(answer);
+    const auto at = end ? on_line(*end) : std::nullopt;
+    if (!at) return;
+    open_hint(svg_, fmt::format("{}: {:.9g} of length from the start", cross ? "given" : "exact",
+                                way(PlaceOnLine::start(), *end)));
+    if (cross) {
+      svg_.polyline({{at->x - 5, at->y - 5}, {at->x + 5, at->y + 5}}, outline(ink, 2));
+      svg_.polyline({{at->x - 5, at->y + 5}, {at->x + 5, at->y - 5}}, outline(ink, 2));
+    } else {
+      svg_.ellipse(*at, {4, 4, 0}, paint(ink));
+    }
+    svg_.close();
+  };
+  if (const auto start = on_line(PlaceOnLine::start())) {
+    open_hint(svg_, "the start");
+    svg_.ellipse(*start, {4, 4, 0}, paint(kPaper, kInk, 1.5));
+    svg_.close();
+  }
+  add(case_.exact, kExactInk, false);
+  if (case_.given) add(*case_.given, kGivenInk, true);
+}
+
+FlightPanel FlightDrawing::draw() {
+  lay_out();
+  for (const Stretch& stretch : stretches_) add_stretch(stretch);
+  add_breaks();
+  add_ends();
+  add_compass();
+  if (case_.issue != Issue::none) result_.at = on_line(place_in_question(case_));
+  if (result_.at && case_.issue == Issue::line && case_.distance < 0)  // in the middle of the chord
+    result_.at->x += std::sqrt(-case_.distance * (2 + case_.distance)) * result_.scale / case_.in_radii(1);
+  if (enlarged_) result_.notes.push_back("Obstacles are smaller than they are drawn.");
+  if (incomplete_) result_.notes.push_back("There are more obstacles than are drawn.");
+  if (case_.scene.dimension == 3)
+    result_.notes.push_back(
+        "Above: the plane of the flight and the obstacle's centre; dotted: in front or behind.");
+  return std::move(result_);
+}
+
+}  // namespace
+
+oracle::PlaceOnLine place_in_question(const FindingCase& finding) {
+  return finding.issue == Issue::start ? PlaceOnLine::start() : PlaceOnLine::at(finding.obstacle);
+}
+
+FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel) {
+  return FlightDrawing(svg, finding, panel).draw();
+}
+
+}  // namespace lorentz::pictures

@@ -1,0 +1,31 @@
+// Obstacles as ellipses: cut by a plane, or as their shadows.
+#include <cmath>
+
+#include "pictures/drawing_parts.hpp"
+#include "pictures/finding_parts.hpp"
+
+namespace lorentz::pictures {
+
+EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up) {
+  const auto columns = semiaxes_of(atom, dimension);
+  return ellipse_of({dot(right, columns[0]), dot(right, columns[1]), dot(right, columns[2])},
+                    {dot(up, columns[0]), dot(up, columns[1]), dot(up, columns[2])});
+}
+
+// y = B w + q, B the two columns of A^-1 for the axes: |w - w0|^2_S < 1, S = B^T B / k.
+std::optional<Section> section_of(const Atom& atom, const Axes& axes, double depth) {
+  const auto rows = to_ball(atom, 3);
+  const Vec a = mapped(rows, axes.along), b = mapped(rows, axes.across),
+            q = mapped(rows, scaled(axes.depth, -depth));
+  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
+  const double aq = dot(a, q), bq = dot(b, q);
+  const Point w0{(ab * bq - bb * aq) / det, (ab * aq - aa * bq) / det};
+  const Vec nearest = sum(q, sum(scaled(a, w0.x), scaled(b, w0.y)));
+  const double k = 1 - dot(nearest, nearest);
+  if (!(k > 0)) return std::nullopt;
+  // w - w0 = L^-T u for S = L L^T, |u| < 1.
+  const double l11 = std::sqrt(aa / k), l21 = ab / k / l11, l22 = std::sqrt(det / aa / k);
+  return Section{w0, ellipse_of({1 / l11, -l21 / (l11 * l22), 0}, {0, 1 / l22, 0})};
+}
+
+}  // namespace lorentz::pictures
