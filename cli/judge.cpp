@@ -28,7 +28,7 @@ namespace {
 
 struct Options {
   std::string engine, seed = std::to_string(compare::kDefaultSeed);
-  std::optional<std::string> ulps, timeout, html;
+  std::optional<std::string> ulps, timeout, seconds, html;
   bool quick = false, json = false, times = false, strict = false;
 };
 
@@ -37,6 +37,11 @@ struct Plan {
   double drawn, hard, golden, campaign, speed, simplest;
   std::size_t count;
   double seconds() const { return drawn + hard + golden + campaign + speed + simplest; }
+  /// The same in another time.
+  Plan lasting(double other) const {
+    const double k = other / seconds();
+    return {k * drawn, k * hard, k * golden, k * campaign, k * speed, k * simplest, count};
+  }
 };
 constexpr Plan kWhole{15, 8, 25, 60, 4, 12, 4000}, kQuick{4, 2.5, 4, 5, 1, 3, 500};
 
@@ -188,10 +193,17 @@ std::function<void(const std::string&)> clock_of(const Plan& plan) {
   };
 }
 
+Plan plan_of(const Options& options) {
+  const Plan& plan = options.quick ? kQuick : kWhole;
+  const auto seconds = positive_number(options.seconds, "--time");
+  return seconds ? plan.lasting(*seconds) : plan;
+}
+
 // The options as a shell takes them; not where the report goes.
 std::string command_of(const Options& o) {
   std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
   if (o.quick) command += " --quick";
+  if (o.seconds) command += " --time " + *o.seconds;
   if (o.seed != Options{}.seed) command += " --seed " + o.seed;
   if (o.ulps) command += " --ulps " + *o.ulps;
   if (o.timeout) command += " --timeout " + *o.timeout;
@@ -227,13 +239,14 @@ JudgeReport judged(const Options& options, const Plan& plan) {
 
 int act(const Options& options) {
   compare::check_name(options.engine);
+  const Plan plan = plan_of(options);
   std::optional<WholeFile> html;
   if (options.html) {
     report::page("{}");  // throws if the program has none: now rather than after two minutes
     html.emplace(*options.html);
   }
   const Interrupt interrupt;
-  const JudgeReport report = judged(options, options.quick ? kQuick : kWhole);
+  const JudgeReport report = judged(options, plan);
   print(options.json ? report.json() : report.text());
   if (Interrupt::came()) {
     say("interrupted: this is what was found so far{}", html ? "; no page is written of it" : "");
@@ -253,6 +266,10 @@ void add_judge(CLI::App& app, Action& action) {
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.");
   command->add_option("-e,--engine", options->engine, compare::names_for_help())->required()->type_name("E");
   command->add_flag("--quick", options->quick, "20 seconds instead of two minutes");
+  command
+      ->add_option("--time", options->seconds,
+                   "how long in all, about (default: 124; with --quick, which draws fewer flights, 19.5)")
+      ->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of all that is drawn")->capture_default_str()->type_name("N");
   command
       ->add_option("--ulps", options->ulps,

@@ -155,13 +155,13 @@ std::string times_text(const std::vector<judge::Row>& rows) {
   compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.timed_hits + hard.timed_hits == 0) return "";
   const std::size_t wrong = drawn.wrong_time + hard.wrong_time;
-  std::string text = drawn.timed_hits > 0
-                         ? fmt::format("; times of drawn flights within {:.2g} ulps", drawn.max_ulp)
-                         : std::string();
-  if (wrong == 0) return text;
+  if (wrong == 0)
+    return drawn.timed_hits == 0
+               ? std::string()
+               : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp);
   drawn.add(hard);
-  return text + fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
-                            compare::quantile(drawn.wrong_ulps, 1));
+  return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
+                     compare::quantile(drawn.wrong_ulps, 1));
 }
 
 std::string speed_text(const JudgeReport& report) {

@@ -17,9 +17,17 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// What is asked together: the longer it takes, the fewer, so that time limits are kept.
-constexpr std::size_t kMostAtOnce = 512;
-constexpr double kShort = 0.02, kLong = 0.1;
+// What is asked together: so much that it takes this long, for a time limit is only looked at in between; and
+// never much, for what is fast here can take a second a question in the next scene.
+constexpr std::size_t kFewestAtOnce = 4, kMostAtOnce = 32;
+constexpr double kSecondsAtOnce = 0.05;
+
+std::size_t next_number(std::size_t asked, double took) {
+  const double fitting = static_cast<double>(asked) * kSecondsAtOnce / std::max(took, 1e-9);
+  const auto most = static_cast<double>(std::min(2 * asked, kMostAtOnce));
+  return static_cast<std::size_t>(
+      std::clamp(fitting, double{kFewestAtOnce}, std::max(most, double{kFewestAtOnce})));
+}
 
 // Right answers that are compared with the wrong ones, of each row.
 constexpr std::size_t kCompared = 500;
@@ -67,11 +75,11 @@ void Examination::run(Row row, const Source& source, double seconds) {
   const auto start = Clock::now();
   row.tally.name = row.name;
   double asking = 0;
-  std::size_t compared = 0;
+  std::size_t compared = 0, at_once = kFewestAtOnce;
   std::vector<Question> questions;
   for (bool more = true; more && !is_over() && seconds_since(start) < seconds;) {
     questions.clear();
-    while (questions.size() < at_once_ && !stop_ && seconds_since(start) < seconds) {
+    while (questions.size() < at_once && !stop_ && seconds_since(start) < seconds) {
       std::optional<Question> next = source();
       if (!(more = next.has_value())) break;
       questions.push_back(std::move(*next));
@@ -79,8 +87,7 @@ void Examination::run(Row row, const Source& source, double seconds) {
     if (tell_) tell_(row.name);
     const double took = ask(questions);
     asking += took;
-    if (took < kShort) at_once_ = std::min(2 * at_once_, kMostAtOnce);
-    if (took > kLong) at_once_ = std::max<std::size_t>(at_once_ / 2, 1);
+    at_once = next_number(questions.size(), took);
     for (std::size_t i = 0; i < answers_.size(); ++i) {
       questions[i].setting->note_time(took / static_cast<double>(answers_.size()));
       take(questions[i], answers_[i], row, compared);

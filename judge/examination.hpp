@@ -60,7 +60,6 @@ class Examination {
   std::unique_ptr<compare::Answerer> answerer_;
   std::shared_ptr<Setting> setting_;  // that the answerer is in
   std::vector<Answer> answers_;
-  std::size_t at_once_ = 4;  // so many questions take some hundredths of a second
   std::vector<Row> rows_;
   Findings findings_;
 };

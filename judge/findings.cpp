@@ -32,8 +32,7 @@ std::string Finding::summary() const {
 }
 
 std::string Finding::explanation() const {
-  return circumstance ? fmt::format("{} (all {} wrong ones, and {})", summary(), count,
-                                    share_text(circumstance->share))
+  return circumstance ? fmt::format("{} (all {}, and {})", summary(), count, share_text(circumstance->share))
                       : summary();
 }
 

@@ -63,11 +63,12 @@ class Golden {
 
   std::optional<Question> next() {
     golden::ReadRecord read;
-    if (!reader_.next(read)) return std::nullopt;
-    if (!setting_ || number_ != reader_.scene_number()) {
+    do {
+      if (!reader_.next(read)) return std::nullopt;
+      if (setting_ && number_ == reader_.scene_number()) continue;
       number_ = reader_.scene_number();
       setting_ = std::make_shared<Setting>(reader_.scene());
-    }
+    } while (setting_->is_beyond_engine());
     const std::string where = fmt::format("golden {}, {}", reader_.header().name, read.record.id);
     Question question{setting_, {}, std::move(read.record.expect), where, ""};
     if (read.query)

@@ -22,7 +22,8 @@ struct Place {
 Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
              std::size_t count);
 
-/// All records of a golden set. Throws as golden::Reader does.
+/// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
+/// does.
 Source golden_set(const std::string& path);
 
 /// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
