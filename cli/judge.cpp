@@ -1,6 +1,7 @@
 // lorentz judge: all that this program can say of one engine, and a verdict.
 #include <chrono>
 #include <filesystem>
+#include <future>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -27,7 +28,7 @@ using judge::Place;
 namespace {
 
 struct Options {
-  std::string engine, seed = std::to_string(compare::kDefaultSeed);
+  std::string engine, seed = std::to_string(compare::kDefaultSeed), jobs = "1";
   std::optional<std::string> ulps, timeout, seconds, html;
   bool quick = false, json = false, times = false, strict = false;
 };
@@ -121,6 +122,25 @@ void check_golden_sets(Examination& examination, double seconds) {
         judge::golden_set(file), shares.next());
 }
 
+// In a thread for each examination, each with scenes of its own.
+void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
+                  const fuzz::Scope& scope, std::uint64_t seed, double seconds) {
+  const auto parts = static_cast<unsigned>(1 + others.size());
+  const auto run = [&](Examination& one, unsigned part) {
+    one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
+            judge::campaign(seed, scope, part, parts), seconds);
+  };
+  std::vector<std::future<void>> threads;
+  for (unsigned part = 1; part < parts; ++part)
+    threads.push_back(std::async(std::launch::async, run, std::ref(*others[part - 1]), part));
+  run(first, 0);
+  for (std::future<void>& thread : threads) thread.get();
+  for (const auto& other : others) {
+    other->finish();
+    first.take_over(*other);
+  }
+}
+
 void simplify(std::vector<judge::Finding>& findings, Examination& examination, double seconds) {
   Shares shares(seconds, findings.size());
   for (judge::Finding& finding : findings)
@@ -205,6 +225,7 @@ std::string command_of(const Options& o) {
   if (o.quick) command += " --quick";
   if (o.seconds) command += " --time " + *o.seconds;
   if (o.seed != Options{}.seed) command += " --seed " + o.seed;
+  if (o.jobs != Options{}.jobs) command += " --jobs " + o.jobs;
   if (o.ulps) command += " --ulps " + *o.ulps;
   if (o.timeout) command += " --timeout " + *o.timeout;
   if (o.times) command += " --times";
@@ -220,12 +241,19 @@ JudgeReport judged(const Options& options, const Plan& plan) {
   const double ulps = tolerance(options.ulps);
   const double timeout =
       positive_number(options.timeout, "--timeout").value_or(compare::AnswererOptions::kDefaultTimeout);
-  Examination examination(options.engine, {{}, timeout, terminal()}, ulps, Interrupt::came());
+  const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  const auto examined = [&] {
+    return std::make_unique<Examination>(options.engine, compare::AnswererOptions{{}, timeout, terminal()},
+                                         ulps, Interrupt::came());
+  };
+  const std::unique_ptr<Examination> first = examined();
+  Examination& examination = *first;
   examination.on_progress(clock_of(plan));
   const std::vector<Place> places = fly_drawn(examination, plan, report.seed);
   check_golden_sets(examination, plan.golden);
-  examination.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
-                  judge::campaign(report.seed, judge::scope_of(places)), plan.campaign);
+  std::vector<std::unique_ptr<Examination>> others;
+  for (unsigned i = 1; i < jobs; ++i) others.push_back(examined());
+  run_campaign(examination, others, judge::scope_of(places), report.seed, plan.campaign);
   report.rows = examination.rows();
   report.findings = examination.findings().all();
   report.failed = examination.failed();
@@ -271,6 +299,9 @@ void add_judge(CLI::App& app, Action& action) {
                    "how long in all, about (default: 124; with --quick, which draws fewer flights, 19.5)")
       ->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of all that is drawn")->capture_default_str()->type_name("N");
+  command->add_option("--jobs", options->jobs, "threads of the campaign; all else is asked on one")
+      ->capture_default_str()
+      ->type_name("N");
   command
       ->add_option("--ulps", options->ulps,
                    "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lorentz/exchange.hpp>
 #include "cli/finding_json.hpp"
@@ -34,7 +35,7 @@ std::string members_of(const Example& example) {
 
 std::string readable_query(const Example& example) {
   return example.question.is_query() ? query_object(example.question.query, dimension_of(example))
-                                     : '{' + example.question.text + '}';
+                                     : fmt::format("{{{}}}", example.question.text);
 }
 
 Answer exact_of(const Example& example) {
@@ -182,9 +183,10 @@ std::string faults_text(const JudgeReport& report) {
     if (finding.severity() == Severity::wrong_time && !report.times) continue;
     if (finding.cause() == Cause::no_answer) continue;
     ++kinds;
+    // What is no question comes last.
     const judge::Question& question = finding.simplest.question;
-    const long complexity =
-        question.is_query() ? fuzz::complexity(question.setting->scene(), question.query) : 0;
+    const long complexity = question.is_query() ? fuzz::complexity(question.setting->scene(), question.query)
+                                                : std::numeric_limits<long>::max();
     if (!simplest || complexity < least) simplest = &finding, least = complexity;
   }
   if (!simplest) return "";

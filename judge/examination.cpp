@@ -97,6 +97,17 @@ void Examination::run(Row row, const Source& source, double seconds) {
   rows_.push_back(std::move(row));
 }
 
+void Examination::take_over(const Examination& other) {
+  compare::Tally& its = rows_.back().tally;
+  const compare::Tally& more = other.rows_.back().tally;
+  const auto time = [](const compare::Tally& t) { return t.ns_per_query * static_cast<double>(t.queries); };
+  const double ns = time(its) + time(more);
+  its.add(more);
+  if (its.queries > 0) its.ns_per_query = ns / static_cast<double>(its.queries);
+  findings_.add(other.findings_);
+  failed_ |= other.failed();
+}
+
 Judgement Examination::judgement_of(const Question& question, const Answer& given) const {
   if (!question.is_query()) return judgement_of_nonsense(given);
   if (is_exact(question.exact, given)) {

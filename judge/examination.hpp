@@ -36,6 +36,10 @@ class Examination {
   /// more.
   void run(Row row, const Source& source, double seconds);
 
+  /// Takes over what another examination of the same engine came to in its last row, and adds that to the
+  /// last row here.
+  void take_over(const Examination& other);
+
   /// Asks one question while no row runs, and counts it nowhere. Nothing if the answer is not wrong in any
   /// way.
   std::optional<Example> example_of(const Question& question);
@@ -44,7 +48,7 @@ class Examination {
   const Findings& findings() const { return findings_; }
 
   /// Another program broke at least once; or so often that it is not asked any more.
-  bool failed() const { return answerer_->failed(); }
+  bool failed() const { return failed_ || answerer_->failed(); }
   bool is_over() const { return stop_ || given_up_; }
   void finish() { answerer_->finish(); }
 
@@ -56,7 +60,7 @@ class Examination {
   const double ulps_;
   const std::atomic<bool>& stop_;
   std::function<void(const std::string&)> tell_;
-  bool given_up_ = false;
+  bool given_up_ = false, failed_ = false;  // failed_: of those that were taken over
   std::unique_ptr<compare::Answerer> answerer_;
   std::shared_ptr<Setting> setting_;  // that the answerer is in
   std::vector<Answer> answers_;

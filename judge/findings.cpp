@@ -51,6 +51,21 @@ void Findings::add(const Example& example) {
   its.where = example.question.where;
 }
 
+void Findings::add(const Findings& others) {
+  right_.insert(right_.end(), others.right_.begin(), others.right_.end());
+  for (const auto& [key, other] : others.findings_) {
+    const auto [place, is_new] = findings_.try_emplace(key, other);
+    if (is_new) continue;
+    Finding& its = place->second;
+    its.count += other.count;
+    if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
+    its.features.insert(its.features.end(), other.features.begin(), other.features.end());
+    if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) continue;
+    its.simplest = other.simplest;
+    its.where = other.where;
+  }
+}
+
 std::vector<Finding> Findings::all() const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) {

@@ -38,6 +38,7 @@ struct Finding {
 class Findings {
  public:
   void add(const Example& example);
+  void add(const Findings& others);
 
   /// A right answer, for comparison.
   void add_right(const Features& features) { right_.push_back(features); }

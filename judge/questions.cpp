@@ -96,9 +96,10 @@ class NoSubject final : public fuzz::Subject {
 
 class Campaign {
  public:
-  Campaign(std::uint64_t seed, const fuzz::Scope& scope) : seed_(seed), scope_(scope) {
+  Campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts)
+      : seed_(seed), scope_(scope), stride_(parts * cases::kCasesPerScene) {
     for (const cases::Target& target : cases::targets())
-      if (scope_.meets(target, seed_)) tracks_.push_back({&target});
+      if (scope_.meets(target, seed_)) tracks_.push_back({&target, part * cases::kCasesPerScene});
   }
 
   std::optional<Question> next() {
@@ -126,7 +127,7 @@ class Campaign {
     });
     const auto start = std::chrono::steady_clock::now();
     make(*track.target, track.next);
-    track.next += cases::kCasesPerScene;
+    track.next += stride_;
     track.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
@@ -158,6 +159,7 @@ class Campaign {
 
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
+  const std::uint64_t stride_;  // from one scene to the next
   std::vector<Track> tracks_;
   std::deque<Question> questions_;
 };
@@ -180,8 +182,8 @@ Source golden_set(const std::string& path) {
   return source_of<Golden>(path);
 }
 
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope) {
-  return source_of<Campaign>(seed, scope);
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts) {
+  return source_of<Campaign>(seed, scope, part, parts);
 }
 
 fuzz::Scope scope_of(const std::vector<Place>& places) {

@@ -27,8 +27,9 @@ Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, s
 Source golden_set(const std::string& path);
 
 /// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
-/// smallest margin, without end; of scenes that the scope admits.
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope);
+/// smallest margin, without end; of scenes that the scope admits, and of these the ones that are `part`
+/// modulo `parts`.
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part = 0, unsigned parts = 1);
 
 /// The narrowest scope with all scenes of these in which the engine answered; all scenes if it answered
 /// nowhere.
