@@ -114,6 +114,7 @@ int run(int argc, char** argv) {
   Action action;
   add_first_hit(app, action);
   add_compare(app, action);
+  add_judge(app, action);
   add_convergents(app, action);
   add_horizon(app, action);
   add_sample(app, action);

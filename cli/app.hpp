@@ -23,6 +23,7 @@ void add_trajectory(CLI::App& app, Action& action);
 void add_lyapunov(CLI::App& app, Action& action);
 void add_diffusion(CLI::App& app, Action& action);
 void add_fuzz(CLI::App& app, Action& action);
+void add_judge(CLI::App& app, Action& action);
 void add_golden(CLI::App& app, Action& action);
 
 /// The whole program: parses, acts, and turns exceptions into messages and an exit status.

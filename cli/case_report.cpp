@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include <lorentz/exchange.hpp>
+#include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/whole_file.hpp"
@@ -15,60 +14,9 @@
 namespace lorentz::cli {
 namespace {
 
-// {"id":0,..} as {..}
-std::string without_id(std::string line) {
-  line.pop_back();
-  return '{' + line.substr(std::string_view("{\"id\":0,").size());
-}
-
-std::string vector_of(const Vec& a, int dimension) {
-  std::string out = "[";
-  for (int i = 0; i < dimension; ++i) out += fmt::format("{}\"{:a}\"", i ? "," : "", a[i]);
-  return out + ']';
-}
-
-// Its members without braces, the numbers in hexadecimal.
-std::string query_members(const Query& query, int dimension) {
-  std::string out =
-      fmt::format("\"x\":{},\"v\":{}", vector_of(query.x, dimension), vector_of(query.v, dimension));
-  if (!query.from) return out;
-  std::string line;
-  append_query_line(line, "0", query, dimension);
-  line.pop_back();
-  const std::size_t from = line.find(",\"from\":");
-  return out + line.substr(from, line.size() - from - 1);  // it is the last member
-}
-
-std::string scene_line(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  line.pop_back();
-  return line;
-}
-
-std::string answer_text(const Answer& answer, int dimension) {
-  std::string line;
-  append_answer_line(line, "0", answer, dimension);
-  return without_id(std::move(line));
-}
-
-std::string array_of(const std::vector<std::string>& texts) {
-  std::string out = "[";
-  for (const std::string& text : texts) out += (out.size() > 1 ? "," : "") + json_quoted(text);
-  return out + ']';
-}
-
-std::string number_or_null(const std::optional<double>& value) {
-  std::string out;
-  if (value && std::isfinite(*value)) append_number(out, *value);
-  return out.empty() ? "null" : out;
-}
-
 // What makes this answer again from nothing but the program.
 std::vector<std::string> commands_of(const CaseReport& report) {
-  const std::string query = "{\"id\":1," + query_members(report.query, report.scene.dimension) + '}';
-  const std::string lines =
-      fmt::format("printf '%s\\n' {} {}", shell_quoted(scene_line(report.scene)), shell_quoted(query));
+  const std::string lines = printed(report.scene, query_members(report.query, report.scene.dimension));
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};
   if (!report.engine.empty())
     commands.push_back(
@@ -79,9 +27,7 @@ std::vector<std::string> commands_of(const CaseReport& report) {
 std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Margins& margins) {
   std::vector<std::string> lines;
   if (report.given) {
-    const std::string text = reason_of(margins, report.scene, report.query, report.exact, *report.given, "");
-    for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-      lines.push_back(text.substr(begin, end - begin));
+    lines = lines_of(reason_of(margins, report.scene, report.query, report.exact, *report.given, ""));
   } else if (const auto decision = margins.hardest_decision(report.query, report.exact)) {
     lines.push_back(decision_text(*decision, report.scene.dimension));
   }
@@ -98,18 +44,17 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
 std::string finding_of(const CaseReport& report) {
   const int dimension = report.scene.dimension;
   const oracle::Margins margins(report.scene);
-  const std::string drawing = drawing_of(report), scene = scene_line(report.scene);
-  constexpr std::string_view kScene = "{\"scene\":";
+  const std::string drawing = drawing_of(report);
   return fmt::format(
       "{{\"cause\":{},\"explanation\":{},\"count\":1,\"where\":{},\"verdict\":{},\"scene\":{},\"query\":{{{}}"
       "},"
       "\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},\"commands\":{},\"drawing\":{}}"
       "}",
       json_quoted(report.cause), json_quoted(report.explanation), json_quoted(report.where),
-      json_quoted(report.verdict), scene.substr(kScene.size(), scene.size() - kScene.size() - 1),
-      query_members(report.query, dimension), report.given ? answer_text(*report.given, dimension) : "null",
-      answer_text(report.exact, dimension), number_or_null(radii_of(report, margins)),
-      number_or_null(report.by_ulps), array_of(reason_lines(report, margins)), array_of(commands_of(report)),
+      json_quoted(report.verdict), scene_object(report.scene), query_members(report.query, dimension),
+      report.given ? answer_object(*report.given, dimension) : "null", answer_object(report.exact, dimension),
+      number_or_null(radii_of(report, margins)), number_or_null(report.by_ulps),
+      array_of(reason_lines(report, margins)), array_of(commands_of(report)),
       drawing.empty() ? "null" : json_quoted(drawing));
 }
 

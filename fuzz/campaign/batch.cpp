@@ -27,22 +27,6 @@ constexpr double kShrinkWork = 1.5e7;
 // or in other digits instead.
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
 
-// An oracle asked which of a million obstacles contain x takes its time; shrinking does not go there.
-constexpr double kLargestRadius = 100;
-
-bool is_sane(const Scene& scene) {
-  for (const Lattice& lattice : scene.lattices) {
-    double shortest = length(lattice.vectors[0]), largest = 0;
-    for (int i = 1; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
-    for (const Atom& atom : lattice.atoms) {
-      largest = std::max(largest, atom.radius);
-      for (const Vec& axis : atom.semiaxes) largest = std::max(largest, length(axis));
-    }
-    if (!(largest <= kLargestRadius * shortest)) return false;
-  }
-  return true;
-}
-
 // Does a case fail as another one did: in kind, and in both outcomes?
 class SameFailure {
  public:

@@ -403,6 +403,20 @@ double price(const Scene& scene, const Query& query) {
   return std::max(1.0, share * share);
 }
 
+bool is_sane(const Scene& scene) {
+  constexpr double kLargestRadius = 100;
+  for (const Lattice& lattice : scene.lattices) {
+    double shortest = length(lattice.vectors[0]), largest = 0;
+    for (int i = 1; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+    for (const Atom& atom : lattice.atoms) {
+      largest = std::max(largest, atom.radius);
+      for (const Vec& axis : atom.semiaxes) largest = std::max(largest, length(axis));
+    }
+    if (!(largest <= kLargestRadius * shortest)) return false;
+  }
+  return true;
+}
+
 long complexity(const Scene& scene, const Query& query) {
   long sum = query.from ? 60 : 0;
   for (const Lattice& lattice : scene.lattices) {

@@ -30,6 +30,10 @@ long complexity(const Scene& scene, const Query& query);
 double price(const Scene& scene, const Query& query);
 inline constexpr int kOrdinarySpread = 512;
 
+/// Not so dense that an oracle, asked which of a million obstacles contain x, takes its time: where shrinking
+/// does not go.
+bool is_sane(const Scene& scene);
+
 inline constexpr int kShrinkTries = 3000;
 
 /// When shrinking has cost enough.

@@ -118,6 +118,10 @@ const std::vector<Room> kHouse{
      {"cases", "cases/families", "ranks", "fuzz/rewording", "fuzz/examine"},
      {"sqlite3.h sqlite.hpp", "boost/serialization/ ranks_mpi.cpp", "fcntl.h store.cpp",
       "sys/file.h store.cpp", "sys/stat.h store.cpp", "unistd.h store.cpp"}},
+    {"judge",
+     {"src/problem", "oracle", "oracle/margin"},
+     {"cases", "cases/families", "compare", "golden", "fuzz/examine", "fuzz/campaign"},
+     {"fmt/"}},
     // No families: what a harness tries comes from its bytes alone.
     {"fuzz/harness",
      {"src/problem", "src/exchange", "src/engines/reduction", "oracle", "oracle/contacts", "oracle/margin",
@@ -134,7 +138,8 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
       "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
      {"src/problem", "src/exchange", "cases", "compare", "golden", "flights", "flights/sample",
-      "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "pictures", "report"},
+      "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "judge", "pictures",
+      "report"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h output.cpp", "unistd.h progress.hpp",
       "unistd.h whole_file.cpp"}},
     {"bench",
@@ -268,7 +273,7 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     CHECK(above.insert(room.folder).second);
   }
   for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
-                            "pictures", "report", "cli", "bench"})
+                            "judge", "pictures", "report", "cli", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());

@@ -1,0 +1,305 @@
+// What `lorentz judge` found, for people, for programs, and for the page.
+#include "cli/judge_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <lorentz/exchange.hpp>
+#include "cli/finding_json.hpp"
+#include "cli/messages.hpp"
+#include "cli/reason.hpp"
+#include "cli/table.hpp"
+#include "fuzz/examine/shrink.hpp"
+#include "pictures/finding_drawing.hpp"
+#include "report/manifest.hpp"
+
+namespace lorentz::cli {
+
+using judge::Cause;
+using judge::Example;
+using judge::Finding;
+using judge::Severity;
+
+namespace {
+
+int dimension_of(const Example& example) {
+  return example.question.setting->scene().dimension;
+}
+
+// What is no question stands as it was asked.
+std::string members_of(const Example& example) {
+  return example.question.is_query() ? query_members(example.question.query, dimension_of(example))
+                                     : example.question.text;
+}
+
+std::string readable_query(const Example& example) {
+  return example.question.is_query() ? query_object(example.question.query, dimension_of(example))
+                                     : fmt::format("{{{}}}", example.question.text);
+}
+
+Answer exact_of(const Example& example) {
+  return example.question.is_query() ? example.question.exact : Answer::error("");
+}
+
+// ---- Findings
+
+std::vector<std::string> commands_of(const Finding& finding, const std::string& engine) {
+  const std::string lines = printed(finding.simplest.question.setting->scene(), members_of(finding.simplest));
+  std::vector<std::string> commands;
+  if (finding.simplest.question.is_query())
+    commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
+                                   shell_quoted(engine),
+                                   finding.severity() == Severity::wrong_time ? " --times"
+                                   : finding.severity() != Severity::wrong    ? " --strict"
+                                                                              : ""));
+  commands.push_back(fmt::format("{} | lorentz first-hit --engine {}", lines, shell_quoted(engine)));
+  return commands;
+}
+
+std::vector<std::string> reason_lines(const Finding& finding) {
+  const Example& example = finding.simplest;
+  if (!example.question.is_query()) return {"the question is none; the answer is an error"};
+  if (finding.severity() == Severity::error) return {"the question is a good one"};
+  if (example.judgement.wrong_time || finding.cause() == Cause::other_quantity)
+    return {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
+                        example.judgement.departs)};
+  const judge::Setting& setting = *example.question.setting;
+  std::vector<std::string> lines = lines_of(reason_of(
+      setting.margins(), setting.scene(), example.question.query, example.question.exact, example.given, ""));
+  if (finding.severity() == Severity::ill_posed && example.judgement.departs > 0)
+    lines.push_back(
+        fmt::format("inputs moved by {:.3g} ulps would make it right", example.judgement.departs));
+  return lines;
+}
+
+const char* name_of(Severity severity) {
+  constexpr const char* kNames[] = {"wrong", "error", "wrong-time", "ill-posed"};
+  return kNames[static_cast<int>(severity)];
+}
+
+// In full, but for what rounding of the inputs explains.
+std::string text_of(const Finding& finding, const std::string& engine, int number) {
+  const Example& example = finding.simplest;
+  const int dimension = dimension_of(example);
+  std::string text =
+      fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
+  text += fmt::format("   {} {}; for one {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
+                      finding.where);
+  if (finding.severity() == Severity::ill_posed) return text;
+  text += fmt::format("   the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n",
+                      scene_line(example.question.setting->scene()), readable_query(example),
+                      answer_object(example.given, dimension), answer_object(exact_of(example), dimension));
+  for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
+  for (const std::string& command : commands_of(finding, engine)) text += "   $ " + command + '\n';
+  return text;
+}
+
+// Nothing is drawn of what is no question, nor where nothing can be.
+std::string drawing_of(const Example& example) {
+  if (!example.question.is_query()) return "null";
+  const std::string drawing = pictures::finding_drawing(
+      example.question.setting->scene(), example.question.query, example.given, example.question.exact);
+  return drawing.empty() ? "null" : json_quoted(drawing);
+}
+
+// How far the inputs must move for the answer to be right, or how much tolerance the time would need.
+std::optional<double> ulps_of(const Example& example) {
+  const double departs = example.judgement.departs;
+  return departs > 0 ? std::optional(departs) : std::nullopt;
+}
+
+std::string json_of(const Finding& finding, const std::string& engine) {
+  const Example& example = finding.simplest;
+  const int dimension = dimension_of(example);
+  return fmt::format(
+      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"where\":{},\"verdict\":{},\"scene\":{},"
+      "\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
+      "\"commands\":{},\"drawing\":{}}}",
+      json_quoted(judge::name_of(finding.cause())), json_quoted(finding.explanation()), finding.count,
+      json_quoted(finding.where), json_quoted(name_of(finding.severity())),
+      scene_object(example.question.setting->scene()), members_of(example),
+      answer_object(example.given, dimension), answer_object(exact_of(example), dimension),
+      number_or_null(example.diagnosis.by_radii), number_or_null(ulps_of(example)),
+      array_of(reason_lines(finding)), array_of(commands_of(finding, engine)), drawing_of(example));
+}
+
+// ---- The verdict
+
+std::size_t answers(const compare::Tally& t) {
+  return t.agree + t.ill_posed + t.wrong;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "0 %"
+                    : fmt::format("{:.2g} %", 100 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+// Of all the rows that are hard, or of the others.
+compare::Tally sum_of(const std::vector<judge::Row>& rows, bool hard) {
+  compare::Tally sum;
+  for (const judge::Row& row : rows)
+    if (row.is_hard == hard) sum.add(row.tally);
+  return sum;
+}
+
+// "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
+std::string share_text(const char* what, const std::vector<judge::Row>& rows,
+                       std::size_t compare::Tally::*count) {
+  const compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
+  if (drawn.*count + hard.*count == 0) return "";
+  return fmt::format("; {} {} of drawn flights, {} of hard ones", what, percent(drawn.*count, drawn.queries),
+                     percent(hard.*count, hard.queries));
+}
+
+std::string times_text(const std::vector<judge::Row>& rows) {
+  compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
+  if (drawn.timed_hits + hard.timed_hits == 0) return "";
+  const std::size_t wrong = drawn.wrong_time + hard.wrong_time;
+  if (wrong == 0)
+    return drawn.timed_hits == 0
+               ? std::string()
+               : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp);
+  drawn.add(hard);
+  return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
+                     compare::quantile(drawn.wrong_ulps, 1));
+}
+
+std::string speed_text(const JudgeReport& report) {
+  if (!report.ns_per_query) return "";
+  std::string text = fmt::format("; {:.3g} ns a query", *report.ns_per_query);
+  if (report.ns_of_reduction)
+    text += fmt::format(", {:.2g} x reduction", *report.ns_per_query / *report.ns_of_reduction);
+  return text;
+}
+
+// The kinds of fault that condemn, and the simplest of them.
+std::string faults_text(const JudgeReport& report) {
+  std::size_t kinds = 0;
+  const Finding* simplest = nullptr;
+  long least = 0;
+  for (const Finding& finding : report.findings) {
+    if (finding.severity() == Severity::ill_posed) continue;
+    if (finding.severity() == Severity::wrong_time && !report.times) continue;
+    if (finding.cause() == Cause::no_answer) continue;
+    ++kinds;
+    // What is no question comes last.
+    const judge::Question& question = finding.simplest.question;
+    const long complexity = question.is_query() ? fuzz::complexity(question.setting->scene(), question.query)
+                                                : std::numeric_limits<long>::max();
+    if (!simplest || complexity < least) simplest = &finding, least = complexity;
+  }
+  if (!simplest) return "";
+  return kinds == 1 ? simplest->summary()
+                    : fmt::format("{} kinds of fault, the simplest: {}", kinds, simplest->summary());
+}
+
+std::string heading(const JudgeReport& report) {
+  const compare::Tally total = report.total();
+  const std::string verdict = report.verdict(), faults = faults_text(report);
+  if (verdict == "broken")
+    return fmt::format("broken: {} {} without an answer that could be read{}", total.error,
+                       total.error == 1 ? "query" : "queries", faults.empty() ? "" : "; wrong: " + faults);
+  if (verdict == "wrong") return "wrong: " + faults;
+  if (verdict == "ill-posed")
+    return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
+                       answers(total), total.ill_posed);
+  if (verdict == "undecided")
+    return fmt::format("undecided: it decided {} of {} queries, none of them wrong", answers(total),
+                       total.queries);
+  return fmt::format("right: no wrong answer in {}", answers(total));
+}
+
+const std::vector<std::string> kColumns{"questions", "number",     "agree",     "ill-posed",
+                                        "wrong",     "wrong time", "undecided", "unsupported",
+                                        "error",     "max ulp",    "ns/query"};
+
+std::vector<std::string> cells_of(const compare::Tally& t) {
+  const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
+  return {t.name,
+          std::to_string(t.queries),
+          number(t.agree),
+          number(t.ill_posed),
+          number(t.wrong),
+          number(t.wrong_time),
+          number(t.undecided),
+          number(t.unsupported),
+          number(t.error),
+          t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+          t.ns_per_query > 0 ? fmt::format("{:.0f}", t.ns_per_query) : "-"};
+}
+
+std::string table_of(const JudgeReport& report) {
+  Table table(kColumns);
+  std::string beyond;
+  for (const judge::Row& row : report.rows)
+    if (row.tally.unsupported == row.tally.queries)
+      beyond += (beyond.empty() ? "" : ", ") + row.name;
+    else
+      table.add(cells_of(row.tally));
+  compare::Tally total = report.total();
+  total.name = "all";
+  table.add(cells_of(total));
+  return table.text() + (beyond.empty() ? "" : "unsupported, or not asked: " + beyond + '\n');
+}
+
+std::string json_of(const judge::Row& row) {
+  const compare::Tally& t = row.tally;
+  return fmt::format(
+      "{{\"name\":{},\"explanation\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},"
+      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":{},"
+      "\"ns_per_query\":{}}}",
+      json_quoted(row.name), json_quoted(row.explanation), t.queries, t.agree, t.ill_posed, t.wrong,
+      t.wrong_time, t.undecided, t.unsupported, t.error, t.missing,
+      number_or_null(t.timed_hits ? std::optional(t.max_ulp) : std::nullopt),
+      number_or_null(t.ns_per_query > 0 ? std::optional(t.ns_per_query) : std::nullopt));
+}
+
+}  // namespace
+
+compare::Tally JudgeReport::total() const {
+  compare::Tally total = sum_of(rows, false);
+  total.add(sum_of(rows, true));
+  return total;
+}
+
+std::string JudgeReport::verdict() const {
+  const compare::Tally t = total();
+  if (failed) return "broken";
+  if (t.wrong + t.error + t.missing > 0 || (times && t.wrong_time > 0)) return "wrong";
+  if (t.agree + t.ill_posed <= t.undecided) return "undecided";
+  return t.ill_posed > 0 ? "ill-posed" : "right";
+}
+
+std::string JudgeReport::line() const {
+  return heading(*this) + share_text("ill-posed", rows, &compare::Tally::ill_posed) +
+         share_text("undecided", rows, &compare::Tally::undecided) + times_text(rows) + speed_text(*this);
+}
+
+std::string JudgeReport::text() const {
+  std::string text = fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine, seed, table_of(*this));
+  if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
+  int number = 0;
+  for (const Finding& finding : findings) text += text_of(finding, engine, ++number);
+  return text + '\n' + line() + '\n';
+}
+
+std::string JudgeReport::json() const {
+  const compare::Tally t = total();
+  std::string out = fmt::format("{{\"format\":1,\"kind\":\"judge\",\"title\":{},\"manifest\":",
+                                json_quoted(engine + ", judged"));
+  report::append_manifest(out, report::manifest_of(seed, command));
+  out += fmt::format(
+      ",\"engine\":{},\"verdict\":\"{}\",\"line\":{},\"queries\":{},\"wrong\":{},\"ill_posed\":{},"
+      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"ns_per_query\":{},"
+      "\"ns_of_reduction\":{},\"difficulties\":[",
+      json_quoted(engine), verdict(), json_quoted(line()), t.queries, t.wrong, t.ill_posed, t.wrong_time,
+      t.undecided, t.unsupported, t.error, number_or_null(ns_per_query), number_or_null(ns_of_reduction));
+  for (const judge::Row& row : rows) out += (&row == &rows.front() ? "" : ",") + json_of(row);
+  out += "],\"findings\":[";
+  for (const Finding& finding : findings)
+    out += (&finding == &findings.front() ? "" : ",") + json_of(finding, engine);
+  return out + "]}\n";
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,34 @@
+// Private to cli/judge*.cpp: what `lorentz judge` says in the end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/examination.hpp"
+
+namespace lorentz::cli {
+
+struct JudgeReport {
+  std::string engine;
+  std::uint64_t seed = 0;
+  std::string command;  ///< the shell line that was typed
+  std::vector<judge::Row> rows;
+  std::vector<judge::Finding> findings;
+  std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
+  std::string speed_of;                                 ///< which flights these were
+  bool failed = false;                                  ///< another program broke
+  bool times = false;                                   ///< wrong times count
+
+  compare::Tally total() const;
+
+  /// right, wrong, ill-posed, undecided, broken: the worst that applies (docs/judge.md).
+  std::string verdict() const;
+  /// The verdict in one line, with the simplest fault, shares, times and speed.
+  std::string line() const;
+
+  std::string text() const;
+  std::string json() const;
+};
+
+}  // namespace lorentz::cli

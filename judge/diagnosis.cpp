@@ -1,0 +1,149 @@
+#include "judge/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fuzz/examine/tie.hpp"
+
+namespace lorentz::judge {
+namespace {
+
+bool names_obstacle(const Answer& answer) {
+  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+}
+
+bool exists(const Question& question, const ObstacleId& obstacle) {
+  return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.setting->scene());
+}
+
+// Another program's faults are told in messages that compare/command_engine.cpp begins like this.
+bool is_of_broken_program(const Answer& given) {
+  return given.message.starts_with("cmd ");
+}
+
+struct Fault {
+  Cause cause;
+  std::optional<double> by_radii = {};
+};
+
+Fault graded(Cause grazing, Cause gross, double gap) {
+  return {std::fabs(gap) < kGrazing ? grazing : gross, std::fabs(gap)};
+}
+
+// The answer says that x lies in an obstacle, which must exist.
+Fault of_false_inside(const Question& question, const Answer& given) {
+  const double gap = question.setting->margins().approach(question.query, given.obstacle).start_gap;
+  if (question.exact.outcome == Outcome::inside && gap < 0) return {Cause::inside_another};
+  return {Cause::inside_not_so, std::fabs(gap)};
+}
+
+// The answer says that another obstacle is hit than the exact one, or that one is where none is.
+Fault of_false_hit(const Question& question, const Answer& given) {
+  const oracle::Approach named = question.setting->margins().approach(question.query, given.obstacle);
+  if (named.gap >= 0) return graded(Cause::false_hit_grazing, Cause::false_hit, named.gap);
+  if (!named.ahead && named.start_gap >= 0) return {Cause::behind};
+  if (question.exact.outcome != Outcome::hit) return {Cause::false_hit, std::fabs(named.gap)};
+  if (fuzz::is_tie(question.setting->scene(), question.setting->judge(), question.query, question.exact,
+                   given))
+    return {Cause::tie};
+  const double gap = question.setting->margins().approach(question.query, question.exact.obstacle).gap;
+  return graded(Cause::passed_over_grazing, Cause::passed_over, gap);
+}
+
+Fault of_another_answer(const Question& question, const Answer& given) {
+  const Query& query = question.query;
+  const Answer& exact = question.exact;
+  if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_such_obstacle};
+  if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
+  if (given.outcome == Outcome::inside) return of_false_inside(question, given);
+  if (exact.outcome == Outcome::inside)
+    return {Cause::inside_not_seen,
+            std::fabs(question.setting->margins().approach(query, exact.obstacle).start_gap)};
+  if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
+    return {Cause::other_quantity};
+  if (given.outcome == Outcome::hit) return of_false_hit(question, given);
+  return graded(Cause::passed_over_grazing, Cause::never_for_hit,
+                question.setting->margins().approach(query, exact.obstacle).gap);
+}
+
+constexpr std::array<std::string_view, kCauses> kNames{
+    "passed-over-grazing", "passed-over",    "never-for-hit", "false-hit-grazing",
+    "false-hit",           "behind",         "leaving",       "inside-unseen",
+    "inside-not-so",       "inside-another", "tie",           "no-obstacle",
+    "not-the-time",        "wrong-time",     "refused",       "no-answer",
+    "answers-nonsense"};
+
+}  // namespace
+
+std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
+                                      const oracle::Judgement& judgement) {
+  using oracle::Verdict;
+  if (judgement.wrong_time) return Diagnosis{Cause::wrong_time, Severity::wrong_time};
+  if (judgement.verdict == Verdict::error || judgement.verdict == Verdict::missing)
+    return Diagnosis{is_of_broken_program(given) ? Cause::no_answer : Cause::refused, Severity::error};
+  const bool wrong = judgement.verdict == Verdict::wrong;
+  if (!wrong && judgement.verdict != Verdict::ill_posed) return std::nullopt;
+  if (!question.is_query()) return Diagnosis{Cause::answered_nonsense, Severity::wrong};
+  const Fault fault = of_another_answer(question, given);
+  return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
+}
+
+std::string_view name_of(Cause cause) {
+  return kNames[static_cast<std::size_t>(cause)];
+}
+
+std::string power_of_ten_above(double x) {
+  return fmt::format("{:g}", std::pow(10, std::floor(std::log10(x)) + 1));
+}
+
+std::string sentence_of(Cause cause, std::optional<double> by_radii) {
+  const auto up_to = [&](const char* what, const char* how) {
+    return by_radii ? fmt::format("{} ({} by up to {:.3g} of its radii)", what, how, *by_radii)
+                    : std::string(what);
+  };
+  const auto below = [&](const char* what) {
+    return by_radii && *by_radii > 0
+               ? fmt::format("{} by less than {} of their radii", what, power_of_ten_above(*by_radii))
+               : fmt::format("{} at one point only", what);
+  };
+  switch (cause) {
+    case Cause::passed_over_grazing:
+      return below("passes over obstacles that the line enters");
+    case Cause::passed_over:
+      return up_to("passes over the obstacle that is hit first, and names a later one", "entered");
+    case Cause::never_for_hit:
+      return up_to("says never where an obstacle is hit", "entered");
+    case Cause::false_hit_grazing:
+      return below("hits obstacles that the line misses");
+    case Cause::false_hit:
+      return up_to("hits an obstacle that the line misses", "missed");
+    case Cause::behind:
+      return "hits an obstacle that lies behind the start";
+    case Cause::leaving:
+      return "hits the obstacle that the particle leaves (from), which is to be ignored";
+    case Cause::inside_not_seen:
+      return up_to("does not see that the start lies inside an obstacle", "inside");
+    case Cause::inside_not_so:
+      return up_to("says inside of an obstacle that the start lies outside of", "outside");
+    case Cause::inside_another:
+      return "names, of several obstacles that contain the start, another than the first by name";
+    case Cause::tie:
+      return "names, of obstacles that are entered at the same time, another than the first by name";
+    case Cause::no_such_obstacle:
+      return "names an obstacle that the scene does not have";
+    case Cause::other_quantity:
+      return "gives, for the right obstacle, something else than the time at which it is entered";
+    case Cause::wrong_time:
+      return "gives times of the right obstacle that are off by more than rounding of the inputs explains";
+    case Cause::refused:
+      return "calls a valid question an error";
+    case Cause::no_answer:
+      return "gives no answer: it dies, falls silent, or writes what is none";
+    case Cause::answered_nonsense:
+      return "answers what is no valid question, where error is right";
+  }
+  return "";
+}
+
+}  // namespace lorentz::judge

@@ -1,0 +1,64 @@
+// What an answer did wrong, in words of the problem.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "judge/question.hpp"
+
+namespace lorentz::judge {
+
+/// The ways of being wrong. docs/judge.md has them.
+enum class Cause {
+  passed_over_grazing,  ///< the obstacle that is hit first is passed over; the line enters it by less than
+                        ///< kGrazing of its radii
+  passed_over,          ///< the same, and it enters by more: another, later one is named
+  never_for_hit,        ///< or none
+  false_hit_grazing,    ///< an obstacle is named that the line misses by less than kGrazing of its radii
+  false_hit,            ///< or by more
+  behind,               ///< one that lies behind the start
+  leaving,              ///< the one that the particle leaves
+  inside_not_seen,      ///< the start lies in an obstacle
+  inside_not_so,        ///< the start does not lie in the obstacle named
+  inside_another,       ///< it does, but in a smaller one, too
+  tie,                  ///< two are entered at the same time, and the larger one is named
+  no_such_obstacle,     ///< the scene has no such lattice or atom
+  other_quantity,       ///< the right obstacle with something else than the time of its entry
+  wrong_time,           ///< the right obstacle, and a time that is off by more than rounding explains
+  refused,              ///< a valid question is called an error
+  no_answer,            ///< another program died, fell silent, or wrote what is no answer
+  answered_nonsense     ///< what is no question was answered
+};
+inline constexpr int kCauses = 17;
+
+/// Below this part of an obstacle's radius it is only just met or missed.
+inline constexpr double kGrazing = 1e-6;
+
+/// How much it matters, the worst first.
+enum class Severity { wrong, error, wrong_time, ill_posed };
+
+struct Diagnosis {
+  Cause cause{};
+  Severity severity{};
+  /// By so many of its radii the obstacle in question is entered or missed, or x lies inside or outside of
+  /// it.
+  std::optional<double> by_radii = {};
+};
+
+/// Of an answer that departs from the exact one, or has a wrong time, or is an error; else nothing.
+std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
+                                      const oracle::Judgement& judgement);
+
+/// "passed-over-grazing"
+std::string_view name_of(Cause cause);
+
+/// "passes over obstacles that the line enters by less than 1e-09 of their radii": of all answers that went
+/// wrong so, `by_radii` the most of any.
+std::string sentence_of(Cause cause, std::optional<double> by_radii);
+
+/// The least power of ten above x > 0, as text.
+std::string power_of_ten_above(double x);
+
+}  // namespace lorentz::judge

@@ -1,0 +1,71 @@
+// Asks one engine questions from many sources, each for a while, and takes down what came of it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/answerer.hpp"
+#include "compare/measure.hpp"
+#include "judge/findings.hpp"
+
+namespace lorentz::judge {
+
+/// The next question, or nothing: that was all.
+using Source = std::function<std::optional<Question>()>;
+
+/// One kind of difficulty, and how the engine does there.
+struct Row {
+  std::string name, explanation;
+  bool is_hard = true;        ///< chosen to be difficult: no flights as they are drawn
+  compare::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
+};
+
+class Examination {
+ public:
+  /// Throws InputError for an unknown engine. `stop`, set by somebody else, ends everything soon.
+  Examination(const std::string& engine, const compare::AnswererOptions& options, double ulps,
+              const std::atomic<bool>& stop);
+
+  /// Is called often while rows run, with the name of the row.
+  void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+
+  /// Asks for so many seconds at the most (beyond that only what was asked already), or until there is no
+  /// more.
+  void run(Row row, const Source& source, double seconds);
+
+  /// Takes over what another examination of the same engine came to in its last row, and adds that to the
+  /// last row here.
+  void take_over(const Examination& other);
+
+  /// Asks one question while no row runs, and counts it nowhere. Nothing if the answer is not wrong in any
+  /// way.
+  std::optional<Example> example_of(const Question& question);
+
+  const std::vector<Row>& rows() const { return rows_; }
+  const Findings& findings() const { return findings_; }
+
+  /// Another program broke at least once; or so often that it is not asked any more.
+  bool failed() const { return failed_ || answerer_->failed(); }
+  bool is_over() const { return stop_ || given_up_; }
+  void finish() { answerer_->finish(); }
+
+ private:
+  double ask(const std::vector<Question>& questions);
+  void take(const Question& question, const Answer& given, Row& row, std::size_t& compared);
+  oracle::Judgement judgement_of(const Question& question, const Answer& given) const;
+
+  const double ulps_;
+  const std::atomic<bool>& stop_;
+  std::function<void(const std::string&)> tell_;
+  bool given_up_ = false, failed_ = false;  // failed_: of those that were taken over
+  std::unique_ptr<compare::Answerer> answerer_;
+  std::shared_ptr<Setting> setting_;  // that the answerer is in
+  std::vector<Answer> answers_;
+  std::vector<Row> rows_;
+  Findings findings_;
+};
+
+}  // namespace lorentz::judge

@@ -1,0 +1,29 @@
+// What a question is like, for those who look for what sets the failing ones apart.
+#pragma once
+
+#include <limits>
+
+#include "judge/question.hpp"
+
+namespace lorentz::judge {
+
+struct Features {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  bool in_space = false;        ///< 3D
+  bool zero_component = false;  ///< a component of v is 0
+  bool leaving = false;         ///< `from` is given
+  bool several_lattices = false, several_atoms = false, ellipsoids = false;
+  bool other_cell = false;  ///< not one unit square or cubic lattice
+  bool never = false;       ///< nothing is ever hit
+  // Lengths in those of the shortest primitive vector.
+  double flight = kNone;  ///< to the obstacle that is hit
+  double radius = kNone;  ///< the smallest
+  double start = kNone;   ///< of x from the origin
+  double depth = kNone;   ///< by so many of its radii the line enters the obstacle that is hit
+  double speed = kNone;   ///< of v, in the scene's own unit
+};
+
+Features features_of(const Question& question);
+
+}  // namespace lorentz::judge

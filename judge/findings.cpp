@@ -1,0 +1,82 @@
+#include "judge/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "fuzz/examine/shrink.hpp"
+
+namespace lorentz::judge {
+namespace {
+
+constexpr std::size_t kMostFeatures = 2000;
+
+// What is no question has no numbers: the shortest text is the simplest.
+long complexity_of(const Question& question) {
+  return question.is_query() ? fuzz::complexity(question.setting->scene(), question.query)
+                             : static_cast<long>(question.text.size());
+}
+
+std::string share_text(double share) {
+  return share == 0 ? "none of the right answers" : fmt::format("{:.2g} % of the right answers", 100 * share);
+}
+
+}  // namespace
+
+std::string Finding::summary() const {
+  const std::string text = sentence_of(cause(), by_radii);
+  // A grazing one says that of itself.
+  const bool is_said = cause() == Cause::passed_over_grazing && circumstance && circumstance->is_of_depth;
+  return circumstance && !is_said ? text + ", only " + circumstance->text : text;
+}
+
+std::string Finding::explanation() const {
+  return circumstance ? fmt::format("{} (all {}, and {})", summary(), count, share_text(circumstance->share))
+                      : summary();
+}
+
+void Findings::add(const Example& example) {
+  Finding& its =
+      findings_
+          .try_emplace({example.diagnosis.severity, example.diagnosis.cause}, Finding{example, {}, 0, {}})
+          .first->second;
+  if (its.count++ == 0) its.where = example.question.where;
+  if (example.diagnosis.by_radii)
+    its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
+  if (example.question.is_query() && its.features.size() < kMostFeatures)
+    its.features.push_back(features_of(example.question));
+  if (complexity_of(example.question) >= complexity_of(its.simplest.question)) return;
+  its.simplest = example;
+  its.where = example.question.where;
+}
+
+void Findings::add(const Findings& others) {
+  right_.insert(right_.end(), others.right_.begin(), others.right_.end());
+  for (const auto& [key, other] : others.findings_) {
+    const auto [place, is_new] = findings_.try_emplace(key, other);
+    if (is_new) continue;
+    Finding& its = place->second;
+    its.count += other.count;
+    if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
+    its.features.insert(its.features.end(), other.features.begin(), other.features.end());
+    if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) continue;
+    its.simplest = other.simplest;
+    its.where = other.where;
+  }
+}
+
+std::vector<Finding> Findings::all() const {
+  std::vector<Finding> all;
+  for (const auto& [key, finding] : findings_) {
+    all.push_back(finding);
+    all.back().circumstance = circumstance_of(finding.features, right_);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
+    return std::make_tuple(a.severity(), -static_cast<long>(a.count)) <
+           std::make_tuple(b.severity(), -static_cast<long>(b.count));
+  });
+  return all;
+}
+
+}  // namespace lorentz::judge

@@ -1,0 +1,54 @@
+// Answers that went wrong, by cause.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "judge/circumstance.hpp"
+#include "judge/diagnosis.hpp"
+
+namespace lorentz::judge {
+
+/// One answer that went wrong.
+struct Example {
+  Question question;
+  Answer given;
+  oracle::Judgement judgement;
+  Diagnosis diagnosis;
+};
+
+/// All answers that went wrong in one way.
+struct Finding {
+  Example simplest;                     ///< by fuzz::complexity
+  std::string where;                    ///< it was met first
+  std::size_t count = 0;                ///< answers
+  std::optional<double> by_radii;       ///< the most of any
+  std::vector<Features> features = {};  ///< of the questions, the first of them
+  std::optional<Circumstance> circumstance = {};
+
+  Cause cause() const { return simplest.diagnosis.cause; }
+  Severity severity() const { return simplest.diagnosis.severity; }
+  /// What went wrong, and what sets the questions apart, if that is known.
+  std::string summary() const;
+  /// The same with numbers: of how many, and of how many right answers it is true as well.
+  std::string explanation() const;
+};
+
+class Findings {
+ public:
+  void add(const Example& example);
+  void add(const Findings& others);
+
+  /// A right answer, for comparison.
+  void add_right(const Features& features) { right_.push_back(features); }
+
+  /// The worst first, of these the most frequent; with their circumstances.
+  std::vector<Finding> all() const;
+
+ private:
+  std::map<std::pair<Severity, Cause>, Finding> findings_;
+  std::vector<Features> right_;
+};
+
+}  // namespace lorentz::judge

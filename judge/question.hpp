@@ -1,0 +1,63 @@
+// A question with its exact answer, and the scene that it is asked in with those who judge there.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/verdict.hpp>
+
+namespace lorentz::judge {
+
+/// A scene without flaws. Oracle, judge and margins are made when they are first needed: many scenes never
+/// need one. For one thread.
+class Setting {
+ public:
+  explicit Setting(Scene scene) : scene_(std::move(scene)) {}
+
+  const Scene& scene() const { return scene_; }
+  const oracle::Oracle& oracle() const { return made(oracle_); }
+  const oracle::Judge& judge() const { return made(judge_); }
+  const oracle::Margins& margins() const { return made(margins_); }
+
+  /// What became of a question in this scene.
+  void note(bool is_unsupported) { ++asked_, unsupported_ += is_unsupported; }
+  void note_time(double seconds) { seconds_ += seconds; }
+
+  /// The engine did none of the first questions here, or took very long: it is asked no more of them.
+  bool is_beyond_engine() const {
+    return asked_ >= kEnough &&
+           (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_));
+  }
+  bool was_answered() const { return unsupported_ < asked_; }
+
+ private:
+  static constexpr std::size_t kEnough = 4;
+  static constexpr double kSlowSeconds = 0.1;
+
+  template <class T>
+  const T& made(std::optional<T>& one) const {
+    if (!one) one.emplace(scene_);
+    return *one;
+  }
+
+  const Scene scene_;
+  mutable std::optional<oracle::Oracle> oracle_;
+  mutable std::optional<oracle::Judge> judge_;
+  mutable std::optional<oracle::Margins> margins_;
+  std::size_t asked_ = 0, unsupported_ = 0;
+  double seconds_ = 0;
+};
+
+struct Question {
+  std::shared_ptr<Setting> setting;
+  Query query;
+  Answer exact;
+  std::string where;  ///< which row it is of, and of what there: "drawn, square, r = 0.1"
+  std::string text;   ///< in place of the query, where the question is none: a line without braces and id
+  bool is_query() const { return text.empty(); }
+};
+
+}  // namespace lorentz::judge

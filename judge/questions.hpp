@@ -1,0 +1,38 @@
+// Where questions come from: drawn, from golden sets, from the families of hard cases.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compare/hard_cases.hpp"
+#include "fuzz/campaign/campaign.hpp"
+#include "judge/examination.hpp"
+
+namespace lorentz::judge {
+
+/// A scene with what to call it: "square, r = 0.1".
+struct Place {
+  std::string name;
+  std::shared_ptr<Setting> setting;
+};
+
+/// `count` queries, a few of each place in turn; none of those that are beyond the engine. The places must
+/// outlast the source.
+Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
+             std::size_t count);
+
+/// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
+/// does.
+Source golden_set(const std::string& path);
+
+/// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
+/// smallest margin, without end; of scenes that the scope admits, and of these the ones that are `part`
+/// modulo `parts`.
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part = 0, unsigned parts = 1);
+
+/// The narrowest scope with all scenes of these in which the engine answered; all scenes if it answered
+/// nowhere.
+fuzz::Scope scope_of(const std::vector<Place>& places);
+
+}  // namespace lorentz::judge

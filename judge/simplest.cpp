@@ -1,0 +1,64 @@
+#include "judge/simplest.hpp"
+
+#include <chrono>
+
+#include <lorentz/geometry.hpp>
+#include "fuzz/examine/examiner.hpp"
+#include "fuzz/examine/shrink.hpp"
+
+namespace lorentz::judge {
+namespace {
+
+bool is_alike(const Example& a, const Example& b) {
+  return a.diagnosis.cause == b.diagnosis.cause && a.diagnosis.severity == b.diagnosis.severity &&
+         a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
+}
+
+// Does a case go wrong like the example?
+class SameWay {
+ public:
+  SameWay(const Example& like, Examination& examination) : like_(like), examination_(examination) {}
+
+  bool operator()(const Scene& scene, const Query& query) {
+    if (!setting_ || setting_->scene() != scene) {
+      if (!fuzz::is_sound(scene) || !fuzz::is_sane(scene)) return false;
+      setting_ = std::make_shared<Setting>(scene);
+    }
+    if (flaw_of(query, scene)) return false;
+    const Question question{setting_, query, setting_->oracle().first_hit(query), like_.question.where, ""};
+    last_ = examination_.example_of(question);
+    return last_ && is_alike(*last_, like_);
+  }
+
+  double flight() const {
+    const Question& question = last_->question;
+    return question.exact.time ? *question.exact.time * length(question.query.v) : -1;
+  }
+  const std::optional<Example>& last() const { return last_; }
+
+ private:
+  const Example& like_;
+  Examination& examination_;
+  std::shared_ptr<Setting> setting_;
+  std::optional<Example> last_;
+};
+
+}  // namespace
+
+// A program that gives no answer is not asked thousands of times: it would be given up.
+Example simplest(const Example& example, Examination& examination, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  if (!example.question.is_query() || example.diagnosis.cause == Cause::no_answer) return example;
+  const auto start = Clock::now();
+  SameWay same(example, examination);
+  const Scene& scene = example.question.setting->scene();
+  if (examination.is_over() || !same(scene, example.question.query)) return example;
+  const auto is_up = [&] {
+    return examination.is_over() || std::chrono::duration<double>(Clock::now() - start).count() > seconds;
+  };
+  const fuzz::Shrunk shrunk = fuzz::shrink(scene, example.question.query, std::ref(same),
+                                           [&] { return same.flight(); }, {fuzz::kShrinkTries, is_up});
+  return same(shrunk.scene, shrunk.query) ? *same.last() : example;
+}
+
+}  // namespace lorentz::judge

@@ -1,0 +1,132 @@
+// What went wrong is called by its name, and what sets the failing questions apart is found, or is not.
+#include "judge/diagnosis.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "judge/findings.hpp"
+
+using namespace lorentz;
+using namespace lorentz::judge;
+
+namespace {
+
+Question asked(double radius, Vec x, Vec v, std::optional<ObstacleId> from = {}) {
+  const auto setting = std::make_shared<Setting>(unit_scene(2, radius));
+  const Query query{x, v, from};
+  return {setting, query, setting->oracle().first_hit(query), "here", ""};
+}
+
+ObstacleId disc(long i, long j) {
+  return {0, 0, {i, j, 0}};
+}
+
+std::optional<Diagnosis> diagnosed(const Question& question, const Answer& given) {
+  return diagnosis_of(question, given,
+                      question.setting->judge().judge(question.query, question.exact, given));
+}
+
+// The name of the cause, after a ~ if rounding of the inputs explains it.
+std::string cause(const Question& question, const Answer& given) {
+  const auto its = diagnosed(question, given);
+  if (!its) return "none";
+  return (its->severity == Severity::ill_posed ? "~" : "") + std::string(name_of(its->cause));
+}
+
+}  // namespace
+
+TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
+  // Midway between two discs, along the row: the disc (1, 0) is hit at 0.25.
+  const Question along = asked(0.25, {0.5, 0, 0}, {1, 0, 0});
+  CHECK(cause(along, Answer::hit(disc(1, 0), 0.25)) == "none");
+  CHECK(cause(along, Answer::undecided()) == "none");
+  CHECK(cause(along, Answer::unsupported_because("no")) == "none");
+  CHECK(cause(along, Answer::hit(disc(2, 0), 1.25)) == "passed-over");
+  CHECK(cause(along, Answer::never()) == "never-for-hit");
+  CHECK(cause(along, Answer::hit(disc(1, 1), 0.5)) == "false-hit");
+  CHECK(cause(along, Answer::hit(disc(0, 0), -0.75)) == "behind");
+  CHECK(cause(along, Answer::inside(disc(1, 0))) == "inside-not-so");
+  CHECK(cause(along, Answer::hit({1, 0, {}}, 0.25)) == "no-obstacle");
+  CHECK(cause(along, Answer::hit(disc(1, 0), 0.75)) == "not-the-time");
+  CHECK(cause(along, Answer::hit(disc(1, 0), 0.25 + 1e-11)) == "wrong-time");
+  CHECK(cause(along, Answer::error("no")) == "refused");
+  CHECK(cause(along, Answer::error("cmd died (signal 11) on this query")) == "no-answer");
+  CHECK(diagnosed(along, Answer::hit(disc(1, 1), 0.5))->by_radii == Approx(3));
+  CHECK(diagnosed(along, Answer::inside(disc(1, 0)))->by_radii == Approx(1));
+
+  const Question leaving = asked(0.25, {0.125, 0, 0}, {1, 0, 0}, disc(0, 0));
+  CHECK(cause(leaving, Answer::hit(disc(0, 0), 0)) == "leaving");
+  CHECK(cause(leaving, Answer::inside(disc(0, 0))) == "leaving");
+  const Question inside = asked(0.25, {0.125, 0, 0}, {1, 0, 0});
+  CHECK(cause(inside, Answer::hit(disc(1, 0), 0.625)) == "inside-unseen");
+  CHECK(diagnosed(inside, Answer::never())->by_radii == Approx(0.5));
+  const Question inside_two = asked(0.6, {0.5, 0, 0}, {1, 0, 0});
+  CHECK(cause(inside_two, Answer::inside(disc(1, 0))) == "inside-another");
+  const Question two_at_once = asked(0.6, {0.5, 0.5, 0}, {0, 1, 0});
+  CHECK(cause(two_at_once, Answer::hit(disc(1, 1), *two_at_once.exact.time)) == "~tie");
+
+  Question nonsense = along;
+  nonsense.text = R"("x":[0.5,0],"v":[0,0])";
+  CHECK(diagnosis_of(nonsense, Answer::never(), {oracle::Verdict::wrong})->cause == Cause::answered_nonsense);
+}
+
+TEST_CASE("What is only just met or missed is told apart, with the power of ten above it",
+          "[judge][diagnosis]") {
+  const Question met = asked(0.25, {0.5, 0.25 * (1 - 3e-10), 0}, {1, 0, 0});
+  CHECK(cause(met, Answer::never()) == "passed-over-grazing");
+  CHECK(diagnosed(met, Answer::never())->by_radii == Approx(3e-10).epsilon(1e-5));
+  const Question missed = asked(0.25, {0.5, 0.25 * (1 + 3e-10), 0}, {1, 0, 0});
+  CHECK(cause(missed, Answer::hit(disc(1, 0), 0.5)) == "false-hit-grazing");
+  const Question within_rounding = asked(0.25, {0.5, 0.25 - 0x1p-54, 0}, {1, 0, 0});
+  CHECK(cause(within_rounding, Answer::never()) == "~passed-over-grazing");
+  CHECK(sentence_of(Cause::passed_over_grazing, 3e-10) ==
+        "passes over obstacles that the line enters by less than 1e-09 of their radii");
+}
+
+TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[judge][circumstance]") {
+  std::vector<Features> failing(8), right(100);
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    right[i].flight = 1 + static_cast<double>(i);  // 1 .. 100
+    right[i].in_space = i % 4 == 0;
+    right[i].depth = 0.5;
+  }
+  for (Features& f : failing) f.flight = 2, f.depth = 0.5, f.in_space = true;
+  REQUIRE(circumstance_of(failing, right));
+  CHECK(circumstance_of(failing, right)->text == "on flights shorter than 10 lattice vectors");
+  CHECK(circumstance_of(failing, right)->share == Approx(0.09));
+  failing[3].flight = 5e3;
+  CHECK(circumstance_of(failing, right)->text == "in 3D");
+  CHECK(circumstance_of(failing, right)->share == Approx(0.25));
+  failing[4].in_space = false;
+  CHECK_FALSE(circumstance_of(failing, right));  // not of all
+  failing.assign(4, failing[0]);
+  CHECK(circumstance_of(failing, right)->share == Approx(0.09));
+  failing.resize(2);
+  CHECK_FALSE(circumstance_of(failing, right));  // two of a tenth may be chance
+  for (Features& f : failing) f.depth = 3e-10;
+  CHECK_FALSE(circumstance_of(failing, {}));
+  failing.resize(3, failing[0]);
+  REQUIRE(circumstance_of(failing, right));
+  CHECK(circumstance_of(failing, right)->is_of_depth);
+}
+
+TEST_CASE("Findings of one cause are one, the simplest case in front, the worst cause first",
+          "[judge][findings]") {
+  const Question plain = asked(0.25, {0.5, 0, 0}, {1, 0, 0}),
+                 odd = asked(0.25, {0.4375, 0.0234375, 0}, {0.984375, 0.015625, 0});
+  Findings findings;
+  const auto add = [&](const Question& question, const Answer& given) {
+    const auto judgement = question.setting->judge().judge(question.query, question.exact, given);
+    findings.add({question, given, judgement, *diagnosis_of(question, given, judgement)});
+  };
+  add(odd, Answer::never());
+  add(odd, Answer::hit(disc(1, 0), *odd.exact.time + 1e-9));
+  add(plain, Answer::never());
+  add(odd, Answer::never());
+  const std::vector<Finding> all = findings.all();
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].cause() == Cause::never_for_hit);
+  CHECK(all[0].count == 3);
+  CHECK(all[0].simplest.question.query.v[1] == 0);
+  CHECK(all[0].by_radii == Approx(1));
+  CHECK(all[1].cause() == Cause::wrong_time);
+}

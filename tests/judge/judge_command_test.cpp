@@ -1,0 +1,77 @@
+// lorentz judge as its users call it: the fault is named and can be made again from what is printed.
+#include <catch2/catch.hpp>
+
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz::test;
+
+namespace {
+
+// The text after `begin`, to the end of its line.
+std::string line_after(const std::string& text, const std::string& begin) {
+  const std::size_t at = text.find(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size();
+  return text.substr(from, text.find('\n', from) - from);
+}
+
+// What is printed is run as it stands, by a shell that finds `lorentz`.
+Run run_printed(const Folder& folder, const std::string& command) {
+  const fs::path program = LORENTZ_PROGRAM;
+  return folder.run("PATH=" + program.parent_path().string() + ":$PATH sh " +
+                    folder.write("again.sh", command + "\n"));
+}
+
+}  // namespace
+
+TEST_CASE("judge names the one fault of an engine, and each command that it prints makes it again",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz(std::string("judge --quick --time 5 --engine cmd:") + LORENTZ_TOLERANT_ENGINE);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out,
+                 "\nwrong: passes over obstacles that the line enters by less than 1e-09 of their "
+                 "radii; ill-posed "));
+  CHECK(contains(run.out, "\n1. wrong: passes over obstacles that the line enters by less than 1e-09"));
+  CHECK_FALSE(contains(run.out, "2. wrong"));
+  CHECK(contains(run.out, "and none of the right answers)"));
+  CHECK(contains(run.out, "\ngolden grazing "));
+  CHECK(contains(run.out, "\ncampaign "));
+  const std::string compare = line_after(run.out, "\n   $ ");
+  CHECK(contains(compare, "\"0x1"));
+  const Run again = run_printed(folder, compare);
+  INFO(again.out << again.err);
+  CHECK(again.status == 1);
+  CHECK(contains(again.out, "wrong in 1 of 1 answers"));
+  const Run alone = run_printed(folder, line_after(run.out, compare + "\n   $ "));
+  CHECK(contains(alone.out, line_after(run.out, "\n   says  {")));
+}
+
+TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz("judge --quick --time 3 --json --strict --engine certified");
+  INFO(run.out << run.err);
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, R"({"format":1,"kind":"judge","title":"certified, judged","manifest":{)"));
+  CHECK(contains(run.out, R"("engine":"certified","verdict":"right","line":"right: no wrong answer in )"));
+  CHECK(contains(run.out, R"("wrong":0,"ill_posed":0,"wrong_time":0,"undecided":0,)"));
+  CHECK(contains(run.out, R"("difficulties":[{"name":"drawn square",)"));
+  CHECK(contains(run.out, R"("findings":[]})"));
+  CHECK(lines(run.out) == 1);
+}
+
+TEST_CASE("judge: an engine that breaks, bad usage, places that cannot be written",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const Run broken = folder.lorentz("judge --quick --time 2 --json --engine cmd:false");
+  INFO(broken.out << broken.err);
+  CHECK(broken.status == 3);
+  CHECK(contains(broken.out, R"("verdict":"broken","line":"broken: )"));
+  CHECK(contains(broken.out, R"("cause":"no-answer",)"));
+  CHECK(folder.lorentz("judge --engine nobody").status == 2);
+  CHECK(folder.lorentz("judge").status == 2);
+  CHECK(folder.lorentz("judge --engine reduction --time never").status == 2);
+  CHECK(folder.lorentz("judge --engine reduction --html /nowhere/page.html").status == 3);
+}
