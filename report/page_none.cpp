@@ -1,0 +1,7 @@
+#include "report/page_text.hpp"
+
+namespace lorentz::report {
+
+extern const std::string_view page_text{};
+
+}  // namespace lorentz::report

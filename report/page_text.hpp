@@ -1,0 +1,10 @@
+// The page without its report, as report/web/build.mjs makes it; empty in a program that was built without npm.
+#pragma once
+
+#include <string_view>
+
+namespace lorentz::report {
+
+extern const std::string_view page_text;
+
+}  // namespace lorentz::report

@@ -1,0 +1,109 @@
+// The findings: filtered, in pages, so that ten thousand open as fast as ten.
+import { h, section } from "./dom.js";
+import { choice, pager, searchField } from "./controls.js";
+import { closeness } from "./charts/closeness.js";
+import { findingCard } from "./finding.js";
+import { count } from "./numbers.js";
+import { indexOf, onSelect, selected } from "./selection.js";
+import { verdictOf } from "./verdicts.js";
+
+const ANY = "any";
+const SORTS = {
+  simplest: ["simplest first", null],
+  closest: ["closest call first", (f) => Math.abs(f.by_radii ?? Infinity)],
+  farthest: ["farthest off first", (f) => -Math.abs(f.by_radii ?? 0)],
+  frequent: ["most frequent first", (f) => -(f.count ?? 1)],
+};
+
+// What is searched in; made once, at the first search.
+const texts = new WeakMap();
+function textOf(finding) {
+  if (!texts.has(finding)) {
+    const { drawing, key, ...rest } = finding;
+    texts.set(finding, JSON.stringify(rest).toLowerCase());
+  }
+  return texts.get(finding);
+}
+
+function valuesOf(findings, key) {
+  const counts = new Map();
+  for (const f of findings) counts.set(f[key] ?? "", (counts.get(f[key] ?? "") ?? 0) + 1);
+  return [...counts].sort((a, b) => b[1] - a[1]).map(([value, n]) => [String(value), `${value || "–"} (${count(n)})`]);
+}
+
+export function findingsSection(report) {
+  const findings = report.findings ?? [];
+  if (!findings.length) return null;
+  let shown = findings, words = "";
+  const list = h("div", { class: "finding-list" });
+  const status = h("p", { class: "status", role: "status" });
+  const filter = () => arrange(0);
+  const choices = {
+    cause: choice("Cause", [[ANY, "any"], ...valuesOf(findings, "cause").slice(0, 200)], filter),
+    verdict: choice("Verdict", [[ANY, "any"], ...valuesOf(findings, "verdict").map(([v, t]) => [v, t.replace(v, verdictOf(v).word)])], filter),
+    where: choice("Where", [[ANY, "any"], ...valuesOf(findings, "where").slice(0, 200)], filter),
+  };
+  const sort = choice("Order", Object.entries(SORTS).map(([value, [text]]) => [value, text]), filter);
+  const size = choice("A page", [["5", "5"], ["20", "20"], ["100", "100"]], filter);
+  const search = searchField("Search", (value) => { words = value.toLowerCase(); filter(); });
+  const pages = pager("Pages of findings", () => { fill(); list.firstElementChild?.focus({ preventScroll: true }); list.scrollIntoView({ block: "start" }); });
+
+  const keeps = (finding) =>
+    Object.entries(choices).every(([key, c]) => c.value === ANY || String(finding[key] ?? "") === c.value) &&
+    words.split(/\s+/).every((word) => textOf(finding).includes(word));
+
+  function arrange(page) {
+    const all = Object.values(choices).every((c) => c.value === ANY) && !words;
+    shown = all ? [...findings] : findings.filter(keeps);
+    const by = SORTS[sort.value][1];
+    if (by) shown.sort((a, b) => by(a) - by(b));
+    pages.set(shown.length, Number(size.value), page);
+    fill();
+  }
+
+  function fill() {
+    const from = pages.page * Number(size.value);
+    const page = shown.slice(from, from + Number(size.value));
+    list.replaceChildren(...page.map((f) => findingCard(f, indexOf(f.key, "finding"), findings.length)));
+    status.textContent = shown.length === findings.length ? `${count(findings.length)} findings` : `${count(shown.length)} of ${count(findings.length)} findings`;
+    mark();
+  }
+
+  function mark() {
+    for (const card of list.children) {
+      const chosen = card.dataset.key === selected();
+      card.classList.toggle("chosen", chosen);
+      card.querySelector("button.mark").setAttribute("aria-pressed", String(chosen));
+    }
+  }
+
+  onSelect((key, source) => {
+    const i = indexOf(key, "finding");
+    if (i !== null && source === "chart") showFinding(findings[i]);
+    mark();
+  });
+
+  function showFinding(finding) {
+    if (!shown.includes(finding)) resetFilters();
+    arrange(Math.floor(shown.indexOf(finding) / Number(size.value)));
+    list.querySelector(`[data-key="${finding.key}"]`)?.scrollIntoView({ block: "nearest" });
+  }
+
+  function resetFilters() {
+    for (const c of Object.values(choices)) c.value = ANY;
+    search.field.value = words = "";
+    arrange(0);
+  }
+
+  arrange(0);
+  const few = findings.length < 2;
+  return {
+    element: section("findings", few ? "What was found" : "What is wrong",
+      few ? null : "Each finding is the simplest case of its kind: the flight, the obstacle that is in question, and what decides it.",
+      closeness(report),
+      few ? null : h("div", { class: "controls", role: "search", "aria-label": "Filter findings" }, Object.values(choices).map((c) => c.element), sort.element, findings.length > 5 ? size.element : null, search.element),
+      few ? null : status, list, pages.element),
+    /** Shows the findings of one cause only. */
+    only(key, value) { resetFilters(); choices[key].value = value; arrange(0); document.getElementById("findings").scrollIntoView(); },
+  };
+}
