@@ -99,6 +99,7 @@ function bench() {
   const points = (rate) => Array.from({ length: 30 }, (_, i) => { const s = 1 / (1 + Math.exp(0.6 * (i + 1 - rate))); return { collisions: i + 1, share: s, low: Math.max(0, s - 0.02), high: Math.min(1, s + 0.02) }; });
   return {
     format: 1, kind: "bench", title: "lorentz bench: five engines", manifest: { ...MANIFEST, command: "lorentz bench --html bench.html" }, cells,
+    fits: [{ scene: "square", engine: "float", difficulty: "drawn", exponent: -0.0512, low: -0.0611, high: -0.0413, from: 1e-5, to: 0.01 }],
     findings: [finding(1, "float-misses-small-obstacles", "At small radii single precision steps over the obstacle.", 0.4, { where: "square r=1e-05" })],
     survival: [["reduction", 14], ["float", 6], ["binary128", 28]].map(([engine, rate]) => ({ scene: "square", radius: 0.1, engine, points: points(rate) })),
     free_paths: [0.1, 0.01].map((radius) => ({ scene: "square", radius, points: Array.from({ length: 24 }, (_, i) => { const t = 0.1 * 1.6 ** i / radius; const s = 1 / (1 + (2 * radius * t) ** 2); return { t, survival: s * (1 + 0.03 * draw()), theory: s }; }) })),

@@ -56,15 +56,15 @@ export function cellsSection(report, looks) {
     { name: "scene", value: (c) => c.scene, cell: (c) => c.scene },
     figureColumn("r", (c) => c.radius, number, "radius of all obstacles; –: the scene's own"),
     { name: "difficulty", value: (c) => c.difficulty, cell: (c) => (c.skipped ? `${c.difficulty} (skipped)` : c.difficulty) },
-    figureColumn("queries", (c) => c.queries, count),
     figureColumn("time a query", (c) => c.ns?.median, duration, "median over the rounds"),
-    figureColumn("instructions", (c) => c.instructions, number, "a query"),
-    figureColumn("mean path", (c) => c.mean_path),
     shareColumn("wrong", "wrong"), shareColumn("ill-posed", "ill_posed"),
     shareColumn("wrong time", "wrong_time"), shareColumn("undecided", "undecided"),
     figureColumn("99 % ulps", (c) => c.ulps?.p99, number, "99 % of the times of right hits err by less, in ulps"),
     figureColumn("max ulps", (c) => c.ulps?.max),
     { name: "worst input", value: (c) => c.worst?.ulps ?? null, cell: worst },
+    figureColumn("instructions", (c) => c.instructions, number, "a query"),
+    figureColumn("mean path", (c) => c.mean_path),
+    figureColumn("queries", (c) => c.queries, count),
   ].filter((column, i) => i < 4 || cells.some((c) => column.value(c) !== null && column.value(c) !== undefined));
   const table = choosableTable({ label: "Cells", columns, rows: cells });
   const filters = [];
@@ -78,5 +78,5 @@ export function cellsSection(report, looks) {
 function worst(cell) {
   if (!cell.worst) return "–";
   const copy = h("button", { type: "button", class: "copy", "data-copy": cell.worst.command ?? "", "aria-label": "Copy the command that repeats the worst input" }, "copy command");
-  return h("span", { title: JSON.stringify(cell.worst.query ?? {}) }, isNumber(cell.worst.ulps) ? `${number(cell.worst.ulps)} ulps ` : "", cell.worst.command ? copy : "");
+  return h("span", { class: "worst", title: JSON.stringify(cell.worst.query ?? {}) }, isNumber(cell.worst.ulps) ? `${number(cell.worst.ulps)} ulps ` : "", cell.worst.command ? copy : "");
 }

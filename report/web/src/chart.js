@@ -3,6 +3,7 @@ import { h, newId } from "./dom.js";
 import { legend } from "./engines.js";
 import { saveCsv, saveSvg } from "./download.js";
 import { pointer } from "./pointer.js";
+import { powerTick } from "./numbers.js";
 import { plainTable } from "./table.js";
 import * as Plot from "@observablehq/plot";
 
@@ -32,7 +33,7 @@ export function chart({ name, title, note, controls = [], draw, below = null, le
     svg?.remove();
     svg = drawn ? withLegend(drawn, width, title, legendLines) : null;
     figure.classList.toggle("empty", !svg);
-    summary.textContent = drawn ? drawn.summary : "Nothing to draw for this choice.";
+    summary.textContent = drawn ? drawn.summary[0].toUpperCase() + drawn.summary.slice(1) : "Nothing to draw for this choice.";
     under.replaceChildren(...(drawn && below ? [below(drawn)].filter(Boolean) : []));
     fillNumbers();
     if (!svg) return;
@@ -74,16 +75,34 @@ function withLegend(drawn, width, title, lines) {
 /** Plot.plot with what all charts share. */
 export function plot(options) {
   return Plot.plot({
+    ...options,
+    x: withoutOwn(options.x), y: withoutOwn(options.y),
+    marks: [logMarks(Plot.axisX, Plot.gridX, options.x), logMarks(Plot.axisY, Plot.gridY, options.y), ...options.marks],
     style: "background: transparent; overflow: visible; font-family: inherit; font-size: 12px; color: inherit",
-    marginLeft: 62, marginRight: 16, marginBottom: 44, marginTop: 16,
+    marginLeft: options.marginLeft ?? 62, marginRight: 16, marginBottom: 44, marginTop: 16,
     color: { type: "identity" },
     symbol: { type: "identity" },
-    ...options,
   });
 }
 
-/** A domain for positive values on a logarithmic axis, with some air. */
-export function logDomain(values, air = 1.6) {
+// Plot leaves out labels of logarithmic ticks where it takes them to be too many: here they have been counted.
+const withoutOwn = (scale) => (scale?.show ? { ...scale, axis: null } : scale);
+const logMarks = (axis, grid, scale) =>
+  scale?.show ? [grid(scale.ticks, {}), axis(scale.ticks, { text: (t) => scale.show(t), label: scale.label, labelAnchor: "center" })] : null;
+
+/** A logarithmic axis for these values (what is not above 0 does not count), with about so many ticks. */
+export function logAxis(label, values, ticks, { air = 1.6, show = powerTick } = {}) {
   const positive = values.filter((value) => value > 0 && Number.isFinite(value));
-  return positive.length ? [Math.min(...positive) / air, Math.max(...positive) * air] : [0.1, 10];
+  const domain = positive.length ? [Math.min(...positive) / air, Math.max(...positive) * air] : [0.1, 10];
+  return { type: "log", label, domain, ticks: logTicks(domain, Math.max(3, Math.floor(ticks))), show };
+}
+
+// Powers of ten, every so many if there are too many; 1, 2 and 5 (or 1 and 3) times them if there are too few.
+function logTicks([low, high], most) {
+  const exponents = [];
+  for (let e = Math.ceil(Math.log10(low) - 1e-9); e <= Math.log10(high) + 1e-9; ++e) exponents.push(e);
+  const step = Math.ceil(exponents.length / most);
+  if (exponents.length > 2) return exponents.filter((e) => e % step === 0).map((e) => Number(`1e${e}`));
+  const from = Math.floor(Math.log10(low));
+  return [from, from + 1, from + 2].flatMap((e) => (most > 4 ? [1, 2, 5] : [1, 3]).map((m) => Number(`${m}e${e}`))).filter((t) => t >= low && t <= high);
 }

@@ -31,8 +31,8 @@ export function pager(label, show) {
   const place = h("span", { class: "place", "aria-live": "polite" });
   const go = (to) => { if (to >= 0 && to < pages) { page = to; render(); show(page); } };
   const button = (text, name, step) => h("button", { type: "button", "aria-label": name, onclick: () => go(step()) }, text);
-  const first = button("⏮", "first page", () => 0), before = button("◀", "page before", () => page - 1);
-  const next = button("▶", "next page", () => page + 1), last = button("⏭", "last page", () => pages - 1);
+  const first = button("«", "first page", () => 0), before = button("‹", "page before", () => page - 1);
+  const next = button("›", "next page", () => page + 1), last = button("»", "last page", () => pages - 1);
   const element = h("nav", { class: "pager", "aria-label": label }, first, before, place, next, last);
   let page = 0, pages = 1, total = 0, size = 1;
   function render() {

@@ -24,6 +24,9 @@ export function svgElement(tag, attributes = {}, text = null) {
 let last = 0;
 export const newId = (prefix) => `${prefix}-${++last}`;
 
+/** A text for where there is little room. */
+export const shortened = (text, letters) => (text.length > letters ? `${text.slice(0, letters - 1)}…` : text);
+
 /** A section with a heading; nothing if there is nothing to show in it. */
 export function section(id, title, lead, ...children) {
   const shown = children.flat().filter(Boolean);

@@ -1,6 +1,7 @@
 // Who fails what: engines by difficulty (of cells), or causes by place (of findings).
 import { h, section } from "./dom.js";
 import { swatch } from "./engines.js";
+import { placeOf } from "./findings.js";
 import { count, percent } from "./numbers.js";
 
 const MOST_ROWS = 30, MOST_COLUMNS = 10;
@@ -37,23 +38,25 @@ function wrongIn(cells) {
   };
 }
 
-function top(findings, key, most) {
+const causeOf = (finding) => finding.cause ?? "–";
+
+function top(findings, of, most) {
   const counts = new Map();
-  for (const f of findings) counts.set(f[key] ?? "–", (counts.get(f[key] ?? "–") ?? 0) + (f.count ?? 1));
+  for (const f of findings) counts.set(of(f), (counts.get(of(f)) ?? 0) + (f.count ?? 1));
   return [...counts].sort((a, b) => b[1] - a[1]).slice(0, most).map(([value]) => value);
 }
 
 function ofFindings(findings, only) {
-  const causes = top(findings, "cause", MOST_ROWS), places = top(findings, "where", MOST_COLUMNS);
+  const causes = top(findings, causeOf, MOST_ROWS), places = top(findings, placeOf, MOST_COLUMNS);
   if (causes.length < 2 && places.length < 2) return null;
   const total = findings.reduce((s, f) => s + (f.count ?? 1), 0);
   const table = new Map();
   for (const f of findings) {
-    const at = JSON.stringify([f.cause ?? "–", f.where ?? "–"]);
+    const at = JSON.stringify([causeOf(f), placeOf(f)]);
     table.set(at, (table.get(at) ?? 0) + (f.count ?? 1));
   }
-  return matrix("Findings by cause and place", "cause", places, causes.map((cause) => ({
-    name: h("button", { type: "button", class: "row", title: "show these findings only", onclick: () => only("cause", cause) }, cause),
+  return matrix("Findings by cause and place", "cause", places.map((place) => place || "–"), causes.map((cause) => ({
+    name: h("button", { type: "button", class: "row", title: "show these findings only", onclick: () => only({ cause }) }, cause),
     cells: places.map((place) => {
       const n = table.get(JSON.stringify([cause, place]));
       return n ? { text: count(n), share: n / total, bad: true } : null;

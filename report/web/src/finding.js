@@ -13,17 +13,16 @@ export function findingCard(finding, i, total) {
     h("div", { class: "finding-head" },
       h("h3", { id: title },
         h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word), " ", finding.cause ?? "finding"),
-      h("button", { type: "button", class: "mark", "aria-pressed": String(selected() === finding.key), onclick: () => select(finding.key, "list") }, "mark in charts")),
+      total > 1 && h("button", { type: "button", class: "mark", "aria-pressed": String(selected() === finding.key), onclick: () => select(finding.key, "list") }, "mark in charts")),
     finding.explanation && h("p", { class: "explanation" }, finding.explanation),
     h("p", { class: "facts" }, facts(finding, i, total)),
     h("div", { class: picture ? "finding-body with-picture" : "finding-body" },
-      picture && h("div", { class: "paper" }, picture),
-      h("div", { class: "finding-text" },
-        answers(finding.given, finding.exact),
-        reason(finding.reason),
-        query(finding.query),
-        finding.scene && h("details", {}, h("summary", {}, "Scene"), h("pre", { tabindex: 0, "aria-label": "Scene as JSON" }, JSON.stringify(finding.scene))),
-        commands(finding.commands))));
+      h("div", {},
+        picture && h("div", { class: "paper", tabindex: 0, role: "region", "aria-label": "Drawing" }, picture),
+        reason(finding.reason)),
+      h("div", {}, answers(finding.given, finding.exact), query(finding.query))),
+    finding.scene && h("details", {}, h("summary", {}, "Scene"), h("pre", { tabindex: 0, "aria-label": "Scene as JSON" }, JSON.stringify(finding.scene))),
+    commands(finding.commands));
 }
 
 function facts(finding, i, total) {
@@ -39,15 +38,19 @@ function facts(finding, i, total) {
 const textOf = (value) => (value === undefined || value === null ? "–" : Array.isArray(value) ? `(${value.map(textOf).join(", ")})` : typeof value === "object" ? JSON.stringify(value) : String(value));
 
 function answers(given, exact) {
-  if (!given && !exact) return null;
-  const keys = [...new Set([...Object.keys(exact ?? {}), ...Object.keys(given ?? {})])].filter((key) => key !== "id");
+  const answers = [["given", given], ["exact", exact]].filter(([, answer]) => answer);
+  if (!answers.length) return null;
+  const keys = [...new Set(answers.flatMap(([, answer]) => Object.keys(answer)))].filter((key) => key !== "id");
+  const row = (key) => {
+    const values = answers.map(([, answer]) => textOf(answer[key]));
+    const differs = values.length > 1 && values[0] !== values[1];
+    return h("tr", { class: differs ? "differs" : null },
+      h("th", { scope: "row" }, key, differs && h("span", { class: "unseen" }, " (differs)")), values.map((value) => h("td", {}, value)));
+  };
   return h("table", { class: "answers" },
-    h("caption", {}, "The answer given, and the exact one"),
-    h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col" }, "given"), h("th", { scope: "col" }, "exact"))),
-    h("tbody", {}, keys.map((key) => {
-      const [a, b] = [textOf(given?.[key]), textOf(exact?.[key])];
-      return h("tr", { class: a === b ? null : "differs" }, h("th", { scope: "row" }, key, a === b ? null : h("span", { class: "unseen" }, " (differs)")), h("td", {}, a), h("td", {}, b));
-    })));
+    h("caption", {}, answers.length > 1 ? "The answer given, and the exact one" : "The answer"),
+    h("thead", {}, h("tr", {}, h("td", {}), answers.map(([name]) => h("th", { scope: "col" }, name)))),
+    h("tbody", {}, keys.map(row)));
 }
 
 function reason(lines) {

@@ -19,7 +19,8 @@ export function plainTable(label, { columns, rows }) {
 }
 
 /**
- * `columns`: {name, hint, value(row) to sort by, cell(row): text or element, figure: true for numbers}; `rows`
+ * `columns`: {name, hint, value(row) to sort by, cell(row): text or element,
+ * below(row): what stands below it (of the first column), figure: true for numbers}; `rows`
  * have a `key` for the selection. The first column names the row. `size` rows a page.
  */
 export function choosableTable({ label, columns, rows, size = 25 }) {
@@ -56,14 +57,17 @@ export function choosableTable({ label, columns, rows, size = 25 }) {
     fill();
   }
 
+  const choose = (row) => select(row.key, "table");
+
+  function rowOf(row) {
+    const name = ({ cell, below }) =>
+      h("th", { scope: "row" }, h("button", { type: "button", class: "row", "aria-pressed": "false", onclick: () => choose(row) }, cell(row)), below?.(row));
+    return h("tr", { "data-key": row.key, onclick: (event) => { if (!event.target.closest("button, a")) choose(row); } },
+      columns.map((column, i) => (i ? h("td", { class: column.figure ? "figure" : null }, column.cell(row)) : name(column))));
+  }
+
   function fill() {
-    body.replaceChildren(...shown.slice(pages.page * size, (pages.page + 1) * size).map((row) => {
-      const tr = h("tr", { "data-key": row.key, onclick: (event) => { if (!event.target.closest("button, a")) select(row.key, "table"); } },
-        columns.map((column, i) => i
-          ? h("td", { class: column.figure ? "figure" : null }, column.cell(row))
-          : h("th", { scope: "row" }, h("button", { type: "button", class: "row", "aria-pressed": "false", onclick: () => select(row.key, "table") }, column.cell(row)))));
-      return tr;
-    }));
+    body.replaceChildren(...shown.slice(pages.page * size, (pages.page + 1) * size).map(rowOf));
     mark();
   }
 

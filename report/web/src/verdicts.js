@@ -2,6 +2,7 @@
 export const VERDICTS = {
   right: { word: "right", sign: "✓", colour: "var(--right)" },
   agree: { word: "agree", sign: "✓", colour: "var(--right)" },
+  exact: { word: "exact", sign: "✓", colour: "var(--right)", symbol: "star" },
   wrong: { word: "wrong", sign: "✗", colour: "var(--wrong)", symbol: "circle" },
   broken: { word: "broken", sign: "✗", colour: "var(--wrong)", symbol: "circle" },
   "ill-posed": { word: "ill-posed", sign: "≈", colour: "var(--ill-posed)", symbol: "diamond" },

@@ -1,8 +1,9 @@
 // How close the calls were that an engine got wrong. A tolerance shows as an edge that no finding is beyond.
 import * as Plot from "@observablehq/plot";
-import { chart, logDomain, plot } from "../chart.js";
+import { shortened } from "../dom.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { isNumber, number, powerTick } from "../numbers.js";
+import { isNumber, number } from "../numbers.js";
 import { verdictOf } from "../verdicts.js";
 
 const MOST = 1500;  // points; more are thinned evenly
@@ -30,11 +31,11 @@ export function closeness(report) {
     const band = some.length > 60 ? 44 : 30;
     const svg = plot({
       width, height: 56 + band * domain.length, marginLeft: 16 + 6.6 * Math.min(letters, Math.max(...domain.map((c) => c.length))),
-      x: { type: "log", domain: logDomain(some.map((f) => Math.abs(f[key])), 3), label: unit, tickFormat: (t) => powerTick(t), labelAnchor: "center", ticks: Math.max(3, width / 110) },
-      y: { type: "band", domain, label: null, tickSize: 0, tickFormat: (c) => (c.length > letters ? `${c.slice(0, letters - 1)}…` : c) },
+      x: logAxis(unit, some.map((f) => Math.abs(f[key])), width / 110, { air: 3 }),
+      y: { type: "band", domain, label: null, tickSize: 0, tickFormat: (cause) => shortened(cause, letters) },
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.ruleY(domain, { y: (c) => c, strokeOpacity: 0.12 }),
-        Plot.dot(some, { x: (f) => Math.abs(f[key]), y: named, dy: 0, r: some.length > 200 ? 2.5 : 5.5, symbol: (f) => verdictOf(f.verdict).symbol, fill: (f) => verdictOf(f.verdict).colour, fillOpacity: some.length > 200 ? 0.5 : 0.95, ariaLabel: "findings",
+        Plot.ruleY(domain, { y: (c) => c, strokeOpacity: 0.12 }),
+        Plot.dot(some, { x: (f) => Math.abs(f[key]), y: named, dy: 0, r: some.length > 200 ? 2.5 : 5.5, symbol: (f) => verdictOf(f.verdict).symbol, fill: (f) => verdictOf(f.verdict).colour, fillOpacity: some.length > 200 ? 0.5 : 0.95,
           render(index, scales, values, size, context, next) { return shifted(next(index, scales, values, size, context), index, band, some.length); } }),
       ],
     });

@@ -1,7 +1,8 @@
 // Where an engine fails: for each kind of query the shares of answers that are not right.
 import * as Plot from "@observablehq/plot";
-import { chart, logDomain, plot } from "../chart.js";
-import { count, percent, powerTick } from "../numbers.js";
+import { shortened } from "../dom.js";
+import { chart, logAxis, plot } from "../chart.js";
+import { count, percent } from "../numbers.js";
 import { FAULTS, verdictOf } from "../verdicts.js";
 
 export function difficultiesChart(report) {
@@ -13,14 +14,13 @@ export function difficultiesChart(report) {
   function draw(width) {
     const names = rows.map((row) => row.name);
     const letters = Math.floor(Math.min(190, 0.36 * width) / 6.6);
-    const short = (name) => (name.length > letters ? `${name.slice(0, letters - 1)}…` : name);
     const svg = plot({
       width, height: 56 + 26 * names.length, marginLeft: 14 + 6.6 * Math.min(letters, Math.max(...names.map((n) => n.length))),
-      x: { type: "log", domain: logDomain(points.map((p) => p.share), 2), label: "share of the queries", tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "band", domain: names, label: null, tickFormat: short, tickSize: 0 },
+      x: logAxis("share of the queries", points.map((p) => p.share), width / 110, { air: 2 }),
+      y: { type: "band", domain: names, label: null, tickFormat: (name) => shortened(name, letters), tickSize: 0 },
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.ruleY(names, { y: (n) => n, strokeOpacity: 0.12 }),
-        Plot.dot(points, { x: "share", y: (p) => p.row.name, r: 6, symbol: (p) => p.verdict.symbol, fill: (p) => p.verdict.colour, ariaLabel: "shares" }),
+        Plot.ruleY(names, { y: (n) => n, strokeOpacity: 0.12 }),
+        Plot.dot(points, { x: "share", y: (p) => p.row.name, r: 6, symbol: (p) => p.verdict.symbol, fill: (p) => p.verdict.colour }),
       ],
     });
     const [sx, sy] = [svg.scale("x"), svg.scale("y")];

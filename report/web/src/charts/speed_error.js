@@ -1,9 +1,10 @@
 // Speed against error: each cell a point, and the front of those that no other beats in both.
 import * as Plot from "@observablehq/plot";
-import { chart, logDomain, plot } from "../chart.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { groupChoices, inGroup, nameOfCell, ALL } from "../cells.js";
-import { duration, isNumber, number, percent, powerTick } from "../numbers.js";
+import { groupChoices, inGroup, nameOfCell } from "../cells.js";
+import { putLabels } from "../labels.js";
+import { duration, isNumber, number, percent } from "../numbers.js";
 import { indexOf, onSelect } from "../selection.js";
 import { paretoFront } from "../statistics.js";
 
@@ -35,7 +36,7 @@ function pointsOf(cells, error) {
     const value = error.of(cell);
     return value && isNumber(cell.ns?.median) ? [{ cell, x: cell.ns.median, ...value, none: value.y === 0 }] : [];
   });
-  const floor = logDomain(points.map((p) => p.y), 3)[0];
+  const floor = Math.min(...points.map((p) => p.y || Infinity), 1e300) / 3;
   for (const point of points) if (point.none) point.y = point.high ?? floor;
   return points;
 }
@@ -60,19 +61,20 @@ export function speedError(report, looks) {
     const points = pointsOf(cells.filter((cell) => inGroup(cell, groups)), error);
     if (!points.length) return null;
     const front = frontsOf(points), single = new Set(front.map((p) => p.group)).size === 1;
-    const x = { type: "log", label: "time a query", domain: logDomain(points.map((p) => p.x), 1.5), tickFormat: (t) => (powerTick(t) ? duration(t) : ""), labelAnchor: "center" };
-    const y = { type: "log", label: error.axis, domain: logDomain(points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y]), 1.5), tickFormat: (t) => powerTick(t), labelAnchor: "center" };
+    const x = logAxis("time a query", points.map((p) => p.x), width / 80, { show: duration });
+    const y = logAxis(error.axis, points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y]), 7);
     const look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width, height: Math.max(300, Math.min(430, 0.62 * width)), x, y,
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
-        Plot.line(front, { x: "x", y: "y", z: "group", curve: "step-after", stroke: "var(--front)", strokeWidth: single ? 2 : 1, strokeOpacity: single ? 0.9 : 0.35, ariaLabel: "Pareto front" }),
+        Plot.line(front, { x: "x", y: "y", z: "group", curve: "step-after", stroke: "var(--front)", strokeWidth: single ? 2 : 1, strokeOpacity: single ? 0.9 : 0.35 }),
         Plot.ruleX(points.filter((p) => p.high), { x: "x", y1: (p) => p.low || y.domain[0], y2: "high", stroke: (p) => look(p).colour, strokeOpacity: single ? 0.6 : 0.25 }),
-        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 6, fill: (p) => (p.none ? "var(--surface)" : look(p).colour), stroke: (p) => look(p).colour, strokeWidth: 1.8, ariaLabel: "cells" }),
+        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 6, fill: (p) => (p.none ? "var(--surface)" : look(p).colour), stroke: (p) => look(p).colour, strokeWidth: 1.8 }),
       ],
     });
-    return { svg, ...shown(svg, points, front, error, looks) };
+    const drawn = { svg, ...shown(svg, points, front, error, looks) };
+    if (single) putLabels(svg, drawn.points.map((p) => ({ x: p.x, y: p.y, text: p.lines[0] })), { x: 62, y: 4, width: width - 66 });
+    return drawn;
   }
 
   const made = chart({

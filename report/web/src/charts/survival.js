@@ -18,13 +18,12 @@ export function survival(report, looks) {
     const colour = (p) => looks.get(p.engine).colour;
     const svg = plot({
       width, height: Math.max(280, Math.min(400, 0.6 * width)),
-      x: { label: "collisions", labelAnchor: "center" },
-      y: { domain: [0, 1], label: "share of trajectories that are still right", tickFormat: "%", labelAnchor: "center" },
+      x: { grid: true, label: "collisions", labelAnchor: "center" },
+      y: { grid: true, domain: [0, 1], label: "share of trajectories that are still right", tickFormat: "%", labelAnchor: "center" },
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
         Plot.areaY(points.filter((p) => p.low !== undefined && p.high !== undefined), { x: "collisions", y1: "low", y2: "high", z: "engine", fill: colour, fillOpacity: 0.15 }),
-        chosen.map((curve) => Plot.line(curve.points, { x: "collisions", y: "share", stroke: looks.get(curve.engine).colour, strokeDasharray: looks.get(curve.engine).dash || null, ariaLabel: "curve" })),
-        Plot.dot(points, { x: "collisions", y: "share", r: 3, symbol: (p) => looks.get(p.engine).symbol, fill: colour, ariaLabel: "points" }),
+        chosen.map((curve) => Plot.line(curve.points, { x: "collisions", y: "share", stroke: looks.get(curve.engine).colour, strokeDasharray: looks.get(curve.engine).dash || null })),
+        Plot.dot(points, { x: "collisions", y: "share", r: 3, symbol: (p) => looks.get(p.engine).symbol, fill: colour }),
       ],
     });
     const [sx, sy] = [svg.scale("x"), svg.scale("y")];

@@ -1,11 +1,11 @@
 // What a query costs as obstacles shrink: time against radius, a power law through each engine's points.
 import * as Plot from "@observablehq/plot";
 import { h } from "../dom.js";
-import { chart, logDomain, plot } from "../chart.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
 import { groupChoices, inGroup, nameOfCell } from "../cells.js";
 import { swatch } from "../engines.js";
-import { duration, isNumber, number, powerTick } from "../numbers.js";
+import { duration, isNumber, number } from "../numbers.js";
 import { indexOf, onSelect } from "../selection.js";
 import { powerLaw } from "../statistics.js";
 
@@ -18,12 +18,20 @@ const signed = (value) => value.toFixed(3).replace("-", "−");
 const interval = (fit) => (fit.low === null ? "" : ` (95 %: ${signed(fit.low)} to ${signed(fit.high)})`);
 const fitText = (fit) => (fit ? `r^${signed(fit.exponent)}${interval(fit)}` : "no fit: one radius");
 
-function fitsOf(points) {
-  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => ({
-    engine, radii: new Set(members.map((p) => p.x)).size,
-    fit: powerLaw(members.map((p) => [p.x, p.y])),
-    ends: [Math.min(...members.map((p) => p.x)), Math.max(...members.map((p) => p.x))],
-  }));
+// The report's own fit, if it has one for this engine: it says over which radii.
+function fitOf(members, reported) {
+  if (!reported) return powerLaw(members.map((p) => [p.x, p.y]));
+  const fitted = members.filter((p) => p.x >= reported.from && p.x <= reported.to);
+  const mean = (of) => fitted.reduce((sum, p) => sum + Math.log(of(p)), 0) / fitted.length;
+  return { ...reported, factor: Math.exp(mean((p) => p.y) - reported.exponent * mean((p) => p.x)) };
+}
+
+function fitsOf(points, reported) {
+  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => {
+    const own = reported.find((f) => f.engine === engine && members.every(({ cell }) => cell.scene === f.scene && cell.difficulty === f.difficulty));
+    const radii = members.map((p) => p.x);
+    return { engine, fit: fitOf(members, own), ends: own ? [own.from, own.to] : [Math.min(...radii), Math.max(...radii)] };
+  });
 }
 
 export function timeRadius(report, looks) {
@@ -38,17 +46,16 @@ export function timeRadius(report, looks) {
     const points = cells.filter((c) => inGroup(c, groups) && cost.of(c) > 0)
       .map((cell) => ({ cell, x: cell.radius, y: cost.of(cell), low: cost.low(cell) ?? null, high: cost.high(cell) ?? null }));
     if (!points.length) return null;
-    const fits = fitsOf(points), look = (p) => looks.get(p.cell.engine);
+    const fits = fitsOf(points, cost.value === "ns" ? report.fits ?? [] : []), look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width, height: Math.max(300, Math.min(430, 0.62 * width)),
-      x: { type: "log", label: "radius r", domain: logDomain(points.map((p) => p.x), 1.4), reverse: true, tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "log", label: cost.axis, domain: logDomain(points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y])), tickFormat: (t) => (powerTick(t) ? cost.show(t) : ""), labelAnchor: "center" },
+      x: { ...logAxis("radius r", points.map((p) => p.x), width / 80, { air: 1.4 }), reverse: true },
+      y: logAxis(cost.axis, points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y]), 7, { show: cost.show }),
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
         fits.filter((f) => f.fit).map((f) => Plot.line(f.ends.map((r) => [r, f.fit.factor * r ** f.fit.exponent]),
-          { stroke: looks.get(f.engine).colour, strokeDasharray: looks.get(f.engine).dash || null, strokeWidth: 1.6, ariaLabel: "fit" })),
+          { stroke: looks.get(f.engine).colour, strokeDasharray: looks.get(f.engine).dash || null, strokeWidth: 1.6 })),
         Plot.ruleX(points.filter((p) => p.low > 0 && p.high > 0), { x: "x", y1: "low", y2: "high", stroke: (p) => look(p).colour, strokeWidth: 3, strokeOpacity: 0.35 }),
-        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 5, fill: (p) => look(p).colour, ariaLabel: "cells" }),
+        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 5, fill: (p) => look(p).colour }),
       ],
     });
     return { svg, fits, ...shown(svg, points, fits, cost, looks) };
@@ -84,10 +91,10 @@ function shown(svg, points, fits, cost, looks) {
 function fitTable(fits, looks) {
   return h("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Fitted exponents" }, h("table", { class: "fits" },
     h("caption", { class: "unseen" }, "Fitted exponents of the time in r"),
-    h("thead", {}, h("tr", {}, ["engine", "exponent", "95 % interval", "radii"].map((name, i) => h("th", { scope: "col", class: i ? "figure" : null }, name)))),
-    h("tbody", {}, fits.map(({ engine, fit, radii }) => h("tr", {},
+    h("thead", {}, h("tr", {}, ["engine", "exponent", "95 % interval", "of radii"].map((name, i) => h("th", { scope: "col", class: i ? "figure" : null }, name)))),
+    h("tbody", {}, fits.map(({ engine, fit, ends }) => h("tr", {},
       h("th", { scope: "row" }, swatch(looks.get(engine)), engine),
       h("td", { class: "figure" }, fit ? signed(fit.exponent) : "–"),
       h("td", { class: "figure" }, fit && fit.low !== null ? `${signed(fit.low)} … ${signed(fit.high)}` : "–"),
-      h("td", { class: "figure" }, String(radii)))))));
+      h("td", { class: "figure" }, fit ? ends.map((r) => number(r)).join(" … ") : "–"))))));
 }
