@@ -55,8 +55,13 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   cell.ns = {1.5, 1, 2, 1.75};
   cell.instructions = 812.5;
   cell.mean_path = 1.0 / 3;
+  cell.undecided = share_of(1, 50);
+  cell.ill_posed = share_of(2, 50);
   cell.wrong = share_of(3, 50);
-  cell.unsupported = 2;
+  cell.wrong_time = share_of(4, 50);
+  cell.unsupported = 5;
+  cell.error = 6;
+  cell.missing = 7;
   cell.ulps = histogram_of({0, 1, 1e9});
   cell.conditions = histogram_of({0.1});
   Query query{{0.75, 0, 0}, {1, -0x1p-30, 0}, ObstacleId{0, 0, {Integer(1), Integer(-2), Integer(0)}}};
