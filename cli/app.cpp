@@ -69,6 +69,11 @@ void parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
+std::string& called() {
+  static std::string line;
+  return line;
+}
+
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   try {
     parse(app, argc, argv);
@@ -92,6 +97,10 @@ int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
 
 }  // namespace
 
+const std::string& command_line() {
+  return called();
+}
+
 void finish_output() {
   std::cout.flush();
   const bool flushed = std::fflush(stdout) == 0;
@@ -100,6 +109,8 @@ void finish_output() {
 }
 
 int run(int argc, char** argv) {
+  called() = "lorentz";
+  for (int i = 1; i < argc; ++i) called() += ' ' + shell_quoted(argv[i]);
   CLI::App app{"Exact first hits in periodic Lorentz gases: the reference that engines are checked against."};
   app.name("lorentz");
   app.set_version_flag("--version", versions());

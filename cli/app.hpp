@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace lorentz::cli {
 
@@ -25,6 +26,9 @@ void add_diffusion(CLI::App& app, Action& action);
 void add_fuzz(CLI::App& app, Action& action);
 void add_judge(CLI::App& app, Action& action);
 void add_golden(CLI::App& app, Action& action);
+
+/// The shell line that this program was called with.
+const std::string& command_line();
 
 /// The whole program: parses, acts, and turns exceptions into messages and an exit status.
 int run(int argc, char** argv);

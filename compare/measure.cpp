@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/instruction_counter.hpp"
+
 namespace lorentz::compare {
 
 void Tally::count(const oracle::Judgement& judgement) {
@@ -123,41 +125,46 @@ constexpr double kEnoughSeconds = 10;  // no further rounds after that
 struct Round {
   double total_ns = 0;
   std::vector<double> block_means;
+  std::optional<std::uint64_t> instructions = {};
 };
 
-// One answerer over all cases; `look` sees each answer, outside the timed stretches.
+// One answerer over the first `count` cases; `look` sees each answer, outside the timed stretches.
 template <class Look>
-Round run_round(const CaseSet& set, const std::string& name, const std::vector<FirstHit>& first_hit,
-                const Listener& listener, Look look) {
+Round run_round(const CaseSet& set, std::size_t count, const std::string& name,
+                const std::vector<FirstHit>& first_hit, const Listener& listener, Look look) {
   Round round;
   std::vector<Answer> answers(kBlock);
   const oracle::Request request;
-  for (std::size_t begin = 0; begin < set.cases.size(); begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, set.cases.size());
+  InstructionCounter instructions;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, count);
+    instructions.resume();
     const auto start = Clock::now();
     for (std::size_t i = begin; i < end; ++i)
       first_hit[set.cases[i].scene](set.cases[i].query, request, answers[i - begin]);
     const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+    instructions.pause();
     round.total_ns += ns;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
     for (std::size_t i = begin; i < end; ++i) look(i, answers[i - begin]);
-    report(listener, name, end, set.cases.size());
+    report(listener, name, end, count);
   }
+  round.instructions = instructions.count();
   return round;
 }
 
 // The same of who has many queries at a time: another program, a batch engine.
 template <class Look>
-Round run_round(const CaseSet& set, const std::string& name, Answerer& program, const Listener& listener,
-                Look look) {
+Round run_round(const CaseSet& set, std::size_t count, const std::string& name, Answerer& program,
+                const Listener& listener, Look look) {
   std::vector<Answer> answers;
-  answers.reserve(set.cases.size());
+  answers.reserve(count);
   program.on_answer([&](Answer& answer) {
     answers.push_back(std::move(answer));
-    report(listener, name, answers.size(), set.cases.size());
+    report(listener, name, answers.size(), count);
   });
   const auto start = Clock::now();
-  for (std::size_t i = 0; i < set.cases.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Case& one = set.cases[i];
     if (i == 0 || one.scene != set.cases[i - 1].scene) program.set_scene(set.scenes[one.scene]);
     program.ask(one.id, one.query);
@@ -171,11 +178,13 @@ Round run_round(const CaseSet& set, const std::string& name, Answerer& program, 
 // One of the names, ready for every scene of the set, and what it did in each round.
 struct Entrant {
   Tally tally;
+  std::size_t count;                  // of the cases, from the first
   std::vector<FirstHit> first_hit;    // by scene
   std::unique_ptr<Answerer> program;  // or this, of who answers in bulk
   std::vector<Round> rounds;
 
-  Entrant(const CaseSet& set, const std::string& name, const MeasureOptions& options) {
+  Entrant(const CaseSet& set, const std::string& name, std::size_t most, const MeasureOptions& options)
+      : count(std::min(most, set.cases.size())) {
     tally.name = name;
     if (is_command(name) || traits_of(name).in_bulk)
       program = make_answerer(name, {{}, options.timeout, options.listener, options.strict});
@@ -185,21 +194,23 @@ struct Entrant {
 
   template <class Look>
   void run(const CaseSet& set, const Listener& listener, Look look) {
-    rounds.push_back(program ? run_round(set, tally.name, *program, listener, look)
-                             : run_round(set, tally.name, first_hit, listener, look));
+    rounds.push_back(program ? run_round(set, count, tally.name, *program, listener, look)
+                             : run_round(set, count, tally.name, first_hit, listener, look));
   }
 
   bool failed() const { return program && program->failed(); }
 
   // Ends the program, and takes the times from the median round.
-  void finish(std::size_t cases) {
+  void finish() {
     if (program) program->finish();
     tally.failed = failed();
-    if (cases == 0 || rounds.empty()) return;
+    if (count == 0 || rounds.empty()) return;
     std::sort(rounds.begin(), rounds.end(),
               [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
     const Round& middle = rounds[rounds.size() / 2];
-    tally.ns_per_query = middle.total_ns / static_cast<double>(cases);
+    tally.ns_per_query = middle.total_ns / static_cast<double>(count);
+    if (middle.instructions)
+      tally.instructions = static_cast<double>(*middle.instructions) / static_cast<double>(count);
     tally.ns_median = quantile(middle.block_means, 0.5);
     tally.ns_low = quantile(middle.block_means, 0.25);
     tally.ns_high = quantile(middle.block_means, 0.75);
@@ -209,12 +220,13 @@ struct Entrant {
 // The answers of a set, each held against the exact one.
 class Examination {
  public:
-  Examination(const CaseSet& set, const std::vector<Answer>& exact, const OnWrong& on_wrong, double ulps)
-      : set_(set), exact_(exact), on_wrong_(on_wrong), ulps_(ulps) {
+  Examination(const CaseSet& set, const std::vector<Answer>& exact, const OnWrong& on_wrong,
+              const MeasureOptions& options)
+      : set_(set), exact_(exact), on_wrong_(on_wrong), on_judged_(options.on_judged), ulps_(options.ulps) {
     for (const Scene& scene : set.scenes) judges_.emplace_back(scene);
   }
 
-  void judge(std::size_t i, const Answer& given, Tally& tally) const {
+  void judge(std::size_t name, std::size_t i, const Answer& given, Tally& tally) const {
     if (exact_.empty()) {
       ++tally.queries;
       return;
@@ -222,6 +234,7 @@ class Examination {
     const Case& one = set_.cases[i];
     const oracle::Judgement judgement = judges_[one.scene].judge(one.query, exact_[i], given, ulps_);
     tally.count(judgement);
+    if (on_judged_) on_judged_(name, i, judgement);
     if (on_wrong_ && departs(judgement)) on_wrong_(one, exact_[i], tally.name, given, judgement);
   }
 
@@ -229,6 +242,7 @@ class Examination {
   const CaseSet& set_;
   const std::vector<Answer>& exact_;
   const OnWrong& on_wrong_;
+  const OnJudged& on_judged_;
   const double ulps_;
   std::vector<oracle::Judge> judges_;
 };
@@ -238,10 +252,10 @@ void run_rounds(const CaseSet& set, std::vector<Entrant>& entrants, const Examin
                 const MeasureOptions& options) {
   const auto start = Clock::now();
   for (int r = 0; r < options.rounds; ++r) {
-    for (Entrant& entrant : entrants)
-      if (!entrant.failed())
+    for (std::size_t name = 0; name < entrants.size(); ++name)
+      if (Entrant& entrant = entrants[name]; !entrant.failed())
         entrant.run(set, options.listener, [&](std::size_t i, const Answer& given) {
-          if (r == 0) examination.judge(i, given, entrant.tally);
+          if (r == 0) examination.judge(name, i, given, entrant.tally);
         });
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
   }
@@ -253,11 +267,13 @@ std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
                            const std::vector<std::string>& names, const OnWrong& on_wrong,
                            const MeasureOptions& options) {
   std::vector<Entrant> entrants;
-  for (const std::string& name : names) entrants.emplace_back(set, name, options);
-  run_rounds(set, entrants, Examination(set, exact, on_wrong, options.ulps), options);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    entrants.emplace_back(set, names[i], options.counts.empty() ? set.cases.size() : options.counts.at(i),
+                          options);
+  run_rounds(set, entrants, Examination(set, exact, on_wrong, options), options);
   std::vector<Tally> tallies;
   for (Entrant& entrant : entrants) {
-    entrant.finish(set.cases.size());
+    entrant.finish();
     tallies.push_back(std::move(entrant.tally));
   }
   return tallies;

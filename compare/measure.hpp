@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Tally {
   double ns_median = 0;     ///< median over blocks of 16 queries of a block's mean; of another program,
                             ///< whose answers come when they come, the mean
   double ns_low = 0, ns_high = 0;                    ///< the quartiles of the same
+  std::optional<double> instructions;                ///< a query, where InstructionCounter counts; not of
+                                                     ///< another program
   std::vector<double> ulps;                          ///< errors of these times
   std::vector<double> wrong_ulps, wrong_conditions;  ///< of wrong times: in ulps, in units of the condition
 
@@ -58,12 +61,17 @@ bool departs(const oracle::Judgement& judgement);
 using OnWrong = std::function<void(const Case&, const Answer& exact, const std::string& name,
                                    const Answer& given, const oracle::Judgement&)>;
 
+/// Called for each answer that is judged: whose it is, by its place among the names, and to which case.
+using OnJudged = std::function<void(std::size_t name, std::size_t index, const oracle::Judgement&)>;
+
 struct MeasureOptions {
   double ulps = oracle::kDefaultUlps;  ///< the tolerance of the verdicts
   int rounds = 5;
   double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
   Listener listener = {};
   bool strict = false;  ///< of another program: AnswererOptions::strict
+  OnJudged on_judged = {};
+  std::vector<std::size_t> counts = {};  ///< of each name, how many of the cases, from the first; none: all
 };
 
 /// The exact answers to all cases.

@@ -16,6 +16,7 @@
 #include "compare/batch_answerer.hpp"
 #include "compare/command_engine.hpp"
 #include "compare/nearest_name.hpp"
+#include "compare/precisions/precisions.hpp"
 
 namespace lorentz::compare {
 
@@ -35,12 +36,19 @@ double limit_of(const oracle::Request& request) {
   return request.max_time.value_or(std::numeric_limits<double>::infinity());
 }
 
-FirstHit ask_engine(std::string_view name, const Scene& scene) {
-  std::shared_ptr<Engine> engine = make_engine(name, scene);
+FirstHit ask(std::shared_ptr<const Engine> engine, const Scene& scene) {
   return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
     engine->first_hit(query, limit_of(request), answer);
     if (request.detail) add_detail(query, scene, answer);
   };
+}
+
+FirstHit ask_engine(std::string_view name, const Scene& scene) {
+  return ask(make_engine(name, scene), scene);
+}
+
+FirstHit ask_precision(std::string_view name, const Scene& scene) {
+  return ask(make_precision(name, scene), scene);
 }
 
 FirstHit ask_single_flights(std::string_view, const Scene& scene) {
@@ -85,6 +93,10 @@ constexpr Entry kAnswerers[] = {
     {"certified-batch", {.is_exact = true, .uses_reduction = true, .in_bulk = true}, ask_certified},
     {"oracle", {.is_exact = true, .knows_digits = true}, ask_oracle},
     {"walk", {.is_exact = true}, ask_walk},
+    {"published-float", {}, ask_precision},
+    {"published-dd", {}, ask_precision},
+    {"published-128", {}, ask_precision},
+    {"published-256", {}, ask_precision},
 };
 
 const Entry* entry_of(std::string_view name) {

@@ -16,6 +16,7 @@ TEST_CASE("bench measures, concludes, and writes its figures", "[cli][bench_comm
   CHECK(contains(run.out, "no wrong answer in 192"));
   const std::string csv = folder.read("speed.csv");
   CHECK(lines(csv) == 7);
+  CHECK(contains(csv, "path_mean,ill_posed,undecided_low,"));
   CHECK(contains(csv, "scene,radius,difficulty,engine,queries,ns_mean"));
   CHECK(folder.lorentz("bench --engine nobody").status == 2);
   CHECK(folder.lorentz("bench --count 3").status == 2);
@@ -27,7 +28,7 @@ TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_comm
   const Run run = folder.lorentz("bench --scene square --radius 0.01 --count 64 --engine published");
   INFO(run.out);
   CHECK(contains(run.out, "published: no wrong answer in "));
-  CHECK(contains(run.out, " wrong times of right obstacles: off by "));
+  CHECK(contains(run.out, " wrong times of right obstacles\n"));
 }
 
 TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_command]") {
@@ -38,4 +39,66 @@ TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_com
   CHECK(run.status == 0);
   CHECK(contains(folder.read("c"), "ellipse,own,drawn,reduction,"));
   CHECK(folder.lorentz("bench --scene ellipse --radius 0.1 --engine reduction --count 32").status == 2);
+}
+
+namespace {
+
+// The text between the first `before` and the next `after`.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t begin = text.find(before) + before.size();
+  return text.substr(begin, text.find(after, begin) - begin);
+}
+
+}  // namespace
+
+TEST_CASE("bench goes on with what its store has, and refuses that of another run", "[cli][bench_command]") {
+  const Folder folder;
+  const std::string
+      options = "bench --scene square --count 32 --difficulty drawn --engine published,published-float",
+      radii = " --radius 0.01,0.001,0.0001", store = " --json --store " + folder.file("cells");
+  const Run first = folder.lorentz(options + radii + store);
+  INFO(first.err);
+  REQUIRE(first.status == 0);
+  const std::string kept = folder.read("cells");
+  CHECK(lines(kept) == 7);
+  CHECK(folder.lorentz(options + radii + store).out == first.out);  // times and all: nothing is done again
+
+  // Killed while the last group was measured: its two cells are missing, or one of them.
+  for (int missing = 1; missing <= 2; ++missing) {
+    std::string cut = kept;
+    for (int i = 0; i < missing; ++i) cut.resize(cut.rfind('\n', cut.size() - 2) + 1);
+    folder.write("cells", cut);
+    const Run second = folder.lorentz(options + radii + store);
+    CHECK(second.status == 0);
+    const std::string again = folder.read("cells");
+    CHECK(again.starts_with(cut));
+    for (const char* key : {"\"wrong\":{", "\"ulps\":{", "\"worst\":{"}) {
+      const std::string last = kept.substr(kept.rfind("{\"scene\"")),
+                        its = again.substr(again.rfind("{\"scene\""));
+      CHECK(between(its, key, "}") == between(last, key, "}"));
+    }
+  }
+  const Run other = folder.lorentz(options + " --radius 0.01" + store);
+  CHECK(other.status == 2);
+  CHECK(contains(other.err, "holds the cells of a run with other options"));
+  folder.write("cells", "not this\n");
+  CHECK(folder.lorentz(options + radii + store).status == 2);
+  CHECK(folder.read("cells") == "not this\n");
+  CHECK(folder.lorentz(options + radii + " --store /nowhere/cells").status == 3);
+
+  // The report: what it is, the fit of three radii, and a worst input, which its command shows.
+  CHECK(first.out.starts_with("{\"format\":1,\"kind\":\"bench\","));
+  CHECK(contains(first.out,
+                 "\"fits\":[\n{\"scene\":\"square\",\"engine\":\"published\",\"difficulty\":\"drawn\","));
+  CHECK(contains(first.out, "\"command\":\"lorentz bench --scene square --count 32 "));
+  const std::string call =
+      "lorentz compare --scene square --radius 0.0001 --queries - --engine published-float";
+  std::string line = first.out.substr(first.out.rfind("echo '"));
+  line.resize(line.find("\"}"));
+  line.erase(std::remove(line.begin(), line.end(), '\\'), line.end());
+  REQUIRE(line.ends_with(call));
+  line.replace(line.size() - call.size(), 7, LORENTZ_PROGRAM);
+  const Run shown = folder.run(line);
+  CHECK(shown.status == 1);
+  CHECK(contains(shown.out, "published-float: wrong in 1 of 1 answers"));
 }

@@ -27,7 +27,6 @@ TEST_CASE("Bounds of a share are those of Clopper and Pearson", "[report][share]
     std::size_t count, total;
     double low, high;
   };
-  // R: binom.test(count, total)$conf.int
   for (const auto& [count, total, low, high] : {Known{0, 10, 0, 0.30849710},
                                                 {3, 10, 0.06673951, 0.65245285},
                                                 {5, 10, 0.18708603, 0.81291397},

@@ -96,14 +96,14 @@ Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& prop
   const Vec v = coordinates(dual_, ray.v);
   Vec x = transformed_place(ray.x), from{};
   const bool has_from = leaves(ray, from);
-  Disc last{from[0], from[1]};
-  const Disc* leaving = has_from ? &last : nullptr;
+  Disc<double> last{from[0], from[1]};
+  const Disc<double>* leaving = has_from ? &last : nullptr;
   double elapsed = 0;
   long passes = Published::kMaxTotalPasses;
   for (long round = 0; round < Published::kMaxRounds && elapsed <= limit; ++round) {
     if (!(std::fabs(x[0]) < kMaxStart && std::fabs(x[1]) < kMaxStart)) return Answer::undecided();
     const long before = passes;
-    const PlaneResult result = first_disc({x[0], x[1]}, {v[0], v[1]}, circumscribed_, leaving, passes);
+    const auto result = first_disc<double>({x[0], x[1]}, {v[0], v[1]}, circumscribed_, leaving, passes);
     proposals.passes += before - passes + 1;
     if (auto answer = answer_for(result.found)) return *answer;
     ++proposals.made;
@@ -131,7 +131,7 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
   Vec v = coordinates(dual_, ray.v);
   const double speed = std::sqrt(dot(v, v));
   for (double& component : v) component /= speed;
-  Vec from{}, centre{};
+  Vec from{};
   const bool has_from = leaves(ray, from);
   const auto is_hit = [&](const Vec& n, const Vec& x, double elapsed) -> std::optional<double> {
     ++proposals.made;
@@ -146,11 +146,11 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
     if (!entry || !(*entry >= 0) || (has_from && n == from)) return std::nullopt;
     return *entry * speed;
   };
-  Answer answer =
-      first_sphere(transformed_place(ray.x), v, circumscribed_, has_from ? &from : nullptr,
-                   {Published::kMaxTotalPasses, true, proposals.passes}, limit * speed, is_hit, centre);
-  if (answer.outcome == Outcome::hit) return Answer::hit(obstacle_of(centre), *answer.time / speed);
-  return answer;
+  const auto result =
+      first_sphere<double>(transformed_place(ray.x), v, circumscribed_, has_from ? &from : nullptr,
+                           {Published::kMaxTotalPasses, true, proposals.passes}, limit * speed, is_hit);
+  if (result.none) return *result.none;
+  return Answer::hit(obstacle_of(result.centre), result.distance / speed);
 }
 
 }  // namespace lorentz

@@ -1,5 +1,7 @@
 // The search of the published algorithm in the square and the cubic lattice, as its authors' program has it,
-// faults included (docs/published.md): which disc, which sphere it comes up with. Private to published*.cpp.
+// faults included (docs/published.md): which disc, which sphere it comes up with. In any number type T that
+// has floor, round, fabs, copysign and sqrt, and in binary64 operation by operation what it always was.
+// Private to this room and to compare/precisions.
 #pragma once
 
 #include <algorithm>
@@ -14,56 +16,87 @@
 
 namespace lorentz::published_search {
 
-// A lattice point, kept as binary64 integers as long as it is searched for.
-using Disc = std::array<double, 2>;
+using std::copysign, std::fabs, std::floor, std::round, std::sqrt;  // and those of other number types
+
+template <class T>
+using Triple = std::array<T, 3>;
+
+// A lattice point, kept as integers of the number type as long as it is searched for.
+template <class T>
+using Disc = std::array<T, 2>;
+
+// What there is to know of a number type. Others than C++'s own have theirs in compare/precisions.
+template <class T>
+struct NumberType {
+  static constexpr int kDigits = std::numeric_limits<T>::digits;  // integers up to 2^kDigits are exact
+  static double binary64(const T& a) { return a; }
+  static Integer integer(const T& a) { return std::llround(a); }
+};
+
+// 2^51 and 2^52 of a binary64: places beyond have no digits left within a cell; columns are no more counted.
+template <class T>
+T farthest_place() {
+  return T(std::ldexp(1.0, NumberType<T>::kDigits - 2));
+}
+template <class T>
+T most_columns() {
+  return T(std::ldexp(1.0, NumberType<T>::kDigits - 1));
+}
 
 enum class Found { disc, channel, gave_up, no_octant };
 
+template <class T>
 struct PlaneResult {
   Found found = Found::disc;
-  Disc disc{};
+  Disc<T> disc{};
 };
 
-inline double length(double a, double b) {
-  return std::sqrt(a * a + b * b);
+template <class T>
+T length(const T& a, const T& b) {
+  return sqrt(a * a + b * b);
 }
 
-inline double distance_to_integers(double b) {
-  return std::min(b, 1 - b);
+template <class T>
+T distance_to_integers(const T& b) {
+  return std::min<T>(b, 1 - b);
 }
 
 // The first convergent denominator q of m with |q m - p| <= tolerance, the expansion computed from its start.
-inline double first_denominator(double m, double tolerance) {
-  double x = m, p_before = 0, p = 1, q_before = 1, q = 0;
+template <class T>
+T first_denominator(const T& m, const T& tolerance) {
+  T x = m, p_before = 0, p = 1, q_before = 1, q = 0;
   for (int term = 0; term < 100; ++term) {
-    const double a = std::floor(x);
-    const double p_next = a * p + p_before, q_next = a * q + q_before;
+    const T a = floor(x);
+    const T p_next = a * p + p_before, q_next = a * q + q_before;
     p_before = p, p = p_next, q_before = q, q = q_next;
-    if (std::fabs(q * m - p) <= tolerance || x == a) break;
+    if (fabs(q * m - p) <= tolerance || x == a) break;
     x = 1 / (x - a);
   }
   return q;
 }
 
 // Step 3: from height b at a column, how many columns on the line comes within eps of an integer height.
+template <class T>
 struct Columns {
   Found found;
-  double k = 0;
+  T k = 0;
 };
 
-inline Columns columns_ahead(double m, double b, double eps, long& passes_left) {
-  double k = 0;
+template <class T>
+Columns<T> columns_ahead(const T& m, T b, const T& eps, long& passes_left) {
+  T k = 0;
+  const T most = most_columns<T>();
   const auto step = [&] {
-    const double q = first_denominator(m, 2 * distance_to_integers(b));
+    const T q = first_denominator<T>(m, 2 * distance_to_integers(b));
     b = m * q + b;
-    b -= std::floor(b);
+    b -= floor(b);
     k += q;
   };
   // The fault behind the skipped discs: the tolerance of this first step should be eps + min(b, 1 - b).
-  const double first = b;
+  const T first = b;
   if (distance_to_integers(b) < eps) step();
   while (b > eps && 1 - b > eps) {
-    if (passes_left-- <= 0 || k > 0x1p52) return {Found::gave_up};
+    if (passes_left-- <= 0 || k > most) return {Found::gave_up};
     step();
     if (b == first) return {Found::channel};
   }
@@ -71,65 +104,85 @@ inline Columns columns_ahead(double m, double b, double eps, long& passes_left) 
 }
 
 // First octant, 0 < v2 <= v1, v of unit length.
-inline PlaneResult first_octant(double x1, double x2, double v1, double v2, double r, const Disc* from,
-                                long& passes_left) {
-  const double n1 = std::floor(x1), n2 = std::floor(x2);
+template <class T>
+PlaneResult<T> first_octant(T x1, T x2, const T& v1, const T& v2, const T& r, const Disc<T>* from,
+                            long& passes_left) {
+  const T n1 = floor(x1), n2 = floor(x2);
   x1 -= n1, x2 -= n2;
-  const double m = v2 / v1, eps = r / v1;
-  const double b1 = x2 + m * (1 - x1), b2 = x2 - m * x1;
-  const auto is_next = [&](double c1, double c2, double miss) {
+  const T m = v2 / v1, eps = r / v1;
+  const T b1 = x2 + m * (1 - x1), b2 = x2 - m * x1;
+  const auto is_next = [&](const T& c1, const T& c2, const T& miss) {
     const bool ahead = (x1 - c1) * v1 + (x2 - c2) * v2 < 0;
-    const bool left = from && *from == Disc{n1 + c1, n2 + c2};
-    return ahead && !left && std::fabs(miss) < eps;
+    const bool left = from && *from == Disc<T>{n1 + c1, n2 + c2};
+    return ahead && !left && fabs(miss) < eps;
   };
   if (is_next(1, 0, b1)) return {Found::disc, {n1 + 1, n2}};
   if (is_next(0, 1, 1 - b2)) return {Found::disc, {n1, n2 + 1}};
   if (is_next(1, 1, 1 - b1)) return {Found::disc, {n1 + 1, n2 + 1}};
   if (is_next(1, 2, 2 - b1)) return {Found::disc, {n1 + 1, n2 + 2}};
-  const Columns columns = columns_ahead(m, b1 - std::floor(b1), eps, passes_left);
-  return {columns.found, {n1 + 1 + columns.k, n2 + std::round(b1 + m * columns.k)}};
+  const Columns<T> columns = columns_ahead<T>(m, b1 - floor(b1), eps, passes_left);
+  return {columns.found, {n1 + 1 + columns.k, n2 + round(b1 + m * columns.k)}};
 }
 
 // Any direction, by reflections and the exchange of the axes, undone at the end.
-inline PlaneResult first_disc(Disc x, Disc v, double r, const Disc* from, long& passes_left) {
-  const Disc home{std::round(x[0]), std::round(x[1])};
+template <class T>
+PlaneResult<T> first_disc(const Disc<T>& x, const Disc<T>& v, const T& r, const Disc<T>* from,
+                          long& passes_left) {
+  const Disc<T> home{round(x[0]), round(x[1])};
   const bool left = from && *from == home;
-  if (!left && length(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
-  if (v[0] == 0 || v[1] == 0) return {Found::no_octant};
-  const double speed = length(v[0], v[1]);
-  const double sign[2] = {std::copysign(1, v[0]), std::copysign(1, v[1])};
-  const int long_axis = std::fabs(v[0]) >= std::fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
-  const auto reflected = [&](const Disc& a) {
-    return Disc{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]};
+  if (!left && length<T>(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
+  if (v[0] == 0 || v[1] == 0) return {Found::no_octant, {}};
+  const T speed = length(v[0], v[1]);
+  const T sign[2] = {copysign(T(1), v[0]), copysign(T(1), v[1])};
+  const int long_axis = fabs(v[0]) >= fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
+  const auto reflected = [&](const Disc<T>& a) {
+    return Disc<T>{sign[long_axis] * a[long_axis], sign[short_axis] * a[short_axis]};
   };
-  const Disc place = reflected(x), direction = reflected(v);
-  const Disc reflected_from = from ? reflected(*from) : Disc{};
-  PlaneResult result = first_octant(place[0], place[1], direction[0] / speed, direction[1] / speed, r,
-                                    from ? &reflected_from : nullptr, passes_left);
-  Disc disc;
+  const Disc<T> place = reflected(x), direction = reflected(v);
+  const Disc<T> reflected_from = from ? reflected(*from) : Disc<T>{};
+  PlaneResult<T> result = first_octant<T>(place[0], place[1], direction[0] / speed, direction[1] / speed, r,
+                                          from ? &reflected_from : nullptr, passes_left);
+  Disc<T> disc;
   disc[long_axis] = sign[long_axis] * result.disc[0];
   disc[short_axis] = sign[short_axis] * result.disc[1];
   result.disc = disc;
   return result;
 }
 
-inline bool cell_of(const ObstacleId& id, Vec& n) {
+template <class T>
+bool cell_of(const ObstacleId& id, Triple<T>& n) {
   for (int i = 0; i < 3; ++i) {
-    if (!id.cell[i].fits_int64()) return false;  // a disc farther off than that is never met
-    n[i] = static_cast<double>(id.cell[i].int64());
+    if (!id.cell[i].fits_int64()) return false;  // no start is beside a disc farther off than that
+    n[i] = static_cast<T>(id.cell[i].int64());
   }
   return true;
 }
 
-inline Vec minus(const Vec& a, const Vec& b) {
+template <class T>
+T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class T>
+Triple<T> minus(const Triple<T>& a, const Triple<T>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+// The textbook quadratic, as lorentz::entry_time has it.
+template <class T>
+std::optional<T> entry_time(const Triple<T>& x, const Triple<T>& v, const T& r) {
+  const T v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
+  const T discriminant = B * B - C;
+  if (discriminant < 0) return std::nullopt;
+  return -B - sqrt(discriminant);
 }
 
 // The time at which the line leaves the disc of radius r around the origin, or is closest to it if it misses
 // it.
-inline double exit_time(const Vec& x, const Vec& v, double r) {
-  const double v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
-  return -B + std::sqrt(std::max(B * B - C, 0.0));
+template <class T>
+T exit_time(const Triple<T>& x, const Triple<T>& v, const T& r) {
+  const T v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
+  return -B + sqrt(std::max<T>(B * B - C, T(0)));
 }
 
 // Why a search found no disc, as the answer that this makes; nothing if it found one.
@@ -150,16 +203,19 @@ inline std::optional<Answer> answer_for(Found found) {
 // The discs that the 2D algorithm finds in the coordinate planes xy, xz and yz.
 inline constexpr int kPlanes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 // How far to go for the disc that is farthest off in its own plane; short of it by a tenth of the radius.
-inline double advance_to_farthest(const Disc (&disc)[3], const Vec& x, const Vec& v, double r) {
-  double farthest = -std::numeric_limits<double>::infinity();
+template <class T>
+T advance_to_farthest(const Disc<T> (&disc)[3], const Triple<T>& x, const Triple<T>& v, const T& r) {
+  T farthest(-kNoLimit);
   for (int plane = 0; plane < 3; ++plane) {
     const auto [i, k] = kPlanes[plane];
-    const double distance = length(disc[plane][0] - x[i], disc[plane][1] - x[k]) - r;
-    farthest = std::max(farthest, distance / length(v[i], v[k]));
+    const T distance = length<T>(disc[plane][0] - x[i], disc[plane][1] - x[k]) - r;
+    farthest = std::max<T>(farthest, distance / length(v[i], v[k]));
   }
-  if (farthest < 0) farthest = 0.1 * r;
-  return farthest - 0.1 * r;
+  if (farthest < 0) farthest = T(0.1) * r;
+  return farthest - T(0.1) * r;
 }
 
 // How many passes each search in a plane may take, or all of them together; and a count of those taken.
@@ -169,45 +225,51 @@ struct Passes {
   long long& taken;
 };
 
-inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+// The sphere that a 3D search ends with, and how far off it is hit; or why there is none.
+template <class T>
+struct SpaceResult {
+  std::optional<Answer> none;
+  Triple<T> centre{};
+  T distance = 0;
+};
 
 // The 3D procedure from x along the unit vector v, to the distance `limit`. `is_hit(centre, x, elapsed)`,
-// asked of each sphere that the planes agree on, gives the distance from x to the hit, or nothing. The answer
-// has no obstacle, that is `centre`, and its time is a distance.
-template <class IsHit>
-Answer first_sphere(Vec x, const Vec& v, double r, const Vec* from, Passes passes, double limit,
-                    const IsHit& is_hit, Vec& centre) {
-  double elapsed = 0;  // in units of length
-  const auto advance = [&](double distance) {
+// asked of each sphere that the planes agree on, gives the distance from x to the hit, or nothing.
+template <class T, class IsHit>
+SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const Triple<T>* from, Passes passes,
+                            const T& limit, const IsHit& is_hit) {
+  T elapsed = 0;  // in units of length
+  const T farthest = farthest_place<T>();
+  const auto advance = [&](const T& distance) {
     for (int i = 0; i < 3; ++i) x[i] += distance * v[i];
     elapsed += distance;
   };
   long passes_left = passes.most;
   for (long round = 0; round < Published::kMaxRounds; ++round) {
-    if (elapsed > limit) return Answer::never();
-    Disc disc[3];
+    if (elapsed > limit) return {Answer::never()};
+    Disc<T> disc[3];
     for (int plane = 0; plane < 3; ++plane) {
       const auto [i, k] = kPlanes[plane];
-      if (!(std::fabs(x[i]) < kMaxStart && std::fabs(x[k]) < kMaxStart)) return Answer::undecided();
-      const Disc leaving = from ? Disc{(*from)[i], (*from)[k]} : Disc{};
+      if (!(fabs(x[i]) < farthest && fabs(x[k]) < farthest)) return {Answer::undecided()};
+      const Disc<T> leaving = from ? Disc<T>{(*from)[i], (*from)[k]} : Disc<T>{};
       if (!passes.is_total) passes_left = passes.most;
       const long before = passes_left;
-      const PlaneResult result =
-          first_disc({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr, passes_left);
+      const PlaneResult<T> result =
+          first_disc<T>({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr, passes_left);
       passes.taken += before - passes_left + 1;
-      if (auto answer = answer_for(result.found)) return *answer;
+      if (auto answer = answer_for(result.found)) return {answer};
       disc[plane] = result.disc;
     }
-    advance(advance_to_farthest(disc, x, v, r));
+    advance(advance_to_farthest<T>(disc, x, v, r));
     const bool agree = disc[0][0] == disc[1][0] && disc[0][1] == disc[2][0] && disc[1][1] == disc[2][1];
     if (!agree) continue;
-    centre = {disc[0][0], disc[0][1], disc[1][1]};
-    if (const auto time = is_hit(centre, x, elapsed)) return Answer::hit({}, elapsed + *time);
+    const Triple<T> centre{disc[0][0], disc[0][1], disc[1][1]};
+    if (const auto time = is_hit(centre, x, elapsed)) return {std::nullopt, centre, elapsed + *time};
     // The fault behind the late spheres: from next to a sphere that was missed this can land inside another
     // one.
     advance(1 - 2 * r);
   }
-  return Answer::undecided();
+  return {Answer::undecided()};
 }
 
 }  // namespace lorentz::published_search

@@ -1,0 +1,25 @@
+// Errors over many powers of two, counted in bins of a factor of two.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lorentz::report {
+
+struct Histogram {
+  std::size_t exact = 0;              ///< errors of zero
+  int first = 0;                      ///< counts[i] errors are in [2^(first + i), 2^(first + i + 1))
+  std::vector<std::size_t> counts;    ///< neither its first nor its last is zero
+  double mean = 0, p99 = 0, max = 0;  ///< of all errors, those of zero too; 0 of none
+
+  friend bool operator==(const Histogram&, const Histogram&) = default;
+};
+
+/// Of finite errors, none below zero; others are an std::invalid_argument.
+Histogram histogram_of(const std::vector<double>& errors);
+
+/// Appends {"exact":2,"first":-3,"counts":[1,0,4],"mean":..,"p99":..,"max":..}.
+void append_histogram(std::string& out, const Histogram& histogram);
+
+}  // namespace lorentz::report

@@ -1,0 +1,14 @@
+// A query for people to copy, to the bit.
+#pragma once
+
+#include <string>
+
+#include <lorentz/problem.hpp>
+
+namespace lorentz::report {
+
+/// {"x":["0x1.8p-1","0x0p+0"],"v":[..]} with `from` where there is one, as the exchange format reads it. A 2D
+/// query has two components.
+std::string hexadecimal_query(const Query& query, int dimension);
+
+}  // namespace lorentz::report
