@@ -69,6 +69,13 @@ Definition visible (p : prepared) (k : Z) (v : zv) : bool :=
     let M := adjugate (shrink_body (flat p) k (shaped (its_solid s))) in let w := apply_to M (shrink k v) in
     negb (radius M =? 0) && (0 <? dot w w)) (solids p).
 
+(* For records of the outcome `error`, which no theorem is about. *)
+Definition is_question (p : prepared) (q : query) : bool :=
+  match read_vector (flat p) (start q), read_vector (flat p) (velocity q) with
+  | Some _, Some v => (0 <? dot v v) && match from q with None => true | Some o => is_obstacle p o end
+  | _, _ => false
+  end.
+
 (* ---- The answer. *)
 Definition read_cell (planar : bool) (n : list Z) : option zv := read_row planar n.
 Definition find_sight (sights : list sight) (o : obstacle) : option sight :=
