@@ -29,16 +29,16 @@ Definition passes (c : check) : Prop := exists n n', c n = inl n'.
 Definition done : check := fun n => inl n.
 Definition fail (f : flaw) : check := fun _ => inr f.
 Definition require (b : bool) (f : flaw) : check := if b then done else fail f.
-Definition both (c d : check) : check := fun n => match c n with inl m => d m | inr f => inr f end.
 Definition spend (steps : Z) : check := fun n => if steps <=? n then inl (n - steps) else inr TooMany.
-Notation "c ;; d" := (both c d) (at level 80, right associativity).
+(* c, and then d. A notation, so that the program does not work out d before c has passed. *)
+Notation "c ;; d" := (fun n => match c n with inl m => d m | inr f => inr f end) (at level 80, right associativity).
 (* `let? a := o else f in c`: c, of what is in o; the flaw f, if nothing is. *)
 Notation "'let?' a := o 'else' f 'in' c" := (match o with Some a => c | None => fail f end)
   (at level 80, a pattern, o at level 60, f at level 60, c at level 80, right associativity).
 
 Lemma passes_both c d : passes (c ;; d) -> passes c /\ passes d.
 Proof.
-  intros (n & n' & E). unfold both in E. destruct (c n) as [m|f] eqn:Ec; [|discriminate].
+  intros (n & n' & E). cbv beta in E. destruct (c n) as [m|f] eqn:Ec; [|discriminate].
   split; [exists n, m; exact Ec|exists m, n'; exact E].
 Qed.
 Lemma passes_require b f : passes (require b f) -> b = true.
@@ -47,11 +47,11 @@ Lemma passes_fail f : ~ passes (fail f).
 Proof. intros (n & n' & E). discriminate. Qed.
 
 (* c, of every k from `first` on, so many of them. *)
-Fixpoint each_of (count : positive) (first : Z) (c : Z -> check) : check :=
+Fixpoint each_of (count : positive) (first : Z) (c : Z -> check) (left : Z) : Z + flaw :=
   match count with
-  | xH => c first
-  | xO half => each_of half first c ;; each_of half (first + Zpos half) c
-  | xI half => c first ;; each_of half (first + 1) c ;; each_of half (first + 1 + Zpos half) c
+  | xH => c first left
+  | xO half => (each_of half first c ;; each_of half (first + Zpos half) c) left
+  | xI half => (c first ;; each_of half (first + 1) c ;; each_of half (first + 1 + Zpos half) c) left
   end.
 Definition each (range : Z * Z) (c : Z -> check) : check :=
   let (first, last) := range in
@@ -76,8 +76,8 @@ Proof.
 Qed.
 
 (* c, of every item. *)
-Fixpoint each_in {A} (l : list A) (c : A -> check) : check :=
-  match l with [] => done | a :: l => c a ;; each_in l c end.
+Fixpoint each_in {A} (l : list A) (c : A -> check) (left : Z) : Z + flaw :=
+  match l with [] => inl left | a :: l => (c a ;; each_in l c) left end.
 Lemma each_in_ok {A} (l : list A) c : passes (each_in l c) -> forall a, In a l -> passes (c a).
 Proof.
   induction l as [|b l IH]; cbn [each_in In]; [tauto|]. intros H a [->|Ha]; apply passes_both in H; destruct H; auto.
