@@ -4,8 +4,8 @@ module Zarith = Z
 open Checker
 module Z = Zarith  (* Checker has a Z of its own *)
 
-let usage = "usage: proof/check FILE... (exit status: 0 verified, 1 refuted, 2 bad input)"
-let budget = Z.of_int 1_000_000  (* steps of a record: a proof should not need them *)
+let usage = "usage: proof/check [--budget STEPS] FILE... (exit status: 0 verified, 1 refuted, 2 bad input)"
+let budget = ref (Z.of_int 1_000_000)  (* steps of a record: a proof should not need them *)
 
 (* ---- What is wrong, in the words of check.py. *)
 let comma strings = String.concat ", " strings
@@ -61,7 +61,7 @@ let verify (size, prepared) box =
       let question = Record.question size box in
       let answer = Record.answer size outcome box in
       let certificate = Record.certificate size (Json.get "certificate" box) in
-      match check_record prepared question answer certificate budget with
+      match check_record prepared question answer certificate !budget with
       | Inl _ -> ()
       | Inr flaw -> Record.flaw (words outcome answer flaw))
   | _ -> Record.flaw (Printf.sprintf "the outcome is not '%s'" outcome)
@@ -203,8 +203,12 @@ let check file =
   List.fold_left (fun status (s, _) -> max status s) 0 set.flaws
 
 let () =
-  let files = List.tl (Array.to_list Sys.argv) in
   try
+    let files =
+      match List.tl (Array.to_list Sys.argv) with
+      | "--budget" :: steps :: files -> budget := Z.of_int (int_of_string steps); files
+      | files -> files
+    in
     if files = [] then failwith "no file";
     exit (List.fold_left (fun status file -> max status (check file)) 0 files)
   with (Sys_error what | Failure what) -> prerr_endline (what ^ "\n" ^ usage); exit 2
