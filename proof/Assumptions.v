@@ -1,0 +1,3 @@
+(* What the theorem rests on, besides Coq's kernel: held against assumptions.txt. *)
+From Lorentz Require Import Main.
+Print Assumptions check_sound.

@@ -1,0 +1,214 @@
+(* Verifies golden sets by the check that Coq has proved sound (docs/proof.md); says what data/check.py says.
+   Trusted besides Coq: these files of OCaml, which read, and Zarith. Every decision is Checker's. *)
+module Zarith = Z
+open Checker
+module Z = Zarith  (* Checker has a Z of its own *)
+
+let usage = "usage: proof/check [--budget STEPS] FILE... (exit status: 0 verified, 1 refuted, 2 bad input)"
+let budget = ref (Z.of_int 1_000_000)  (* steps of a record: a proof should not need them *)
+
+(* ---- What is wrong, in the words of check.py. *)
+let comma strings = String.concat ", " strings
+let numbers l = "(" ^ comma (List.map Z.to_string l) ^ ")"
+
+(* As check.py sees it: in space. *)
+let name o =
+  let cell = match o.cell with [ a; b ] -> [ a; b; Z.zero ] | cell -> cell in
+  Printf.sprintf "(%s, %s, %s)" (Z.to_string o.of_lattice) (Z.to_string o.of_atom) (numbers cell)
+
+let words outcome answer = function
+  | NoNumber -> "no number: beyond the range of binary64"
+  | NoVector -> "no array of so many items"
+  | BadScene -> "no volume or shape"
+  | BadQuery -> "v is zero, or `from` is no obstacle of the scene"
+  | NoAtom (l, a) -> numbers [ l; a ]
+  | Determinant -> "a determinant is not +-1: obstacles are missing"
+  | NotAlong -> "b_1 is not along v"
+  | GapBefore i -> Printf.sprintf "the windows leave a gap before window %s" (Z.to_string i)
+  | GapAfter (l, a) -> numbers [ l; a ] ^ ": a gap"
+  | TooMany -> "a window with too many planes, rows, or obstacles in a row"
+  | NoRows (l, a) -> Printf.sprintf "no rows of [%s], or met is []" (numbers [ l; a ])
+  | Met o -> Printf.sprintf "no rows of [], or met is [%s]" (name o)
+  | NotTheOutcome -> (
+      match answer with Hit (o, _, _, _) | Inside o -> Printf.sprintf "%s is no %s" (name o) outcome | Never -> "the outcome is not never")
+  | ComesFirst o -> name o ^ " comes first"
+  | NotRounded -> "time is not correctly rounded"
+  | WrongDigits -> "time_decimal is wrong"
+
+(* ---- A record. *)
+let own_keys = function
+  | "hit" -> [ "lattice"; "atom"; "cell"; "time"; "time_decimal" ]
+  | "inside" -> [ "lattice"; "atom"; "cell" ]
+  | _ -> []
+
+let check_keys outcome box =
+  let present box = List.filter (fun key -> Json.has key box) in
+  let has = present (Json.get "expect" box) [ "id"; "lattice"; "atom"; "cell"; "time" ] @ present box [ "time_decimal" ] in
+  Record.require
+    (has = own_keys outcome && (outcome <> "error" || not (Json.has "certificate" box)))
+    (Printf.sprintf "keys: '%s' has %s" outcome (comma (own_keys outcome)))
+
+(* Of the outcome `error` no theorem is: only that the question is none. *)
+let is_question (size, prepared) box =
+  match Record.question size box with q -> is_question prepared q | exception (Record.Flaw _ | Json.Bad _) -> false
+
+let verify (size, prepared) box =
+  let outcome = match Json.get "outcome" (Json.get "expect" box) with Json.String s -> s | _ -> "" in
+  check_keys outcome box;
+  match outcome with
+  | "error" -> Record.require (not (is_question (size, prepared) box)) "the outcome is not 'error'"
+  | "hit" | "inside" | "never" -> (
+      let question = Record.question size box in
+      let answer = Record.answer size outcome box in
+      let certificate = Record.certificate size (Json.get "certificate" box) in
+      match check_record prepared question answer certificate !budget with
+      | Inl _ -> ()
+      | Inr flaw -> Record.flaw (words outcome answer flaw))
+  | _ -> Record.flaw (Printf.sprintf "the outcome is not '%s'" outcome)
+
+(* ---- Files. *)
+type set = {
+  file : string;
+  mutable flaws : (int * string) list;
+  mutable records : int;
+  mutable errors : int;
+  mutable scene : (int * prepared) option;
+  mutable text : string;  (* the scene's line *)
+  mutable version : Z.t option;
+  mutable count : Z.t option;
+  mutable tags : string list;
+  ids : (string, unit) Hashtbl.t;
+}
+
+let read_header set box =
+  let head = Json.get "golden" box in
+  set.version <- Some (Record.integer (Json.get "format" head));
+  set.count <- Some (Record.integer (Json.get "count" head));
+  let tags = Json.get "tags" head in
+  set.tags <- Json.keys tags;
+  let named = List.filter_map (fun key -> Json.find key head) [ "name"; "description"; "generator"; "version" ] in
+  let is_string = function Json.String _ -> true | _ -> false in
+  Record.require (List.for_all is_string (named @ List.map snd (Json.members tags))) "names and tags are explained in strings"
+
+let find_text text part first =
+  let n = String.length part in
+  let rec search i =
+    if i + n > String.length text then Record.flaw (Printf.sprintf "no %s in the line" part)
+    else if String.sub text i n = part then i
+    else search (i + 1)
+  in
+  search first
+
+(* The question's text, "from behind the first `],` to before the first `,"expect"`". *)
+let question_text line =
+  let first = find_text line "],\"" 0 + 2 and last = find_text line ",\"expect\"" 0 in
+  Record.require (first <= last) "the order of the keys";
+  String.sub line first (last - first)
+
+let rec prefix l n = match (l, n) with a :: l, n when n > 0 -> a :: prefix l (n - 1) | _ -> []
+let rec index_of key = function [] -> Record.flaw ("no key " ^ key) | k :: l -> if k = key then 0 else 1 + index_of key l
+
+let check_order box question =
+  let keys = Json.keys box in
+  let n = index_of "expect" keys in
+  let asked = "id" :: "tags" :: Json.keys (Json.parse ("{" ^ question ^ "}")) in
+  let behind = List.filteri (fun i _ -> i >= n) keys in
+  Record.require
+    (prefix keys n = asked && not (List.exists (fun k -> List.mem k [ "x"; "v"; "from" ]) behind))
+    "the order of the keys"
+
+let check_tags set box =
+  let tags = List.map Json.text (Json.list (Json.get "tags" box)) in
+  Record.require (tags <> [] && List.for_all (fun t -> List.mem t set.tags) tags) "unknown tags"
+
+let read_record set box line =
+  let question = question_text line in
+  check_order box question;
+  let own = String.sub (Sha256.to_hex (Sha256.string (set.text ^ "\n" ^ question))) 0 16 in
+  Record.require (Json.get "id" box = Json.String own) "the id does not belong";
+  Record.require (not (Hashtbl.mem set.ids own)) "the id is there twice";
+  Hashtbl.add set.ids own ();
+  check_tags set box;
+  match set.scene with None -> Record.flaw "no scene" | Some scene ->
+  verify scene box;
+  if Json.get "outcome" (Json.get "expect" box) = Json.String "error" then set.errors <- set.errors + 1
+
+let is_falsy = function
+  | Json.Null | Json.Bool false | Json.String "" | Json.Array [] | Json.Object [] -> true
+  | _ -> false
+
+let read_line set number line =
+  let identity = ref None in
+  try
+    let box = Json.parse line in
+    Record.require ((number = 1) = Json.has "golden" box) "a golden set begins with its header, and has one";
+    if number = 1 then read_header set box
+    else if Json.has "scene" box then begin
+      Record.require (not (List.exists (fun k -> Json.has k box) [ "id"; "x"; "v"; "from" ])) "a scene's line with a key of a record";
+      set.scene <- Some (Record.scene (Json.get "scene" box));
+      set.text <- line
+    end
+    else begin
+      let id = Json.get "id" box in
+      set.records <- set.records + 1;
+      if not (is_falsy id) then identity := Some (match id with Json.String s -> s | _ -> "?");
+      read_record set box line
+    end
+  with
+  | (Record.Flaw what | Json.Bad what) ->
+      let status = if !identity = None then 2 else 1 in
+      let id = Option.value !identity ~default:"None" in
+      set.flaws <- (status, Printf.sprintf "%s:%d: %s: ValueError: %s" set.file number id what) :: set.flaws
+  | (Z.Overflow | Stack_overflow | Out_of_memory) as e ->
+      let status = if !identity = None then 2 else 1 in
+      set.flaws <- (status, Printf.sprintf "%s:%d: Error: %s" set.file number (Printexc.to_string e)) :: set.flaws
+
+let without_line_end line =
+  let rec length n = if n > 0 && (line.[n - 1] = '\r' || line.[n - 1] = '\n') then length (n - 1) else n in
+  String.sub line 0 (length (String.length line))
+
+let without_mark line =
+  if String.length line >= 3 && String.sub line 0 3 = "\xef\xbb\xbf" then String.sub line 3 (String.length line - 3) else line
+
+let is_blank line = String.for_all (function ' ' | '\t' | '\r' -> true | _ -> false) line
+
+let read_lines set channel =
+  let rec next number =
+    match input_line channel with
+    | line ->
+        let line = without_line_end line in
+        let line = if number = 1 then without_mark line else line in
+        if number = 1 || not (is_blank line) then read_line set number line;
+        next (number + 1)
+    | exception End_of_file -> ()
+  in
+  next 1
+
+let say_count = function Some n -> Z.to_string n | None -> "None"
+
+let check file =
+  let set =
+    { file; flaws = []; records = 0; errors = 0; scene = None; text = ""; version = None; count = None; tags = []; ids = Hashtbl.create 1024 }
+  in
+  let channel = if file = "-" then stdin else open_in_bin file in
+  read_lines set channel;
+  if file <> "-" then close_in channel;
+  if set.version <> Some Z.one || set.count <> Some (Z.of_int set.records) then
+    set.flaws <-
+      (1, Printf.sprintf "%s:1: (%s, %s) are not (1, %d)" file (say_count set.version) (say_count set.count) set.records) :: set.flaws;
+  if set.flaws = [] then Printf.printf "%s: %d records, all verified\n" file set.records
+  else List.iter (fun (_, what) -> print_endline what) (List.rev set.flaws);
+  if set.errors > 0 then Printf.printf "%s: %d of them of the outcome error, which is outside of the proof\n" file set.errors;
+  flush stdout;
+  List.fold_left (fun status (s, _) -> max status s) 0 set.flaws
+
+let () =
+  try
+    let files =
+      match List.tl (Array.to_list Sys.argv) with
+      | "--budget" :: steps :: files -> budget := Z.of_int (int_of_string steps); files
+      | files -> files
+    in
+    if files = [] then failwith "no file";
+    exit (List.fold_left (fun status file -> max status (check file)) 0 files)
+  with (Sys_error what | Failure what) -> prerr_endline (what ^ "\n" ^ usage); exit 2

@@ -1,0 +1,184 @@
+(* From JSON to what Coq's program takes: numbers as digits and exponents, which it makes binary64s of itself. *)
+module Zarith = Z
+open Checker
+module Z = Zarith  (* Checker has a Z of its own *)
+
+exception Flaw of string
+
+let flaw what = raise (Flaw what)
+let require condition what = if not condition then flaw what
+
+(* ---- Numbers. *)
+let whole digits = if digits = "" then Z.zero else Z.of_string digits
+
+(* The part of `text` before the first of these characters, and what is behind it. *)
+let split_at characters text =
+  let rec search i = if i >= String.length text then None else if String.contains characters text.[i] then Some i else search (i + 1) in
+  match search 0 with
+  | Some i -> (String.sub text 0 i, Some (String.sub text (i + 1) (String.length text - i - 1)))
+  | None -> (text, None)
+
+let integer_text text =
+  let unsigned = if text <> "" && text.[0] = '-' then String.sub text 1 (String.length text - 1) else text in
+  if unsigned <> "" && String.for_all (function '0' .. '9' -> true | _ -> false) unsigned then Some (Z.of_string text) else None
+
+let signed_integer text =
+  let text = if text <> "" && text.[0] = '+' then String.sub text 1 (String.length text - 1) else text in
+  match integer_text text with Some n when text.[0] <> '+' -> n | _ -> flaw "no exponent"
+
+(* A number of JSON. *)
+let decimal text =
+  let mantissa, power = split_at "eE" text in
+  let before, after = split_at "." mantissa in
+  let after = Option.value after ~default:"" in
+  let power = match power with Some p -> signed_integer p | None -> Z.zero in
+  (whole (before ^ after), Z.sub power (Z.of_int (String.length after)))
+
+(* [+-]?0[xX]H*[.]?H*([pP][+-]?[0-9]+)? with a digit at least, as m 2^e. *)
+let hexadecimal text =
+  let bad () = flaw (Printf.sprintf "no number: '%s'" text) in
+  let negative = text <> "" && text.[0] = '-' in
+  let unsigned = if text <> "" && (negative || text.[0] = '+') then String.sub text 1 (String.length text - 1) else text in
+  let n = String.length unsigned in
+  if n < 3 || unsigned.[0] <> '0' || (unsigned.[1] <> 'x' && unsigned.[1] <> 'X') then bad ();
+  let mantissa, power = split_at "pP" (String.sub unsigned 2 (n - 2)) in
+  let before, after = split_at "." mantissa in
+  let after = Option.value after ~default:"" in
+  let digits = before ^ after in
+  if digits = "" || not (String.for_all (function '0' .. '9' | 'a' .. 'f' | 'A' .. 'F' -> true | _ -> false) digits) then bad ();
+  let power = match power with Some p -> signed_integer p | None -> Z.zero in
+  let m = Z.of_string_base 16 digits in
+  ((if negative then Z.neg m else m), Z.sub power (Z.of_int (4 * String.length after)))
+
+let numeral = function
+  | Json.Number text -> let m, e = decimal text in Decimal (m, e)
+  | Json.String text -> let m, e = hexadecimal text in Hexadecimal (m, e)
+  | _ -> flaw "no number"
+
+let number json =
+  let n = numeral json in
+  match number n with Some _ -> n | None -> flaw "no number: beyond the range of binary64"
+
+(* 27, 27.0, 2.7e1, "27". *)
+let integer = function
+  | Json.Number text -> (
+      match integer_text text with
+      | Some n -> n
+      | None -> (
+          let m, e = decimal text in
+          match Checker.number (Decimal (m, e)) with
+          | Some n when Z.equal n (Z.shift_left (Z.shift_right n 1074) 1074) && Z.leq (Z.abs n) (Z.shift_left Z.one (53 + 1074)) ->
+              Z.shift_right n 1074
+          | _ -> flaw ("no integer: " ^ text)))
+  | Json.String text -> ( match integer_text text with Some n -> n | None -> flaw (Printf.sprintf "no integer: '%s'" text))
+  | _ -> flaw "no integer"
+
+(* ---- Scenes and questions. *)
+let array size read json =
+  let l = Json.list json in
+  require (List.length l = size) (Printf.sprintf "no array of %d items" size);
+  List.map read l
+
+let vector size = array size number
+
+let atom size json =
+  let shape =
+    match (Json.find "radius" json, Json.find "semiaxes" json) with
+    | Some r, None -> Radius (number r)
+    | None, Some a -> Semiaxes (array size (vector size) a)
+    | _ -> flaw "no volume or shape"
+  in
+  { position = vector size (Json.get "position" json); shape_of = shape }
+
+let lattice size json =
+  { vectors = array size (vector size) (Json.get "vectors" json);
+    atoms = List.map (atom size) (Json.list (Json.get "atoms" json)) }
+
+let rec nat n = if n = 0 then O else S (nat (n - 1))
+
+let dimension json =
+  match Checker.number (numeral json) with
+  | Some n when Z.equal n (Z.shift_left (Z.of_int 2) 1074) -> 2
+  | Some n when Z.equal n (Z.shift_left (Z.of_int 3) 1074) -> 3
+  | _ -> flaw "the dimension is 2 or 3"
+
+(* The number of dimensions, and the scene made ready. *)
+let scene json =
+  let size = dimension (Json.get "dimension" json) in
+  let lattices = List.map (lattice size) (Json.list (Json.get "lattices" json)) in
+  match prepare { dimension = nat size; lattices } with
+  | Some prepared -> (size, prepared)
+  | None -> flaw "an empty scene, or no volume or shape"
+
+let obstacle size json =
+  { of_lattice = integer (Json.get "lattice" json);
+    of_atom = integer (Json.get "atom" json);
+    cell = array size integer (Json.get "cell" json) }
+
+let question size json =
+  { start = vector size (Json.get "x" json);
+    velocity = vector size (Json.get "v" json);
+    from = Option.map (obstacle size) (Json.find "from" json) }
+
+(* ---- Answers and certificates. *)
+let has_sign = function Json.Number t | Json.String t -> t <> "" && t.[0] = '-' | _ -> false
+
+let time = function
+  | Json.String "inf" -> None
+  | json ->
+      let n = number json in
+      require (not (has_sign json)) "time is not correctly rounded";
+      Some n
+
+(* [0-9]+[.]?[0-9]*(e[+-][0-9]{1,4})?; of 0 only "0". That there are 40 digits is for Checker. *)
+let time_decimal text =
+  let is_digits s = String.for_all (function '0' .. '9' -> true | _ -> false) s in
+  let mantissa, power = split_at "e" text in
+  let before, after = split_at "." mantissa in
+  let after = Option.value after ~default:"" in
+  let power =
+    match power with
+    | None -> 0
+    | Some p ->
+        let n = String.length p in
+        require (n >= 2 && n <= 5 && (p.[0] = '+' || p.[0] = '-') && is_digits (String.sub p 1 (n - 1))) "time_decimal is no number";
+        Z.to_int (signed_integer p)
+  in
+  require (before <> "" && is_digits before && is_digits after) "time_decimal is no number";
+  let m = whole (before ^ after) in
+  require (text = "0" || Z.sign m > 0) "time_decimal is wrong";
+  (m, Z.of_int (power - String.length after))
+
+let answer size outcome json =
+  let expect = Json.get "expect" json in
+  match outcome with
+  | "hit" ->
+      let o = obstacle size expect and t = time (Json.get "time" expect) in
+      let m, k = time_decimal (Json.text (Json.get "time_decimal" json)) in
+      Hit (o, t, m, k)
+  | "inside" -> Inside (obstacle size expect)
+  | _ -> Never
+
+let window_end = function
+  | Json.String text ->
+      let m, e = hexadecimal text in
+      require (Z.leq (Z.abs e) (Z.of_int 65536)) "an exponent beyond 65536";
+      Exactly (m, e)
+  | json -> AtNumber (number json)
+
+let basis size json = array size (array size integer) (Json.get "basis" json)
+
+let piece size ends json =
+  let window_end key = if ends then window_end (Json.get key json) else Exactly (Z.zero, Z.zero) in
+  { of_lattice_written = integer (Json.get "lattice" json);
+    of_atom_written = integer (Json.get "atom" json);
+    from_end = window_end "from";
+    to_end = window_end "to";
+    basis = basis size json }
+
+let certificate size json =
+  let pieces key ends = List.map (piece size ends) (Json.list (Json.get key json)) in
+  match (Json.has "windows" json, Json.has "rows" json) with
+  | true, false -> Windows (pieces "windows" true)
+  | false, true -> Rows (pieces "rows" false)
+  | _ -> flaw "a certificate has either windows or rows"
