@@ -16,13 +16,6 @@ constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
 constexpr double kLine = 15;
 
-std::string fill_of(Ink ink) {
-  return fmt::format("fill:var({},{})", ink.variable, ink.otherwise);
-}
-std::string stroke_of(Ink ink) {
-  return fmt::format("stroke:var({},{})", ink.variable, ink.otherwise);
-}
-
 // At most so many characters; what is cut ends in dots. No character of several bytes is cut in two.
 std::string shortened(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
@@ -168,106 +161,6 @@ std::string Sheet::draw() {
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" {3}/>\n{4}</svg>\n",
       kWidth, kHeight, xml_escaped(label()), paint(kPaper), svg_.body());
 }
-
-}  // namespace
-
-std::string paint(Ink fill) {
-  return fmt::format("fill=\"{}\" style=\"{}\"", fill.otherwise, fill_of(fill));
-}
-
-std::string paint(Ink fill, Ink stroke, double width) {
-  return fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\" style=\"{};{}\"", fill.otherwise,
-                     stroke.otherwise, width, fill_of(fill), stroke_of(stroke));
-}
-
-std::string outline(Ink stroke, double width) {
-  return fmt::format("stroke=\"{}\" stroke-width=\"{}\" style=\"{}\"", stroke.otherwise, width,
-                     stroke_of(stroke));
-}
-
-// A picture within the picture cuts what is beyond it, and needs no id.
-void open_clip(Svg& svg, const Panel& panel) {
-  svg.raw(
-      fmt::format("<svg x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" "
-                  "viewBox=\"{0:.2f} {1:.2f} {2:.2f} {3:.2f}\" overflow=\"hidden\">\n",
-                  panel.left, panel.top, panel.width, panel.height));
-}
-
-void close_clip(Svg& svg) {
-  svg.raw("</svg>\n");
-}
-
-void frame(Svg& svg, const Panel& panel, const std::string& style) {
-  svg.polygon({{panel.left, panel.top},
-               {panel.right(), panel.top},
-               {panel.right(), panel.bottom()},
-               {panel.left, panel.bottom()}},
-              "fill=\"none\" " + style);
-}
-
-void open_hint(Svg& svg, const std::string& words) {
-  svg.raw("<g><title>" + xml_escaped(words) + "</title>\n");
-}
-
-double on_paper(double pixels) {
-  constexpr double kFar = 1e5;
-  return std::isnan(pixels) ? kFar : std::clamp(pixels, -kFar, kFar);
-}
-
-Axes axes_of(const FindingCase& finding) {
-  const Vec& along = finding.along;
-  Vec across{-along[1], along[0], 0};
-  if (finding.scene.dimension == 3) {
-    // Any at right angles, unless there is an obstacle to choose it by.
-    const int smallest =
-        static_cast<int>(std::min_element(along.begin(), along.end(),
-                                          [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
-                         along.begin());
-    Vec axis{};
-    axis[smallest] = 1;
-    across = unit(cross(along, axis));
-    if (finding.issue != Issue::none) {
-      const Vec centre =
-          finding.surroundings.centre(finding.query, place_in_question(finding), finding.obstacle);
-      const Vec rest = sum(centre, scaled(along, -dot(centre, along)));
-      if (length(rest) > 1e-9 * length(centre)) across = unit(rest);
-    }
-  }
-  return {along, across, cross(along, across)};
-}
-
-std::optional<Ink> ink_of(const FindingCase& finding, const ObstacleId& id) {
-  if (finding.names_obstacle(finding.exact) && finding.exact.obstacle == id) return kExactInk;
-  if (finding.given && finding.names_obstacle(*finding.given) && finding.given->obstacle == id)
-    return kGivenInk;
-  if (finding.issue != Issue::none && (finding.obstacle == id || finding.second == id)) return kInk;
-  return std::nullopt;
-}
-
-std::vector<ObstacleId> marked_obstacles(const FindingCase& finding) {
-  std::vector<ObstacleId> marked;
-  const auto add = [&](const ObstacleId& id) {
-    if (std::find(marked.begin(), marked.end(), id) == marked.end()) marked.push_back(id);
-  };
-  if (finding.issue != Issue::none) add(finding.obstacle);
-  if (finding.second) add(*finding.second);
-  if (finding.given && finding.names_obstacle(*finding.given)) add(finding.given->obstacle);
-  if (finding.names_obstacle(finding.exact)) add(finding.exact.obstacle);
-  return marked;
-}
-
-std::string hint_of(const FindingCase& finding, const ObstacleId& id) {
-  const oracle::Approach approach = finding.margins.approach(finding.query, id);
-  const double way =
-      finding.surroundings.way(finding.query, oracle::PlaceOnLine::start(), oracle::PlaceOnLine::at(id));
-  return fmt::format(
-      "{}: the line {} it by {:.6g} of its radii, {:.9g} of length from the start; x lies {} it by {:.6g}",
-      finding.name_of(id), approach.gap < 0 ? "meets" : "misses", std::fabs(approach.gap),
-      std::ldexp(way, finding.exponent), approach.start_gap < 0 ? "inside" : "outside of",
-      std::fabs(approach.start_gap));
-}
-
-namespace {
 
 bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
   if (flaw_of(scene) || flaw_of(query, scene)) return false;
