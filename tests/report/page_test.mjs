@@ -23,7 +23,10 @@ before(async () => {
     execFileSync(process.env.LORENTZ_MAKE_PAGE, [join(folder, `${name}.json`), join(folder, `${name}.html`)]);
   }
   const sandbox = process.getuid() === 0 ? ["--no-sandbox"] : [];
-  browser = await chromium.launch({ executablePath: process.env.LORENTZ_CHROMIUM ?? "/usr/bin/chromium", args: sandbox });
+  browser = await chromium.launch({
+    executablePath: process.env.LORENTZ_CHROMIUM ?? "/usr/bin/chromium",
+    args: sandbox,
+  });
 });
 after(async () => {
   await browser?.close();
@@ -34,17 +37,28 @@ const urlOf = (name) => `file://${join(folder, name)}.html`;
 
 /** Runs `body` with the page open, and fails on any error of the console and any request but the page itself. */
 async function open(name, { width = 1600, scheme = "light" }, body) {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme: scheme,
+    acceptDownloads: true,
+  });
   const page = await context.newPage();
   const complaints = [];
-  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(`console: ${message.text()}`); });
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) complaints.push(`console: ${message.text()}`);
+  });
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
-  page.on("request", (request) => { if (request.url() !== urlOf(name) && !request.url().startsWith("blob:")) complaints.push(`request: ${request.url()}`); });
+  page.on("request", (request) => {
+    if (request.url() !== urlOf(name) && !request.url().startsWith("blob:"))
+      complaints.push(`request: ${request.url()}`);
+  });
   const session = await context.newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
   await page.goto(urlOf(name));
   await page.waitForFunction(() => document.documentElement.dataset.ready);
-  await page.waitForFunction(() => [...document.querySelectorAll("figure.chart")].every((f) => f.querySelector(".plot > svg")));
+  await page.waitForFunction(() =>
+    [...document.querySelectorAll("figure.chart")].every((f) => f.querySelector(".plot > svg")),
+  );
   await body(page, session);
   assert.deepEqual(complaints, []);
   await context.close();
@@ -52,8 +66,13 @@ async function open(name, { width = 1600, scheme = "light" }, body) {
 
 // How many marks each chart has: of the first choice of its lists.
 const cellsOf = (report) => report.cells.filter((c) => !c.skipped);
-const faults = (report) => report.difficulties.flatMap((d) => [d.wrong, d.ill_posed, d.wrong_time, d.undecided]).filter((n) => n > 0).length;
-const group = (report, radius) => cellsOf(report).filter((c) => c.scene === "square" && c.difficulty === "drawn" && (radius === undefined || c.radius === radius));
+const faults = (report) =>
+  report.difficulties.flatMap((d) => [d.wrong, d.ill_posed, d.wrong_time, d.undecided]).filter((n) => n > 0)
+    .length;
+const group = (report, radius) =>
+  cellsOf(report).filter(
+    (c) => c.scene === "square" && c.difficulty === "drawn" && (radius === undefined || c.radius === radius),
+  );
 const bars = (report) => cellsOf(report).length && new Set(cellsOf(report).map((c) => c.engine)).size;
 const EXPECTED = {
   bench: (r) => ({
@@ -64,36 +83,73 @@ const EXPECTED = {
     "free-paths": { dot: 48, line: 2 },
   }),
   judge: (r) => ({ closeness: { dot: r.findings.length }, difficulties: { dot: faults(r) } }),
-  hostile: (r) => ({ closeness: { dot: r.findings.length }, difficulties: { dot: faults(r) }, "speed-against-error": { dot: 5 }, "time-against-radius": { dot: 20 }, "error-histograms": { rect: 45 } }),
+  hostile: (r) => ({
+    closeness: { dot: r.findings.length },
+    difficulties: { dot: faults(r) },
+    "speed-against-error": { dot: 5 },
+    "time-against-radius": { dot: 20 },
+    "error-histograms": { rect: 45 },
+  }),
   big: (r) => ({ closeness: { dot: 1429 }, difficulties: { dot: faults(r) } }),
   small: () => ({}),
 };
 
-const marksIn = (page) => page.evaluate(() => Object.fromEntries([...document.querySelectorAll("figure.chart")].map((figure) => {
-  const count = (mark) => [...figure.querySelectorAll(`.plot > svg g[aria-label="${mark}"] :is(path, circle, rect)`)].filter((e) => { const b = e.getBoundingClientRect(); return b.width + b.height > 0.5 && !/NaN/.test(e.outerHTML); }).length;
-  return [figure.dataset.chart, { dot: count("dot"), line: count("line"), rect: count("rect") }];
-})));
+const marksIn = (page) =>
+  page.evaluate(() =>
+    Object.fromEntries(
+      [...document.querySelectorAll("figure.chart")].map((figure) => {
+        const count = (mark) =>
+          [...figure.querySelectorAll(`.plot > svg g[aria-label="${mark}"] :is(path, circle, rect)`)].filter(
+            (e) => {
+              const b = e.getBoundingClientRect();
+              return b.width + b.height > 0.5 && !/NaN/.test(e.outerHTML);
+            },
+          ).length;
+        return [figure.dataset.chart, { dot: count("dot"), line: count("line"), rect: count("rect") }];
+      }),
+    ),
+  );
 
 for (const name of Object.keys(SAMPLES))
   test(`${name}: every chart is drawn, at each width and in both themes, without errors, requests or overflow`, async () => {
     for (const width of [400, 1600])
       for (const scheme of ["light", "dark"])
         await open(name, { width, scheme }, async (page) => {
-          const found = await marksIn(page), expected = EXPECTED[name](reports[name]);
+          const found = await marksIn(page),
+            expected = EXPECTED[name](reports[name]);
           assert.deepEqual(Object.keys(found).sort(), Object.keys(expected).sort());
           for (const [chart, marks] of Object.entries(expected))
-            for (const [mark, count] of Object.entries(marks)) assert.equal(found[chart][mark], count, `${chart}: ${mark} at ${width}`);
+            for (const [mark, count] of Object.entries(marks))
+              assert.equal(found[chart][mark], count, `${chart}: ${mark} at ${width}`);
           const covered = await page.evaluate(() => {
-            const boxes = [...document.querySelectorAll(".labels text")].map((e) => e.getBoundingClientRect());
-            return boxes.filter((a, i) => boxes.some((b, j) => i < j && a.left < b.right && b.left < a.right && a.top < b.bottom - 3 && b.top < a.bottom - 3)).length;
+            const boxes = [...document.querySelectorAll(".labels text")].map((e) =>
+              e.getBoundingClientRect(),
+            );
+            return boxes.filter((a, i) =>
+              boxes.some(
+                (b, j) =>
+                  i < j &&
+                  a.left < b.right &&
+                  b.left < a.right &&
+                  a.top < b.bottom - 3 &&
+                  b.top < a.bottom - 3,
+              ),
+            ).length;
           });
           assert.equal(covered, 0, `names over each other at ${width}`);
           const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
           assert.ok(overflow <= 0, `${overflow} pixels too wide at ${width}`);
-          const [back, ink] = await page.evaluate(() => { const s = getComputedStyle(document.documentElement); return [s.backgroundColor, s.color]; });
+          const [back, ink] = await page.evaluate(() => {
+            const s = getComputedStyle(document.documentElement);
+            return [s.backgroundColor, s.color];
+          });
           const light = (colour) => Number(/\d+/.exec(colour)[0]) > 128;
           assert.deepEqual([light(back), light(ink)], scheme === "light" ? [true, false] : [false, true]);
-          if (process.env.LORENTZ_SHOTS) await page.screenshot({ path: join(process.env.LORENTZ_SHOTS, `${name}-${width}-${scheme}.png`), fullPage: name !== "big" });
+          if (process.env.LORENTZ_SHOTS)
+            await page.screenshot({
+              path: join(process.env.LORENTZ_SHOTS, `${name}-${width}-${scheme}.png`),
+              fullPage: name !== "big",
+            });
         });
   });
 
@@ -104,15 +160,27 @@ test("The verdict is at the top, and the first finding tells what is wrong", asy
     const first = page.locator(".finding").first();
     assert.match(await first.innerText(), /counts a flight as a hit that passes/);
     assert.equal(await first.locator(".paper svg circle").count(), 3);
-    assert.deepEqual(await first.locator(".answers .differs th[scope=row]").allInnerTexts().then((t) => t.map((s) => s.split(/\s/)[0])), ["cell", "time"]);
+    assert.deepEqual(
+      await first
+        .locator(".answers .differs th[scope=row]")
+        .allInnerTexts()
+        .then((t) => t.map((s) => s.split(/\s/)[0])),
+      ["cell", "time"],
+    );
     assert.match(await first.locator(".query").innerText(), /x\[0\]\s+0x1\.8p-2\s+0\.375/);
     assert.equal(await page.locator(".finding").count(), 5);
     const kinds = await page.locator(".kinds li").allInnerTexts();
     assert.equal(kinds.length, 4);
     assert.match(kinds[1], /wrong time\s+time-of-grazing-hit\s+7 ×\s+The time of a grazing hit loses half/);
-    assert.match(await page.locator("#failures tbody tr").first().innerText(), /^grazing-counted-as-hit\s+6\s+3$/);
+    assert.match(
+      await page.locator("#failures tbody tr").first().innerText(),
+      /^grazing-counted-as-hit\s+6\s+3$/,
+    );
     // One of each cause is on the first page.
-    assert.equal(new Set((await page.locator(".finding h3").allInnerTexts()).map((t) => t.split(" ").pop())).size, 4);
+    assert.equal(
+      new Set((await page.locator(".finding h3").allInnerTexts()).map((t) => t.split(" ").pop())).size,
+      4,
+    );
   });
 });
 
@@ -134,36 +202,67 @@ test("Hover shows the numbers of the mark", async () => {
   };
   const dot = 'g[aria-label="dot"] :is(path, circle)';
   await open("bench", {}, async (page) => {
-    const cell = group(reports.bench, 1e-3)[1];  // published
+    const cell = group(reports.bench, 1e-3)[1]; // published
     const ns = Number(cell.ns.median.toPrecision(3));
     const tip = await hovered(page, "speed-against-error", dot, 1);
-    for (const part of ["published", "r = 0.001", `${ns}\u202fns a query`, `${Number((100 * cell.wrong.count / cell.queries).toPrecision(3))}\u202f% wrong`]) assert.ok(tip.includes(part), `${part} in ${tip}`);
-    assert.match(await hovered(page, "time-against-radius", dot, 0), /fit: r\^−0\.0\d\d \(95 %: −0\.\d+ to −?0\.\d+\)/);
+    for (const part of [
+      "published",
+      "r = 0.001",
+      `${ns}\u202fns a query`,
+      `${Number(((100 * cell.wrong.count) / cell.queries).toPrecision(3))}\u202f% wrong`,
+    ])
+      assert.ok(tip.includes(part), `${part} in ${tip}`);
+    assert.match(
+      await hovered(page, "time-against-radius", dot, 0),
+      /fit: r\^−0\.0\d\d \(95 %: −0\.\d+ to −?0\.\d+\)/,
+    );
     assert.match(await hovered(page, "survival", dot, 13), /after 14 collisions\s+50\u202f% still right/);
-    assert.match(await hovered(page, "free-paths", dot, 5), /longer than [\d.]+: [\d.]+\u202f%\s+theory: [\d.]+/);
+    assert.match(
+      await hovered(page, "free-paths", dot, 5),
+      /longer than [\d.]+: [\d.]+\u202f%\s+theory: [\d.]+/,
+    );
     const bar = await hovered(page, "error-histograms", 'g[aria-label="rect"] rect', 0);
     assert.match(bar, /reduction\s+no error\s+[\d.]+\u202f% of right hits/);
   });
   await open("judge", { width: 400 }, async (page) => {
-    assert.match(await hovered(page, "difficulties", dot, 0), /near-rational\s+0\.0365\u202f% wrong\s+3 of 8\u202f211 queries/);
-    assert.match(await hovered(page, "closeness", dot, 0), /grazing-counted-as-hit\s+wrong\s+[\d.]+ × 10⁻\S+ radii/);
+    assert.match(
+      await hovered(page, "difficulties", dot, 0),
+      /near-rational\s+0\.0365\u202f% wrong\s+3 of 8\u202f211 queries/,
+    );
+    assert.match(
+      await hovered(page, "closeness", dot, 0),
+      /grazing-counted-as-hit\s+wrong\s+[\d.]+ × 10⁻\S+ radii/,
+    );
   });
 });
 
 test("The fitted exponents are those of the data", async () => {
   await open("bench", {}, async (page) => {
     const rows = await page.locator("table.fits tbody tr").allInnerTexts();
-    for (const [engine, truth] of [["reduction", -0.02], ["classical", -0.9]]) {
-      const numbers = rows.find((r) => r.includes(engine)).replaceAll("−", "-").match(/-?\d+\.\d+/g).map(Number);
-      assert.ok(Math.abs(numbers[0] - truth) < 0.03 && numbers[1] < numbers[0] && numbers[0] < numbers[2], `${engine}: ${numbers}`);
+    for (const [engine, truth] of [
+      ["reduction", -0.02],
+      ["classical", -0.9],
+    ]) {
+      const numbers = rows
+        .find((r) => r.includes(engine))
+        .replaceAll("−", "-")
+        .match(/-?\d+\.\d+/g)
+        .map(Number);
+      assert.ok(
+        Math.abs(numbers[0] - truth) < 0.03 && numbers[1] < numbers[0] && numbers[0] < numbers[2],
+        `${engine}: ${numbers}`,
+      );
     }
-    assert.match(rows.find((r) => r.includes("float")), /−0\.051\s+−0\.061 … −0\.041\s+10⁻⁵ … 0\.01/);  // the report's own
+    assert.match(
+      rows.find((r) => r.includes("float")),
+      /−0\.051\s+−0\.061 … −0\.041\s+10⁻⁵ … 0\.01/,
+    ); // the report's own
   });
 });
 
 test("A row marks its points, a point its row; a row of another group brings its group", async () => {
   await open("bench", {}, async (page) => {
-    const row = page.locator("#cells tbody tr").filter({ hasText: "classical" }).first();  // r = 0.1, not shown at first
+    const row = page.locator("#cells tbody tr").filter({ hasText: "classical" }).first(); // r = 0.1, not shown at first
     await row.locator("button.row").click();
     assert.equal(await row.locator("button.row").getAttribute("aria-pressed"), "true");
     assert.equal(await page.locator("[data-chart=speed-against-error] .rings .chosen").count(), 1);
@@ -200,8 +299,19 @@ async function downloaded(page, button) {
 }
 
 test("Every chart can be downloaded as SVG and CSV", async () => {
-  const rows = { "speed-against-error": 5, "time-against-radius": 25, "error-histograms": 45, survival: 90, "free-paths": 48, closeness: 12, difficulties: 8 };
-  for (const [name, scheme] of [["bench", "dark"], ["judge", "light"]])
+  const rows = {
+    "speed-against-error": 5,
+    "time-against-radius": 25,
+    "error-histograms": 45,
+    survival: 90,
+    "free-paths": 48,
+    closeness: 12,
+    difficulties: 8,
+  };
+  for (const [name, scheme] of [
+    ["bench", "dark"],
+    ["judge", "light"],
+  ])
     await open(name, { scheme }, async (page) => {
       for (const figure of await page.locator("figure.chart").all()) {
         const chart = await figure.getAttribute("data-chart");
@@ -209,7 +319,11 @@ test("Every chart can be downloaded as SVG and CSV", async () => {
         assert.equal(svg.name, `${chart}.svg`);
         const parsed = await page.evaluate((text) => {
           const root = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-          return { name: root.localName, marks: root.querySelectorAll("path, rect, circle").length, title: root.querySelector("title")?.textContent };
+          return {
+            name: root.localName,
+            marks: root.querySelectorAll("path, rect, circle").length,
+            title: root.querySelector("title")?.textContent,
+          };
         }, svg.text);
         assert.equal(parsed.name, "svg");
         assert.ok(parsed.marks >= rows[chart] && parsed.title, chart);
@@ -224,8 +338,14 @@ test("A command can be copied", async () => {
   await open("judge", {}, async (page) => {
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
     await page.locator(".finding .copy").nth(1).click();
-    await page.getByRole("button", { name: "Copy the command" }).filter({ hasText: "copied" }).waitFor({ timeout: 3000 });
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), reports.judge.findings[0].commands[1]);
+    await page
+      .getByRole("button", { name: "Copy the command" })
+      .filter({ hasText: "copied" })
+      .waitFor({ timeout: 3000 });
+    assert.equal(
+      await page.evaluate(() => navigator.clipboard.readText()),
+      reports.judge.findings[0].commands[1],
+    );
   });
 });
 
@@ -233,9 +353,20 @@ test("The keyboard reaches everything, and goes through the points of a chart", 
   for (const name of ["bench", "judge"])
     await open(name, {}, async (page) => {
       const reachable = await page.evaluate(() => {
-        const all = [...document.querySelectorAll("main a[href], button, select, input, summary, .plot, .scroll, .paper, pre, .skip")];
-        const seen = all.filter((e) => !e.disabled && e.checkVisibility() && (e.localName === "summary" || !e.closest("details:not([open])")));
-        seen.forEach((e, i) => { e.dataset.stop = i; });
+        const all = [
+          ...document.querySelectorAll(
+            "main a[href], button, select, input, summary, .plot, .scroll, .paper, pre, .skip",
+          ),
+        ];
+        const seen = all.filter(
+          (e) =>
+            !e.disabled &&
+            e.checkVisibility() &&
+            (e.localName === "summary" || !e.closest("details:not([open])")),
+        );
+        seen.forEach((e, i) => {
+          e.dataset.stop = i;
+        });
         return seen.length;
       });
       const stops = [];
@@ -245,7 +376,10 @@ test("The keyboard reaches everything, and goes through the points of a chart", 
         if (stop !== null && !stops.includes(stop)) stops.push(stop);
       }
       assert.equal(stops.length, reachable);
-      assert.deepEqual(stops, [...stops].sort((a, b) => a - b));  // in the order in which they are read
+      assert.deepEqual(
+        stops,
+        [...stops].sort((a, b) => a - b),
+      ); // in the order in which they are read
     });
   await open("bench", {}, async (page) => {
     const plot = page.locator("[data-chart=speed-against-error] .plot");
@@ -264,19 +398,30 @@ test("Everything has a name for screen readers", async () => {
   for (const name of ["bench", "judge", "hostile"])
     await open(name, {}, async (page) => {
       const nameless = await page.evaluate(() => {
-        const named = (e) => e.getAttribute("aria-label")?.trim() || e.getAttribute("aria-labelledby") || e.textContent.trim();
-        const bad = (selector, ok) => [...document.querySelectorAll(selector)].filter((e) => !ok(e)).map((e) => e.outerHTML.slice(0, 120));
+        const named = (e) =>
+          e.getAttribute("aria-label")?.trim() || e.getAttribute("aria-labelledby") || e.textContent.trim();
+        const bad = (selector, ok) =>
+          [...document.querySelectorAll(selector)]
+            .filter((e) => !ok(e))
+            .map((e) => e.outerHTML.slice(0, 120));
         return [
           ...bad("button, a, summary, figure, [role=region], [role=group], section, nav", named),
           ...bad("select, input", (e) => e.labels.length === 1 && e.labels[0].textContent),
-          ...bad(".plot > svg, .paper > svg", (e) => e.getAttribute("role") === "img" && (e.getAttribute("aria-label") ?? "").length > 20),
+          ...bad(
+            ".plot > svg, .paper > svg",
+            (e) => e.getAttribute("role") === "img" && (e.getAttribute("aria-label") ?? "").length > 20,
+          ),
           ...bad("table", (e) => e.caption || e.getAttribute("aria-labelledby")),
           ...bad("th", (e) => e.scope),
         ];
       });
       assert.deepEqual(nameless, []);
-      const levels = await page.evaluate(() => [...document.querySelectorAll("h1, h2, h3, h4")].map((e) => Number(e.localName[1])));
-      levels.forEach((level, i) => assert.ok(i === 0 ? level === 1 : level <= levels[i - 1] + 1, `heading ${i} of level ${level}`));
+      const levels = await page.evaluate(() =>
+        [...document.querySelectorAll("h1, h2, h3, h4")].map((e) => Number(e.localName[1])),
+      );
+      levels.forEach((level, i) =>
+        assert.ok(i === 0 ? level === 1 : level <= levels[i - 1] + 1, `heading ${i} of level ${level}`),
+      );
     });
 });
 
@@ -288,12 +433,31 @@ test("The switch changes the theme, and text stands out in both", async () => {
       // WCAG's contrast of text with what is behind it.
       const worst = await page.evaluate(() => {
         const canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
-        const rgba = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1); return [...canvas.getImageData(0, 0, 1, 1).data]; };
-        const luminance = ([r, g, b]) => [r, g, b].map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)).reduce((s, c, i) => s + c * [0.2126, 0.7152, 0.0722][i], 0);
-        const behind = (e) => { for (; e; e = e.parentElement) { const c = rgba(getComputedStyle(e).backgroundColor); if (c[3] === 255) return c; } return [255, 255, 255]; };
+        const rgba = (colour) => {
+          canvas.clearRect(0, 0, 1, 1);
+          canvas.fillStyle = colour;
+          canvas.fillRect(0, 0, 1, 1);
+          return [...canvas.getImageData(0, 0, 1, 1).data];
+        };
+        const luminance = ([r, g, b]) =>
+          [r, g, b]
+            .map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4))
+            .reduce((s, c, i) => s + c * [0.2126, 0.7152, 0.0722][i], 0);
+        const behind = (e) => {
+          for (; e; e = e.parentElement) {
+            const c = rgba(getComputedStyle(e).backgroundColor);
+            if (c[3] === 255) return c;
+          }
+          return [255, 255, 255];
+        };
         let worst = [99, ""];
         for (const e of document.querySelectorAll("main *:not(svg *)")) {
-          if (![...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()) || !e.checkVisibility() || e.closest(":disabled, .unseen, svg")) continue;
+          if (
+            ![...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()) ||
+            !e.checkVisibility() ||
+            e.closest(":disabled, .unseen, svg")
+          )
+            continue;
           const [a, b] = [luminance(rgba(getComputedStyle(e).color)), luminance(behind(e))];
           const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
           if (contrast < worst[0]) worst = [contrast, e.outerHTML.slice(0, 100)];
@@ -308,9 +472,20 @@ test("The switch changes the theme, and text stands out in both", async () => {
 test("On paper there are the report and no controls, light", async () => {
   await open("judge", { scheme: "dark" }, async (page) => {
     await page.emulateMedia({ media: "print", colorScheme: "dark" });
-    for (const hidden of [".controls", "#tools", ".downloads", ".contents", "button.copy"]) assert.ok(await page.locator(hidden).first().isHidden(), hidden);
-    for (const shown of ["h1", ".finding .paper svg", "figure.chart .plot > svg", "#manifest", ".commands pre"]) assert.ok(await page.locator(shown).first().isVisible(), shown);
-    assert.match(await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor), /rgb\(2\d\d, 2\d\d, 2\d\d\)/);
+    for (const hidden of [".controls", "#tools", ".downloads", ".contents", "button.copy"])
+      assert.ok(await page.locator(hidden).first().isHidden(), hidden);
+    for (const shown of [
+      "h1",
+      ".finding .paper svg",
+      "figure.chart .plot > svg",
+      "#manifest",
+      ".commands pre",
+    ])
+      assert.ok(await page.locator(shown).first().isVisible(), shown);
+    assert.match(
+      await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor),
+      /rgb\(2\d\d, 2\d\d, 2\d\d\)/,
+    );
     const pdf = await page.pdf({ format: "A4" });
     assert.ok(pdf.length > 20000);
   });
@@ -324,8 +499,12 @@ test("Hostile texts stay texts", async () => {
     assert.ok(line.endsWith(HOSTILE));
     const found = await page.evaluate(() => ({
       scripts: document.scripts.length,
-      foreign: document.querySelectorAll("main :is(script, img, iframe, foreignObject, image, a[href^=javascript])").length,
-      handlers: [...document.querySelectorAll("main *")].filter((e) => [...e.attributes].some((a) => a.name.startsWith("on"))).length,
+      foreign: document.querySelectorAll(
+        "main :is(script, img, iframe, foreignObject, image, a[href^=javascript])",
+      ).length,
+      handlers: [...document.querySelectorAll("main *")].filter((e) =>
+        [...e.attributes].some((a) => a.name.startsWith("on")),
+      ).length,
       kept: document.querySelectorAll(".paper svg rect.kept").length,
       fill: document.querySelector(".paper svg rect.kept").getAttribute("fill"),
     }));
@@ -351,8 +530,14 @@ test("The policy by itself lets nothing in or out", async () => {
     await new Promise((done) => setTimeout(done, 200));
     return { broken: window.broken, kinds: [...new Set(refused)].sort() };
   });
-  assert.deepEqual(refused, { broken: undefined, kinds: ["connect-src", "img-src", "script-src-attr", "script-src-elem"] });
-  assert.deepEqual(requests.filter((url) => !url.startsWith("file:")), []);
+  assert.deepEqual(refused, {
+    broken: undefined,
+    kinds: ["connect-src", "img-src", "script-src-attr", "script-src-elem"],
+  });
+  assert.deepEqual(
+    requests.filter((url) => !url.startsWith("file:")),
+    [],
+  );
   await page.close();
 });
 
@@ -361,17 +546,29 @@ test("Ten thousand findings open within two seconds, and are filtered", async ()
     const { metrics } = await session.send("Performance.getMetrics");
     const spent = 1000 * metrics.find((m) => m.name === "TaskDuration").value;
     assert.ok(spent > 50 && spent < BIG_OPENS_WITHIN, `${spent} ms`);
-    const settled = (text) => page.waitForFunction((text) => document.querySelector("#findings .status").textContent.replaceAll("\u202f", "") === text, text, { timeout: 2000 });
+    const settled = (text) =>
+      page.waitForFunction(
+        (text) => document.querySelector("#findings .status").textContent.replaceAll("\u202f", "") === text,
+        text,
+        { timeout: 2000 },
+      );
     await settled("10000 findings");
     await page.getByLabel("Search").fill("needle-777");
     await settled("11 of 10000 findings");
     assert.match(await page.locator(".finding").first().innerText(), /needle-777/);
     await page.getByLabel("Cause", { exact: true }).selectOption("never-for-far-hits");
-    const wanted = reports.big.findings.filter((f) => f.cause === "never-for-far-hits" && f.query.id.includes("needle-777")).length;
+    const wanted = reports.big.findings.filter(
+      (f) => f.cause === "never-for-far-hits" && f.query.id.includes("needle-777"),
+    ).length;
     await settled(`${wanted} of 10000 findings`);
     await page.getByLabel("Search").fill("");
-    await settled(`${reports.big.findings.filter((f) => f.cause === "never-for-far-hits").length} of 10000 findings`);
-    await page.getByRole("navigation", { name: "Pages of findings" }).getByRole("button", { name: "next page" }).click();
+    await settled(
+      `${reports.big.findings.filter((f) => f.cause === "never-for-far-hits").length} of 10000 findings`,
+    );
+    await page
+      .getByRole("navigation", { name: "Pages of findings" })
+      .getByRole("button", { name: "next page" })
+      .click();
     assert.match(await page.locator("#findings .place").last().innerText(), /^6–10 of 3333$/);
     assert.equal(await page.locator(".finding").count(), 5);
     await page.locator(".kinds button.row").first().click();

@@ -8,7 +8,9 @@ export function h(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  element.append(
+    ...children.flat().filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return element;
 }
 
@@ -31,10 +33,13 @@ export const shortened = (text, letters) => (text.length > letters ? `${text.sli
 export function section(id, title, lead, ...children) {
   const shown = children.flat().filter(Boolean);
   if (!shown.length) return null;
-  return h("section", { id, "aria-labelledby": `${id}-title` },
+  return h(
+    "section",
+    { id, "aria-labelledby": `${id}-title` },
     h("h2", { id: `${id}-title` }, title),
     lead && h("p", { class: "lead" }, lead),
-    shown);
+    shown,
+  );
 }
 
 /** Says something to a screen reader. */

@@ -1,9 +1,35 @@
 // The drawing of a finding: SVG text from the report, made again in the page without anything that acts or loads.
 import { svgElement } from "./dom.js";
 
-const ALLOWED = new Set(["svg", "g", "defs", "symbol", "use", "title", "desc", "style", "path", "line", "polyline", "polygon", "rect",
-  "circle", "ellipse", "text", "tspan", "textPath", "marker", "clipPath", "mask", "pattern", "linearGradient", "radialGradient", "stop"]);
-const SVG = "http://www.w3.org/2000/svg", XHTML = "http://www.w3.org/1999/xhtml";
+const ALLOWED = new Set([
+  "svg",
+  "g",
+  "defs",
+  "symbol",
+  "use",
+  "title",
+  "desc",
+  "style",
+  "path",
+  "line",
+  "polyline",
+  "polygon",
+  "rect",
+  "circle",
+  "ellipse",
+  "text",
+  "tspan",
+  "textPath",
+  "marker",
+  "clipPath",
+  "mask",
+  "pattern",
+  "linearGradient",
+  "radialGradient",
+  "stop",
+]);
+const SVG = "http://www.w3.org/2000/svg",
+  XHTML = "http://www.w3.org/1999/xhtml";
 let drawings = 0;
 
 const loads = (css) => /url\(\s*['"]?(?!#)|@import|javascript:|\\/i.test(css);
@@ -16,11 +42,14 @@ function isHarmless({ name, value }) {
 
 /** The same in SVG, without what is not allowed; null if the element itself is not. */
 function rebuilt(element) {
-  if (!ALLOWED.has(element.localName) || (element.localName === "style" && loads(element.textContent))) return null;
+  if (!ALLOWED.has(element.localName) || (element.localName === "style" && loads(element.textContent)))
+    return null;
   const copy = svgElement(element.localName);
-  for (const attribute of element.attributes) if (isHarmless(attribute)) copy.setAttribute(attribute.localName, attribute.value);
+  for (const attribute of element.attributes)
+    if (isHarmless(attribute)) copy.setAttribute(attribute.localName, attribute.value);
   for (const child of element.childNodes) {
-    if (child.nodeType === Node.TEXT_NODE || child.nodeType === Node.CDATA_SECTION_NODE) copy.append(child.textContent);
+    if (child.nodeType === Node.TEXT_NODE || child.nodeType === Node.CDATA_SECTION_NODE)
+      copy.append(child.textContent);
     else if (child.nodeType === Node.ELEMENT_NODE) copy.append(rebuilt(child) ?? "");
   }
   return copy;
@@ -36,8 +65,15 @@ function ownIds(svg) {
       let value = attribute.value;
       if (attribute.name === "id") value = prefix + value;
       else if (attribute.name === "href" && ids.has(value.slice(1))) value = `#${prefix}${value.slice(1)}`;
-      else if (attribute.name.startsWith("aria-")) value = value.split(" ").map((id) => (ids.has(id) ? prefix + id : id)).join(" ");
-      else value = value.replace(/url\((['"]?)#([^)'"]+)\1\)/g, (whole, _, id) => (ids.has(id) ? `url(#${prefix}${id})` : whole));
+      else if (attribute.name.startsWith("aria-"))
+        value = value
+          .split(" ")
+          .map((id) => (ids.has(id) ? prefix + id : id))
+          .join(" ");
+      else
+        value = value.replace(/url\((['"]?)#([^)'"]+)\1\)/g, (whole, _, id) =>
+          ids.has(id) ? `url(#${prefix}${id})` : whole,
+        );
       if (value !== attribute.value) attribute.value = value;
     }
   }
@@ -52,7 +88,8 @@ export function drawing(text, label) {
   const svg = rebuilt(parsed.documentElement);
   ownIds(svg);
   const [width, height] = [parseFloat(svg.getAttribute("width")), parseFloat(svg.getAttribute("height"))];
-  if (!svg.hasAttribute("viewBox") && width > 0 && height > 0) svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  if (!svg.hasAttribute("viewBox") && width > 0 && height > 0)
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.removeAttribute("height");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", label);

@@ -28,10 +28,12 @@ function textOf(finding) {
 // The how-manieth of its cause each finding is: reports name the simplest first.
 function ranks(findings) {
   const seen = new Map();
-  return new Map(findings.map((f) => {
-    seen.set(f.cause, (seen.get(f.cause) ?? -1) + 1);
-    return [f, seen.get(f.cause)];
-  }));
+  return new Map(
+    findings.map((f) => {
+      seen.set(f.cause, (seen.get(f.cause) ?? -1) + 1);
+      return [f, seen.get(f.cause)];
+    }),
+  );
 }
 
 /** Where a finding is from: "golden grazing, 3500ee96" is from golden grazing. */
@@ -42,7 +44,9 @@ const valueOf = (finding, key) => (key === "where" ? placeOf(finding) : String(f
 function valuesOf(findings, key) {
   const counts = new Map();
   for (const f of findings) counts.set(valueOf(f, key), (counts.get(valueOf(f, key)) ?? 0) + 1);
-  return [...counts].sort((a, b) => b[1] - a[1]).map(([value, n]) => [value, `${value || "–"} (${count(n)})`]);
+  return [...counts]
+    .sort((a, b) => b[1] - a[1])
+    .map(([value, n]) => [value, `${value || "–"} (${count(n)})`]);
 }
 
 const MOST_KINDS = 12;
@@ -50,34 +54,76 @@ const MOST_KINDS = 12;
 /** Each cause in a line: what is wrong, told before any case of it. */
 function kindsOfFault(findings, only) {
   const kinds = [...Map.groupBy(findings, (f) => JSON.stringify([f.cause, f.verdict])).values()];
-  return h("ol", { class: "kinds", "aria-label": "Kinds of fault" }, kinds.slice(0, MOST_KINDS).map((its) => {
-    const { cause, verdict: name, explanation } = its[0], verdict = verdictOf(name);
-    const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
-    return h("li", { style: `--tone: ${verdict.colour}` },
-      h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
-      h("button", { type: "button", class: "row", title: "show these findings only", onclick: () => only({ cause, verdict: name }) }, cause ?? "–"),
-      h("span", { class: "times" }, `${count(times)} ×`),
-      explanation && h("span", { class: "says" }, explanation));
-  }), kinds.length > MOST_KINDS && h("li", {}, `and ${count(kinds.length - MOST_KINDS)} more`));
+  return h(
+    "ol",
+    { class: "kinds", "aria-label": "Kinds of fault" },
+    kinds.slice(0, MOST_KINDS).map((its) => {
+      const { cause, verdict: name, explanation } = its[0],
+        verdict = verdictOf(name);
+      const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
+      return h(
+        "li",
+        { style: `--tone: ${verdict.colour}` },
+        h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "row",
+            title: "show these findings only",
+            onclick: () => only({ cause, verdict: name }),
+          },
+          cause ?? "–",
+        ),
+        h("span", { class: "times" }, `${count(times)} ×`),
+        explanation && h("span", { class: "says" }, explanation),
+      );
+    }),
+    kinds.length > MOST_KINDS && h("li", {}, `and ${count(kinds.length - MOST_KINDS)} more`),
+  );
 }
 
 export function findingsSection(report) {
   const findings = report.findings ?? [];
   if (!findings.length) return null;
   const rank = ranks(findings);
-  let shown = findings, words = "";
+  let shown = findings,
+    words = "";
   const list = h("div", { class: "finding-list" });
   const status = h("p", { class: "status", role: "status" });
   const filter = () => arrange(0);
   const choices = {
     cause: choice("Cause", [[ANY, "any"], ...valuesOf(findings, "cause").slice(0, 200)], filter),
-    verdict: choice("Verdict", [[ANY, "any"], ...valuesOf(findings, "verdict").map(([v, t]) => [v, t.replace(v, verdictOf(v).word)])], filter),
+    verdict: choice(
+      "Verdict",
+      [[ANY, "any"], ...valuesOf(findings, "verdict").map(([v, t]) => [v, t.replace(v, verdictOf(v).word)])],
+      filter,
+    ),
     where: choice("Where", [[ANY, "any"], ...valuesOf(findings, "where").slice(0, 200)], filter),
   };
-  const sort = choice("Order", Object.entries(SORTS).map(([value, [text]]) => [value, text]), filter);
-  const size = choice("A page", [["5", "5"], ["20", "20"], ["100", "100"]], filter);
-  const search = searchField("Search", (value) => { words = value.toLowerCase(); filter(); });
-  const pages = pager("Pages of findings", () => { fill(); list.firstElementChild?.focus({ preventScroll: true }); list.scrollIntoView({ block: "start" }); });
+  const sort = choice(
+    "Order",
+    Object.entries(SORTS).map(([value, [text]]) => [value, text]),
+    filter,
+  );
+  const size = choice(
+    "A page",
+    [
+      ["5", "5"],
+      ["20", "20"],
+      ["100", "100"],
+    ],
+    filter,
+  );
+  const search = searchField("Search", (value) => {
+    words = value.toLowerCase();
+    filter();
+  });
+  const pages = pager("Pages of findings", () => {
+    fill();
+    list.firstElementChild?.focus({ preventScroll: true });
+    list.scrollIntoView({ block: "start" });
+  });
 
   const keeps = (finding) =>
     Object.entries(choices).every(([key, c]) => c.value === ANY || valueOf(finding, key) === c.value) &&
@@ -95,7 +141,10 @@ export function findingsSection(report) {
     const from = pages.page * Number(size.value);
     const page = shown.slice(from, from + Number(size.value));
     list.replaceChildren(...page.map((f) => findingCard(f, indexOf(f.key, "finding"), findings.length)));
-    status.textContent = shown.length === findings.length ? `${count(findings.length)} findings` : `${count(shown.length)} of ${count(findings.length)} findings`;
+    status.textContent =
+      shown.length === findings.length
+        ? `${count(findings.length)} findings`
+        : `${count(shown.length)} of ${count(findings.length)} findings`;
     mark();
   }
 
@@ -135,12 +184,28 @@ export function findingsSection(report) {
   arrange(0);
   const few = findings.length < 2;
   return {
-    element: section("findings", few ? "What was found" : "What is wrong",
-      few ? null : "The kinds of fault first; below, cases of each: the flight, the obstacle that is in question, and what decides it.",
+    element: section(
+      "findings",
+      few ? "What was found" : "What is wrong",
+      few
+        ? null
+        : "The kinds of fault first; below, cases of each: the flight, the obstacle that is in question, and what decides it.",
       few ? null : kindsOfFault(findings, only),
       closeness(report),
-      few ? null : h("div", { class: "controls", role: "search", "aria-label": "Filter findings" }, Object.values(choices).map((c) => c.element), sort.element, findings.length > 5 ? size.element : null, search.element),
-      few ? null : status, list, pages.element),
+      few
+        ? null
+        : h(
+            "div",
+            { class: "controls", role: "search", "aria-label": "Filter findings" },
+            Object.values(choices).map((c) => c.element),
+            sort.element,
+            findings.length > 5 ? size.element : null,
+            search.element,
+          ),
+      few ? null : status,
+      list,
+      pages.element,
+    ),
     /** Shows only the findings with these values: {cause: ..}. */
     only,
   };

@@ -19,12 +19,17 @@ const KEYED = { cells: "cell", difficulties: "difficulty", findings: "finding" }
 
 function readReport() {
   const report = JSON.parse(document.getElementById("report").textContent);
-  for (const [list, kind] of Object.entries(KEYED)) report[list]?.forEach((row, i) => { row.key = `${kind}:${i}`; });
+  for (const [list, kind] of Object.entries(KEYED))
+    report[list]?.forEach((row, i) => {
+      row.key = `${kind}:${i}`;
+    });
   return report;
 }
 
 function enginesOf(report) {
-  return [...(report.cells ?? []), ...(report.survival ?? [])].map((row) => row.engine).concat(report.engine ?? []);
+  return [...(report.cells ?? []), ...(report.survival ?? [])]
+    .map((row) => row.engine)
+    .concat(report.engine ?? []);
 }
 
 const grid = (...charts) => (charts.some(Boolean) ? h("div", { class: "grid" }, charts) : null);
@@ -33,8 +38,18 @@ function sections(report) {
   const looks = looksOf(enginesOf(report));
   const findings = findingsSection(report);
   const cells = report.cells?.length ? report : { ...report, cells: [] };
-  const speed = section("speed", "Speed and error", null, grid(speedError(cells, looks), timeRadius(cells, looks), histograms(cells, looks)));
-  const flights = section("flights", "Trajectories and free paths", null, grid(survival(report, looks), freePaths(report)));
+  const speed = section(
+    "speed",
+    "Speed and error",
+    null,
+    grid(speedError(cells, looks), timeRadius(cells, looks), histograms(cells, looks)),
+  );
+  const flights = section(
+    "flights",
+    "Trajectories and free paths",
+    null,
+    grid(survival(report, looks), freePaths(report)),
+  );
   const failures = failuresSection(report, looks, findings);
   const difficulties = difficultiesSection(report);
   const rest = [cellsSection(report, looks), flights, manifestSection(report)];
@@ -44,7 +59,11 @@ function sections(report) {
 }
 
 function contents(all) {
-  return h("nav", { class: "contents", "aria-label": "Sections" }, all.map((s) => h("a", { href: `#${s.id}` }, s.querySelector("h2").textContent)));
+  return h(
+    "nav",
+    { class: "contents", "aria-label": "Sections" },
+    all.map((s) => h("a", { href: `#${s.id}` }, s.querySelector("h2").textContent)),
+  );
 }
 
 function show(report) {
@@ -59,6 +78,8 @@ try {
   show(readReport());
 } catch (error) {
   console.error(error);
-  document.querySelector("main").replaceChildren(h("p", { role: "alert" }, `This report cannot be shown: ${error.message}`));
+  document
+    .querySelector("main")
+    .replaceChildren(h("p", { role: "alert" }, `This report cannot be shown: ${error.message}`));
 }
-document.documentElement.dataset.ready = "yes";  // for the test
+document.documentElement.dataset.ready = "yes"; // for the test

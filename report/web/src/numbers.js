@@ -1,6 +1,18 @@
 // Numbers for people.
 
-const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+const SUPERSCRIPTS = {
+  "-": "⁻",
+  0: "⁰",
+  1: "¹",
+  2: "²",
+  3: "³",
+  4: "⁴",
+  5: "⁵",
+  6: "⁶",
+  7: "⁷",
+  8: "⁸",
+  9: "⁹",
+};
 export const superscript = (integer) => [...String(integer)].map((c) => SUPERSCRIPTS[c]).join("");
 
 export const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
@@ -21,13 +33,22 @@ export function number(value, digits = 3) {
 
 /** 1234567 as 1 234 567, with narrow spaces that do not break. */
 export function count(value) {
-  return isNumber(value) ? String(value).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f").replace("-", "−") : "–";
+  return isNumber(value)
+    ? String(value)
+        .replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f")
+        .replace("-", "−")
+    : "–";
 }
 
 /** A duration given in nanoseconds. */
 export function duration(ns) {
   if (!isNumber(ns)) return "–";
-  const units = [[1e9, "s"], [1e6, "ms"], [1e3, "µs"], [1, "ns"]];
+  const units = [
+    [1e9, "s"],
+    [1e6, "ms"],
+    [1e3, "µs"],
+    [1, "ns"],
+  ];
   const [size, unit] = units.find(([size]) => ns >= size) ?? units[3];
   return `${number(ns / size)}\u202f${unit}`;
 }
@@ -52,6 +73,7 @@ export function fromHexadecimal(text) {
   if (!parts || !(parts[2] + parts[3])) return NaN;
   const digits = BigInt(`0x${parts[2] + parts[3]}`);
   const exponent = Number(parts[4] ?? 0) - 4 * parts[3].length;
-  const scaled = exponent < -1000 ? Number(digits) * 2 ** -1000 * 2 ** (exponent + 1000) : Number(digits) * 2 ** exponent;
+  const scaled =
+    exponent < -1000 ? Number(digits) * 2 ** -1000 * 2 ** (exponent + 1000) : Number(digits) * 2 ** exponent;
   return parts[1] === "-" ? -scaled : scaled;
 }

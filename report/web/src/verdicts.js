@@ -17,7 +17,8 @@ export const MEANINGS = {
   undecided: "the engine says that it cannot know",
 };
 
-export const verdictOf = (name) => VERDICTS[name] ?? { word: String(name), sign: "•", colour: "var(--undecided)", symbol: "cross" };
+export const verdictOf = (name) =>
+  VERDICTS[name] ?? { word: String(name), sign: "•", colour: "var(--undecided)", symbol: "cross" };
 
 // Keys of counts in the JSON, and of which verdict they are.
 export const FAULTS = [
