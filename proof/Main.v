@@ -221,18 +221,3 @@ Proof.
     apply passes_require, Z.leb_le in He.
     apply (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis) in H; [exact H|]. apply Z.pow_pos_nonneg; lia.
 Qed.
-
-(* An answer is unique: of the definitions alone. *)
-Lemma less_irreflexive a : ~ less a a.
-Proof. induction a as [|i a IH]; cbn; [tauto|]. intros [H|[_ H]]; [lia|auto]. Qed.
-Lemma less_asymmetric a : forall b, less a b -> ~ less b a.
-Proof.
-  induction a as [|i a IH]; intros [|j b]; cbn; try tauto. intros [H|[E H]] [K|[E' K]]; try lia. apply (IH b H K).
-Qed.
-Theorem hit_unique within from o t o' t' :
-  first_hit within from o t -> first_hit within from o' t' -> o = o' /\ t = t'.
-Proof.
-  intros (F & En & _ & A) (F' & En' & _ & A'). specialize (A _ _ F' En'). specialize (A' _ _ F En).
-  destruct A as [A|[A1 A2]], A' as [A'|[A1' A2']]; try lra. split; auto.
-  destruct A2 as [|B], A2' as [|B']; auto. exfalso. exact (less_asymmetric _ _ B B').
-Qed.

@@ -118,6 +118,9 @@ def by_program(program, paths):
     refused = refused_lines(done.stderr)
     return {at: why for at, why in refused.items() if not re.search("its (margin|condition) is another one", why)}
 
+# docs/certificates.md lets a checker refuse a basis whose first two vectors are at right angles to v.
+ALLOWED = "b_1 and b_2 are both at right angles to v"
+
 def write(folder, records):
     """Files of few records; the place of each."""
     places = []
@@ -144,6 +147,9 @@ def batch(program, records):
         says = by_python(paths), by_proof(paths), by_program(program, paths)
         for place, (scene, way, line) in zip(places, records):
             if "Overtime" in says[0].get(place, ""): continue
+            if ALLOWED in says[2].get(place, ""):
+                tally["(a basis that may be refused)", ()] += 1
+                continue
             verdicts = tuple(place not in refused for refused in says)
             tally[way, verdicts] += 1
             if len({*verdicts}) > 1: differ.append((way, verdicts, [refused.get(place, "accepted")[:200] for refused in says], scene, line))
@@ -160,13 +166,14 @@ def main(program, count, seed=1):
         of_batch, more = batch(program, records)
         tally.update(of_batch)
         differ += more
+        for way, verdicts, why, scene, line in more:
+            print(f"{way}: check.py, proof, program: {verdicts} {why}\n{scene}\n{line}")
         done += sum(of_batch.values())
         print(f"{done} records, {len(differ)} verdicts differ", flush=True)
     for way in WAYS:
         accepted, refused = tally[way.__name__, (True,) * 3], tally[way.__name__, (False,) * 3]
         print(f"{way.__name__:16} {accepted:8} accepted {refused:8} refused")
-    for way, verdicts, why, scene, line in differ[:20]:
-        print(f"{way}: check.py, proof, program: {verdicts} {why}\n{scene}\n{line}")
+    print(f"{tally['(a basis that may be refused)', ()]} with a basis that only the program refuses, and may")
     return 1 if differ else 0
 
 if __name__ == "__main__":
