@@ -1,5 +1,5 @@
-// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal. LORENTZ_PROGRESS_AFTER says
-// from which second of the work on it is drawn, 1 unless set: with 0, even short work shows it.
+// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal. LORENTZ_PROGRESS_AFTER
+// says from which second of the work on it is drawn, 1 unless set: with 0, even short work shows it.
 #pragma once
 
 #include <unistd.h>
