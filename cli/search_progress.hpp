@@ -8,7 +8,8 @@
 
 namespace lorentz::cli {
 
-/// A bar on stderr if that is a terminal, as Progress draws it. What is drawn goes when the last copy of it does.
+/// A bar on stderr if that is a terminal, as Progress draws it. What is drawn goes when the last copy of it
+/// does.
 inline oracle::SearchProgress search_progress() {
   if (isatty(STDERR_FILENO) != 1) return {};
   return [bar = std::make_shared<std::unique_ptr<Progress>>(), begun = Progress::Clock::now()](
