@@ -168,6 +168,7 @@ BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
     if (cell.skipped) continue;
     result.failed |= tallies[next].failed;
     fill(cell, tallies[next]);
+    cell.skipped = cell.unsupported == cell.queries;  // how fast it says so is nobody's question
     cell.mean_path = mean_path(exact, options.counts[next]);
     cell.conditions = report::histogram_of(errors[next].in_conditions());
     cell.worst = errors[next].worst(group, engine, set);

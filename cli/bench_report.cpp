@@ -54,7 +54,8 @@ std::string table_of(const std::vector<Cell>& cells) {
             ? ""
             : fmt::format("{}, r = {}, {}", cell.scene, radius_of(cell), cell.difficulty);
     if (cell.skipped) {
-      table.add({what, cell.engine, "-", "too slow", "", "", "", "", "", "", "", ""});
+      table.add({what, cell.engine, "-", cell.unsupported > 0 ? "unsupported" : "too slow", "", "", "", "",
+                 "", "", "", ""});
       continue;
     }
     table.add({what, cell.engine, std::to_string(cell.queries), fmt::format("{:.0f}", cell.ns.median),
@@ -81,7 +82,7 @@ class Summary {
  public:
   void add(const Cell& cell) {
     if (cell.skipped) {
-      ++skipped_;
+      ++(cell.unsupported > 0 ? beyond_ : skipped_);
       return;
     }
     fastest_ = queries_ == 0 ? cell.ns.median : std::min(fastest_, cell.ns.median);
@@ -95,7 +96,9 @@ class Summary {
   }
 
   std::string conclusion(const std::string& name) const {
-    if (queries_ == 0) return fmt::format("{}: too slow for every cell of this table\n", name);
+    if (queries_ == 0)
+      return fmt::format("{}: too slow for {} cells of this table, {} unsupported\n", name, skipped_,
+                         beyond_);
     std::string text = name + ": " + wrong_text();
     for (const auto& [count, what] : {std::pair{ill_posed_, "ill-posed"},
                                       {undecided_, "undecided"},
@@ -109,6 +112,7 @@ class Summary {
     text += fmt::format("  {:.0f} to {:.0f} ns; times at worst {:.3g} ulps off, {:.3g} times the condition",
                         fastest_, slowest_, max_ulp_, max_condition_);
     if (skipped_ > 0) text += fmt::format("; too slow for {} {}", skipped_, skipped_ == 1 ? "cell" : "cells");
+    if (beyond_ > 0) text += fmt::format("; {} {} unsupported", beyond_, beyond_ == 1 ? "cell" : "cells");
     return text + '\n';
   }
 
@@ -125,7 +129,7 @@ class Summary {
   }
 
   std::size_t queries_ = 0, wrong_ = 0, ill_posed_ = 0, undecided_ = 0, wrong_time_ = 0, unsupported_ = 0,
-              failed_ = 0, skipped_ = 0;
+              failed_ = 0, skipped_ = 0, beyond_ = 0;
   double fastest_ = 0, slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
 };
 

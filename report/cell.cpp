@@ -41,8 +41,7 @@ void append_measured(std::string& out, const Cell& cell) {
   append_share(out += ",\"ill_posed\":", cell.ill_posed);
   append_share(out += ",\"wrong\":", cell.wrong);
   append_share(out += ",\"wrong_time\":", cell.wrong_time);
-  out += fmt::format(",\"unsupported\":{},\"error\":{},\"missing\":{}", cell.unsupported, cell.error,
-                     cell.missing);
+  out += fmt::format(",\"error\":{},\"missing\":{}", cell.error, cell.missing);
   append_histogram(out += ",\"ulps\":", cell.ulps);
   append_histogram(out += ",\"conditions\":", cell.conditions);
   out += ",\"worst\":";
@@ -54,7 +53,7 @@ void append_measured(std::string& out, const Cell& cell) {
 
 constexpr const char* kNotMeasured =
     ",\"ns\":null,\"instructions\":null,\"mean_path\":null,\"undecided\":null,\"ill_posed\":null,"
-    "\"wrong\":null,\"wrong_time\":null,\"unsupported\":null,\"error\":null,\"missing\":null,\"ulps\":null,"
+    "\"wrong\":null,\"wrong_time\":null,\"error\":null,\"missing\":null,\"ulps\":null,"
     "\"conditions\":null,\"worst\":null";
 
 }  // namespace
@@ -65,9 +64,10 @@ void append_cell(std::string& out, const Cell& cell) {
     append_number(out, *cell.radius);
   else
     out += "null";
-  out += fmt::format(",\"dimension\":{},\"difficulty\":{},\"engine\":{},\"queries\":{},\"skipped\":{}",
-                     cell.dimension, json_quoted(cell.difficulty), json_quoted(cell.engine), cell.queries,
-                     cell.skipped);
+  out += fmt::format(
+      ",\"dimension\":{},\"difficulty\":{},\"engine\":{},\"queries\":{},\"skipped\":{},\"unsupported\":{}",
+      cell.dimension, json_quoted(cell.difficulty), json_quoted(cell.engine), cell.queries, cell.skipped,
+      cell.unsupported);
   if (cell.skipped)
     out += kNotMeasured;
   else
@@ -139,7 +139,6 @@ void read_measured(json::object& object, Cell& cell) {
   cell.ill_posed = share(object["ill_posed"]);
   cell.wrong = share(object["wrong"]);
   cell.wrong_time = share(object["wrong_time"]);
-  cell.unsupported = count(object, "unsupported");
   cell.error = count(object, "error");
   cell.missing = count(object, "missing");
   cell.ulps = histogram(object["ulps"]);
@@ -163,6 +162,7 @@ Cell cell_of(std::string_view text_of_cell) {
     cell.engine = text(object["engine"]);
     cell.queries = count(object, "queries");
     cell.skipped = bool(object["skipped"]);
+    cell.unsupported = count(object, "unsupported");
     if (!cell.skipped) read_measured(object, cell);
     return cell;
   } catch (const simdjson::simdjson_error& error) {

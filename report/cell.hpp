@@ -36,7 +36,7 @@ struct Cell {
   int dimension = 2;
   std::string difficulty, engine;
   std::size_t queries = 0;
-  bool skipped = false;  ///< too slow: nothing of what follows was measured
+  bool skipped = false;  ///< too slow, or all is unsupported: of what follows only that is known
   Times ns;
   std::optional<double> instructions;  ///< a query, where the processor counts them
   double mean_path = 0;                ///< mean time of the flights that hit, 0 if none does

@@ -71,6 +71,7 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
       R"({"x":["0x1.8p-1","0x0p+0"],"v":["0x1p+0","-0x1p-30"],"from":{"lattice":0,"atom":0,"cell":[1,-2]}})");
   Cell skipped{"ellipse", {}, 2, "grazing", "oracle"};
   skipped.skipped = true;
+  skipped.unsupported = 3;
   const CellStore store{{"these options", "scenes", "program"}, "{\"version\":\"1\"}", {cell, skipped}};
   const CellStore again = CellStore::of(store.text());
   CHECK(again.text() == store.text());
