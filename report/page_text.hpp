@@ -1,4 +1,5 @@
-// The page without its report, as report/web/build.mjs makes it; empty in a program that was built without npm.
+// The page without its report, as report/web/build.mjs makes it. Empty in a program that was built without
+// npm.
 #pragma once
 
 #include <string_view>

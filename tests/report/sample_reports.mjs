@@ -14,11 +14,30 @@ function drawn(seed) {
 }
 
 const MANIFEST = {
-  version: "0.1.0", commit: "0123456789ab", compiler: "GNU 12.2.0", flags: "-O3 -DNDEBUG -ffp-contract=off", machine: "made up, 2 cores",
-  instructions: "AVX2", system: "Linux 6.1 x86_64", date: "2026-11-22", seed: 20161115, command: "lorentz judge --engine ./tolerant_engine --html report.html",
+  version: "0.1.0",
+  commit: "0123456789ab",
+  compiler: "GNU 12.2.0",
+  flags: "-O3 -DNDEBUG -ffp-contract=off",
+  machine: "made up, 2 cores",
+  instructions: "AVX2",
+  system: "Linux 6.1 x86_64",
+  date: "2026-11-22",
+  seed: 20161115,
+  command: "lorentz judge --engine ./tolerant_engine --html report.html",
 };
 
-const SCENE = { dimension: 2, lattices: [{ vectors: [["0x1p+0", "0x0p+0"], ["0x0p+0", "0x1p+0"]], atoms: [{ position: ["0x0p+0", "0x0p+0"], radius: "0x1.999999999999ap-4" }] }] };
+const SCENE = {
+  dimension: 2,
+  lattices: [
+    {
+      vectors: [
+        ["0x1p+0", "0x0p+0"],
+        ["0x0p+0", "0x1p+0"],
+      ],
+      atoms: [{ position: ["0x0p+0", "0x0p+0"], radius: "0x1.999999999999ap-4" }],
+    },
+  ],
+};
 
 // A flight past a disc to the next, and an inset.
 function picture(i, words = "named by the engine") {
@@ -28,110 +47,305 @@ function picture(i, words = "named by the engine") {
 
 function finding(i, cause, explanation, radii, more = {}) {
   return {
-    cause, explanation, count: 1, where: "drawn square r=0.1", verdict: "wrong", scene: SCENE,
-    query: { id: `q${i}`, x: ["0x1.8p-2", "0x1.c7ae147ae147bp-2"], v: ["0x1.ffb0p-1", "0x1.1df0b2b89dd1ep-6"] },
+    cause,
+    explanation,
+    count: 1,
+    where: "drawn square r=0.1",
+    verdict: "wrong",
+    scene: SCENE,
+    query: {
+      id: `q${i}`,
+      x: ["0x1.8p-2", "0x1.c7ae147ae147bp-2"],
+      v: ["0x1.ffb0p-1", "0x1.1df0b2b89dd1ep-6"],
+    },
     given: { outcome: "hit", lattice: 0, atom: 0, cell: [3 + (i % 5), 1], time: "0x1.cp+1" },
     exact: { outcome: "hit", lattice: 0, atom: 0, cell: [9, 1], time: "0x1.1ap+3" },
-    by_radii: radii, by_ulps: Math.abs(radii) * 3e9,
-    reason: [`the line misses the obstacle of lattice 0, atom 0, cell (${3 + (i % 5)}, 1) by ${radii.toExponential(2)} of its radii`, "decided by the sign of a distance that needs 61 bits"],
-    commands: [`echo '{"scene":{"dimension":2}}' > q${i}.ndjson`, `lorentz first-hit --engine oracle --detail q${i}.ndjson`],
-    drawing: picture(i), ...more,
+    by_radii: radii,
+    by_ulps: Math.abs(radii) * 3e9,
+    reason: [
+      `the line misses the obstacle of lattice 0, atom 0, cell (${3 + (i % 5)}, 1) by ${radii.toExponential(2)} of its radii`,
+      "decided by the sign of a distance that needs 61 bits",
+    ],
+    commands: [
+      `echo '{"scene":{"dimension":2}}' > q${i}.ndjson`,
+      `lorentz first-hit --engine oracle --detail q${i}.ndjson`,
+    ],
+    drawing: picture(i),
+    ...more,
   };
 }
 
-const TOLERANCE = ["grazing-counted-as-hit", "It counts a flight as a hit that passes the obstacle by less than about 1e-9 of its radius."];
+const TOLERANCE = [
+  "grazing-counted-as-hit",
+  "It counts a flight as a hit that passes the obstacle by less than about 1e-9 of its radius.",
+];
 
 function judge() {
   const draw = drawn(1);
-  const near = Array.from({ length: 9 }, (_, i) => finding(i, ...TOLERANCE, 10 ** (-9.1 - 5 * draw()), { where: i % 3 ? "golden grazing" : "campaign", count: 1 + Math.floor(40 * draw()) }));
+  const near = Array.from({ length: 9 }, (_, i) =>
+    finding(i, ...TOLERANCE, 10 ** (-9.1 - 5 * draw()), {
+      where: i % 3 ? "golden grazing" : "campaign",
+      count: 1 + Math.floor(40 * draw()),
+    }),
+  );
   return {
-    format: 1, kind: "judge", title: "lorentz judge: tolerant_engine", manifest: MANIFEST,
-    engine: "cmd:./tolerant_engine", verdict: "wrong", queries: 48211, wrong: 143, ill_posed: 12, wrong_time: 7, undecided: 96, ns_per_query: 1832.5,
+    format: 1,
+    kind: "judge",
+    title: "lorentz judge: tolerant_engine",
+    manifest: MANIFEST,
+    engine: "cmd:./tolerant_engine",
+    verdict: "wrong",
+    queries: 48211,
+    wrong: 143,
+    ill_posed: 12,
+    wrong_time: 7,
+    undecided: 96,
+    ns_per_query: 1832.5,
     line: "wrong: 3 kinds of fault, the simplest counts as a hit what passes by less than 1e-9 of a radius; undecided 0.2 %; times within 4 ulps but grazing hits; 1 833 ns a query, 2.3 x reduction",
     difficulties: [
       ["drawn", "starts drawn uniformly, directions isotropic", 20000, 0, 0, 0, 0, 3.8, 1200],
       ["near-rational", "directions close to a lattice line", 8211, 3, 2, 0, 31, 5.1, 2400],
       ["grazing", "lines that touch an obstacle but for the last bits", 10000, 137, 10, 7, 65, 2.1e6, 1900],
-      ["golden deep corridor", "flights along a corridor that is free for 10^6 cells", 4000, 0, 0, 0, 0, 12, 5600],
-      ["campaign", "cases that a campaign constructed and made harder, with a name that is long", 6000, 3, 0, 0, 0, 3.2, 2000],
+      [
+        "golden deep corridor",
+        "flights along a corridor that is free for 10^6 cells",
+        4000,
+        0,
+        0,
+        0,
+        0,
+        12,
+        5600,
+      ],
+      [
+        "campaign",
+        "cases that a campaign constructed and made harder, with a name that is long",
+        6000,
+        3,
+        0,
+        0,
+        0,
+        3.2,
+        2000,
+      ],
     ].map(([name, explanation, queries, wrong, ill_posed, wrong_time, undecided, max_ulp, ns_per_query]) => ({
-      name, explanation, queries, agree: queries - wrong - ill_posed - wrong_time - undecided, ill_posed, wrong, wrong_time, undecided, unsupported: 0, error: 0, missing: 0, max_ulp, ns_per_query,
+      name,
+      explanation,
+      queries,
+      agree: queries - wrong - ill_posed - wrong_time - undecided,
+      ill_posed,
+      wrong,
+      wrong_time,
+      undecided,
+      unsupported: 0,
+      error: 0,
+      missing: 0,
+      max_ulp,
+      ns_per_query,
     })),
     findings: [
       ...near.sort((a, b) => b.count - a.count),
-      finding(20, "time-of-grazing-hit", "The time of a grazing hit loses half of its digits: the square root of a difference that cancels.", -3e-7, { verdict: "wrong-time", by_ulps: 2.1e6, where: "golden grazing", count: 7 }),
-      finding(21, "sign-of-zero", "A component of the velocity that is -0 turns the search around.", 0.8, { where: "campaign", count: 3 }),
-      finding(22, "last-bits", "The question is decided by the last bits of x.", 2e-16, { verdict: "ill-posed", by_ulps: 0.8, where: "golden grazing", drawing: null }),
+      finding(
+        20,
+        "time-of-grazing-hit",
+        "The time of a grazing hit loses half of its digits: the square root of a difference that cancels.",
+        -3e-7,
+        { verdict: "wrong-time", by_ulps: 2.1e6, where: "golden grazing", count: 7 },
+      ),
+      finding(21, "sign-of-zero", "A component of the velocity that is -0 turns the search around.", 0.8, {
+        where: "campaign",
+        count: 3,
+      }),
+      finding(22, "last-bits", "The question is decided by the last bits of x.", 2e-16, {
+        verdict: "ill-posed",
+        by_ulps: 0.8,
+        where: "golden grazing",
+        drawing: null,
+      }),
     ],
   };
 }
 
-const ENGINES = [["reduction", 800, 0, -0.02, 2], ["published", 420, 2e-3, -0.08, 5], ["classical", 300, 3e-4, -0.9, 9], ["binary128", 21000, 0, -0.03, 0.5], ["float", 260, 0.04, -0.05, 5e8]];
+const ENGINES = [
+  ["reduction", 800, 0, -0.02, 2],
+  ["published", 420, 2e-3, -0.08, 5],
+  ["classical", 300, 2e-4, -0.9, 9],
+  ["binary128", 21000, 0, -0.03, 0.5],
+  ["float", 260, 0.04, -0.05, 5e8],
+];
 const RADII = [0.1, 0.01, 1e-3, 1e-4, 1e-5];
 
 function histogram(draw, n, scale) {
-  const counts = Array.from({ length: 8 }, (_, i) => Math.floor(n * 0.6 * Math.exp(-0.9 * Math.abs(i - 3)) * (0.8 + 0.4 * draw())));
+  const counts = Array.from({ length: 8 }, (_, i) =>
+    Math.floor(n * 0.6 * Math.exp(-0.9 * Math.abs(i - 3)) * (0.8 + 0.4 * draw())),
+  );
   const first = Math.round(Math.log2(scale)) - 4;
-  return { exact: Math.floor(n * 0.2), first, counts, mean: scale / 2, p99: scale * 1.7, max: 2 ** (first + 8) * 0.9 };
+  return {
+    exact: Math.floor(n * 0.2),
+    first,
+    counts,
+    mean: scale / 2,
+    p99: scale * 1.7,
+    max: 2 ** (first + 8) * 0.9,
+  };
 }
 
 // 95 % bounds as they would be, roughly: what is shown is what the report says.
-const share = (count, n) => ({ count, low: count ? (count / n) * 0.7 : 0, high: count ? (count / n) * 1.35 : 3.7 / n });
+const share = (count, n) => ({
+  count,
+  low: count ? (count / n) * 0.7 : 0,
+  high: count ? (count / n) * 1.35 : 3.7 / n,
+});
 
 function cell(draw, scene, radius, difficulty, [engine, ns, wrong, slope, ulps]) {
-  const queries = 20000, median = ns * (radius / 0.1) ** slope * (0.95 + 0.1 * draw()) * (difficulty === "drawn" ? 1 : 2.2);
+  const queries = 20000,
+    median = ns * (radius / 0.1) ** slope * (0.95 + 0.1 * draw()) * (difficulty === "drawn" ? 1 : 2.2);
   const faults = Math.round(queries * wrong * (difficulty === "drawn" ? 1 : 6) * (0.7 + 0.6 * draw()));
   return {
-    scene, radius, dimension: scene === "square" ? 2 : 3, difficulty, engine, queries, skipped: false,
-    ns: { median, q1: median * 0.93, q3: median * 1.12, mean: median * 1.04 }, instructions: Math.round(median * 7.1), mean_path: 1 / (2 * radius),
-    undecided: share(engine === "reduction" ? 4 : 0, queries), ill_posed: share(0, queries), wrong: share(Math.min(faults, queries), queries), wrong_time: share(Math.round(faults / 9), queries),
-    ulps: histogram(draw, queries, ulps), conditions: histogram(draw, queries, ulps / 3),
-    worst: { ulps: ulps * 7, query: { x: ["0x1p-1", "0x1p-3"], v: ["0x1p+0", "0x1.8p-4"] }, command: `lorentz first-hit --engine ${engine} worst.ndjson` },
+    scene,
+    radius,
+    dimension: scene === "square" ? 2 : 3,
+    difficulty,
+    engine,
+    queries,
+    skipped: false,
+    ns: { median, q1: median * 0.93, q3: median * 1.12, mean: median * 1.04 },
+    instructions: Math.round(median * 7.1),
+    mean_path: 1 / (2 * radius),
+    undecided: share(engine === "reduction" ? 4 : 0, queries),
+    ill_posed: share(0, queries),
+    wrong: share(Math.min(faults, queries), queries),
+    wrong_time: share(Math.round(faults / 9), queries),
+    ulps: histogram(draw, queries, ulps),
+    conditions: histogram(draw, queries, ulps / 3),
+    worst: {
+      ulps: ulps * 7,
+      query: { x: ["0x1p-1", "0x1p-3"], v: ["0x1p+0", "0x1.8p-4"] },
+      command: `lorentz first-hit --engine ${engine} worst.ndjson`,
+    },
   };
 }
 
 function bench() {
-  const draw = drawn(2), cells = [];
+  const draw = drawn(2),
+    cells = [];
   for (const scene of ["square", "cubic"])
     for (const difficulty of ["drawn", "near-rational"])
-      for (const radius of RADII) for (const engine of ENGINES) cells.push(cell(draw, scene, radius, difficulty, engine));
-  cells.push({ ...cells[0], radius: 1e-6, engine: "classical", skipped: true, ns: null, ulps: null, conditions: null, worst: null, wrong: null });
-  const points = (rate) => Array.from({ length: 30 }, (_, i) => { const s = 1 / (1 + Math.exp(0.6 * (i + 1 - rate))); return { collisions: i + 1, share: s, low: Math.max(0, s - 0.02), high: Math.min(1, s + 0.02) }; });
+      for (const radius of RADII)
+        for (const engine of ENGINES) cells.push(cell(draw, scene, radius, difficulty, engine));
+  cells.push({
+    ...cells[0],
+    radius: 1e-6,
+    engine: "classical",
+    skipped: true,
+    ns: null,
+    ulps: null,
+    conditions: null,
+    worst: null,
+    wrong: null,
+  });
+  const points = (rate) =>
+    Array.from({ length: 30 }, (_, i) => {
+      const s = 1 / (1 + Math.exp(0.6 * (i + 1 - rate)));
+      return { collisions: i + 1, share: s, low: Math.max(0, s - 0.02), high: Math.min(1, s + 0.02) };
+    });
   return {
-    format: 1, kind: "bench", title: "lorentz bench: five engines", manifest: { ...MANIFEST, command: "lorentz bench --html bench.html" }, cells,
-    findings: [finding(1, "float-misses-small-obstacles", "At small radii single precision steps over the obstacle.", 0.4, { where: "square r=1e-05" })],
-    survival: [["reduction", 14], ["float", 6], ["binary128", 28]].map(([engine, rate]) => ({ scene: "square", radius: 0.1, engine, points: points(rate) })),
-    free_paths: [0.1, 0.01].map((radius) => ({ scene: "square", radius, points: Array.from({ length: 24 }, (_, i) => { const t = 0.1 * 1.6 ** i / radius; const s = 1 / (1 + (2 * radius * t) ** 2); return { t, survival: s * (1 + 0.03 * draw()), theory: s }; }) })),
+    format: 1,
+    kind: "bench",
+    title: "lorentz bench: five engines",
+    manifest: { ...MANIFEST, command: "lorentz bench --html bench.html" },
+    cells,
+    fits: [
+      {
+        scene: "square",
+        engine: "float",
+        difficulty: "drawn",
+        exponent: -0.0512,
+        low: -0.0611,
+        high: -0.0413,
+        from: 1e-5,
+        to: 0.01,
+      },
+    ],
+    findings: [
+      finding(
+        1,
+        "float-misses-small-obstacles",
+        "At small radii single precision steps over the obstacle.",
+        0.4,
+        { where: "square r=1e-05" },
+      ),
+    ],
+    survival: [
+      ["reduction", 14],
+      ["float", 6],
+      ["binary128", 28],
+    ].map(([engine, rate]) => ({ scene: "square", radius: 0.1, engine, points: points(rate) })),
+    free_paths: [0.1, 0.01].map((radius) => ({
+      scene: "square",
+      radius,
+      points: Array.from({ length: 24 }, (_, i) => {
+        const t = (0.1 * 1.6 ** i) / radius;
+        const s = 1 / (1 + (2 * radius * t) ** 2);
+        return { t, survival: s * (1 + 0.03 * draw()), theory: s };
+      }),
+    })),
   };
 }
 
 // What an engine may have said to break the page, in every text.
-export const HOSTILE = "<script>window.broken=1</script></script><img src=x onerror=\"window.broken=1\">'\"`${1}\u2028\u2029<!--";
+export const HOSTILE =
+  '<script>window.broken=1</script></script><img src=x onerror="window.broken=1">\'"`${1}\u2028\u2029<!--';
 
 function hostile() {
   const report = judge();
-  const scrub = (value) => (Array.isArray(value) ? value.map(scrub) : value && typeof value === "object" ? Object.fromEntries(Object.entries(value).map(([k, v]) => [k, ["kind", "verdict"].includes(k) ? v : scrub(v)])) : typeof value === "string" ? `${value} ${HOSTILE}` : value);
+  const scrub = (value) =>
+    Array.isArray(value)
+      ? value.map(scrub)
+      : value && typeof value === "object"
+        ? Object.fromEntries(
+            Object.entries(value).map(([k, v]) => [k, ["kind", "verdict"].includes(k) ? v : scrub(v)]),
+          )
+        : typeof value === "string"
+          ? `${value} ${HOSTILE}`
+          : value;
   const drawing = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="100" height="50" onload="window.broken=1"><script>window.broken=1</script><a href="javascript:window.broken=1"><text y="20">x</text></a><foreignObject width="9" height="9"><iframe xmlns="http://www.w3.org/1999/xhtml" src="http://127.0.0.1:9/frame"/></foreignObject><image href="http://127.0.0.1:9/image.png" width="9" height="9"/><style>@import url(http://127.0.0.1:9/style.css); rect { fill: url(http://127.0.0.1:9/fill.svg#a) }</style><rect class="kept" width="50" height="50" fill="url(http://127.0.0.1:9/fill.svg#a)" onclick="window.broken=1"/></svg>`;
   const made = scrub(report);
-  made.findings.forEach((f, i) => { f.drawing = i % 2 ? drawing : "<svg><not closed"; });
+  made.findings.forEach((f, i) => {
+    f.drawing = i % 2 ? drawing : "<svg><not closed";
+  });
   return { ...made, "unknown key": HOSTILE, cells: scrub(bench().cells.slice(0, 20)) };
 }
 
 function big() {
-  const draw = drawn(3), causes = [TOLERANCE, ["steps-over-small-obstacle", "It steps over obstacles that are smaller than its step."], ["never-for-far-hits", "It gives up after a million cells and says never."]];
+  const draw = drawn(3),
+    causes = [
+      TOLERANCE,
+      ["steps-over-small-obstacle", "It steps over obstacles that are smaller than its step."],
+      ["never-for-far-hits", "It gives up after a million cells and says never."],
+    ];
   const findings = Array.from({ length: 10000 }, (_, i) => {
     const [cause, explanation] = causes[i % 3];
-    return finding(i, cause, explanation, 10 ** (-2 - 12 * draw()), { where: ["campaign", "golden grazing", "drawn square r=0.1"][i % 7 % 3], query: { id: `needle-${i}`, x: ["0x1.8p-2", "0x1p-3"], v: ["0x1p+0", "0x1p-6"] } });
+    return finding(i, cause, explanation, 10 ** (-2 - 12 * draw()), {
+      where: ["campaign", "golden grazing", "drawn square r=0.1"][(i % 7) % 3],
+      query: { id: `needle-${i}`, x: ["0x1.8p-2", "0x1p-3"], v: ["0x1p+0", "0x1p-6"] },
+    });
   });
   return { ...judge(), title: "10 000 findings", findings };
 }
 
 // The least that the contract allows.
-const small = () => ({ format: 1, kind: "case", title: "one case", findings: [finding(0, ...TOLERANCE, 1e-10)] });
+const small = () => ({
+  format: 1,
+  kind: "case",
+  title: "one case",
+  findings: [finding(0, ...TOLERANCE, 1e-10)],
+});
 
 export const SAMPLES = { judge, bench, hostile, big, small };
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? "").href) {
   mkdirSync(process.argv[2], { recursive: true });
-  for (const [name, make] of Object.entries(SAMPLES)) writeFileSync(`${process.argv[2]}/${name}.json`, JSON.stringify(make()));
+  for (const [name, make] of Object.entries(SAMPLES))
+    writeFileSync(`${process.argv[2]}/${name}.json`, JSON.stringify(make()));
 }

@@ -3,6 +3,7 @@ import { h, newId } from "./dom.js";
 import { legend } from "./engines.js";
 import { saveCsv, saveSvg } from "./download.js";
 import { pointer } from "./pointer.js";
+import { powerTick } from "./numbers.js";
 import { plainTable } from "./table.js";
 import * as Plot from "@observablehq/plot";
 
@@ -12,13 +13,20 @@ import * as Plot from "@observablehq/plot";
  * result is called when they change. `below(drawn)`, if any, makes what is written below.
  */
 export function chart({ name, title, note, controls = [], draw, below = null, legendLines = false }) {
-  const heading = newId("chart"), description = newId("description");
+  const heading = newId("chart"),
+    description = newId("description");
   const frame = h("div", { class: "plot", "aria-describedby": description });
   const summary = h("p", { class: "summary", id: description });
   const under = h("div", {});
-  const numbers = h("details", { class: "numbers", ontoggle: () => fillNumbers() }, h("summary", {}, "Numbers as a table"));
+  const numbers = h(
+    "details",
+    { class: "numbers", ontoggle: () => fillNumbers() },
+    h("summary", {}, "Numbers as a table"),
+  );
   const over = pointer(frame, title);
-  let drawn = null, svg = null, width = 0;
+  let drawn = null,
+    svg = null,
+    width = 0;
 
   function fillNumbers() {
     numbers.querySelector(".scroll")?.remove();
@@ -32,7 +40,9 @@ export function chart({ name, title, note, controls = [], draw, below = null, le
     svg?.remove();
     svg = drawn ? withLegend(drawn, width, title, legendLines) : null;
     figure.classList.toggle("empty", !svg);
-    summary.textContent = drawn ? drawn.summary : "Nothing to draw for this choice.";
+    summary.textContent = drawn
+      ? drawn.summary[0].toUpperCase() + drawn.summary.slice(1)
+      : "Nothing to draw for this choice.";
     under.replaceChildren(...(drawn && below ? [below(drawn)].filter(Boolean) : []));
     fillNumbers();
     if (!svg) return;
@@ -41,18 +51,41 @@ export function chart({ name, title, note, controls = [], draw, below = null, le
   }
 
   const button = (text, what, action) =>
-    h("button", { type: "button", class: "download", "aria-label": `Download ${what} of: ${title}`, onclick: () => svg && action() }, text);
-  const figure = h("figure", { class: "chart", "data-chart": name, "aria-labelledby": heading },
-    h("div", { class: "chart-head" },
+    h(
+      "button",
+      {
+        type: "button",
+        class: "download",
+        "aria-label": `Download ${what} of: ${title}`,
+        onclick: () => svg && action(),
+      },
+      text,
+    );
+  const figure = h(
+    "figure",
+    { class: "chart", "data-chart": name, "aria-labelledby": heading },
+    h(
+      "div",
+      { class: "chart-head" },
       h("h3", { id: heading }, title),
-      h("div", { class: "downloads" },
+      h(
+        "div",
+        { class: "downloads" },
         button("SVG", "the picture", () => saveSvg(name, svg, title)),
-        button("CSV", "the numbers", () => saveCsv(name, drawn.numbers)))),
+        button("CSV", "the numbers", () => saveCsv(name, drawn.numbers)),
+      ),
+    ),
     note && h("p", { class: "note" }, note),
     controls.filter(Boolean).length ? h("div", { class: "controls" }, controls) : null,
-    frame, h("figcaption", {}, summary), under, numbers);
+    frame,
+    h("figcaption", {}, summary),
+    under,
+    numbers,
+  );
 
-  new ResizeObserver(() => { if (Math.abs(frame.clientWidth - width) > 1) redraw(); }).observe(frame);
+  new ResizeObserver(() => {
+    if (Math.abs(frame.clientWidth - width) > 1) redraw();
+  }).observe(frame);
   return { element: figure, redraw };
 }
 
@@ -74,16 +107,50 @@ function withLegend(drawn, width, title, lines) {
 /** Plot.plot with what all charts share. */
 export function plot(options) {
   return Plot.plot({
-    style: "background: transparent; overflow: visible; font-family: inherit; font-size: 12px; color: inherit",
-    marginLeft: 62, marginRight: 16, marginBottom: 44, marginTop: 16,
+    ...options,
+    x: withoutOwn(options.x),
+    y: withoutOwn(options.y),
+    marks: [
+      logMarks(Plot.axisX, Plot.gridX, options.x),
+      logMarks(Plot.axisY, Plot.gridY, options.y),
+      ...options.marks,
+    ],
+    style:
+      "background: transparent; overflow: visible; font-family: inherit; font-size: 12px; color: inherit",
+    marginLeft: options.marginLeft ?? 62,
+    marginRight: 16,
+    marginBottom: 44,
+    marginTop: 16,
     color: { type: "identity" },
     symbol: { type: "identity" },
-    ...options,
   });
 }
 
-/** A domain for positive values on a logarithmic axis, with some air. */
-export function logDomain(values, air = 1.6) {
+// Plot leaves out labels of logarithmic ticks where it takes them to be too many: here they have been counted.
+const withoutOwn = (scale) => (scale?.show ? { ...scale, axis: null } : scale);
+const logMarks = (axis, grid, scale) =>
+  scale?.show
+    ? [
+        grid(scale.ticks, {}),
+        axis(scale.ticks, { text: (t) => scale.show(t), label: scale.label, labelAnchor: "center" }),
+      ]
+    : null;
+
+/** A logarithmic axis for these values (what is not above 0 does not count), with about so many ticks. */
+export function logAxis(label, values, ticks, { air = 1.6, show = powerTick } = {}) {
   const positive = values.filter((value) => value > 0 && Number.isFinite(value));
-  return positive.length ? [Math.min(...positive) / air, Math.max(...positive) * air] : [0.1, 10];
+  const domain = positive.length ? [Math.min(...positive) / air, Math.max(...positive) * air] : [0.1, 10];
+  return { type: "log", label, domain, ticks: logTicks(domain, Math.max(3, Math.floor(ticks))), show };
+}
+
+// Powers of ten, every so many if there are too many; 1, 2 and 5 (or 1 and 3) times them if there are too few.
+function logTicks([low, high], most) {
+  const exponents = [];
+  for (let e = Math.ceil(Math.log10(low) - 1e-9); e <= Math.log10(high) + 1e-9; ++e) exponents.push(e);
+  const step = Math.ceil(exponents.length / most);
+  if (exponents.length > 2) return exponents.filter((e) => e % step === 0).map((e) => Number(`1e${e}`));
+  const from = Math.floor(Math.log10(low));
+  return [from, from + 1, from + 2]
+    .flatMap((e) => (most > 4 ? [1, 2, 5] : [1, 3]).map((m) => Number(`${m}e${e}`)))
+    .filter((t) => t >= low && t <= high);
 }

@@ -5,7 +5,8 @@ async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
-  } catch {  // no permission, or an old browser: by a selection
+  } catch {
+    // no permission, or an old browser: by a selection
     const area = document.createElement("textarea");
     area.value = text;
     document.body.append(area);
@@ -25,6 +26,8 @@ export function watchCopyButtons() {
     button.focus();
     button.textContent = done ? "copied" : "not copied";
     announce(button.textContent);
-    setTimeout(() => { button.textContent = before; }, 1500);
+    setTimeout(() => {
+      button.textContent = before;
+    }, 1500);
   });
 }

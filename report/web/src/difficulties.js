@@ -4,21 +4,54 @@ import { difficultiesChart } from "./charts/difficulties.js";
 import { count, duration, isNumber, number } from "./numbers.js";
 import { choosableTable } from "./table.js";
 
-const COUNTS = [["queries", "queries"], ["agree", "agree"], ["wrong", "wrong"], ["ill_posed", "ill-posed"], ["wrong_time", "wrong time"],
-  ["undecided", "undecided"], ["unsupported", "unsupported"], ["error", "errors"], ["missing", "missing"]];
+const COUNTS = [
+  ["wrong", "wrong"],
+  ["ill_posed", "ill-posed"],
+  ["wrong_time", "wrong time"],
+  ["undecided", "undecided"],
+  ["unsupported", "unsupported"],
+  ["error", "errors"],
+  ["missing", "missing"],
+  ["agree", "agree"],
+  ["queries", "queries"],
+];
 
 export function difficultiesSection(report) {
   const rows = report.difficulties ?? [];
   if (!rows.length) return null;
   const always = new Set(["queries", "agree", "wrong"]);
   const columns = [
-    { name: "kind of query", value: (r) => r.name, cell: (r) => r.name },
-    ...COUNTS.filter(([key]) => always.has(key) || rows.some((r) => r[key] > 0))
-      .map(([key, name]) => ({ name, figure: true, value: (r) => r[key], cell: (r) => h("span", { class: key === "wrong" && r[key] > 0 ? "alarm" : null }, count(r[key])) })),
-    { name: "max ulps", figure: true, hint: "largest error of the time of a right hit", value: (r) => r.max_ulp, cell: (r) => number(r.max_ulp) },
-    { name: "time a query", figure: true, value: (r) => r.ns_per_query, cell: (r) => (isNumber(r.ns_per_query) ? duration(r.ns_per_query) : "–") },
-    { name: "what it is", value: (r) => r.explanation, cell: (r) => r.explanation ?? "" },
+    {
+      name: "kind of query",
+      value: (r) => r.name,
+      cell: (r) => r.name,
+      below: (r) => r.explanation && h("small", {}, r.explanation),
+    },
+    ...COUNTS.filter(([key]) => always.has(key) || rows.some((r) => r[key] > 0)).map(([key, name]) => ({
+      name,
+      figure: true,
+      value: (r) => r[key],
+      cell: (r) => h("span", { class: key === "wrong" && r[key] > 0 ? "alarm" : null }, count(r[key])),
+    })),
+    {
+      name: "max ulps",
+      figure: true,
+      hint: "largest error of the time of a right hit",
+      value: (r) => r.max_ulp,
+      cell: (r) => number(r.max_ulp),
+    },
+    {
+      name: "time a query",
+      figure: true,
+      value: (r) => r.ns_per_query,
+      cell: (r) => (isNumber(r.ns_per_query) ? duration(r.ns_per_query) : "–"),
+    },
   ];
-  return section("difficulties", "By kind of difficulty", "A row that is chosen is marked in the chart, and a mark there in the table.",
-    difficultiesChart(report), choosableTable({ label: "Kinds of difficulty", columns, rows, size: 50 }).element);
+  return section(
+    "difficulties",
+    "By kind of difficulty",
+    "A row that is chosen is marked in the chart, and a mark there in the table.",
+    difficultiesChart(report),
+    choosableTable({ label: "Kinds of difficulty", columns, rows, size: 50 }).element,
+  );
 }

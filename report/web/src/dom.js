@@ -8,7 +8,9 @@ export function h(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  element.append(
+    ...children.flat().filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return element;
 }
 
@@ -24,14 +26,20 @@ export function svgElement(tag, attributes = {}, text = null) {
 let last = 0;
 export const newId = (prefix) => `${prefix}-${++last}`;
 
+/** A text for where there is little room. */
+export const shortened = (text, letters) => (text.length > letters ? `${text.slice(0, letters - 1)}…` : text);
+
 /** A section with a heading; nothing if there is nothing to show in it. */
 export function section(id, title, lead, ...children) {
   const shown = children.flat().filter(Boolean);
   if (!shown.length) return null;
-  return h("section", { id, "aria-labelledby": `${id}-title` },
+  return h(
+    "section",
+    { id, "aria-labelledby": `${id}-title` },
     h("h2", { id: `${id}-title` }, title),
     lead && h("p", { class: "lead" }, lead),
-    shown);
+    shown,
+  );
 }
 
 /** Says something to a screen reader. */

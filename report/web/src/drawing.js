@@ -1,23 +1,58 @@
-// The drawing of a finding: SVG text from the report, brought into the page without anything that acts or loads.
+// The drawing of a finding: SVG text from the report, made again in the page without anything that acts or loads.
+import { svgElement } from "./dom.js";
 
-const FORBIDDEN = new Set(["script", "foreignobject", "iframe", "image", "animate", "set", "animatetransform", "animatemotion", "a", "audio", "video"]);
+const ALLOWED = new Set([
+  "svg",
+  "g",
+  "defs",
+  "symbol",
+  "use",
+  "title",
+  "desc",
+  "style",
+  "path",
+  "line",
+  "polyline",
+  "polygon",
+  "rect",
+  "circle",
+  "ellipse",
+  "text",
+  "tspan",
+  "textPath",
+  "marker",
+  "clipPath",
+  "mask",
+  "pattern",
+  "linearGradient",
+  "radialGradient",
+  "stop",
+]);
+const SVG = "http://www.w3.org/2000/svg",
+  XHTML = "http://www.w3.org/1999/xhtml";
 let drawings = 0;
 
-function isHarmless(attribute) {
-  const name = attribute.name.toLowerCase(), value = attribute.value;
-  if (name.startsWith("on")) return false;
-  if (name === "href" || name.endsWith(":href")) return value.startsWith("#");
-  return !/url\(\s*['"]?(?!#)|javascript:|@import/i.test(value);
+const loads = (css) => /url\(\s*['"]?(?!#)|@import|javascript:|\\/i.test(css);
+
+function isHarmless({ name, value }) {
+  if (/^on|^xmlns|^xml:base/i.test(name)) return false;
+  if (/(^|:)href$/i.test(name)) return value.startsWith("#");
+  return !loads(value);
 }
 
-function clean(element) {
-  for (const child of [...element.children]) {
-    const name = child.localName.toLowerCase();
-    const loads = name === "style" && /url\(\s*['"]?(?!#)|@import/i.test(child.textContent);
-    if (FORBIDDEN.has(name) || loads) child.remove();
-    else clean(child);
+/** The same in SVG, without what is not allowed; null if the element itself is not. */
+function rebuilt(element) {
+  if (!ALLOWED.has(element.localName) || (element.localName === "style" && loads(element.textContent)))
+    return null;
+  const copy = svgElement(element.localName);
+  for (const attribute of element.attributes)
+    if (isHarmless(attribute)) copy.setAttribute(attribute.localName, attribute.value);
+  for (const child of element.childNodes) {
+    if (child.nodeType === Node.TEXT_NODE || child.nodeType === Node.CDATA_SECTION_NODE)
+      copy.append(child.textContent);
+    else if (child.nodeType === Node.ELEMENT_NODE) copy.append(rebuilt(child) ?? "");
   }
-  for (const attribute of [...element.attributes]) if (!isHarmless(attribute)) element.removeAttribute(attribute.name);
+  return copy;
 }
 
 // Two drawings of a page may use the same ids.
@@ -29,9 +64,16 @@ function ownIds(svg) {
     for (const attribute of [...element.attributes]) {
       let value = attribute.value;
       if (attribute.name === "id") value = prefix + value;
-      else if (/^(xlink:)?href$/.test(attribute.name) && ids.has(value.slice(1))) value = `#${prefix}${value.slice(1)}`;
-      else if (attribute.name.startsWith("aria-")) value = value.split(" ").map((id) => (ids.has(id) ? prefix + id : id)).join(" ");
-      else value = value.replace(/url\((['"]?)#([^)'"]+)\1\)/g, (whole, _, id) => (ids.has(id) ? `url(#${prefix}${id})` : whole));
+      else if (attribute.name === "href" && ids.has(value.slice(1))) value = `#${prefix}${value.slice(1)}`;
+      else if (attribute.name.startsWith("aria-"))
+        value = value
+          .split(" ")
+          .map((id) => (ids.has(id) ? prefix + id : id))
+          .join(" ");
+      else
+        value = value.replace(/url\((['"]?)#([^)'"]+)\1\)/g, (whole, _, id) =>
+          ids.has(id) ? `url(#${prefix}${id})` : whole,
+        );
       if (value !== attribute.value) attribute.value = value;
     }
   }
@@ -39,14 +81,15 @@ function ownIds(svg) {
 
 /** An <svg> element, or null if the text is none. */
 export function drawing(text, label) {
-  const document_ = new DOMParser().parseFromString(text, "image/svg+xml");
-  const root = document_.documentElement;
-  if (root.localName !== "svg" || document_.querySelector("parsererror")) return null;
-  clean(root);  // in a document of its own, where nothing acts or loads yet
-  const svg = document.importNode(root, true);
+  // Read under names that mean nothing to a browser, so that nothing in it acts before it was looked at.
+  const inert = text.replaceAll(SVG, "inert:svg").replaceAll(XHTML, "inert:html");
+  const parsed = new DOMParser().parseFromString(inert, "application/xml");
+  if (parsed.documentElement.localName !== "svg" || parsed.querySelector("parsererror")) return null;
+  const svg = rebuilt(parsed.documentElement);
   ownIds(svg);
   const [width, height] = [parseFloat(svg.getAttribute("width")), parseFloat(svg.getAttribute("height"))];
-  if (!svg.hasAttribute("viewBox") && width > 0 && height > 0) svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  if (!svg.hasAttribute("viewBox") && width > 0 && height > 0)
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.removeAttribute("height");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", label);

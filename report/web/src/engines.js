@@ -1,8 +1,17 @@
 // An engine has one colour, one symbol and one dash wherever it is drawn, whatever else the report has in it.
-import { svgElement } from "./dom.js";
+import { shortened, svgElement } from "./dom.js";
 
 // The project's own engines have theirs in every report; others take what is left, in the order of their names.
-const KNOWN = ["reduction", "published", "certified", "classical", "float", "oracle", "binary64", "batch"];
+const KNOWN = [
+  "reduction",
+  "published",
+  "certified",
+  "classical",
+  "published-float",
+  "oracle",
+  "published-dd",
+  "published-128",
+];
 const SYMBOLS = ["circle", "triangle", "square", "diamond", "star", "wye", "cross", "times"];
 const DASHES = ["", "7 3", "2 3", "9 3 2 3", "4 2", "12 4", "1 3", "6 2 2 2"];
 
@@ -26,17 +35,32 @@ export function looksOf(names) {
 
 /** A legend as a part of an SVG, so that it goes along when that is downloaded: {group, height}. */
 export function legend(items, width, { lines = false } = {}) {
-  const group = svgElement("g", { class: "legend", "font-size": 12, "aria-hidden": "true" });
-  let x = 4, y = 12;
+  const group = svgElement("g", {
+    class: "legend",
+    "font-size": 12,
+    "text-anchor": "start",
+    "aria-hidden": "true",
+  });
+  let x = 4,
+    y = 12;
   for (const { name, look, note } of items) {
     const text = note ? `${name}  ${note}` : name;
-    const wide = 30 + 6.7 * text.length;
+    const shown = shortened(text, Math.min(64, Math.floor((width - 40) / 7)));
+    const wide = 36 + 7 * shown.length;
     if (x + wide > width && x > 4) [x, y] = [4, y + 19];
     const item = svgElement("g", { transform: `translate(${x},${y})` });
     if (lines)
-      item.append(svgElement("line", { x1: 0, x2: 20, stroke: look.colour, "stroke-width": 2, "stroke-dasharray": look.dash }));
+      item.append(
+        svgElement("line", {
+          x1: 0,
+          x2: 20,
+          stroke: look.colour,
+          "stroke-width": 2,
+          "stroke-dasharray": look.dash,
+        }),
+      );
     item.append(mark(look, 10));
-    item.append(svgElement("text", { x: 26, dy: "0.34em", fill: "currentColor" }, text.length > 64 ? `${text.slice(0, 63)}…` : text));
+    item.append(svgElement("text", { x: 26, dy: "0.34em", fill: "currentColor" }, shown));
     group.append(item);
     x += wide;
   }
@@ -55,14 +79,25 @@ const SHAPES = {
 };
 
 function mark(look, x) {
-  const path = svgElement("path", { d: SHAPES[look.symbol], transform: `translate(${x},0)`, fill: look.colour });
-  if (look.symbol === "times") path.setAttribute("stroke", look.colour), path.setAttribute("stroke-width", 2);
+  const path = svgElement("path", {
+    d: SHAPES[look.symbol],
+    transform: `translate(${x},0)`,
+    fill: look.colour,
+  });
+  if (look.symbol === "times")
+    (path.setAttribute("stroke", look.colour), path.setAttribute("stroke-width", 2));
   return path;
 }
 
 /** The same mark for a line of text or a cell of a table. */
 export function swatch(look) {
-  const svg = svgElement("svg", { width: 14, height: 14, viewBox: "-7 -7 14 14", "aria-hidden": "true", class: "swatch" });
+  const svg = svgElement("svg", {
+    width: 14,
+    height: 14,
+    viewBox: "-7 -7 14 14",
+    "aria-hidden": "true",
+    class: "swatch",
+  });
   svg.append(mark(look, 0));
   return svg;
 }

@@ -1,19 +1,58 @@
 // Who fails what: engines by difficulty (of cells), or causes by place (of findings).
 import { h, section } from "./dom.js";
 import { swatch } from "./engines.js";
+import { placeOf } from "./findings.js";
 import { count, percent } from "./numbers.js";
 
-const MOST_ROWS = 30, MOST_COLUMNS = 10;
+const MOST_ROWS = 30,
+  MOST_COLUMNS = 10;
 
 // Darker for more, on a logarithmic scale; the number is there to read.
-const shade = (share) => (share > 0 ? `--share: ${Math.round(25 + 75 * Math.max(0, 1 + Math.log10(share) / 6))}%` : null);
+const shade = (share) =>
+  share > 0 ? `--share: ${Math.round(25 + 75 * Math.max(0, 1 + Math.log10(share) / 6))}%` : null;
 
 function matrix(caption, corner, columns, rows) {
-  return h("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": caption }, h("table", { class: "matrix" },
-    h("caption", { class: "unseen" }, caption),
-    h("thead", {}, h("tr", {}, h("th", { scope: "col" }, corner), columns.map((c) => h("th", { scope: "col", class: "figure" }, c)))),
-    h("tbody", {}, rows.map(({ name, cells }) => h("tr", {}, h("th", { scope: "row" }, name), cells.map((c) =>
-      h("td", { class: `figure ${c ? c.bad ? "bad" : "good" : ""}`, style: c ? shade(c.share) : null, title: c?.hint ?? null }, c ? c.text : "–")))))));
+  return h(
+    "div",
+    { class: "scroll", role: "region", tabindex: 0, "aria-label": caption },
+    h(
+      "table",
+      { class: "matrix" },
+      h("caption", { class: "unseen" }, caption),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          h("th", { scope: "col" }, corner),
+          columns.map((c) => h("th", { scope: "col", class: "figure" }, c)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        rows.map(({ name, cells }) =>
+          h(
+            "tr",
+            {},
+            h("th", { scope: "row" }, name),
+            cells.map((c) =>
+              h(
+                "td",
+                {
+                  class: `figure ${c ? (c.bad ? "bad" : "good") : ""}`,
+                  style: c ? shade(c.share) : null,
+                  title: c?.hint ?? null,
+                },
+                c ? c.text : "–",
+              ),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 function ofCells(cells, looks) {
@@ -28,37 +67,55 @@ function ofCells(cells, looks) {
 function wrongIn(cells) {
   if (!cells.length) return null;
   const sum = (key) => cells.reduce((s, c) => s + (c[key]?.count ?? 0), 0);
-  const queries = cells.reduce((s, c) => s + c.queries, 0), wrong = sum("wrong");
+  const queries = cells.reduce((s, c) => s + c.queries, 0),
+    wrong = sum("wrong");
   const undecided = sum("undecided");
   return {
-    share: wrong / queries, bad: wrong > 0,
+    share: wrong / queries,
+    bad: wrong > 0,
     text: wrong ? `✗ ${percent(wrong / queries)}` : undecided ? `✓ ? ${percent(undecided / queries)}` : "✓",
     hint: `${count(wrong)} wrong, ${count(undecided)} undecided of ${count(queries)}`,
   };
 }
 
-function top(findings, key, most) {
+const causeOf = (finding) => finding.cause ?? "–";
+
+function top(findings, of, most) {
   const counts = new Map();
-  for (const f of findings) counts.set(f[key] ?? "–", (counts.get(f[key] ?? "–") ?? 0) + (f.count ?? 1));
-  return [...counts].sort((a, b) => b[1] - a[1]).slice(0, most).map(([value]) => value);
+  for (const f of findings) counts.set(of(f), (counts.get(of(f)) ?? 0) + 1);
+  return [...counts]
+    .sort((a, b) => b[1] - a[1])
+    .slice(0, most)
+    .map(([value]) => value);
 }
 
+// Cases, not how often a cause was seen: of that a report says the sum alone, and where its simplest case is from.
 function ofFindings(findings, only) {
-  const causes = top(findings, "cause", MOST_ROWS), places = top(findings, "where", MOST_COLUMNS);
-  if (causes.length < 2 && places.length < 2) return null;
-  const total = findings.reduce((s, f) => s + (f.count ?? 1), 0);
+  const causes = top(findings, causeOf, MOST_ROWS),
+    places = top(findings, placeOf, MOST_COLUMNS);
+  if (places.length < 2 || new Set(findings.map((f) => causeOf(f) + f.verdict)).size === findings.length)
+    return null;
   const table = new Map();
   for (const f of findings) {
-    const at = JSON.stringify([f.cause ?? "–", f.where ?? "–"]);
-    table.set(at, (table.get(at) ?? 0) + (f.count ?? 1));
+    const at = JSON.stringify([causeOf(f), placeOf(f)]);
+    table.set(at, (table.get(at) ?? 0) + 1);
   }
-  return matrix("Findings by cause and place", "cause", places, causes.map((cause) => ({
-    name: h("button", { type: "button", class: "row", title: "show these findings only", onclick: () => only("cause", cause) }, cause),
-    cells: places.map((place) => {
-      const n = table.get(JSON.stringify([cause, place]));
-      return n ? { text: count(n), share: n / total, bad: true } : null;
-    }),
-  })));
+  return matrix(
+    "Cases by cause and place",
+    "cause",
+    places.map((place) => place || "–"),
+    causes.map((cause) => ({
+      name: h(
+        "button",
+        { type: "button", class: "row", title: "show these findings only", onclick: () => only({ cause }) },
+        cause,
+      ),
+      cells: places.map((place) => {
+        const n = table.get(JSON.stringify([cause, place]));
+        return n ? { text: count(n), share: n / findings.length, bad: true } : null;
+      }),
+    })),
+  );
 }
 
 export function failuresSection(report, looks, findings) {
@@ -67,5 +124,12 @@ export function failuresSection(report, looks, findings) {
     new Set(cells.map((c) => c.engine)).size > 1 ? ofCells(cells, looks) : null,
     report.findings?.length > 1 ? ofFindings(report.findings, findings.only) : null,
   ];
-  return section("failures", "Who fails what", cells.length ? "✗: share of wrong answers; ✓ ?: nothing wrong, but so many undecided; –: not asked." : "How often each cause was seen, and where.", both);
+  return section(
+    "failures",
+    "Who fails what",
+    cells.length
+      ? "✗: share of wrong answers; ✓ ?: nothing wrong, but so many undecided; –: not asked."
+      : "The cases above, by cause and by where they are from.",
+    both,
+  );
 }

@@ -8,22 +8,63 @@ import { verdictOf } from "./verdicts.js";
 export function findingCard(finding, i, total) {
   const verdict = verdictOf(finding.verdict);
   const title = `finding-${i}`;
-  const picture = finding.drawing ? drawing(finding.drawing, `Drawing of finding ${i + 1}: ${finding.cause}. ${finding.explanation ?? ""}`) : null;
-  return h("article", { class: "finding", "data-key": finding.key, "aria-labelledby": title, tabindex: -1, style: `--tone: ${verdict.colour}` },
-    h("div", { class: "finding-head" },
-      h("h3", { id: title },
-        h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word), " ", finding.cause ?? "finding"),
-      h("button", { type: "button", class: "mark", "aria-pressed": String(selected() === finding.key), onclick: () => select(finding.key, "list") }, "mark in charts")),
+  const picture = finding.drawing
+    ? drawing(finding.drawing, `Drawing of finding ${i + 1}: ${finding.cause}. ${finding.explanation ?? ""}`)
+    : null;
+  return h(
+    "article",
+    {
+      class: "finding",
+      "data-key": finding.key,
+      "aria-labelledby": title,
+      tabindex: -1,
+      style: `--tone: ${verdict.colour}`,
+    },
+    h(
+      "div",
+      { class: "finding-head" },
+      h(
+        "h3",
+        { id: title },
+        h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
+        " ",
+        finding.cause ?? "finding",
+      ),
+      total > 1 &&
+        h(
+          "button",
+          {
+            type: "button",
+            class: "mark",
+            "aria-pressed": String(selected() === finding.key),
+            onclick: () => select(finding.key, "list"),
+          },
+          "mark in charts",
+        ),
+    ),
     finding.explanation && h("p", { class: "explanation" }, finding.explanation),
     h("p", { class: "facts" }, facts(finding, i, total)),
-    h("div", { class: picture ? "finding-body with-picture" : "finding-body" },
-      picture && h("div", { class: "paper" }, picture),
-      h("div", { class: "finding-text" },
-        answers(finding.given, finding.exact),
+    h(
+      "div",
+      { class: picture ? "finding-body with-picture" : "finding-body" },
+      h(
+        "div",
+        {},
+        picture &&
+          h("div", { class: "paper", tabindex: 0, role: "region", "aria-label": "Drawing" }, picture),
         reason(finding.reason),
-        query(finding.query),
-        finding.scene && h("details", {}, h("summary", {}, "Scene"), h("pre", { tabindex: 0, "aria-label": "Scene as JSON" }, JSON.stringify(finding.scene))),
-        commands(finding.commands))));
+      ),
+      h("div", {}, answers(finding.given, finding.exact), query(finding.query)),
+    ),
+    finding.scene &&
+      h(
+        "details",
+        {},
+        h("summary", {}, "Scene"),
+        h("pre", { tabindex: 0, "aria-label": "Scene as JSON" }, JSON.stringify(finding.scene)),
+      ),
+    commands(finding.commands),
+  );
 }
 
 function facts(finding, i, total) {
@@ -33,31 +74,73 @@ function facts(finding, i, total) {
     finding.count > 1 ? `${count(finding.count)} like this` : null,
     isNumber(finding.by_radii) ? `off by ${number(Math.abs(finding.by_radii))} radii` : null,
     isNumber(finding.by_ulps) ? `off by ${number(Math.abs(finding.by_ulps))} ulps` : null,
-  ].filter(Boolean).join(" · ");
+  ]
+    .filter(Boolean)
+    .join(" · ");
 }
 
-const textOf = (value) => (value === undefined || value === null ? "–" : Array.isArray(value) ? `(${value.map(textOf).join(", ")})` : typeof value === "object" ? JSON.stringify(value) : String(value));
+const textOf = (value) =>
+  value === undefined || value === null
+    ? "–"
+    : Array.isArray(value)
+      ? `(${value.map(textOf).join(", ")})`
+      : typeof value === "object"
+        ? JSON.stringify(value)
+        : String(value);
 
 function answers(given, exact) {
-  if (!given && !exact) return null;
-  const keys = [...new Set([...Object.keys(exact ?? {}), ...Object.keys(given ?? {})])].filter((key) => key !== "id");
-  return h("table", { class: "answers" },
-    h("caption", {}, "The answer given, and the exact one"),
-    h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col" }, "given"), h("th", { scope: "col" }, "exact"))),
-    h("tbody", {}, keys.map((key) => {
-      const [a, b] = [textOf(given?.[key]), textOf(exact?.[key])];
-      return h("tr", { class: a === b ? null : "differs" }, h("th", { scope: "row" }, key, a === b ? null : h("span", { class: "unseen" }, " (differs)")), h("td", {}, a), h("td", {}, b));
-    })));
+  const answers = [
+    ["given", given],
+    ["exact", exact],
+  ].filter(([, answer]) => answer);
+  if (!answers.length) return null;
+  const keys = [...new Set(answers.flatMap(([, answer]) => Object.keys(answer)))].filter(
+    (key) => key !== "id",
+  );
+  const row = (key) => {
+    const values = answers.map(([, answer]) => textOf(answer[key]));
+    const differs = values.length > 1 && values[0] !== values[1];
+    return h(
+      "tr",
+      { class: differs ? "differs" : null },
+      h("th", { scope: "row" }, key, differs && h("span", { class: "unseen" }, " (differs)")),
+      values.map((value) => h("td", {}, value)),
+    );
+  };
+  return h(
+    "table",
+    { class: "answers" },
+    h("caption", {}, answers.length > 1 ? "The answer given, and the exact one" : "The answer"),
+    h(
+      "thead",
+      {},
+      h(
+        "tr",
+        {},
+        h("td", {}),
+        answers.map(([name]) => h("th", { scope: "col" }, name)),
+      ),
+    ),
+    h("tbody", {}, keys.map(row)),
+  );
 }
 
 function reason(lines) {
-  return lines?.length ? h("div", { class: "reason" }, h("h4", {}, "Why"), lines.map((line) => h("p", {}, line.trim()))) : null;
+  return lines?.length
+    ? h(
+        "div",
+        { class: "reason" },
+        h("h4", {}, "Why"),
+        lines.map((line) => h("p", {}, line.trim())),
+      )
+    : null;
 }
 
 // Numbers of a query, of whatever depth: [["x[0]", "0x1p-1"], ..].
 function leaves(value, path) {
   if (Array.isArray(value)) return value.flatMap((v, i) => leaves(v, `${path}[${i}]`));
-  if (value && typeof value === "object") return Object.entries(value).flatMap(([k, v]) => leaves(v, path ? `${path}.${k}` : k));
+  if (value && typeof value === "object")
+    return Object.entries(value).flatMap(([k, v]) => leaves(v, path ? `${path}.${k}` : k));
   return [[path, value]];
 }
 
@@ -68,19 +151,50 @@ function decimal(value) {
 
 function query(query) {
   if (!query) return null;
-  return h("table", { class: "query" },
+  return h(
+    "table",
+    { class: "query" },
     h("caption", {}, "The query, bit by bit"),
-    h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col" }, "hexadecimal"), h("th", { scope: "col" }, "nearest decimal"))),
-    h("tbody", {}, leaves(query, "").map(([name, value]) =>
-      h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, textOf(value)), h("td", {}, decimal(value))))));
+    h(
+      "thead",
+      {},
+      h(
+        "tr",
+        {},
+        h("td", {}),
+        h("th", { scope: "col" }, "hexadecimal"),
+        h("th", { scope: "col" }, "nearest decimal"),
+      ),
+    ),
+    h(
+      "tbody",
+      {},
+      leaves(query, "").map(([name, value]) =>
+        h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, textOf(value)), h("td", {}, decimal(value))),
+      ),
+    ),
+  );
 }
 
 function commands(lines) {
   if (!lines?.length) return null;
-  return h("div", { class: "commands" }, h("h4", {}, "See it again"), lines.map((line) => command(line)));
+  return h(
+    "div",
+    { class: "commands" },
+    h("h4", {}, "See it again"),
+    lines.map((line) => command(line)),
+  );
 }
 
 export function command(line) {
-  return h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command" }, h("code", {}, line)),
-    h("button", { type: "button", class: "copy", "data-copy": line, "aria-label": "Copy the command" }, "copy"));
+  return h(
+    "div",
+    { class: "command" },
+    h("pre", { tabindex: 0, "aria-label": "Command" }, h("code", {}, line)),
+    h(
+      "button",
+      { type: "button", class: "copy", "data-copy": line, "aria-label": "Copy the command" },
+      "copy",
+    ),
+  );
 }

@@ -9,7 +9,7 @@ import { verdictOf } from "./verdicts.js";
 
 const ANY = "any";
 const SORTS = {
-  simplest: ["simplest first", null],
+  causes: ["one of each cause first", null],
   closest: ["closest call first", (f) => Math.abs(f.by_radii ?? Infinity)],
   farthest: ["farthest off first", (f) => -Math.abs(f.by_radii ?? 0)],
   frequent: ["most frequent first", (f) => -(f.count ?? 1)],
@@ -25,38 +25,114 @@ function textOf(finding) {
   return texts.get(finding);
 }
 
+// The how-manieth of its cause each finding is: reports name the simplest first.
+function ranks(findings) {
+  const seen = new Map();
+  return new Map(
+    findings.map((f) => {
+      seen.set(f.cause, (seen.get(f.cause) ?? -1) + 1);
+      return [f, seen.get(f.cause)];
+    }),
+  );
+}
+
+/** Where a finding is from: "golden grazing, 3500ee96" is from golden grazing. */
+export const placeOf = (finding) => String(finding.where ?? "").split(", ")[0];
+
+const valueOf = (finding, key) => (key === "where" ? placeOf(finding) : String(finding[key] ?? ""));
+
 function valuesOf(findings, key) {
   const counts = new Map();
-  for (const f of findings) counts.set(f[key] ?? "", (counts.get(f[key] ?? "") ?? 0) + 1);
-  return [...counts].sort((a, b) => b[1] - a[1]).map(([value, n]) => [String(value), `${value || "–"} (${count(n)})`]);
+  for (const f of findings) counts.set(valueOf(f, key), (counts.get(valueOf(f, key)) ?? 0) + 1);
+  return [...counts]
+    .sort((a, b) => b[1] - a[1])
+    .map(([value, n]) => [value, `${value || "–"} (${count(n)})`]);
+}
+
+const MOST_KINDS = 12;
+
+/** Each cause in a line: what is wrong, told before any case of it. */
+function kindsOfFault(findings, only) {
+  const kinds = [...Map.groupBy(findings, (f) => JSON.stringify([f.cause, f.verdict])).values()];
+  return h(
+    "ol",
+    { class: "kinds", "aria-label": "Kinds of fault" },
+    kinds.slice(0, MOST_KINDS).map((its) => {
+      const { cause, verdict: name, explanation } = its[0],
+        verdict = verdictOf(name);
+      const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
+      return h(
+        "li",
+        { style: `--tone: ${verdict.colour}` },
+        h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "row",
+            title: "show these findings only",
+            onclick: () => only({ cause, verdict: name }),
+          },
+          cause ?? "–",
+        ),
+        h("span", { class: "times" }, `${count(times)} ×`),
+        explanation && h("span", { class: "says" }, explanation),
+      );
+    }),
+    kinds.length > MOST_KINDS && h("li", {}, `and ${count(kinds.length - MOST_KINDS)} more`),
+  );
 }
 
 export function findingsSection(report) {
   const findings = report.findings ?? [];
   if (!findings.length) return null;
-  let shown = findings, words = "";
+  const rank = ranks(findings);
+  let shown = findings,
+    words = "";
   const list = h("div", { class: "finding-list" });
   const status = h("p", { class: "status", role: "status" });
   const filter = () => arrange(0);
   const choices = {
     cause: choice("Cause", [[ANY, "any"], ...valuesOf(findings, "cause").slice(0, 200)], filter),
-    verdict: choice("Verdict", [[ANY, "any"], ...valuesOf(findings, "verdict").map(([v, t]) => [v, t.replace(v, verdictOf(v).word)])], filter),
+    verdict: choice(
+      "Verdict",
+      [[ANY, "any"], ...valuesOf(findings, "verdict").map(([v, t]) => [v, t.replace(v, verdictOf(v).word)])],
+      filter,
+    ),
     where: choice("Where", [[ANY, "any"], ...valuesOf(findings, "where").slice(0, 200)], filter),
   };
-  const sort = choice("Order", Object.entries(SORTS).map(([value, [text]]) => [value, text]), filter);
-  const size = choice("A page", [["5", "5"], ["20", "20"], ["100", "100"]], filter);
-  const search = searchField("Search", (value) => { words = value.toLowerCase(); filter(); });
-  const pages = pager("Pages of findings", () => { fill(); list.firstElementChild?.focus({ preventScroll: true }); list.scrollIntoView({ block: "start" }); });
+  const sort = choice(
+    "Order",
+    Object.entries(SORTS).map(([value, [text]]) => [value, text]),
+    filter,
+  );
+  const size = choice(
+    "A page",
+    [
+      ["5", "5"],
+      ["20", "20"],
+      ["100", "100"],
+    ],
+    filter,
+  );
+  const search = searchField("Search", (value) => {
+    words = value.toLowerCase();
+    filter();
+  });
+  const pages = pager("Pages of findings", () => {
+    fill();
+    list.firstElementChild?.focus({ preventScroll: true });
+    list.scrollIntoView({ block: "start" });
+  });
 
   const keeps = (finding) =>
-    Object.entries(choices).every(([key, c]) => c.value === ANY || String(finding[key] ?? "") === c.value) &&
+    Object.entries(choices).every(([key, c]) => c.value === ANY || valueOf(finding, key) === c.value) &&
     words.split(/\s+/).every((word) => textOf(finding).includes(word));
 
   function arrange(page) {
     const all = Object.values(choices).every((c) => c.value === ANY) && !words;
-    shown = all ? [...findings] : findings.filter(keeps);
-    const by = SORTS[sort.value][1];
-    if (by) shown.sort((a, b) => by(a) - by(b));
+    const by = SORTS[sort.value][1] ?? ((f) => rank.get(f));
+    shown = (all ? [...findings] : findings.filter(keeps)).sort((a, b) => by(a) - by(b));
     pages.set(shown.length, Number(size.value), page);
     fill();
   }
@@ -65,7 +141,10 @@ export function findingsSection(report) {
     const from = pages.page * Number(size.value);
     const page = shown.slice(from, from + Number(size.value));
     list.replaceChildren(...page.map((f) => findingCard(f, indexOf(f.key, "finding"), findings.length)));
-    status.textContent = shown.length === findings.length ? `${count(findings.length)} findings` : `${count(shown.length)} of ${count(findings.length)} findings`;
+    status.textContent =
+      shown.length === findings.length
+        ? `${count(findings.length)} findings`
+        : `${count(shown.length)} of ${count(findings.length)} findings`;
     mark();
   }
 
@@ -73,7 +152,7 @@ export function findingsSection(report) {
     for (const card of list.children) {
       const chosen = card.dataset.key === selected();
       card.classList.toggle("chosen", chosen);
-      card.querySelector("button.mark").setAttribute("aria-pressed", String(chosen));
+      card.querySelector("button.mark")?.setAttribute("aria-pressed", String(chosen));
     }
   }
 
@@ -95,15 +174,39 @@ export function findingsSection(report) {
     arrange(0);
   }
 
+  function only(values) {
+    resetFilters();
+    for (const [key, value] of Object.entries(values)) choices[key].value = String(value ?? "");
+    arrange(0);
+    status.scrollIntoView({ block: "start" });
+  }
+
   arrange(0);
   const few = findings.length < 2;
   return {
-    element: section("findings", few ? "What was found" : "What is wrong",
-      few ? null : "Each finding is the simplest case of its kind: the flight, the obstacle that is in question, and what decides it.",
+    element: section(
+      "findings",
+      few ? "What was found" : "What is wrong",
+      few
+        ? null
+        : "The kinds of fault first; below, cases of each: the flight, the obstacle that is in question, and what decides it.",
+      few ? null : kindsOfFault(findings, only),
       closeness(report),
-      few ? null : h("div", { class: "controls", role: "search", "aria-label": "Filter findings" }, Object.values(choices).map((c) => c.element), sort.element, findings.length > 5 ? size.element : null, search.element),
-      few ? null : status, list, pages.element),
-    /** Shows the findings of one cause only. */
-    only(key, value) { resetFilters(); choices[key].value = value; arrange(0); document.getElementById("findings").scrollIntoView(); },
+      few
+        ? null
+        : h(
+            "div",
+            { class: "controls", role: "search", "aria-label": "Filter findings" },
+            Object.values(choices).map((c) => c.element),
+            sort.element,
+            findings.length > 5 ? size.element : null,
+            search.element,
+          ),
+      few ? null : status,
+      list,
+      pages.element,
+    ),
+    /** Shows only the findings with these values: {cause: ..}. */
+    only,
   };
 }

@@ -1,7 +1,19 @@
 // Numbers for people.
 
-const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
-const superscript = (integer) => [...String(integer)].map((c) => SUPERSCRIPTS[c]).join("");
+const SUPERSCRIPTS = {
+  "-": "⁻",
+  0: "⁰",
+  1: "¹",
+  2: "²",
+  3: "³",
+  4: "⁴",
+  5: "⁵",
+  6: "⁶",
+  7: "⁷",
+  8: "⁸",
+  9: "⁹",
+};
+export const superscript = (integer) => [...String(integer)].map((c) => SUPERSCRIPTS[c]).join("");
 
 export const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 
@@ -11,6 +23,7 @@ export function number(value, digits = 3) {
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (Number.isInteger(value) && size < 1e6) return count(value);
+  if (size >= 1e4 && size < 1e6) return count(Number(value.toPrecision(Math.max(digits, 4))));
   if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(digits))).replace("-", "−");
   const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
   const factor = String(Number(mantissa));
@@ -20,13 +33,22 @@ export function number(value, digits = 3) {
 
 /** 1234567 as 1 234 567, with narrow spaces that do not break. */
 export function count(value) {
-  return isNumber(value) ? String(value).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f").replace("-", "−") : "–";
+  return isNumber(value)
+    ? String(value)
+        .replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f")
+        .replace("-", "−")
+    : "–";
 }
 
 /** A duration given in nanoseconds. */
 export function duration(ns) {
   if (!isNumber(ns)) return "–";
-  const units = [[1e9, "s"], [1e6, "ms"], [1e3, "µs"], [1, "ns"]];
+  const units = [
+    [1e9, "s"],
+    [1e6, "ms"],
+    [1e3, "µs"],
+    [1, "ns"],
+  ];
   const [size, unit] = units.find(([size]) => ns >= size) ?? units[3];
   return `${number(ns / size)}\u202f${unit}`;
 }
@@ -38,14 +60,11 @@ export function percent(share) {
   return share >= 1e-4 ? `${Number((100 * share).toPrecision(3))}\u202f%` : number(share, 2);
 }
 
-/** A tick of a logarithmic axis: powers of ten only, or every value if `all`. */
-export function powerTick(value, all = false) {
-  const exponent = Math.log10(value);
-  if (Math.abs(exponent - Math.round(exponent)) < 1e-9) {
-    const whole = Math.round(exponent);
-    return whole >= 0 && whole <= 3 ? String(10 ** whole) : `10${superscript(whole)}`;
-  }
-  return all ? number(value) : "";
+/** A tick of a logarithmic axis. */
+export function powerTick(value) {
+  const exponent = Math.round(Math.log10(value));
+  if (Math.abs(Math.log10(value) - exponent) > 1e-9) return number(value);
+  return exponent >= 0 && exponent <= 3 ? String(10 ** exponent) : `10${superscript(exponent)}`;
 }
 
 /** "0x1.8p-1" as 0.75; NaN if it is no such text. Exact: the digits are those of one binary64. */
@@ -54,6 +73,7 @@ export function fromHexadecimal(text) {
   if (!parts || !(parts[2] + parts[3])) return NaN;
   const digits = BigInt(`0x${parts[2] + parts[3]}`);
   const exponent = Number(parts[4] ?? 0) - 4 * parts[3].length;
-  const scaled = exponent < -1000 ? Number(digits) * 2 ** -1000 * 2 ** (exponent + 1000) : Number(digits) * 2 ** exponent;
+  const scaled =
+    exponent < -1000 ? Number(digits) * 2 ** -1000 * 2 ** (exponent + 1000) : Number(digits) * 2 ** exponent;
   return parts[1] === "-" ? -scaled : scaled;
 }

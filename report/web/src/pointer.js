@@ -2,7 +2,7 @@
 import { h, svgElement, announce } from "./dom.js";
 import { onSelect, select, selected } from "./selection.js";
 
-const REACH = 28;  // pixels from the mouse to a point
+const REACH = 28; // pixels from the mouse to a point
 
 /**
  * `frame` is a positioned element with the chart in it. The result is `set(svg, points)`: points are
@@ -10,7 +10,10 @@ const REACH = 28;  // pixels from the mouse to a point
  */
 export function pointer(frame, label) {
   const tip = h("div", { class: "tip", "aria-hidden": "true", hidden: true });
-  let svg = null, points = [], current = -1, rings = null;
+  let svg = null,
+    points = [],
+    current = -1,
+    rings = null;
   frame.append(tip);
   frame.tabIndex = 0;
   frame.setAttribute("role", "group");
@@ -31,16 +34,21 @@ export function pointer(frame, label) {
   }
 
   function place(point) {
-    const s = scale(), wide = frame.clientWidth;
-    const left = point.x * s + 14 + tip.offsetWidth > wide ? point.x * s - 14 - tip.offsetWidth : point.x * s + 14;
+    const s = scale(),
+      wide = frame.clientWidth;
+    const left =
+      point.x * s + 14 + tip.offsetWidth > wide ? point.x * s - 14 - tip.offsetWidth : point.x * s + 14;
     tip.style.left = `${Math.max(0, Math.min(left, wide - tip.offsetWidth))}px`;
     tip.style.top = `${Math.max(0, (point.y - svg.viewBox.baseVal.y) * s - tip.offsetHeight - 8)}px`;
   }
 
   function nearest(event) {
-    const box = svg.getBoundingClientRect(), s = scale();
-    const x = (event.clientX - box.left) / s, y = (event.clientY - box.top) / s + svg.viewBox.baseVal.y;
-    let best = -1, least = REACH ** 2;
+    const box = svg.getBoundingClientRect(),
+      s = scale();
+    const x = (event.clientX - box.left) / s,
+      y = (event.clientY - box.top) / s + svg.viewBox.baseVal.y;
+    let best = -1,
+      least = REACH ** 2;
     points.forEach((point, i) => {
       const distance = (point.x - x) ** 2 + (point.y - y) ** 2;
       if (distance < least) [best, least] = [i, distance];
@@ -55,10 +63,15 @@ export function pointer(frame, label) {
         rings.append(svgElement("circle", { class: "chosen", cx: point.x, cy: point.y, r: 8 }));
   }
 
-  const choose = (i) => { if (i >= 0 && points[i].key) select(points[i].key, "chart"); };
+  const choose = (i) => {
+    if (i >= 0 && points[i].key) select(points[i].key, "chart");
+  };
   const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
-  frame.addEventListener("pointermove", (event) => { const i = nearest(event); if (i !== current) show(i, false); });
+  frame.addEventListener("pointermove", (event) => {
+    const i = nearest(event);
+    if (i !== current) show(i, false);
+  });
   frame.addEventListener("pointerleave", () => show(-1));
   frame.addEventListener("click", (event) => choose(nearest(event)));
   frame.addEventListener("blur", () => show(-1));

@@ -1,8 +1,10 @@
 // The little statistics that a page needs; bounds of shares come with the report.
 
 // Two-sided 95 % points of Student's t for 1 to 30 degrees of freedom.
-const STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145,
-  2.131, 2.12, 2.11, 2.101, 2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042];
+const STUDENT = [
+  12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145, 2.131,
+  2.12, 2.11, 2.101, 2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042,
+];
 
 /**
  * y = c x^exponent, by least squares in the logarithms: {exponent, factor, low, high}; low and high are the 95 %
@@ -10,17 +12,21 @@ const STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
  */
 export function powerLaw(points) {
   const n = points.length;
-  const xs = points.map(([x]) => Math.log(x)), ys = points.map(([, y]) => Math.log(y));
+  const xs = points.map(([x]) => Math.log(x)),
+    ys = points.map(([, y]) => Math.log(y));
   const mean = (values) => values.reduce((a, b) => a + b, 0) / n;
-  const mx = mean(xs), my = mean(ys);
+  const mx = mean(xs),
+    my = mean(ys);
   const sxx = xs.reduce((sum, x) => sum + (x - mx) ** 2, 0);
   if (n < 2 || !(sxx > 0)) return null;
   const exponent = xs.reduce((sum, x, i) => sum + (x - mx) * (ys[i] - my), 0) / sxx;
   const rest = xs.reduce((sum, x, i) => sum + (ys[i] - my - exponent * (x - mx)) ** 2, 0);
   const half = n > 2 ? (STUDENT[n - 3] ?? 1.96) * Math.sqrt(rest / (n - 2) / sxx) : null;
   return {
-    exponent, factor: Math.exp(my - exponent * mx),
-    low: half === null ? null : exponent - half, high: half === null ? null : exponent + half,
+    exponent,
+    factor: Math.exp(my - exponent * mx),
+    low: half === null ? null : exponent - half,
+    high: half === null ? null : exponent + half,
   };
 }
 

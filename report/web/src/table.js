@@ -4,42 +4,94 @@ import { pager } from "./controls.js";
 import { number } from "./numbers.js";
 import { onSelect, select, selected } from "./selection.js";
 
-const scrolling = (label, table) => h("div", { class: "scroll", role: "region", "aria-label": label, tabindex: 0 }, table);
+const scrolling = (label, table) =>
+  h("div", { class: "scroll", role: "region", "aria-label": label, tabindex: 0 }, table);
 
 /** Numbers behind a chart: {columns, rows}; the first 200 rows, for there is the CSV. */
 export function plainTable(label, { columns, rows }) {
   const shown = rows.slice(0, 200);
-  const more = rows.length > shown.length ? `; the first ${shown.length} of ${rows.length} rows, the CSV has all` : "";
-  return scrolling(label, h("table", {},
-    h("caption", {}, label + more),
-    h("thead", {}, h("tr", {}, columns.map((name) => h("th", { scope: "col" }, name)))),
-    h("tbody", {}, shown.map((row) => h("tr", {}, row.map((value, i) =>
-      h(i ? "td" : "th", i ? { class: typeof value === "number" ? "figure" : null } : { scope: "row" },
-        typeof value === "number" ? number(value, 4) : value ?? "–")))))));
+  const more =
+    rows.length > shown.length ? `; the first ${shown.length} of ${rows.length} rows, the CSV has all` : "";
+  return scrolling(
+    label,
+    h(
+      "table",
+      {},
+      h("caption", {}, label + more),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          columns.map((name) => h("th", { scope: "col" }, name)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        shown.map((row) =>
+          h(
+            "tr",
+            {},
+            row.map((value, i) =>
+              h(
+                i ? "td" : "th",
+                i ? { class: typeof value === "number" ? "figure" : null } : { scope: "row" },
+                typeof value === "number" ? number(value, 4) : (value ?? "–"),
+              ),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 /**
- * `columns`: {name, hint, value(row) to sort by, cell(row): text or element, figure: true for numbers}; `rows`
+ * `columns`: {name, hint, value(row) to sort by, cell(row): text or element,
+ * below(row): what stands below it (of the first column), figure: true for numbers}; `rows`
  * have a `key` for the selection. The first column names the row. `size` rows a page.
  */
 export function choosableTable({ label, columns, rows, size = 25 }) {
   let sorting = { column: null, down: false };
-  let shown = rows, filtered = rows;
+  let shown = rows,
+    filtered = rows;
   const body = h("tbody", {});
   const heads = columns.map((column) => {
-    const th = h("th", { scope: "col", class: column.figure ? "figure" : null, "aria-sort": "none" },
-      h("button", { type: "button", class: "sort", title: column.hint ?? null, onclick: () => sort(column) }, column.name));
+    const th = h(
+      "th",
+      { scope: "col", class: column.figure ? "figure" : null, "aria-sort": "none" },
+      h(
+        "button",
+        { type: "button", class: "sort", title: column.hint ?? null, onclick: () => sort(column) },
+        column.name,
+      ),
+    );
     return th;
   });
   const pages = pager(`Pages: ${label}`, () => fill());
   const caption = newId("caption");
-  const table = h("table", { class: "choosable", "aria-labelledby": caption },
-    h("caption", { id: caption, class: "unseen" }, `${label}. A row can be chosen: its points are marked in the charts.`),
-    h("thead", {}, h("tr", {}, heads)), body);
+  const table = h(
+    "table",
+    { class: "choosable", "aria-labelledby": caption },
+    h(
+      "caption",
+      { id: caption, class: "unseen" },
+      `${label}. A row can be chosen: its points are marked in the charts.`,
+    ),
+    h("thead", {}, h("tr", {}, heads)),
+    body,
+  );
 
   function sort(column) {
     sorting = { column, down: sorting.column === column ? !sorting.down : Boolean(column.figure) };
-    heads.forEach((th, i) => th.setAttribute("aria-sort", columns[i] !== column ? "none" : sorting.down ? "descending" : "ascending"));
+    heads.forEach((th, i) =>
+      th.setAttribute(
+        "aria-sort",
+        columns[i] !== column ? "none" : sorting.down ? "descending" : "ascending",
+      ),
+    );
     arrange(0);
   }
 
@@ -56,14 +108,36 @@ export function choosableTable({ label, columns, rows, size = 25 }) {
     fill();
   }
 
+  const choose = (row) => select(row.key, "table");
+
+  function rowOf(row) {
+    const name = ({ cell, below }) =>
+      h(
+        "th",
+        { scope: "row" },
+        h(
+          "button",
+          { type: "button", class: "row", "aria-pressed": "false", onclick: () => choose(row) },
+          cell(row),
+        ),
+        below?.(row),
+      );
+    return h(
+      "tr",
+      {
+        "data-key": row.key,
+        onclick: (event) => {
+          if (!event.target.closest("button, a")) choose(row);
+        },
+      },
+      columns.map((column, i) =>
+        i ? h("td", { class: column.figure ? "figure" : null }, column.cell(row)) : name(column),
+      ),
+    );
+  }
+
   function fill() {
-    body.replaceChildren(...shown.slice(pages.page * size, (pages.page + 1) * size).map((row) => {
-      const tr = h("tr", { "data-key": row.key, onclick: (event) => { if (!event.target.closest("button, a")) select(row.key, "table"); } },
-        columns.map((column, i) => i
-          ? h("td", { class: column.figure ? "figure" : null }, column.cell(row))
-          : h("th", { scope: "row" }, h("button", { type: "button", class: "row", "aria-pressed": "false", onclick: () => select(row.key, "table") }, column.cell(row)))));
-      return tr;
-    }));
+    body.replaceChildren(...shown.slice(pages.page * size, (pages.page + 1) * size).map(rowOf));
     mark();
   }
 
@@ -87,6 +161,9 @@ export function choosableTable({ label, columns, rows, size = 25 }) {
   arrange(0);
   return {
     element: h("div", { class: "table-block" }, scrolling(label, table), pages.element),
-    filter(keep) { filtered = rows.filter(keep); arrange(0); },
+    filter(keep) {
+      filtered = rows.filter(keep);
+      arrange(0);
+    },
   };
 }

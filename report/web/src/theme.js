@@ -3,11 +3,16 @@ import { h } from "./dom.js";
 
 export function themeSwitch() {
   const system = matchMedia("(prefers-color-scheme: dark)");
-  const isDark = () => (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
-  const button = h("button", { type: "button", class: "theme", onclick: () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
-    say();
-  } });
+  const isDark = () =>
+    (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
+  const button = h("button", {
+    type: "button",
+    class: "theme",
+    onclick: () => {
+      document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+      say();
+    },
+  });
   const say = () => {
     button.textContent = isDark() ? "☀ light" : "☾ dark";
     button.setAttribute("aria-label", isDark() ? "Use light colours" : "Use dark colours");

@@ -2,6 +2,7 @@
 export const VERDICTS = {
   right: { word: "right", sign: "✓", colour: "var(--right)" },
   agree: { word: "agree", sign: "✓", colour: "var(--right)" },
+  exact: { word: "exact", sign: "✓", colour: "var(--right)", symbol: "star" },
   wrong: { word: "wrong", sign: "✗", colour: "var(--wrong)", symbol: "circle" },
   broken: { word: "broken", sign: "✗", colour: "var(--wrong)", symbol: "circle" },
   "ill-posed": { word: "ill-posed", sign: "≈", colour: "var(--ill-posed)", symbol: "diamond" },
@@ -16,7 +17,8 @@ export const MEANINGS = {
   undecided: "the engine says that it cannot know",
 };
 
-export const verdictOf = (name) => VERDICTS[name] ?? { word: String(name), sign: "•", colour: "var(--undecided)", symbol: "cross" };
+export const verdictOf = (name) =>
+  VERDICTS[name] ?? { word: String(name), sign: "•", colour: "var(--undecided)", symbol: "cross" };
 
 // Keys of counts in the JSON, and of which verdict they are.
 export const FAULTS = [

@@ -1,39 +1,81 @@
 // Where an engine fails: for each kind of query the shares of answers that are not right.
 import * as Plot from "@observablehq/plot";
-import { chart, logDomain, plot } from "../chart.js";
-import { count, percent, powerTick } from "../numbers.js";
+import { shortened } from "../dom.js";
+import { chart, logAxis, plot } from "../chart.js";
+import { count, percent } from "../numbers.js";
 import { FAULTS, verdictOf } from "../verdicts.js";
 
 export function difficultiesChart(report) {
   const rows = report.difficulties ?? [];
-  const points = rows.flatMap((row) => FAULTS.filter(([key]) => row[key] > 0 && row.queries > 0)
-    .map(([key, verdict]) => ({ row, verdict: verdictOf(verdict), count: row[key], share: row[key] / row.queries })));
+  const points = rows.flatMap((row) =>
+    FAULTS.filter(([key]) => row[key] > 0 && row.queries > 0).map(([key, verdict]) => ({
+      row,
+      verdict: verdictOf(verdict),
+      count: row[key],
+      share: row[key] / row.queries,
+    })),
+  );
   if (!points.length) return null;
 
   function draw(width) {
     const names = rows.map((row) => row.name);
     const letters = Math.floor(Math.min(190, 0.36 * width) / 6.6);
-    const short = (name) => (name.length > letters ? `${name.slice(0, letters - 1)}…` : name);
     const svg = plot({
-      width, height: 56 + 26 * names.length, marginLeft: 14 + 6.6 * Math.min(letters, Math.max(...names.map((n) => n.length))),
-      x: { type: "log", domain: logDomain(points.map((p) => p.share), 2), label: "share of the queries", tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "band", domain: names, label: null, tickFormat: short, tickSize: 0 },
+      width,
+      height: 56 + 26 * names.length,
+      marginLeft: 14 + 6.6 * Math.min(letters, Math.max(...names.map((n) => n.length))),
+      x: logAxis(
+        "share of the queries",
+        points.map((p) => p.share),
+        width / 110,
+        { air: 2 },
+      ),
+      y: {
+        type: "band",
+        domain: names,
+        label: null,
+        tickFormat: (name) => shortened(name, letters),
+        tickSize: 0,
+      },
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.ruleY(names, { y: (n) => n, strokeOpacity: 0.12 }),
-        Plot.dot(points, { x: "share", y: (p) => p.row.name, r: 6, symbol: (p) => p.verdict.symbol, fill: (p) => p.verdict.colour, ariaLabel: "shares" }),
+        Plot.ruleY(names, { y: (n) => n, strokeOpacity: 0.12 }),
+        Plot.dot(points, {
+          x: "share",
+          y: (p) => p.row.name,
+          r: 6,
+          symbol: (p) => p.verdict.symbol,
+          fill: (p) => p.verdict.colour,
+        }),
       ],
     });
     const [sx, sy] = [svg.scale("x"), svg.scale("y")];
     const seen = [...new Set(points.map((p) => p.verdict))];
     return {
       svg,
-      points: points.map((p) => ({ x: sx.apply(p.share), y: sy.apply(p.row.name) + sy.bandwidth / 2, key: p.row.key, lines: [p.row.name, `${percent(p.share)} ${p.verdict.word}`, `${count(p.count)} of ${count(p.row.queries)} queries`] })),
+      points: points.map((p) => ({
+        x: sx.apply(p.share),
+        y: sy.apply(p.row.name) + sy.bandwidth / 2,
+        key: p.row.key,
+        lines: [
+          p.row.name,
+          `${percent(p.share)} ${p.verdict.word}`,
+          `${count(p.count)} of ${count(p.row.queries)} queries`,
+        ],
+      })),
       legend: seen.map((v) => ({ name: v.word, look: { colour: v.colour, symbol: v.symbol, dash: "" } })),
       summary: `Of ${names.length} kinds of query ${rows.filter((r) => FAULTS.every(([key]) => !r[key])).length} were answered without a fault. The most that is wrong: ${worst(rows)}.`,
-      numbers: { columns: ["difficulty", "verdict", "count", "queries", "share"], rows: points.map((p) => [p.row.name, p.verdict.word, p.count, p.row.queries, p.share]) },
+      numbers: {
+        columns: ["difficulty", "verdict", "count", "queries", "share"],
+        rows: points.map((p) => [p.row.name, p.verdict.word, p.count, p.row.queries, p.share]),
+      },
     };
   }
-  return chart({ name: "difficulties", title: "Where it fails", note: "Each line is a kind of query; further right is worse. No mark: nothing of that.", draw }).element;
+  return chart({
+    name: "difficulties",
+    title: "Where it fails",
+    note: "Each line is a kind of query; further right is worse. No mark: nothing of that.",
+    draw,
+  }).element;
 }
 
 function worst(rows) {

@@ -1,8 +1,8 @@
 // The distribution of free paths: the share that is longer than t, and theory where there is some.
 import * as Plot from "@observablehq/plot";
-import { chart, logDomain, plot } from "../chart.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { looksOf } from "../engines.js";
-import { number, percent, powerTick } from "../numbers.js";
+import { number, percent } from "../numbers.js";
 
 const nameOf = (curve) => `${curve.scene}, r = ${number(curve.radius)}`;
 
@@ -12,26 +12,60 @@ export function freePaths(report) {
   const looks = looksOf(curves.map(nameOf));
 
   function draw(width) {
-    const points = curves.flatMap((c) => c.points.filter((p) => p.t > 0 && p.survival > 0).map((p) => ({ ...p, name: nameOf(c) })));
+    const points = curves.flatMap((c) =>
+      c.points.filter((p) => p.t > 0 && p.survival > 0).map((p) => ({ ...p, name: nameOf(c) })),
+    );
     const theory = points.filter((p) => p.theory > 0);
     if (!points.length) return null;
     const svg = plot({
-      width, height: Math.max(280, Math.min(400, 0.6 * width)),
-      x: { type: "log", label: "t", domain: logDomain(points.map((p) => p.t), 1.3), tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "log", label: "share of free paths longer than t", domain: logDomain(points.map((p) => p.survival), 1.5), tickFormat: (t) => powerTick(t), labelAnchor: "center" },
+      width,
+      height: Math.max(280, Math.min(400, 0.6 * width)),
+      x: logAxis(
+        "t",
+        points.map((p) => p.t),
+        width / 80,
+      ),
+      y: logAxis(
+        "share of free paths longer than t",
+        points.map((p) => p.survival),
+        7,
+      ),
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
-        Plot.line(theory, { x: "t", y: "theory", z: "name", stroke: (p) => looks.get(p.name).colour, strokeDasharray: "6 3", ariaLabel: "theory" }),
-        Plot.dot(points, { x: "t", y: "survival", r: 3.5, symbol: (p) => looks.get(p.name).symbol, fill: (p) => looks.get(p.name).colour, ariaLabel: "points" }),
+        Plot.line(theory, {
+          x: "t",
+          y: "theory",
+          z: "name",
+          stroke: (p) => looks.get(p.name).colour,
+          strokeDasharray: "6 3",
+        }),
+        Plot.dot(points, {
+          x: "t",
+          y: "survival",
+          r: 3.5,
+          symbol: (p) => looks.get(p.name).symbol,
+          fill: (p) => looks.get(p.name).colour,
+        }),
       ],
     });
     const [sx, sy] = [svg.scale("x"), svg.scale("y")];
     return {
       svg,
-      points: points.map((p) => ({ x: sx.apply(p.t), y: sy.apply(p.survival), key: null, lines: [p.name, `longer than ${number(p.t)}: ${percent(p.survival)}`, ...(p.theory > 0 ? [`theory: ${percent(p.theory)}`] : [])] })),
+      points: points.map((p) => ({
+        x: sx.apply(p.t),
+        y: sy.apply(p.survival),
+        key: null,
+        lines: [
+          p.name,
+          `longer than ${number(p.t)}: ${percent(p.survival)}`,
+          ...(p.theory > 0 ? [`theory: ${percent(p.theory)}`] : []),
+        ],
+      })),
       legend: curves.map((c) => ({ name: nameOf(c), look: looks.get(nameOf(c)) })),
       summary: `Share of free paths longer than t, in ${curves.map(nameOf).join("; ")}.${theory.length ? " Dashed: theory." : ""}`,
-      numbers: { columns: ["scene", "t", "share longer", "theory"], rows: points.map((p) => [p.name, p.t, p.survival, p.theory]) },
+      numbers: {
+        columns: ["scene", "t", "share longer", "theory"],
+        rows: points.map((p) => [p.name, p.t, p.survival, p.theory]),
+      },
     };
   }
   return chart({ name: "free-paths", title: "Free paths", draw }).element;

@@ -1,29 +1,61 @@
 // What a query costs as obstacles shrink: time against radius, a power law through each engine's points.
 import * as Plot from "@observablehq/plot";
 import { h } from "../dom.js";
-import { chart, logDomain, plot } from "../chart.js";
+import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
 import { groupChoices, inGroup, nameOfCell } from "../cells.js";
 import { swatch } from "../engines.js";
-import { duration, isNumber, number, powerTick } from "../numbers.js";
+import { duration, isNumber, number } from "../numbers.js";
 import { indexOf, onSelect } from "../selection.js";
 import { powerLaw } from "../statistics.js";
 
 const COSTS = [
-  { value: "ns", text: "time", axis: "time a query", show: duration, of: (c) => c.ns?.median, low: (c) => c.ns?.q1, high: (c) => c.ns?.q3 },
-  { value: "instructions", text: "instructions", axis: "instructions a query", show: number, of: (c) => c.instructions, low: () => null, high: () => null },
+  {
+    value: "ns",
+    text: "time",
+    axis: "time a query",
+    show: duration,
+    of: (c) => c.ns?.median,
+    low: (c) => c.ns?.q1,
+    high: (c) => c.ns?.q3,
+  },
+  {
+    value: "instructions",
+    text: "instructions",
+    axis: "instructions a query",
+    show: number,
+    of: (c) => c.instructions,
+    low: () => null,
+    high: () => null,
+  },
 ];
 
 const signed = (value) => value.toFixed(3).replace("-", "−");
 const interval = (fit) => (fit.low === null ? "" : ` (95 %: ${signed(fit.low)} to ${signed(fit.high)})`);
 const fitText = (fit) => (fit ? `r^${signed(fit.exponent)}${interval(fit)}` : "no fit: one radius");
 
-function fitsOf(points) {
-  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => ({
-    engine, radii: new Set(members.map((p) => p.x)).size,
-    fit: powerLaw(members.map((p) => [p.x, p.y])),
-    ends: [Math.min(...members.map((p) => p.x)), Math.max(...members.map((p) => p.x))],
-  }));
+// The report's own fit, if it has one for this engine: it says over which radii.
+function fitOf(members, reported) {
+  if (!reported) return powerLaw(members.map((p) => [p.x, p.y]));
+  const fitted = members.filter((p) => p.x >= reported.from && p.x <= reported.to);
+  const mean = (of) => fitted.reduce((sum, p) => sum + Math.log(of(p)), 0) / fitted.length;
+  return { ...reported, factor: Math.exp(mean((p) => p.y) - reported.exponent * mean((p) => p.x)) };
+}
+
+function fitsOf(points, reported) {
+  return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => {
+    const own = reported.find(
+      (f) =>
+        f.engine === engine &&
+        members.every(({ cell }) => cell.scene === f.scene && cell.difficulty === f.difficulty),
+    );
+    const radii = members.map((p) => p.x);
+    return {
+      engine,
+      fit: fitOf(members, own),
+      ends: own ? [own.from, own.to] : [Math.min(...radii), Math.max(...radii)],
+    };
+  });
 }
 
 export function timeRadius(report, looks) {
@@ -31,35 +63,96 @@ export function timeRadius(report, looks) {
   if (new Set(cells.map((c) => c.radius)).size < 2) return null;
   const redraw = () => made.redraw();
   const groups = groupChoices(cells, redraw, { radii: false });
-  const kind = choice("Cost", COSTS.filter((k) => cells.some((c) => k.of(c) > 0)).map((k) => [k.value, k.text]), redraw);
+  const kind = choice(
+    "Cost",
+    COSTS.filter((k) => cells.some((c) => k.of(c) > 0)).map((k) => [k.value, k.text]),
+    redraw,
+  );
 
   function draw(width) {
     const cost = COSTS.find((k) => k.value === kind.value);
-    const points = cells.filter((c) => inGroup(c, groups) && cost.of(c) > 0)
-      .map((cell) => ({ cell, x: cell.radius, y: cost.of(cell), low: cost.low(cell) ?? null, high: cost.high(cell) ?? null }));
+    const points = cells
+      .filter((c) => inGroup(c, groups) && cost.of(c) > 0)
+      .map((cell) => ({
+        cell,
+        x: cell.radius,
+        y: cost.of(cell),
+        low: cost.low(cell) ?? null,
+        high: cost.high(cell) ?? null,
+      }));
     if (!points.length) return null;
-    const fits = fitsOf(points), look = (p) => looks.get(p.cell.engine);
+    const fits = fitsOf(points, cost.value === "ns" ? (report.fits ?? []) : []),
+      look = (p) => looks.get(p.cell.engine);
     const svg = plot({
-      width, height: Math.max(300, Math.min(430, 0.62 * width)),
-      x: { type: "log", label: "radius r", domain: logDomain(points.map((p) => p.x), 1.4), reverse: true, tickFormat: (t) => powerTick(t), labelAnchor: "center" },
-      y: { type: "log", label: cost.axis, domain: logDomain(points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y])), tickFormat: (t) => (powerTick(t) ? cost.show(t) : ""), labelAnchor: "center" },
+      width,
+      height: Math.max(300, Math.min(430, 0.62 * width)),
+      x: {
+        ...logAxis(
+          "radius r",
+          points.map((p) => p.x),
+          width / 80,
+          { air: 1.4 },
+        ),
+        reverse: true,
+      },
+      y: logAxis(
+        cost.axis,
+        points.flatMap((p) => [p.y, p.low || p.y, p.high || p.y]),
+        7,
+        { show: cost.show },
+      ),
       marks: [
-        Plot.gridX({ strokeOpacity: 0.12 }), Plot.gridY({ strokeOpacity: 0.12 }),
-        fits.filter((f) => f.fit).map((f) => Plot.line(f.ends.map((r) => [r, f.fit.factor * r ** f.fit.exponent]),
-          { stroke: looks.get(f.engine).colour, strokeDasharray: looks.get(f.engine).dash || null, strokeWidth: 1.6, ariaLabel: "fit" })),
-        Plot.ruleX(points.filter((p) => p.low > 0 && p.high > 0), { x: "x", y1: "low", y2: "high", stroke: (p) => look(p).colour, strokeWidth: 3, strokeOpacity: 0.35 }),
-        Plot.dot(points, { x: "x", y: "y", symbol: (p) => look(p).symbol, r: 5, fill: (p) => look(p).colour, ariaLabel: "cells" }),
+        fits
+          .filter((f) => f.fit)
+          .map((f) =>
+            Plot.line(
+              f.ends.map((r) => [r, f.fit.factor * r ** f.fit.exponent]),
+              {
+                stroke: looks.get(f.engine).colour,
+                strokeDasharray: looks.get(f.engine).dash || null,
+                strokeWidth: 1.6,
+              },
+            ),
+          ),
+        Plot.ruleX(
+          points.filter((p) => p.low > 0 && p.high > 0),
+          {
+            x: "x",
+            y1: "low",
+            y2: "high",
+            stroke: (p) => look(p).colour,
+            strokeWidth: 3,
+            strokeOpacity: 0.35,
+          },
+        ),
+        Plot.dot(points, {
+          x: "x",
+          y: "y",
+          symbol: (p) => look(p).symbol,
+          r: 5,
+          fill: (p) => look(p).colour,
+        }),
       ],
     });
     return { svg, fits, ...shown(svg, points, fits, cost, looks) };
   }
 
   const made = chart({
-    name: "time-against-radius", title: "Time against radius", legendLines: true,
+    name: "time-against-radius",
+    title: "Time against radius",
+    legendLines: true,
     note: "Obstacles shrink to the right. The exponent of each engine's power law is that of the fit: 0 means that small obstacles cost no more. Bars: the quartiles.",
-    controls: [...groups.elements, kind.element], draw, below: (drawn) => fitTable(drawn.fits, looks),
+    controls: [...groups.elements, kind.element],
+    draw,
+    below: (drawn) => fitTable(drawn.fits, looks),
   });
-  onSelect((key) => { const cell = report.cells[indexOf(key, "cell")]; if (cell && cells.includes(cell) && !inGroup(cell, groups)) { groups.show(cell); redraw(); } });
+  onSelect((key) => {
+    const cell = report.cells[indexOf(key, "cell")];
+    if (cell && cells.includes(cell) && !inGroup(cell, groups)) {
+      groups.show(cell);
+      redraw();
+    }
+  });
   return made.element;
 }
 
@@ -68,26 +161,89 @@ function shown(svg, points, fits, cost, looks) {
   const fitOf = (engine) => fits.find((f) => f.engine === engine).fit;
   return {
     points: points.map((p) => ({
-      x: sx.apply(p.x), y: sy.apply(p.y), key: p.cell.key,
-      lines: [p.cell.engine, nameOfCell(p.cell), `${cost.show(p.y)} ${cost.value === "ns" ? "a query" : "instructions"}`,
-        ...(isNumber(p.low) ? [`quartiles ${cost.show(p.low)} and ${cost.show(p.high)}`] : []), `fit: ${fitText(fitOf(p.cell.engine))}`],
+      x: sx.apply(p.x),
+      y: sy.apply(p.y),
+      key: p.cell.key,
+      lines: [
+        p.cell.engine,
+        nameOfCell(p.cell),
+        `${cost.show(p.y)} ${cost.value === "ns" ? "a query" : "instructions"}`,
+        ...(isNumber(p.low) ? [`quartiles ${cost.show(p.low)} and ${cost.show(p.high)}`] : []),
+        `fit: ${fitText(fitOf(p.cell.engine))}`,
+      ],
     })),
-    legend: fits.map((f) => ({ name: f.engine, look: looks.get(f.engine), note: f.fit ? `r^${signed(f.fit.exponent)}` : "" })),
+    legend: fits.map((f) => ({
+      name: f.engine,
+      look: looks.get(f.engine),
+      note: f.fit ? `r^${signed(f.fit.exponent)}` : "",
+    })),
     summary: `${cost.axis} against the radius. Fitted: ${fits.map((f) => `${f.engine} ${fitText(f.fit)}`).join("; ")}.`,
     numbers: {
-      columns: ["engine", "scene", "difficulty", "radius", cost.axis, "lower quartile", "upper quartile", "fitted exponent", "exponent low", "exponent high"],
-      rows: points.map((p) => [p.cell.engine, p.cell.scene, p.cell.difficulty, p.x, p.y, p.low, p.high, fitOf(p.cell.engine)?.exponent, fitOf(p.cell.engine)?.low, fitOf(p.cell.engine)?.high]),
+      columns: [
+        "engine",
+        "scene",
+        "difficulty",
+        "radius",
+        cost.axis,
+        "lower quartile",
+        "upper quartile",
+        "fitted exponent",
+        "exponent low",
+        "exponent high",
+      ],
+      rows: points.map((p) => [
+        p.cell.engine,
+        p.cell.scene,
+        p.cell.difficulty,
+        p.x,
+        p.y,
+        p.low,
+        p.high,
+        fitOf(p.cell.engine)?.exponent,
+        fitOf(p.cell.engine)?.low,
+        fitOf(p.cell.engine)?.high,
+      ]),
     },
   };
 }
 
 function fitTable(fits, looks) {
-  return h("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Fitted exponents" }, h("table", { class: "fits" },
-    h("caption", { class: "unseen" }, "Fitted exponents of the time in r"),
-    h("thead", {}, h("tr", {}, ["engine", "exponent", "95 % interval", "radii"].map((name, i) => h("th", { scope: "col", class: i ? "figure" : null }, name)))),
-    h("tbody", {}, fits.map(({ engine, fit, radii }) => h("tr", {},
-      h("th", { scope: "row" }, swatch(looks.get(engine)), engine),
-      h("td", { class: "figure" }, fit ? signed(fit.exponent) : "–"),
-      h("td", { class: "figure" }, fit && fit.low !== null ? `${signed(fit.low)} … ${signed(fit.high)}` : "–"),
-      h("td", { class: "figure" }, String(radii)))))));
+  return h(
+    "div",
+    { class: "scroll", role: "region", tabindex: 0, "aria-label": "Fitted exponents" },
+    h(
+      "table",
+      { class: "fits" },
+      h("caption", { class: "unseen" }, "Fitted exponents of the time in r"),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          ["engine", "exponent", "95 % interval", "of radii"].map((name, i) =>
+            h("th", { scope: "col", class: i ? "figure" : null }, name),
+          ),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        fits.map(({ engine, fit, ends }) =>
+          h(
+            "tr",
+            {},
+            h("th", { scope: "row" }, swatch(looks.get(engine)), engine),
+            h("td", { class: "figure" }, fit ? signed(fit.exponent) : "–"),
+            h(
+              "td",
+              { class: "figure" },
+              fit && fit.low !== null ? `${signed(fit.low)} … ${signed(fit.high)}` : "–",
+            ),
+            h("td", { class: "figure" }, fit ? ends.map((r) => number(r)).join(" … ") : "–"),
+          ),
+        ),
+      ),
+    ),
+  );
 }
