@@ -7,6 +7,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
+#include "cli/reason.hpp"
 #include "cli/table.hpp"
 
 namespace lorentz::cli {
@@ -104,13 +105,16 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.command = fmt::format("lorentz fuzz show {} --store {}{}", one.label(), shell_quoted(store.path()),
                                files.as_typed());
   report.cause = finding.cause;
-  if (!finding.words.empty()) report.explanation = "Asked in other words: " + finding.words;
   report.where = "campaign target " + finding.target;
   report.verdict = finding.kind == "wrong time" ? "wrong-time" : finding.kind;
   report.scene = std::move(read.scene);
   report.query = read.query;
   report.given = read.given;
   report.exact = read.exact;
+  const auto dispute =
+      dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact, *report.given);
+  if (dispute) report.explanation = dispute->text;
+  if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;
   for (const fuzz::Campaign& campaign : store.campaigns())
     if (campaign.id == one.campaign) report.engine = campaign.manifest.engine;

@@ -21,11 +21,12 @@ Vec unit(const Vec& a) {
 }
 
 FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const Answer* its_given,
-                         const Answer& its_exact)
+                         const Answer& its_exact, int its_exponent)
     : scene(its_scene),
       query(its_query),
       given(its_given),
       exact(its_exact),
+      exponent(its_exponent),
       margins(its_scene),
       surroundings(its_scene),
       along(unit(its_query.v)) {

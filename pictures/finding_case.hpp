@@ -22,13 +22,15 @@ enum class Issue {
 /// One question with its exact answer and perhaps another one.
 class FindingCase {
  public:
-  /// `given` may be null, else it lives as long as this.
-  FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact);
+  /// `given` may be null. All of it lives as long as this. Lengths, and times, are in units of 2^exponent.
+  FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
+              int exponent = 0);
 
   const Scene& scene;
   const Query& query;
   const Answer* const given;
   const Answer& exact;
+  const int exponent;
   const oracle::Margins margins;
   const oracle::Surroundings surroundings;
   const Vec along;  ///< the flight's direction, of length 1

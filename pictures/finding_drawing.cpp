@@ -12,16 +12,9 @@ namespace lorentz::pictures {
 namespace {
 
 constexpr double kWidth = 640, kHeight = 410;
-constexpr Panel kFlightPanel{12, 74, 616, 168}, kWholePanel{12, 74, 616, 320},
+constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
 constexpr double kLine = 15;
-
-std::string fill_of(Ink ink) {
-  return fmt::format("fill:var({},{})", ink.variable, ink.otherwise);
-}
-std::string stroke_of(Ink ink) {
-  return fmt::format("stroke:var({},{})", ink.variable, ink.otherwise);
-}
 
 // At most so many characters; what is cut ends in dots. No character of several bytes is cut in two.
 std::string shortened(const std::string& text, std::size_t most) {
@@ -31,12 +24,13 @@ std::string shortened(const std::string& text, std::size_t most) {
   return text.substr(0, end) + "...";
 }
 
+// Of an answer as it was given, in whatever unit.
 std::string words_of(const FindingCase& finding, const Answer& answer) {
   const std::string name =
       finding.names_obstacle(answer) ? finding.name_of(answer.obstacle) : "an obstacle that there is not";
   switch (answer.outcome) {
     case Outcome::hit:
-      return answer.time ? fmt::format("hits {} at t = {}", name, *answer.time) : "hits " + name;
+      return (answer.time ? fmt::format("at t = {} it hits ", *answer.time) : "hits ") + name;
     case Outcome::never:
       return "never hits anything";
     case Outcome::inside:
@@ -77,7 +71,9 @@ std::string in_short(double a) {
 
 class Sheet {
  public:
-  explicit Sheet(const FindingCase& finding) : case_(finding) {}
+  /// The answers as they were given; `finding` has them in its own unit.
+  Sheet(const FindingCase& finding, const Answer* given, const Answer& exact)
+      : case_(finding), given_(given), exact_(exact) {}
   std::string draw();
 
  private:
@@ -88,6 +84,8 @@ class Sheet {
   std::string label() const;
 
   const FindingCase& case_;
+  const Answer* const given_;
+  const Answer& exact_;
   Svg svg_;
 };
 
@@ -96,7 +94,7 @@ void Sheet::add_answer(double y, const char* who, const Answer& answer, Ink ink,
   const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
   open_hint(svg_, words);
   svg_.polyline({{12, y - 4}, {42, y - 4}}, style);
-  svg_.text({50, y}, shortened(words, 88), paint(ink));
+  svg_.text({50, y}, shortened(words, 86), paint(ink) + " font-size=\"12\"");
   svg_.close();
 }
 
@@ -140,17 +138,16 @@ void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
 }
 
 std::string Sheet::label() const {
-  std::string label = "A flight. Exact: " + words_of(case_, case_.exact) + '.';
-  if (case_.given) label += " Given: " + words_of(case_, *case_.given) + '.';
+  std::string label = "A flight. Exact: " + words_of(case_, exact_) + '.';
+  if (given_) label += " Given: " + words_of(case_, *given_) + '.';
   return label + (case_.words.empty() ? "" : ' ' + case_.words + '.');
 }
 
 std::string Sheet::draw() {
   double y = 17;
-  add_answer(y, "exact", case_.exact, kExactInk, outline(kExactInk, 2.6));
-  if (case_.given)
-    add_answer(y += 18, "given", *case_.given, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
-  add_text(y += 20, shortened(case_.words, 170), 88, " font-weight=\"bold\" font-size=\"12\"");
+  add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
+  if (given_) add_answer(y += 18, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
+  add_text(y += 20, shortened(case_.words, 160), 82, " font-weight=\"bold\" font-size=\"12\"");
   const bool has_inset = case_.issue != Issue::none;
   const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
   if (has_inset)
@@ -165,105 +162,6 @@ std::string Sheet::draw() {
       kWidth, kHeight, xml_escaped(label()), paint(kPaper), svg_.body());
 }
 
-}  // namespace
-
-std::string paint(Ink fill) {
-  return fmt::format("fill=\"{}\" style=\"{}\"", fill.otherwise, fill_of(fill));
-}
-
-std::string paint(Ink fill, Ink stroke, double width) {
-  return fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\" style=\"{};{}\"", fill.otherwise,
-                     stroke.otherwise, width, fill_of(fill), stroke_of(stroke));
-}
-
-std::string outline(Ink stroke, double width) {
-  return fmt::format("stroke=\"{}\" stroke-width=\"{}\" style=\"{}\"", stroke.otherwise, width,
-                     stroke_of(stroke));
-}
-
-// A picture within the picture cuts what is beyond it, and needs no id.
-void open_clip(Svg& svg, const Panel& panel) {
-  svg.raw(
-      fmt::format("<svg x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" "
-                  "viewBox=\"{0:.2f} {1:.2f} {2:.2f} {3:.2f}\" overflow=\"hidden\">\n",
-                  panel.left, panel.top, panel.width, panel.height));
-}
-
-void close_clip(Svg& svg) {
-  svg.raw("</svg>\n");
-}
-
-void frame(Svg& svg, const Panel& panel, const std::string& style) {
-  svg.polygon({{panel.left, panel.top},
-               {panel.right(), panel.top},
-               {panel.right(), panel.bottom()},
-               {panel.left, panel.bottom()}},
-              "fill=\"none\" " + style);
-}
-
-void open_hint(Svg& svg, const std::string& words) {
-  svg.raw("<g><title>" + xml_escaped(words) + "</title>\n");
-}
-
-double on_paper(double pixels) {
-  constexpr double kFar = 1e5;
-  return std::isnan(pixels) ? kFar : std::clamp(pixels, -kFar, kFar);
-}
-
-Axes axes_of(const FindingCase& finding) {
-  const Vec& along = finding.along;
-  Vec across{-along[1], along[0], 0};
-  if (finding.scene.dimension == 3) {
-    // Any at right angles, unless there is an obstacle to choose it by.
-    const int smallest =
-        static_cast<int>(std::min_element(along.begin(), along.end(),
-                                          [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
-                         along.begin());
-    Vec axis{};
-    axis[smallest] = 1;
-    across = unit(cross(along, axis));
-    if (finding.issue != Issue::none) {
-      const Vec centre =
-          finding.surroundings.centre(finding.query, place_in_question(finding), finding.obstacle);
-      const Vec rest = sum(centre, scaled(along, -dot(centre, along)));
-      if (length(rest) > 1e-9 * length(centre)) across = unit(rest);
-    }
-  }
-  return {along, across, cross(along, across)};
-}
-
-std::optional<Ink> ink_of(const FindingCase& finding, const ObstacleId& id) {
-  if (finding.names_obstacle(finding.exact) && finding.exact.obstacle == id) return kExactInk;
-  if (finding.given && finding.names_obstacle(*finding.given) && finding.given->obstacle == id)
-    return kGivenInk;
-  if (finding.issue != Issue::none && (finding.obstacle == id || finding.second == id)) return kInk;
-  return std::nullopt;
-}
-
-std::vector<ObstacleId> marked_obstacles(const FindingCase& finding) {
-  std::vector<ObstacleId> marked;
-  const auto add = [&](const ObstacleId& id) {
-    if (std::find(marked.begin(), marked.end(), id) == marked.end()) marked.push_back(id);
-  };
-  if (finding.issue != Issue::none) add(finding.obstacle);
-  if (finding.second) add(*finding.second);
-  if (finding.given && finding.names_obstacle(*finding.given)) add(finding.given->obstacle);
-  if (finding.names_obstacle(finding.exact)) add(finding.exact.obstacle);
-  return marked;
-}
-
-std::string hint_of(const FindingCase& finding, const ObstacleId& id) {
-  const oracle::Approach approach = finding.margins.approach(finding.query, id);
-  const double way =
-      finding.surroundings.way(finding.query, oracle::PlaceOnLine::start(), oracle::PlaceOnLine::at(id));
-  return fmt::format(
-      "{}: the line {} it by {:.6g} of its radii, {:.9g} of length from the start; x lies {} it by {:.6g}",
-      finding.name_of(id), approach.gap < 0 ? "meets" : "misses", std::fabs(approach.gap), way,
-      approach.start_gap < 0 ? "inside" : "outside of", std::fabs(approach.start_gap));
-}
-
-namespace {
-
 bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
   if (flaw_of(scene) || flaw_of(query, scene)) return false;
   if (exact.outcome == Outcome::never) return true;
@@ -271,10 +169,28 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
+std::string draw_sheet(const FindingCase& finding, const Answer* given, const Answer& exact) {
+  return Sheet(finding, given, exact).draw();
+}
+
+// An answer in other units of length, with v as it is.
+Answer scaled_answer(Answer answer, int exponent) {
+  if (answer.time) answer.time = std::ldexp(*answer.time, -exponent);
+  return answer;
+}
+
 std::string drawing(const Scene& scene, const Query& query, const Answer* given, const Answer& exact) {
   if (!can_be_drawn(scene, query, exact)) return "";
-  const FindingCase finding(scene, query, given, exact);
-  return Sheet(finding).draw();
+  Scene its_scene = scene;
+  Query its_query = query;
+  int exponent = length_exponent(scene);
+  if (exponent == 0 || !scale_lengths(exponent, its_scene, its_query))
+    return draw_sheet(FindingCase(scene, query, given, exact), given, exact);
+  const Answer its_exact = scaled_answer(exact, exponent);
+  const std::optional<Answer> its_given =
+      given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
+  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, exponent);
+  return draw_sheet(finding, given, exact);
 }
 
 }  // namespace

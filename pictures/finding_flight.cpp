@@ -14,8 +14,8 @@ using oracle::PlaceOnLine;
 constexpr double kWhole = 20;                 // cells: a flight of so many is not broken
 constexpr double kTogether = 5;               // cells: places nearer than this share a stretch
 constexpr double kBreak = 46;                 // pixels of a zigzag
-constexpr std::size_t kMostLookedAt = 4000;   // obstacles of an atom in a stretch
-constexpr std::size_t kMostNeighbours = 250;  // drawn in a stretch
+constexpr std::size_t kMostLookedAt = 1000;   // obstacles of an atom beside a piece of the line
+constexpr std::size_t kMostNeighbours = 400;  // drawn in a stretch
 constexpr double kSmallest = 2;               // pixels: radius of an obstacle
 
 // A part of the line, in lengths from its anchor, and on paper.
@@ -44,7 +44,9 @@ class FlightDrawing {
             panel_.middle() - dot(place, axes_.across) * result_.scale};
   }
   void add_stretch(const Stretch& stretch);
-  void add_neighbours(const Stretch& stretch, const Panel& window);
+  void add_neighbours(const Stretch& stretch);
+  bool add_neighbour(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
+  double largest_radius() const;
   void add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
   void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint,
                    bool is_dot);
@@ -60,7 +62,7 @@ class FlightDrawing {
   const double cell_;
   std::vector<Stretch> stretches_;
   FlightPanel result_;
-  bool enlarged_ = false, incomplete_ = false;
+  bool enlarged_ = false, incomplete_ = false, leaves_ = false;
 };
 
 // In order along the line.
@@ -130,40 +132,66 @@ void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::str
                {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
 }
 
-// The obstacles beside the flight, faint: in space those that the plane of the drawing cuts, and shadows of
-// those that are near it.
-void FlightDrawing::add_neighbours(const Stretch& stretch, const Panel& window) {
-  const bool flat = case_.scene.dimension == 2;
-  const double half_height = panel_.height / 2 / result_.scale;
-  const double reach = std::hypot(std::max(stretch.high, -stretch.low), half_height) + cell_;
-  const auto found = case_.surroundings.around(case_.query, stretch.anchor, reach, kMostLookedAt);
-  incomplete_ |= !found.complete;
+// The obstacles beside the flight, faint: looked for in balls along it, each of which takes those beside its
+// own piece of the line. What begins before a stretch reaches into it.
+void FlightDrawing::add_neighbours(const Stretch& stretch) {
+  const double margin = std::min(largest_radius(), cell_);
+  const double half_height = panel_.height / 2 / result_.scale + margin;
+  const double low = stretch.low - margin, high = stretch.high + margin;
+  const double pieces = std::ceil((high - low) / (2 * half_height)), half = (high - low) / (2 * pieces);
   svg_.open(paint(kFaintInk, kFaintInk, 0.8) + " fill-opacity=\"0.22\"");
   std::size_t drawn = 0;
-  for (const oracle::Neighbour& one : found.obstacles) {
-    if (ink_of(case_, one.obstacle)) continue;
-    const Point at = on_paper_of(stretch, one.centre);
-    const Atom& atom = case_.atom_of(one.obstacle);
-    const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
-    const double radius = shadow.shape.rx * result_.scale;
-    if (at.x < window.left - radius || at.x > window.right() + radius || at.y < window.top - radius ||
-        at.y > window.bottom() + radius)
-      continue;
-    const double depth = dot(one.centre, axes_.depth);
-    const auto section = flat ? std::optional(shadow) : section_of(atom, axes_, depth);
-    if (!section && std::fabs(depth) > cell_ / 2) continue;
-    if (++drawn > kMostNeighbours) {
-      incomplete_ = true;
-      break;
+  for (double piece = 0; piece < pieces; ++piece) {
+    PlaceOnLine middle = stretch.anchor;
+    middle.beyond = low + (2 * piece + 1) * half;
+    const auto found =
+        case_.surroundings.around(case_.query, middle, std::hypot(half, half_height), kMostLookedAt);
+    incomplete_ |= !found.complete;
+    for (const oracle::Neighbour& one : found.obstacles) {
+      const double along = dot(one.centre, axes_.along);
+      if (along < -half || along >= half || ink_of(case_, one.obstacle)) continue;
+      const Vec centre = sum(one.centre, scaled(axes_.along, middle.beyond));
+      if (drawn < kMostNeighbours)
+        drawn += add_neighbour(stretch, one.obstacle, centre);
+      else
+        incomplete_ = true;
     }
-    if (section)
-      add_ellipse(at, *section, "", case_.name_of(one.obstacle), radius < kSmallest);
-    else
-      add_ellipse(at, shadow,
-                  radius < kSmallest ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
-                  case_.name_of(one.obstacle) + (depth > 0 ? ", in front" : ", behind"), radius < kSmallest);
   }
   svg_.close();
+}
+
+// In space only if the plane of the drawing cuts it, or as a shadow if it is near that. Whether it was drawn.
+bool FlightDrawing::add_neighbour(const Stretch& stretch, const ObstacleId& id, const Vec& centre) {
+  const Point at = on_paper_of(stretch, centre);
+  const Atom& atom = case_.atom_of(id);
+  const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const double radius = shadow.shape.rx * result_.scale;
+  if (at.y < panel_.top - radius || at.y > panel_.bottom() + radius) return false;
+  const double depth = dot(centre, axes_.depth);
+  const bool is_dot = radius < kSmallest;
+  const bool is_left = case_.query.from == id;
+  const std::string name = case_.name_of(id) + (is_left ? ", which the flight leaves" : "");
+  const std::string style = is_left ? "stroke-width=\"2\" stroke-dasharray=\"7 3\"" : "";
+  leaves_ |= is_left;
+  if (case_.scene.dimension == 2) {
+    add_ellipse(at, shadow, style, name, is_dot);
+  } else if (const auto section = section_of(atom, axes_, depth)) {
+    add_ellipse(at, *section, style, name, is_dot);
+  } else if (std::fabs(depth) < cell_ / 2) {
+    add_ellipse(at, shadow, is_dot ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
+                name + (depth > 0 ? ", in front" : ", behind"), is_dot);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+double FlightDrawing::largest_radius() const {
+  double largest = 0;
+  for_each_atom(case_.scene, [&](const Atom& atom) {
+    largest = std::max(largest, principal_semiaxes(atom, case_.scene.dimension)[0]);
+  });
+  return largest;
 }
 
 // One that an answer names, or that is in question.
@@ -203,7 +231,7 @@ void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const
 void FlightDrawing::add_stretch(const Stretch& stretch) {
   const Panel window{stretch.left, panel_.top, (stretch.high - stretch.low) * result_.scale, panel_.height};
   open_clip(svg_, window);
-  add_neighbours(stretch, window);
+  add_neighbours(stretch);
   for (const ObstacleId& id : marked_obstacles(case_))
     add_obstacle(stretch, id, case_.surroundings.centre(case_.query, stretch.anchor, id));
   add_line(stretch, case_.exact, outline(kExactInk, 2.6), kExactInk);
@@ -253,7 +281,7 @@ void FlightDrawing::add_ends() {
     const auto at = end ? on_line(*end) : std::nullopt;
     if (!at) return;
     open_hint(svg_, fmt::format("{}: {:.9g} of length from the start", cross ? "given" : "exact",
-                                way(PlaceOnLine::start(), *end)));
+                                std::ldexp(way(PlaceOnLine::start(), *end), case_.exponent)));
     if (cross) {
       svg_.polyline({{at->x - 5, at->y - 5}, {at->x + 5, at->y + 5}}, outline(ink, 2));
       svg_.polyline({{at->x - 5, at->y + 5}, {at->x + 5, at->y - 5}}, outline(ink, 2));
@@ -280,6 +308,7 @@ FlightPanel FlightDrawing::draw() {
   if (case_.issue != Issue::none) result_.at = on_line(place_in_question(case_));
   if (result_.at && case_.issue == Issue::line && case_.distance < 0)  // in the middle of the chord
     result_.at->x += std::sqrt(-case_.distance * (2 + case_.distance)) * result_.scale / case_.in_radii(1);
+  if (leaves_) result_.notes.push_back("Dashed: the obstacle that the flight leaves.");
   if (enlarged_) result_.notes.push_back("Obstacles are smaller than they are drawn.");
   if (incomplete_) result_.notes.push_back("There are more obstacles than are drawn.");
   if (case_.scene.dimension == 3)

@@ -144,8 +144,10 @@ void Inset::add_way(double from, double to, Ink ink, double width, const char* m
 void Inset::add_distance(Point from, Point to, Point label, const char* anchor) {
   svg_.polyline({from, to}, outline(kInk, 1.2));
   for (const Point& end : {from, to}) svg_.ellipse(end, {2.2, 2.2, 0}, paint(kInk));
-  const std::string words =
-      case_.distance == 0 ? "at one point" : fmt::format("{:.4g} radii", std::fabs(case_.distance));
+  const std::string words = case_.distance == 0
+                                ? "at one point"
+                                : fmt::format("{:.4g} {}", std::fabs(case_.distance),
+                                              std::fabs(case_.distance) == 1 ? "radius" : "radii");
   svg_.text(label, words,
             paint(kInk, kPaper, 3) +
                 " paint-order=\"stroke\" font-size=\"12\" font-weight=\"bold\" text-anchor=\"" + anchor +

@@ -73,6 +73,12 @@ std::vector<ObstacleId> marked_obstacles(const FindingCase& finding);
 /// The same decision, place and distances in words, for the mouse.
 std::string hint_of(const FindingCase& finding, const ObstacleId& id);
 
+/// The exponent of the unit of length in which a scene is of ordinary size; mostly 0.
+int length_exponent(const Scene& scene);
+
+/// Divides all lengths by 2^exponent; false if that cannot be done without a rounding.
+bool scale_lengths(int exponent, Scene& scene, Query& query);
+
 /// What the panel of the flight leaves to be said and pointed at.
 struct FlightPanel {
   std::vector<std::string> notes;

@@ -15,10 +15,11 @@ namespace lorentz::oracle {
 struct PlaceOnLine {
   std::optional<ObstacleId> obstacle;  ///< must exist
   double time = 0;                     ///< finite
+  double beyond = 0;                   ///< so far along the flight from there, a length; finite
 
   static PlaceOnLine start() { return {}; }
-  static PlaceOnLine at(ObstacleId id) { return {std::move(id), 0}; }
-  static PlaceOnLine after(double time) { return {std::nullopt, time}; }
+  static PlaceOnLine at(ObstacleId id) { return {std::move(id), 0, 0}; }
+  static PlaceOnLine after(double time) { return {std::nullopt, time, 0}; }
 };
 
 /// An obstacle near a place.

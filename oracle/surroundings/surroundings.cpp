@@ -48,6 +48,12 @@ class Sight {
 
   // In the units of the exact query, in which x + t v is a place, too.
   Real time_of(const PlaceOnLine& place) const {
+    const Real beyond = times_power_of_two(Real(place.beyond), -exponent());
+    return mark_of(place) + beyond / sqrt(real(query_.velocity.v2));
+  }
+
+  // Without what is beyond it.
+  Real mark_of(const PlaceOnLine& place) const {
     if (!place.obstacle)
       return times_power_of_two(Real(place.time), query_.velocity_exponent - query_.length_exponent);
     const ObstacleId& id = *place.obstacle;

@@ -85,8 +85,11 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(contains(list_json.out, "{\"campaigns\":[{\"campaign\":1,\"version\":\""));
   CHECK(contains(list_json.out, "{\"target\":\"published-faults\",\"next\":32,\"cases\":32,"));
   CHECK(number_of("\"id\":\"1/", list_json.out) == findings);
-  const Run show = folder.lorentz("fuzz show 1/published-faults/0" + store);
+  const std::string picture = folder.file("finding.svg");
+  const Run show = folder.lorentz("fuzz show 1/published-faults/0 --svg " + picture + store);
   CHECK(show.status == 0);
+  CHECK(folder.read("finding.svg").starts_with("<svg "));
+  CHECK(contains(folder.read("finding.svg"), "Given: "));
   CHECK(contains(show.out, "as found:\n{\"scene\":"));
   CHECK(contains(show.out, "\"x\":[-0.04390243902439024,0.1951219512195122],\"v\":[9,5]"));
   // What is said of a case stands with the case: the shrunk one first.

@@ -1,6 +1,7 @@
 // lorentz golden check and explain: engines against sets, one record in full.
 #include <catch2/catch.hpp>
 
+#include "report/page.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
@@ -210,9 +211,10 @@ TEST_CASE("golden: a folder stands for its sets, the beginning of an id for the 
 
 TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden][golden_check]") {
   const Folder folder;
-  const auto explained = [&](const std::string& set, const std::string& word) {
+  const auto explained = [&](const std::string& set, const std::string& word,
+                             const std::string& options = "") {
     const std::string id = first_id(set, word);
-    const Run run = folder.lorentz("golden explain " + id);
+    const Run run = folder.lorentz("golden explain " + id + options);
     INFO(run.err);
     CHECK(run.status == 0);
     CHECK(contains(run.out, set + ".ndjson:"));
@@ -225,9 +227,11 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(hit, "its condition"));
   CHECK(contains(hit, "passed by (radii)"));
   CHECK(contains(hit, " hit\n"));
-  const std::string hard = explained("ties", "\"margin\":0,");
+  const std::string picture = folder.file("tie.svg");
+  const std::string hard = explained("ties", "\"margin\":0,", " --svg " + picture);
   CHECK(contains(hard, "The hard decision: is "));
   CHECK(contains(hard, "entered before the obstacle that is hit? No, by 0 ulps."));
+  CHECK(contains(folder.read("tie.svg"), ">at one point</text>"));
   CHECK(contains(explained("boundary-starts", "\"outcome\":\"inside\""), "It starts inside lattice "));
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
@@ -235,6 +239,22 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   const std::string far = first_id("generic-3d", "\"outcome\":\"hit\"");
   const std::size_t all = lines(folder.lorentz("golden explain " + far + " generic-3d").out);
   CHECK(lines(folder.lorentz("golden explain --most 1 " + far + " generic-3d").out) < all);
+  const std::string page = folder.file("page.html");
+  const Run no_query =
+      folder.lorentz("golden explain " + first_id("bad-queries", "v-zero") + " --html " + page);
+  CHECK(no_query.status == 2);
+  CHECK(contains(no_query.err, "nothing to be drawn"));
+  CHECK_FALSE(std::filesystem::exists(page));
+  const Run paged = folder.lorentz("golden explain --html " + page + " " + id);
+  CHECK(std::filesystem::exists(page) == report::has_page());
+  if (report::has_page()) {
+    CHECK(paged.status == 0);
+    CHECK(contains(folder.read("page.html"), "\"kind\":\"case\",\"title\":\"golden record " + id));
+    CHECK(contains(folder.read("page.html"), "\"drawing\":\"\\u003csvg"));
+  } else {
+    CHECK(paged.status == 3);
+    CHECK(contains(paged.err, "built without the page"));
+  }
   const Run unknown = folder.lorentz("golden explain 0123456789abcdef");
   CHECK(unknown.status == 2);
   CHECK(contains(unknown.err, "0123456789abcdef"));

@@ -1,0 +1,53 @@
+// Scenes whose lengths are near the ends of binary64's range, in another unit: squares and cubes of lengths
+// are numbers then.
+#include <cmath>
+
+#include "pictures/finding_parts.hpp"
+
+namespace lorentz::pictures {
+namespace {
+
+// Times 2^exponent, or nothing if that changes a bit.
+class Scaling {
+ public:
+  explicit Scaling(int exponent) : exponent_(exponent) {}
+  void operator()(double& number) {
+    const double before = number;
+    number = std::ldexp(number, exponent_);
+    if (std::ldexp(number, -exponent_) != before) exact_ = false;
+  }
+  void operator()(Vec& a) {
+    for (double& component : a) (*this)(component);
+  }
+  bool is_exact() const { return exact_; }
+
+ private:
+  int exponent_;
+  bool exact_ = true;
+};
+
+}  // namespace
+
+int length_exponent(const Scene& scene) {
+  double largest = 0;
+  for (const Vec& u : scene.lattices[0].vectors)
+    for (const double component : u) largest = std::max(largest, std::fabs(component));
+  constexpr int kOrdinary = 100;
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  return std::abs(exponent) <= kOrdinary ? 0 : exponent;
+}
+
+bool scale_lengths(int exponent, Scene& scene, Query& query) {
+  Scaling scale(-exponent);
+  for (Lattice& lattice : scene.lattices)
+    for (Vec& u : lattice.vectors) scale(u);
+  for_each_atom(scene, [&](Atom& atom) {
+    scale(atom.position);
+    scale(atom.radius);
+    for (Vec& axis : atom.semiaxes) scale(axis);
+  });
+  scale(query.x);
+  return scale.is_exact();
+}
+
+}  // namespace lorentz::pictures
