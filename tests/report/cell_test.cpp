@@ -51,7 +51,9 @@ TEST_CASE("Power laws are fitted in logarithms, with Student's interval", "[repo
 }
 
 TEST_CASE("What a store keeps of cells reads back as the same cells, or is refused", "[report][cell]") {
-  Cell cell{"a \"scene\"", 0.1, 2, "drawn", "cmd:a 'b'", 50};
+  Cell cell;
+  cell.scene = "a \"scene\"", cell.radius = 0.1, cell.dimension = 2;
+  cell.difficulty = "drawn", cell.engine = "cmd:a 'b'", cell.queries = 50;
   cell.ns = {1.5, 1, 2, 1.75};
   cell.instructions = 812.5;
   cell.mean_path = 1.0 / 3;
@@ -69,7 +71,8 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   CHECK(
       cell.worst->query ==
       R"({"x":["0x1.8p-1","0x0p+0"],"v":["0x1p+0","-0x1p-30"],"from":{"lattice":0,"atom":0,"cell":[1,-2]}})");
-  Cell skipped{"ellipse", {}, 2, "grazing", "oracle"};
+  Cell skipped;
+  skipped.scene = "ellipse", skipped.dimension = 2, skipped.difficulty = "grazing", skipped.engine = "oracle";
   skipped.skipped = true;
   skipped.unsupported = 3;
   const CellStore store{{"these options", "scenes", "program"}, "{\"version\":\"1\"}", {cell, skipped}};
