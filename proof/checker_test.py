@@ -1,6 +1,6 @@
 """proof/check accepts and refuses, with the status and the words of data/check.py, all that the tests of that one hold: each
 way to tamper with a record or a proof, and each form of a text. python3 proof/checker_test.py"""
-import importlib.util, pathlib, subprocess, sys, tempfile, unittest
+import hashlib, importlib.util, pathlib, subprocess, sys, tempfile, unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 CHECKER = ROOT / "proof" / "check"
@@ -34,6 +34,26 @@ class Accepts(kinds.Accepts):
 
 class Refuses(kinds.Refuses):
     pass
+
+class Ties(unittest.TestCase):
+    """Numbers, and times, half way between two: to the even one."""
+    def test_numbers(self):
+        case = kinds.CASES["exact"]
+        header, scene, line = kinds.golden(case)
+        question = line[line.index('"x"'):line.index(',"expect"')]
+        for n, status in ((2**54 + 2, 0), (2**54 + 6, 1), (2**54 - 1, 0), (2**54 + 3, 1), (2**54 - 2, 1)):  # n 2^-56 for 1/4
+            tie = scene.replace("0.25", "0." + str(n * 5**56).zfill(56))
+            identity = hashlib.sha256(f"{tie}\n{question}".encode()).hexdigest()[:16]
+            self.assertEqual(verdict("\n".join((header, tie, kinds.record(case, identity))).encode())[0], status, tie)
+
+    def test_times(self):
+        for time, status in ((2.0**53, 0), (2.0**53 + 2, 1)):
+            case = {"scene": {"dimension": 2, "lattices": [{"vectors": [[2.0**60, 0], [0, 2.0**60]], "atoms": [{"position": [0, 0], "radius": 1}]}]},
+                    "query": {"x": [-2.0**53 - 2, 0], "v": [1, 0]},
+                    "expect": {"outcome": "hit", "lattice": 0, "atom": 0, "cell": [0, 0], "time": time},
+                    "time_decimal": "9007199254740993." + 24 * "0",
+                    "certificate": {"windows": [{"lattice": 0, "atom": 0, "from": -2, "to": 1e16, "basis": [[1, 0], [0, 1]]}]}}
+            self.assertEqual(kinds.run(kinds.golden(case))[0], status)
 
 class Forms(unittest.TestCase):
     def hold(self, texts_of_kinds, accepted):
