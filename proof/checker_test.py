@@ -18,7 +18,7 @@ def verdict(text):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "set.ndjson"
         path.write_bytes(text)
-        done = subprocess.run([CHECKER, path], capture_output=True, text=True)
+        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=60)  # of which it needs seconds
         return done.returncode, done.stdout + done.stderr
 
 kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode())
@@ -54,6 +54,29 @@ class Ties(unittest.TestCase):
                     "time_decimal": "9007199254740993." + 24 * "0",
                     "certificate": {"windows": [{"lattice": 0, "atom": 0, "from": -2, "to": 1e16, "basis": [[1, 0], [0, 1]]}]}}
             self.assertEqual(kinds.run(kinds.golden(case))[0], status)
+
+class Hostile(unittest.TestCase):
+    """What would take for ever ends soon, and is refused."""
+    def refused(self, name, why, change):
+        case = kinds.copy.deepcopy(kinds.CASES[name])
+        change(case["certificate"]["windows"])
+        status, said = kinds.run(kinds.golden(case))
+        self.assertEqual(status, 1, said)
+        self.assertRegex(said, why)
+
+    def test_windows(self):
+        for name in "plane", "space":
+            self.refused(name, "too many", lambda w: w[-1].update(to="0x1p65536"))
+            self.refused(name, "too many", lambda w: w[0].update({"from": "-0x1p65536"}))
+        self.refused("exact", "too many", lambda w: w.extend([{**w[0], "to": 3e4}] * 2000))  # one budget for all
+        self.refused("plane", "exponent", lambda w: w[0].update({"from": "-0x1p65537"}))
+
+    def test_exponents(self):
+        for number, why in (("1e99999999999999999999", "no number"), ("1e-99999999999999999999", "gap"), ("1" + "0" * 99999 + "e-100001", "gap")):
+            header, scene, line = kinds.golden(kinds.CASES["exact"])
+            status, said = kinds.run([header, scene, line.replace('"from":-0.25', '"from":-' + number)])
+            self.assertEqual(status, 1, said)
+            self.assertRegex(said, why)
 
 class Forms(unittest.TestCase):
     def hold(self, texts_of_kinds, accepted):
