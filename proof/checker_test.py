@@ -1,6 +1,6 @@
 """proof/check accepts and refuses, with the status and the words of data/check.py, all that the tests of that one hold: each
 way to tamper with a record or a proof, and each form of a text. python3 proof/checker_test.py"""
-import importlib.util, pathlib, subprocess, sys, tempfile, unittest
+import hashlib, importlib.util, pathlib, subprocess, sys, tempfile, unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 CHECKER = ROOT / "proof" / "check"
@@ -18,7 +18,7 @@ def verdict(text):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "set.ndjson"
         path.write_bytes(text)
-        done = subprocess.run([CHECKER, path], capture_output=True, text=True)
+        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=60)  # of which it needs seconds
         return done.returncode, done.stdout + done.stderr
 
 kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode())
@@ -34,6 +34,49 @@ class Accepts(kinds.Accepts):
 
 class Refuses(kinds.Refuses):
     pass
+
+class Ties(unittest.TestCase):
+    """Numbers, and times, half way between two: to the even one."""
+    def test_numbers(self):
+        case = kinds.CASES["exact"]
+        header, scene, line = kinds.golden(case)
+        question = line[line.index('"x"'):line.index(',"expect"')]
+        for n, status in ((2**54 + 2, 0), (2**54 + 6, 1), (2**54 - 1, 0), (2**54 + 3, 1), (2**54 - 2, 1)):  # n 2^-56 for 1/4
+            tie = scene.replace("0.25", "0." + str(n * 5**56).zfill(56))
+            identity = hashlib.sha256(f"{tie}\n{question}".encode()).hexdigest()[:16]
+            self.assertEqual(verdict("\n".join((header, tie, kinds.record(case, identity))).encode())[0], status, tie)
+
+    def test_times(self):
+        for time, status in ((2.0**53, 0), (2.0**53 + 2, 1)):
+            case = {"scene": {"dimension": 2, "lattices": [{"vectors": [[2.0**60, 0], [0, 2.0**60]], "atoms": [{"position": [0, 0], "radius": 1}]}]},
+                    "query": {"x": [-2.0**53 - 2, 0], "v": [1, 0]},
+                    "expect": {"outcome": "hit", "lattice": 0, "atom": 0, "cell": [0, 0], "time": time},
+                    "time_decimal": "9007199254740993." + 24 * "0",
+                    "certificate": {"windows": [{"lattice": 0, "atom": 0, "from": -2, "to": 1e16, "basis": [[1, 0], [0, 1]]}]}}
+            self.assertEqual(kinds.run(kinds.golden(case))[0], status)
+
+class Hostile(unittest.TestCase):
+    """What would take for ever ends soon, and is refused."""
+    def refused(self, name, why, change):
+        case = kinds.copy.deepcopy(kinds.CASES[name])
+        change(case["certificate"]["windows"])
+        status, said = kinds.run(kinds.golden(case))
+        self.assertEqual(status, 1, said)
+        self.assertRegex(said, why)
+
+    def test_windows(self):
+        for name in "plane", "space":
+            self.refused(name, "too many", lambda w: w[-1].update(to="0x1p65536"))
+            self.refused(name, "too many", lambda w: w[0].update({"from": "-0x1p65536"}))
+        self.refused("exact", "too many", lambda w: w.extend([{**w[0], "to": 3e4}] * 2000))  # one budget for all
+        self.refused("plane", "exponent", lambda w: w[0].update({"from": "-0x1p65537"}))
+
+    def test_exponents(self):
+        for number, why in (("1e99999999999999999999", "no number"), ("1e-99999999999999999999", "gap"), ("1" + "0" * 99999 + "e-100001", "gap")):
+            header, scene, line = kinds.golden(kinds.CASES["exact"])
+            status, said = kinds.run([header, scene, line.replace('"from":-0.25', '"from":-' + number)])
+            self.assertEqual(status, 1, said)
+            self.assertRegex(said, why)
 
 class Forms(unittest.TestCase):
     def hold(self, texts_of_kinds, accepted):

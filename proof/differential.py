@@ -12,7 +12,7 @@ BATCH, FILE = 2000, 20  # records of a batch; of a file, for `golden verify` say
 BUDGET, SECONDS = 2000, 0.2  # what takes more steps, or check.py longer, is left out: hostile proofs are for other tests
 
 def compact(value):
-    return json.dumps(value, separators=(",", ":"))
+    return json.dumps(value, separators=(",", ":"), allow_nan=False)  # ValueError: no way to tamper
 
 def committed():
     """(scene line, record) of all golden sets, but for errors."""
@@ -102,19 +102,21 @@ def by_python(paths):
     signal.signal(signal.SIGPROF, interrupt)
     with contextlib.redirect_stdout(io.StringIO()) as said:
         for path in paths:
-            with contextlib.suppress(Overtime):
+            try:
                 signal.setitimer(signal.ITIMER_PROF, SECONDS, SECONDS)
                 check.check(path)
+            except Overtime:  # between two records: nothing is said of the file
+                print(f"{path}:0: Overtime")
             signal.setitimer(signal.ITIMER_PROF, 0)
     return refused_lines(said.getvalue())
 def by_proof(paths, *options):
     done = subprocess.run([ROOT / "proof" / "check", *options, *paths], capture_output=True, text=True)
-    assert done.returncode in (0, 1), done
+    assert done.returncode in (0, 1), (done.returncode, done.stdout[-300:], done.stderr[-300:])
     return refused_lines(done.stdout)
 def by_program(program, paths):
     """`margin` and `condition` are no longer those of a record that was changed: the proof has passed by then."""
     done = subprocess.run([program, "golden", "verify", *paths], capture_output=True, text=True)
-    assert done.returncode in (0, 1), done
+    assert done.returncode in (0, 1), (done.returncode, done.stdout[-300:], done.stderr[-300:])
     refused = refused_lines(done.stderr)
     return {at: why for at, why in refused.items() if not re.search("its (margin|condition) is another one", why)}
 
@@ -146,7 +148,7 @@ def batch(program, records):
         paths = list(dict.fromkeys(path for path, _ in places))
         says = by_python(paths), by_proof(paths), by_program(program, paths)
         for place, (scene, way, line) in zip(places, records):
-            if "Overtime" in says[0].get(place, ""): continue
+            if any("Overtime" in says[0].get(at, "") for at in (place, (place[0], 0))): continue
             if ALLOWED in says[2].get(place, ""):
                 tally["(a basis that may be refused)", ()] += 1
                 continue
