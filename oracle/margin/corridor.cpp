@@ -116,7 +116,7 @@ class CorridorSearch {
 
  private:
   // Nothing is ever hit in this direction, obstacles being smaller by what `ulps` ulps make across the
-  // corridor (2D) or the plane channel (3D) with the normal G.
+  // corridor (2D) or the plane channel (3D) with the normal G, if these have any width.
   bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
     const ExactQuery<D>& query = query_.query();
     const Velocity<D> velocity{direction, dot(direction, direction)};
@@ -125,7 +125,8 @@ class CorridorSearch {
       View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
       if (G != ZVec<D>{}) {
         const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
-        view.radius -= ceiling(Real(ulps_ * atom.change_along(frame ? mapped_normal(frame->to_ball, G) : G)));
+        const ZVec<D> normal = frame ? mapped_normal(frame->to_ball, G) : G;
+        if (leave_gaps(view, normal)) view.radius -= ceiling(Real(ulps_ * atom.change_along(normal)));
       }
       if (view.radius <= 0) continue;
       view.radius2 = view.radius * view.radius;
@@ -136,6 +137,16 @@ class CorridorSearch {
       if (earliest.found()) return false;
     }
     return true;
+  }
+
+  // Is there room between the obstacles of one atom, in lattice lines or planes with this normal? Their
+  // radius is that of the scene, give or take `ulps` of its ulps: far from the origin ulps of x are large,
+  // and what x could be moved by is no reason for obstacles to shrink and open a way that is nowhere.
+  bool leave_gaps(const View<D>& view, const ZVec<D>& normal) const {
+    Z spacing = 0;  // of the planes, times |normal|
+    for (const LatticePoint<D>& vector : view.basis) spacing = gcd(spacing, Z(dot(normal, vector.p)));
+    const Real width = 2 * real(view.radius) * (1 - ulps_ * 0x1p-52);
+    return width <= 0 || width * width * real(dot(normal, normal)) < real(spacing) * real(spacing);
   }
 
   // Normal to a short vector of the dual lattice: along lattice lines (2D), within lattice planes (3D).

@@ -173,6 +173,27 @@ TEST_CASE("never: an open corridor within a few ulps of v is ill-posed, one besi
   CHECK(drift(5e-324, 1e-322) == Verdict::wrong);  // 20 of its ulps
 }
 
+TEST_CASE("never: far from the origin, where ulps of x are large, no corridor opens that is nowhere",
+          "[oracle][verdict]") {
+  // Along (1, 1) there is none for r > 1 / sqrt(8) = 0.3536, wherever x is; below, x lies in one or within
+  // ulps of it, or does not.
+  const auto verdict = [](double r, double x) {
+    return judged(unit_scene(2, r), {{x + 0.5, 0}, {1, 1}, {}}, Answer::never()).verdict;
+  };
+  for (const int far : {4, 40, 47, 48, 49})
+    for (const double r : {0.354, 0.375, 0.4375}) CHECK(verdict(r, std::ldexp(1, far)) == Verdict::wrong);
+  CHECK(judged(unit_scene(2, 0.5), {{0x1p49 + 0.25, 0}, {1, 1}, {}}, Answer::never()).verdict ==
+        Verdict::wrong);
+  CHECK(judged(unit_scene(2, 0.35), {{0x1p49 + 0.25, 0}, {1, 1}, {}}, Answer::never()).verdict ==
+        Verdict::ill_posed);
+  // In space, within the planes x + y = integer, which are 0.7071 apart.
+  const auto in_space = [](double r) {
+    return judged(unit_scene(3, r), {{0x1p49 + 0.25, 0, 0.5}, {1, -1, 0.34375}, {}}, Answer::never()).verdict;
+  };
+  CHECK(in_space(0.4375) == Verdict::wrong);
+  CHECK(in_space(0.3125) == Verdict::ill_posed);
+}
+
 TEST_CASE("never: whatever lattice line or plane v was rounded from, its corridor is found",
           "[oracle][verdict]") {
   Draw draw(5101);
