@@ -102,6 +102,7 @@ class Output {
 };
 
 int act(const Options& options) {
+  check_apart({{"--csv", options.csv}, {"--html", options.html}, {"--store", options.store}});
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());

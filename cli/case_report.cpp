@@ -85,6 +85,7 @@ std::string CaseFiles::as_typed() const {
 }
 
 void CaseFiles::write(const CaseReport& report) const {
+  check_apart({{"--html", html}, {"--svg", svg}});
   const auto text_for = [&](bool page) {
     if (page) return report::page(json_of(report));
     std::string drawing = drawing_of(report);

@@ -219,6 +219,10 @@ void fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, cons
 }
 
 int act(const Options& options) {
+  check_apart({{"--store", options.store},
+               {"--csv", options.csv},
+               {"--svg", options.svg},
+               {"--density-svg", options.density_svg}});
   const std::vector<Task> tasks = tasks_of(options);
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;

@@ -9,6 +9,7 @@
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
+#include "cli/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -122,6 +123,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
 }
 
 int show(const Options& options, const std::string& id) {
+  check_apart({{"--store", options.store}, {"--html", options.files.html}, {"--svg", options.files.svg}});
   const Store store(options.store, Store::Access::read);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;

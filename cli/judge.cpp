@@ -144,7 +144,7 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
 void simplify(std::vector<judge::Finding>& findings, Examination& examination, double seconds) {
   Shares shares(seconds, findings.size());
   for (judge::Finding& finding : findings)
-    finding.simplest = judge::simplest(finding.simplest, examination, shares.next());
+    finding.simplest = judge::simplest(finding, examination, shares.next());
 }
 
 // ---- Speed

@@ -135,9 +135,13 @@ std::size_t answers(const compare::Tally& t) {
   return t.agree + t.ill_posed + t.wrong;
 }
 
+// Two digits, or all before the point.
+std::string two_digits(double a) {
+  return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
+}
+
 std::string percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? "0 %"
-                    : fmt::format("{:.2g} %", 100 * static_cast<double>(part) / static_cast<double>(whole));
+  return whole == 0 ? "0 %" : two_digits(100 * static_cast<double>(part) / static_cast<double>(whole)) + " %";
 }
 
 // Of all the rows that are hard, or of the others.
@@ -172,9 +176,9 @@ std::string times_text(const std::vector<judge::Row>& rows) {
 
 std::string speed_text(const JudgeReport& report) {
   if (!report.ns_per_query) return "";
-  std::string text = fmt::format("; {:.3g} ns a query", *report.ns_per_query);
+  std::string text = fmt::format("; {} ns a query", two_digits(*report.ns_per_query));
   if (report.ns_of_reduction)
-    text += fmt::format(", {:.2g} x reduction", *report.ns_per_query / *report.ns_of_reduction);
+    text += fmt::format(", {} x reduction", two_digits(*report.ns_per_query / *report.ns_of_reduction));
   return text;
 }
 

@@ -186,6 +186,7 @@ std::vector<Arithmetic> arithmetics_of(const Options& options) {
 }
 
 int act(const Options& options) {
+  check_apart({{"--csv", options.csv}, {"--svg", options.svg}});
   compare::check_name(options.engine);
   if (compare::is_command(options.engine))
     throw InputError(

@@ -244,6 +244,7 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
 }
 
 int act(const Options& options) {
+  check_apart({{"--csv", options.csv}, {"--svg", options.svg}});
   const Journey journey = journey_of(options);
   const Precision precision = precision_of(options);
   if (options.engine) compare::check_name(*options.engine);

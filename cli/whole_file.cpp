@@ -54,4 +54,24 @@ void WholeFile::fail() {
   throw FileError(path_ + ": " + why + "; what was there stands");
 }
 
+namespace {
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const fs::file_status there = fs::status(a, error);
+  if (fs::exists(there) && !fs::is_regular_file(there)) return false;
+  return fs::weakly_canonical(fs::absolute(a), error) == fs::weakly_canonical(fs::absolute(b), error) ||
+         fs::equivalent(a, b, error);
+}
+
+}  // namespace
+
+void check_apart(std::initializer_list<FileOption> options) {
+  for (auto one = options.begin(); one != options.end(); ++one)
+    for (auto other = options.begin(); other != one; ++other)
+      if (one->path && other->path && is_same_file(*one->path, *other->path))
+        throw InputError(std::string(other->name) + " and " + one->name +
+                         " name the same file: " + *one->path + "; give each its own");
+}
+
 }  // namespace lorentz::cli

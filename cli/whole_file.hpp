@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdio>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,5 +33,15 @@ class WholeFile {
   std::string path_, place_, beside_;  // as it was named; without links; where it is written
   std::FILE* file_;
 };
+
+/// An option that names a file to be written, if it was given.
+struct FileOption {
+  const char* name;
+  std::optional<std::string> path;
+};
+
+/// Throws InputError if two options name the same file, of which one would be lost. (Devices and pipes take
+/// both.)
+void check_apart(std::initializer_list<FileOption> options);
 
 }  // namespace lorentz::cli

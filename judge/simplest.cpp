@@ -9,7 +9,8 @@
 namespace lorentz::judge {
 namespace {
 
-bool is_alike(const Example& a, const Example& b) {
+bool is_alike(const Example& a, const Example& b, const std::optional<double>& by_radii) {
+  if (by_radii && a.diagnosis.by_radii > by_radii) return false;
   return a.diagnosis.cause == b.diagnosis.cause && a.diagnosis.severity == b.diagnosis.severity &&
          a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
 }
@@ -17,7 +18,8 @@ bool is_alike(const Example& a, const Example& b) {
 // Does a case go wrong like the example?
 class SameWay {
  public:
-  SameWay(const Example& like, Examination& examination) : like_(like), examination_(examination) {}
+  SameWay(const Finding& finding, Examination& examination)
+      : like_(finding.simplest), by_radii_(finding.by_radii), examination_(examination) {}
 
   bool operator()(const Scene& scene, const Query& query) {
     if (!setting_ || setting_->scene() != scene) {
@@ -27,7 +29,7 @@ class SameWay {
     if (flaw_of(query, scene)) return false;
     const Question question{setting_, query, setting_->oracle().first_hit(query), like_.question.where, ""};
     last_ = examination_.example_of(question);
-    return last_ && is_alike(*last_, like_);
+    return last_ && is_alike(*last_, like_, by_radii_);
   }
 
   double flight() const {
@@ -38,6 +40,7 @@ class SameWay {
 
  private:
   const Example& like_;
+  std::optional<double> by_radii_;
   Examination& examination_;
   std::shared_ptr<Setting> setting_;
   std::optional<Example> last_;
@@ -46,11 +49,12 @@ class SameWay {
 }  // namespace
 
 // A program that gives no answer is not asked thousands of times: it would be given up.
-Example simplest(const Example& example, Examination& examination, double seconds) {
+Example simplest(const Finding& finding, Examination& examination, double seconds) {
   using Clock = std::chrono::steady_clock;
+  const Example& example = finding.simplest;
   if (!example.question.is_query() || example.diagnosis.cause == Cause::no_answer) return example;
   const auto start = Clock::now();
-  SameWay same(example, examination);
+  SameWay same(finding, examination);
   const Scene& scene = example.question.setting->scene();
   if (examination.is_over() || !same(scene, example.question.query)) return example;
   const auto is_up = [&] {

@@ -68,3 +68,17 @@ TEST_CASE("compare that is killed leaves the file of disagreements as it was", "
   folder.run("timeout -s KILL 0.3 " LORENTZ_PROGRAM " compare --count 100000000 --disagreements " + path);
   CHECK(folder.read("d") == "old\n");
 }
+
+TEST_CASE("Two options that name one file are refused, whatever they call it", "[cli][whole_file]") {
+  const Folder folder;
+  const std::string path = folder.write("f", "old\n"), same = folder.file("./f"), other = folder.file("g");
+  std::filesystem::create_symlink(path, folder.file("link"));
+  using cli::check_apart;
+  CHECK_THROWS_WITH(check_apart({{"--csv", path}, {"--svg", other}, {"--html", path}}),
+                    "--csv and --html name the same file: " + path + "; give each its own");
+  CHECK_THROWS_AS(check_apart({{"--csv", path}, {"--html", same}}), InputError);
+  CHECK_THROWS_AS(check_apart({{"--csv", path}, {"--html", folder.file("link")}}), InputError);
+  CHECK_THROWS_AS(check_apart({{"--csv", other}, {"--html", folder.file("./g")}}), InputError);  // none yet
+  CHECK_NOTHROW(check_apart({{"--csv", path}, {"--html", other}, {"--svg", {}}, {"--store", {}}}));
+  CHECK_NOTHROW(check_apart({{"--csv", "/dev/stderr"}, {"--html", "/dev/stderr"}}));
+}

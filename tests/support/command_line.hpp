@@ -39,7 +39,7 @@ class Folder {
     return text.str();
   }
   Run lorentz(const std::string& arguments) const {
-    return run(std::string(LORENTZ_PROGRAM) + " " + arguments);
+    return run(LORENTZ_PROGRAM " " + arguments);
   }
   Run run(const std::string& command) const {
     const int status = std::system((command + " >" + file("out") + " 2>" + file("err")).c_str());

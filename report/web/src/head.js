@@ -13,6 +13,10 @@ const WORDS = {
 
 export function head(report) {
   const engine = report.engine;
+  const says =
+    report.verdict === "right" && report.wrong_time > 0
+      ? "names the right obstacles, some of them at wrong times"
+      : (WORDS[report.verdict] ?? "");
   const state = report.verdict ? verdictOf(report.verdict) : null;
   return h(
     "header",
@@ -33,7 +37,7 @@ export function head(report) {
           state.word,
         ),
       " ",
-      engine ? [h("code", {}, engine), ` ${WORDS[report.verdict] ?? ""}`] : (report.title ?? "Report"),
+      engine ? [h("code", {}, engine), ` ${says}`] : (report.title ?? "Report"),
     ),
     h("p", { class: "verdict-line" }, report.line || benchLine(report)),
     figures(report),

@@ -6,7 +6,7 @@ import { count, percent } from "../numbers.js";
 import { FAULTS, verdictOf } from "../verdicts.js";
 
 export function difficultiesChart(report) {
-  const rows = report.difficulties ?? [];
+  const rows = (report.difficulties ?? []).filter((row) => row.queries > (row.unsupported ?? 0));
   const points = rows.flatMap((row) =>
     FAULTS.filter(([key]) => row[key] > 0 && row.queries > 0).map(([key, verdict]) => ({
       row,
@@ -63,7 +63,7 @@ export function difficultiesChart(report) {
         ],
       })),
       legend: seen.map((v) => ({ name: v.word, look: { colour: v.colour, symbol: v.symbol, dash: "" } })),
-      summary: `Of ${names.length} kinds of query ${rows.filter((r) => FAULTS.every(([key]) => !r[key])).length} were answered without a fault. The most that is wrong: ${worst(rows)}.`,
+      summary: `Of ${names.length} kinds of query that it was asked ${rows.filter((r) => FAULTS.every(([key]) => !r[key])).length} were answered without a fault. The most that is wrong: ${worst(rows)}.`,
       numbers: {
         columns: ["difficulty", "verdict", "count", "queries", "share"],
         rows: points.map((p) => [p.row.name, p.verdict.word, p.count, p.row.queries, p.share]),
