@@ -38,9 +38,7 @@ class Folder {
     text << std::ifstream(path_ / name).rdbuf();
     return text.str();
   }
-  Run lorentz(const std::string& arguments) const {
-    return run(LORENTZ_PROGRAM " " + arguments);
-  }
+  Run lorentz(const std::string& arguments) const { return run(LORENTZ_PROGRAM " " + arguments); }
   Run run(const std::string& command) const {
     const int status = std::system((command + " >" + file("out") + " 2>" + file("err")).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
