@@ -32,8 +32,9 @@ std::vector<Predicate> plain_predicates() {
 using Quantity = double Features::*;
 
 // "below 1e-9", with the least power of ten that all failing questions are below; nothing if one has no such
-// quantity.
-std::optional<Predicate> below(const std::vector<Features>& failing, Quantity quantity, const char* text) {
+// quantity, or if that power says nothing.
+std::optional<Predicate> below(const std::vector<Features>& failing, Quantity quantity, const char* text,
+                               double says_nothing = std::numeric_limits<double>::infinity()) {
   double most = 0;
   for (const Features& f : failing) {
     if (!(f.*quantity >= 0)) return std::nullopt;
@@ -41,6 +42,7 @@ std::optional<Predicate> below(const std::vector<Features>& failing, Quantity qu
   }
   if (!(most > 0) || !std::isfinite(most)) return std::nullopt;
   const double limit = std::pow(10, std::floor(std::log10(most)) + 1);
+  if (limit >= says_nothing) return std::nullopt;
   return Predicate{fmt::format(fmt::runtime(text), limit),
                    [=](const Features& f) { return f.*quantity < limit; }};
 }
@@ -61,7 +63,7 @@ std::optional<Predicate> from(const std::vector<Features>& failing, Quantity qua
 std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
   std::vector<Predicate> all = plain_predicates();
   if (auto depth = below(failing, &Features::depth,
-                         "where the line enters the obstacle by less than {:g} of its radii")) {
+                         "where the line enters the obstacle by less than {:g} of its radii", 1)) {
     depth->is_of_depth = true;
     all.push_back(*depth);
   }

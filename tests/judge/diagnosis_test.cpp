@@ -107,6 +107,15 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   failing.resize(3, failing[0]);
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->is_of_depth);
+  // Less than a whole radius is every obstacle entered: that says nothing, even if it tells them apart.
+  for (Features& f : right) f.depth = std::nan("");
+  for (Features& f : failing) f.depth = 0.4;
+  failing[0].flight = 5e3, failing[1].in_space = false;
+  failing.resize(8, failing[0]);
+  CHECK_FALSE(circumstance_of(failing, right));
+  for (Features& f : failing) f.depth = 0.04;
+  REQUIRE(circumstance_of(failing, right));
+  CHECK(circumstance_of(failing, right)->is_of_depth);
 }
 
 TEST_CASE("Findings of one cause are one, the simplest case in front, the worst cause first",
