@@ -1,0 +1,32 @@
+// The simplest case of a finding goes wrong in the finding's own way.
+#include "judge/simplest.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lorentz;
+using namespace lorentz::judge;
+
+TEST_CASE("The simplest case is simpler, of the same cause, and no deeper than what was met",
+          "[judge][simplest]") {
+  // `published` may pass over a disc on its way from one: here over (1, 1), which the line enters by 0.018
+  // radii.
+  const std::atomic<bool> stop = false;
+  Examination examination("published", {}, 4, stop);
+  const auto setting = std::make_shared<Setting>(unit_scene(2, 0.5));
+  const Query query{{-0.25, 0, 0}, {2, 0.7601234567, 0}, ObstacleId{0, 0, {0, 0, 0}}};
+  const auto example =
+      examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
+  REQUIRE(example);
+  REQUIRE(example->diagnosis.by_radii);
+  Finding finding{*example, "here", 1, example->diagnosis.by_radii};
+  constexpr double kSeconds = 60;  // the shrinker ends by its number of tries
+  const Example kept = simplest(finding, examination, kSeconds);
+  CHECK(kept.diagnosis.cause == example->diagnosis.cause);
+  CHECK(kept.diagnosis.by_radii <= finding.by_radii);
+  CHECK(kept.question.query.v[1] != query.v[1]);
+
+  finding.by_radii = 1;  // others were met deeper
+  const Example free = simplest(finding, examination, kSeconds);
+  CHECK(free.diagnosis.cause == example->diagnosis.cause);
+  CHECK(free.diagnosis.by_radii > example->diagnosis.by_radii);
+}
