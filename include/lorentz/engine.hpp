@@ -15,16 +15,24 @@
 
 namespace lorentz {
 
+/// Components of a velocity that are smaller, scaled as a Ray's, may have lost digits.
+inline constexpr double kTinyComponent = 0x1p-450;
+
 /// A flight as the engines take it: the velocity scaled by a power of two so that its largest component lies
 /// in [1, 2), which avoids needless overflow and underflow.
 struct Ray {
   const Vec& x;
   const Vec& v;
   const ObstacleId* from;  ///< or null
-  bool tiny_component;     ///< of v, below kTinyComponent but not zero: it may have lost digits, even all
-};
+  const Vec& given_v;      ///< the velocity before it was scaled
 
-inline constexpr double kTinyComponent = 0x1p-450;
+  /// Is a component of v below kTinyComponent, but not zero as given? It may have lost digits, even all.
+  bool has_tiny_component() const {
+    bool tiny = false;
+    for (int i = 0; i < 3; ++i) tiny |= given_v[i] != 0 && std::fabs(v[i]) < kTinyComponent;
+    return tiny;
+  }
+};
 
 /// Of an exponent of normal numbers.
 inline double power_of_two(int exponent) {
@@ -35,7 +43,6 @@ inline double power_of_two(int exponent) {
 struct ScaledVelocity {
   Vec scaled;
   int exponent;
-  bool tiny_component = false;  ///< as in Ray
 
   explicit ScaledVelocity(const Vec& v) {
     const double a = std::fabs(v[0]), b = std::fabs(v[1]), c = std::fabs(v[2]), ab = a > b ? a : b;
@@ -47,7 +54,6 @@ struct ScaledVelocity {
     }
     const double factor = power_of_two(-exponent);
     scaled = {v[0] * factor, v[1] * factor, v[2] * factor};
-    for (int i = 0; i < 3; ++i) tiny_component |= v[i] != 0 && std::fabs(scaled[i]) < kTinyComponent;
   }
 
  private:
@@ -102,7 +108,7 @@ class Engine {
       return;
     }
     const ScaledVelocity velocity(query.v);
-    fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, velocity.tiny_component},
+    fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v},
         scaled_time(max_time, velocity.exponent), answer);
     if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
     if (std::isfinite(max_time)) answer = limited(std::move(answer), max_time);

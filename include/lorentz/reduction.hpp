@@ -107,9 +107,8 @@ class Reduction : public Engine {
 class Reduction::Direction {
  private:
   friend class Reduction;
-  Vec scaled_v_{};
+  Vec v_{}, scaled_v_{};
   int exponent_ = 0;
-  bool tiny_component_ = false;
   std::shared_ptr<const AtomDirections> atoms_;
 };
 

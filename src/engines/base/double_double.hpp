@@ -87,6 +87,22 @@ inline DoubleDouble<Arch> add_product(DoubleDouble<Arch> sum, DoubleDouble<Arch>
   return DD::ordered_sum(s.hi, s.lo + (sum.lo + (p.lo + a.lo * b)));
 }
 
+/// a b alone: what add_product makes of a sum of zero.
+template <class Arch>
+inline DoubleDouble<Arch> first_product(DoubleDouble<Arch> a, double b) {
+  using DD = DoubleDouble<Arch>;
+  const DD p = DD::product(a.hi, b);
+  return DD::ordered_sum(p.hi, p.lo + a.lo * b);
+}
+
+/// sum + a b, where a has no low part.
+template <class Arch>
+inline DoubleDouble<Arch> add_product(DoubleDouble<Arch> sum, double a, double b) {
+  using DD = DoubleDouble<Arch>;
+  const DD p = DD::product(a, b), s = DD::sum(sum.hi, p.hi);
+  return DD::ordered_sum(s.hi, s.lo + (sum.lo + p.lo));
+}
+
 /// For what need not be fast.
 using Wide = DoubleDouble<SplitProduct>;
 

@@ -6,10 +6,7 @@ namespace lorentz {
 
 void ScaledVelocity::set_extreme(const Vec& v, double largest) {
   exponent = std::ilogb(largest);
-  for (int i = 0; i < 3; ++i) {
-    scaled[i] = std::scalbn(v[i], -exponent);
-    tiny_component |= v[i] != 0 && std::fabs(scaled[i]) < kTinyComponent;
-  }
+  for (int i = 0; i < 3; ++i) scaled[i] = std::scalbn(v[i], -exponent);
 }
 
 void Engine::first_hit(const Query& query, double max_time, Answer& answer) const {

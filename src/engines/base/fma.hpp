@@ -1,6 +1,6 @@
 // The error of a product, exactly: by one fused multiply-add where the processor has it, by splitting the
 // factors where it has not. Both give the same bits, so code written against either gives the same answers;
-// it is compiled once for each (see reduction.cpp) and chosen when the program starts.
+// it is compiled once for each (reduction/kernels_*.cpp) and chosen when the program starts.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// One vector of queries from start to end, in lanes: src/engines/reduction/reduction.cpp and
+// One vector of queries from start to end, in lanes: src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_BLOCK_INL_HPP

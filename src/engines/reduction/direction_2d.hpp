@@ -22,10 +22,11 @@ struct Arm2 {
 
   double D_error = 0, S_error = 0;
 
-  template <class Arch>
+  /// kExact: D is exact, and has no low part.
+  template <class Arch, bool kExact>
   void subtract(double k, const Arm2& other) {
     D = Arch::remainder(D, k, other.D);
-    D_low -= k * other.D_low;
+    if constexpr (!kExact) D_low -= k * other.D_low;
     n[0] += k * other.n[0];
     n[1] += k * other.n[1];
   }
@@ -35,13 +36,13 @@ struct Arm2 {
 /// stands for the shape's condition. |N| |v| <= c |w|, so w errs by at most 3 c u |w|, rho by (3 c + 5) u
 /// rho, and s by 16 c u |N| |w| |d|, all steps of its sum included.
 struct WidthOfShape {
-  double along[2]{};
-  double along_error = 0;  ///< of s for a vector of size 1
-  double rho_error = 0;    ///< of rho, relative
-  double slack_scale = 1;  ///< the slack is (rho^2 - h^2) times this
-  double skew = 0;         ///< s v.v = (v . d) v2 + h skew
-  double euclidean_v2 = 0;
-  double v2 = 0, rho = 0, s_rho = 0;  ///< as in Direction2
+  double along[2];
+  double along_error;  ///< of s for a vector of size 1
+  double rho_error;    ///< of rho, relative
+  double slack_scale;  ///< the slack is (rho^2 - h^2) times this
+  double skew;         ///< s v.v = (v . d) v2 + h skew
+  double euclidean_v2;
+  double v2, rho, s_rho;  ///< as in Direction2
 
   void set(const Shape& ellipsoid, const Vec& v) {
     const Vec* N = ellipsoid.to_ball;
@@ -119,7 +120,7 @@ struct Direction2 {
     } else {
       for (int i = 0; i < 2; ++i) {
         const DD x(lattice.basis[i][0]), y(lattice.basis[i][1]);
-        H[i] = Wide(add_product(add_product(DD(0.0), y, v[0]), x, -v[1]));
+        H[i] = Wide(add_product(first_product(y, v[0]), x, -v[1]));
         M[i] = std::fabs(v[0] * y.hi) + std::fabs(v[1] * x.hi) + kBasisInHeight * lattice.basis_error;
         S[i] = sum_of_products(along_of(0), x.hi, along_of(1), y.hi);
         if constexpr (!kBall) size_of[i] = std::fabs(x.hi) + std::fabs(y.hi);
@@ -174,12 +175,12 @@ struct Direction2 {
   void euclid() {
     Arm2 larger = R, smaller = L;
     while (goes_on(smaller)) {
-      larger.template subtract<Arch>(std::floor(larger.D / smaller.D), smaller);
+      larger.template subtract<Arch, kUnit>(std::floor(larger.D / smaller.D), smaller);
       if (!goes_on(larger)) {
         R = smaller, L = larger, sigma = -sigma;
         return;
       }
-      smaller.template subtract<Arch>(std::floor(smaller.D / larger.D), larger);
+      smaller.template subtract<Arch, kUnit>(std::floor(smaller.D / larger.D), larger);
     }
     R = larger, L = smaller;
   }
@@ -192,7 +193,7 @@ struct Direction2 {
     if (!(along_arm(L) < 0)) return;
     const double k = std::floor(R.D / L.D);
     usable = k < kMaxBackwardQuotient;
-    R.subtract<Arch>(k, L);
+    R.subtract<Arch, kUnit>(k, L);
     swap_arms();
   }
 
@@ -221,13 +222,14 @@ struct Direction2 {
   void finish(const Bravais& lattice) {
     for (Arm2* arm : {&R, &L}) {
       arm->S = along_arm(*arm);
-      if (!kBall)
+      if constexpr (!kBall)
         arm->S_error =
             shape.along_error * (std::fabs(arm->n[0]) * size_of[0] + std::fabs(arm->n[1]) * size_of[1]);
       if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
       const bool forward = arm->S >= 0 || (kUnit && !kBall && arm == &R);
-      usable = usable && forward && L.D < passable && std::fabs(arm->n[0]) < kMaxCoefficient &&
-               std::fabs(arm->n[1]) < kMaxCoefficient;
+      usable = usable && forward && L.D < passable;
+      if (!kTurned || arm == &L)  // in the first octant coefficients grow with each step
+        usable = usable && std::fabs(arm->n[0]) < kMaxCoefficient && std::fabs(arm->n[1]) < kMaxCoefficient;
     }
     usable = usable && knows_slope(lattice);
     inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);

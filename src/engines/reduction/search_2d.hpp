@@ -69,7 +69,7 @@ class Search2 {
   // products leave the exact integers, and multiply what errors D_R and D_L have.
   bool set_anchor() {
     const Arm2 &R = to_.R, &L = to_.L;
-    const DD h = add_product(add_product(DD(0.0), DD(offset_.d[1]), to_.v[0]), DD(offset_.d[0]), -to_.v[1]);
+    const DD h = height_of_home();
     const double size = std::fabs(offset_.d[0].hi) + std::fabs(offset_.d[1].hi);
     y_ = to_.sigma * h.hi;
     y_error_ = kRoundoff * std::fabs(y_) + kForm * offset_.error + kAnchorTerms * size + kFlushed;
@@ -101,6 +101,13 @@ class Search2 {
     s_ += sum_of_products(anchor_[0], to_.S[0], anchor_[1], to_.S[1]);
     s_error_ += kAlong * kRoundoff * along;
     return true;
+  }
+
+  DD height_of_home() const {
+    if constexpr (kUnit)
+      return add_product(DD::product(offset_.d[1].hi, to_.v[0]), offset_.d[0].hi, -to_.v[1]);
+    else
+      return add_product(first_product(DD(offset_.d[1]), to_.v[0]), DD(offset_.d[0]), -to_.v[1]);
   }
 
   double along(int k) const {
@@ -140,8 +147,8 @@ class Search2 {
   Look look_at(double n, double m) {
     const Arm2 &R = to_.R, &L = to_.L;
     const double h = height_in_row(y_, n, R.D, m, L.D);
-    const double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) +
-                         y_error_ + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
+    double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) + y_error_;
+    if constexpr (!kUnit) error = error + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
     const double s = sum_along(s_, n, R.S, m, L.S);
     double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
     if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;

@@ -1,0 +1,73 @@
+// The compiled forms of a flight: which there are, and the one that serves a scene. Private to the reduction
+// engine.
+#pragma once
+
+#include <memory>
+
+#include <lorentz/reduction.hpp>
+#include "src/engines/reduction/bravais.hpp"
+
+namespace lorentz {
+
+/// What a kernel is asked.
+struct Task {
+  const PreparedScene& scene;
+  const Vec& x;  ///< in the scene's scaled lengths
+  const Vec& v;  ///< in [1, 2)
+  const ObstacleId* from;
+  double max_time;
+  const AtomDirections* directions;  ///< of each atom, or null: then they are made here
+  Reduction::Time time;
+};
+
+using FlightKernel = void (*)(const Task&, Flight&);
+using DirectionsKernel = std::shared_ptr<const AtomDirections> (*)(const PreparedScene&, const Vec&);
+
+/// What runs for a scene, on one kind of processor.
+struct Kernels {
+  FlightKernel fly = nullptr;
+  DirectionsKernel directions = nullptr;
+};
+
+/// For processors with a fused multiply-add, and for all; the same bits. (Each is a file of its own, since
+/// there are a dozen kernels in it.)
+Kernels kernels_with_fma(const PreparedScene& scene);
+Kernels kernels_without_fma(const PreparedScene& scene);
+
+inline void give_up(Flight& flight) {
+  flight.outcome = Outcome::undecided;
+  flight.stage = Stage::undecided;
+}
+
+/// The smallest model that serves a scene; each for balls, and for scenes with ellipsoids.
+enum class SceneModel {
+  unit,      ///< one square or cubic lattice of spacing 1, an obstacle at the origin
+  one_atom,  ///< one obstacle in any cell
+  several    ///< several atoms, in one lattice or several
+};
+
+inline SceneModel model_of(const PreparedScene& scene) {
+  if (scene.atoms.size() > 1) return SceneModel::several;
+  return scene.atoms[0].unit ? SceneModel::unit : SceneModel::one_atom;
+}
+
+/// make.operator()<dimension, model, are all obstacles balls>() for a scene.
+template <int D, bool kBall, class Make>
+auto for_model(const PreparedScene& scene, const Make& make) {
+  switch (model_of(scene)) {
+    case SceneModel::unit:
+      return make.template operator()<D, SceneModel::unit, kBall>();
+    case SceneModel::one_atom:
+      return make.template operator()<D, SceneModel::one_atom, kBall>();
+    default:
+      return make.template operator()<D, SceneModel::several, kBall>();
+  }
+}
+template <class Make>
+auto for_scene(const PreparedScene& scene, const Make& make) {
+  if (scene.atoms[0].dimension == 2)
+    return scene.ellipsoids ? for_model<2, false>(scene, make) : for_model<2, true>(scene, make);
+  return scene.ellipsoids ? for_model<3, false>(scene, make) : for_model<3, true>(scene, make);
+}
+
+}  // namespace lorentz

@@ -1,0 +1,20 @@
+// The kernels for processors with a fused multiply-add.
+#include "src/engines/reduction/scene_flight.hpp"
+
+namespace lorentz {
+namespace {
+
+template <int D, SceneModel kModel, bool kBall>
+[[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
+  fly_with<HardwareFma, D, kModel, kBall>(task, flight);
+}
+
+}  // namespace
+
+Kernels kernels_with_fma(const PreparedScene& scene) {
+  Kernels kernels = kernels_without_fma(scene);
+  for_scene(scene, [&]<int D, SceneModel kModel, bool kBall>() { kernels.fly = fly_fma<D, kModel, kBall>; });
+  return kernels;
+}
+
+}  // namespace lorentz

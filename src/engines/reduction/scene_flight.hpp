@@ -1,0 +1,151 @@
+// A flight among all the atoms of a scene: among one, or the earliest among several. Private to the reduction
+// engine, which compiles it for processors with the fused multiply-add and for those without.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "src/engines/reduction/flight_kernel.hpp"
+#include "src/engines/reduction/kernels.hpp"
+
+namespace lorentz {
+
+/// A velocity as seen from each atom. What that is depends on the scene's model, which knows.
+struct AtomDirections {};
+
+template <class Item>
+struct DirectionsOfModel : AtomDirections {
+  std::vector<Item> items;
+};
+
+template <class Item>
+const Item& direction_of(const AtomDirections& directions, std::size_t atom) {
+  return static_cast<const DirectionsOfModel<Item>&>(directions).items[atom];
+}
+
+template <class AtomFlight>
+inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) {
+  if (task.time == Reduction::Time::close) {
+    flight.time = found.time(task.v).close();
+    return;
+  }
+  double error;
+  const Wide t = found.time(task.v).rare(error);
+  flight.time = t.hi + (t.lo + error);
+  flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
+}
+
+/// One atom in the scene.
+template <class Arch, int D, bool kUnit, bool kBall>
+inline void fly_one(const Task& task, Flight& flight) {
+  const Bravais& lattice = task.scene.atoms[0];
+  using Direction = AtomDirection<D, kUnit, kBall>;
+  AtomFlight<Arch, D, kUnit, kBall> atom;
+  if (!atom.start(lattice, task.x)) return give_up(flight);
+  const Decision inside = atom.inside(task.from);
+  if (inside == Decision::doubtful) return give_up(flight);
+  if (inside == Decision::no) {
+    if (task.directions)
+      atom.find(direction_of<Direction>(*task.directions, 0), task.from, task.max_time);
+    else
+      atom.find(Direction(Arch{}, lattice, task.v), task.from, task.max_time);
+    flight.outcome = atom.outcome;
+  } else {
+    flight.outcome = Outcome::inside;
+  }
+  flight.stage = atom.stage;
+  const bool named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
+  if (named && !atom.cell(flight.cell)) return give_up(flight);
+  if (flight.outcome == Outcome::hit) set_time(atom, task, flight);
+}
+
+// Is one hit before the other? Binary64, then double-double.
+template <class OneFlight>
+inline Decision is_sooner(const OneFlight& one, const OneFlight& other, const Vec& v, Stage& stage) {
+  double error, other_error;
+  const double difference = other.rough_time(other_error) - one.rough_time(error);
+  const Decision decision = is_positive(difference, error + other_error);
+  if (decision != Decision::doubtful) return decision;
+  stage = std::max(stage, Stage::double_double);
+  const Wide close = other.time(v).rare(other_error) - one.time(v).rare(error);
+  return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
+}
+
+/// The flights of several atoms: those of the first few are kept from the inside tests for the searches.
+template <class OneFlight>
+class AtomFlights {
+ public:
+  /// The flight of this atom, started; null if the start is too far away.
+  OneFlight* started(std::size_t atom, const Task& task) {
+    OneFlight& flight = atom < kKept ? kept_[atom] : other_;
+    return atom < started_ || flight.start(task.scene.atoms[atom], task.x) ? &flight : nullptr;
+  }
+  /// From now on those that are kept need not be started again.
+  void keep() { started_ = kKept; }
+
+ private:
+  static constexpr std::size_t kKept = 6;
+  OneFlight kept_[kKept], other_;
+  std::size_t started_ = 0;
+};
+
+/// Several atoms, in one lattice or several: the earliest of their hits.
+template <class Arch, int D, bool kBall>
+inline void fly_several(const Task& task, Flight& flight) {
+  using OneFlight = AtomFlight<Arch, D, false, kBall>;
+  using Direction = AtomDirection<D, false, kBall>;
+  const std::vector<Bravais>& atoms = task.scene.atoms;
+  AtomFlights<OneFlight> flights;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {  // the smallest obstacle that contains x
+    OneFlight* one = flights.started(a, task);
+    if (!one) return give_up(flight);
+    const Decision inside = one->inside(task.from);
+    flight.stage = std::max(flight.stage, one->stage);
+    if (inside == Decision::no) continue;
+    if (inside == Decision::doubtful) return give_up(flight);
+    flight.outcome = Outcome::inside;
+    flight.lattice = atoms[a].lattice, flight.atom = atoms[a].atom;
+    if (!one->cell(flight.cell)) give_up(flight);
+    return;
+  }
+  flights.keep();
+  flight.outcome = Outcome::never;
+  OneFlight best;
+  const Bravais* best_lattice = nullptr;
+  std::optional<Direction> own;
+  double limit = task.max_time;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    if (!task.directions) Direction::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
+    const Direction& to = task.directions ? direction_of<Direction>(*task.directions, a) : *own;
+    OneFlight* next = flights.started(a, task);
+    if (!next) return give_up(flight);
+    next->find(to, task.from, limit);
+    flight.stage = std::max(flight.stage, next->stage);
+    if (next->outcome == Outcome::undecided) return give_up(flight);
+    if (next->outcome == Outcome::never) continue;
+    const Decision sooner = best_lattice ? is_sooner(*next, best, task.v, flight.stage) : Decision::yes;
+    if (sooner == Decision::doubtful) return give_up(flight);
+    if (sooner == Decision::no) continue;
+    best = *next, best_lattice = &atoms[a];
+    double error;
+    const double time = next->rough_time(error);
+    limit = std::min(limit, time + error);
+  }
+  if (!best_lattice) return;
+  flight.outcome = Outcome::hit;
+  flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
+  if (!best.cell(flight.cell)) return give_up(flight);
+  set_time(best, task, flight);
+}
+
+template <class Arch, int D, SceneModel kModel, bool kBall>
+inline void fly_with(const Task& task, Flight& flight) {
+  if constexpr (kModel == SceneModel::several)
+    fly_several<Arch, D, kBall>(task, flight);
+  else
+    fly_one<Arch, D, kModel == SceneModel::unit, kBall>(task, flight);
+}
+
+}  // namespace lorentz
