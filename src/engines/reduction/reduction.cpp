@@ -52,6 +52,8 @@ Model model_of(const PreparedScene& scene) {
 bool has_fma() {
 #if defined(__x86_64__)
   return __builtin_cpu_supports("fma");
+#elif defined(__FP_FAST_FMA)
+  return true;
 #else
   return false;
 #endif
@@ -218,7 +220,7 @@ std::shared_ptr<const AtomDirections> directions_for(const PreparedScene& scene,
 }
 
 template <Time kTime, int D, Model kModel, bool kBall>
-[[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
+[[LORENTZ_WITH_FMA]] void fly_fma(const Task& task, Flight& flight) {
   fly_with<kTime, HardwareFma, D, kModel, kBall>(task, flight);
 }
 
