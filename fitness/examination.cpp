@@ -12,17 +12,16 @@ namespace {
 // How many digests are not those that are known, and the first of them by name.
 Finding examine_digests() {
   const std::vector<Digest> found = digests(kKnownFlights), &known = known_digests();
-  Finding finding{"digests of seeded flights", found.size() == known.size(), "", {Use::engines}};
-  std::size_t others = 0;
-  for (std::size_t i = 0; finding.fit && i < found.size(); ++i) {
-    if (found[i] == known[i]) continue;
-    finding.found += (others++ == 0 ? ", first of " : "") + (others == 1 ? found[i].name : "");
-  }
-  finding.fit = finding.fit && others == 0;
-  const std::string all = std::to_string(known.size());
-  finding.found = finding.fit ? "all " + all + " as known"
-                              : std::to_string(others) + " of " + all + " differ" + finding.found;
-  return finding;
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (i >= known.size() || !(found[i] == known[i])) others.push_back(found[i].name);
+  const std::string all = std::to_string(found.size());
+  return {"digests of seeded flights",
+          others.empty(),
+          others.empty()
+              ? "all " + all + " as known"
+              : std::to_string(others.size()) + " of " + all + " differ, first of them: " + others[0],
+          {Use::engines}};
 }
 
 }  // namespace
