@@ -1,24 +1,21 @@
 #include "cli/app.hpp"
 
-#include <CLI/Version.hpp>
 #include <cerrno>
 #include <cstring>
 #include <iostream>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/oracle.hpp>
-#include <lorentz/walk.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
+#include "cli/versions.hpp"
 #include "compare/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 std::string versions() {
-  return fmt::format("lorentz {}\nexchange format 1\n{}\n{}\n{}\nCLI11 {}\nfmt {}.{}.{}", LORENTZ_VERSION,
-                     oracle::oracle_libraries(), oracle::walk_libraries(), exchange_libraries(),
-                     CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+  return fmt::format("lorentz {}\nexchange format 1\n{}", LORENTZ_VERSION,
+                     fmt::join(library_versions(), "\n"));
 }
 
 // A subcommand, and what it is called on the command line.
@@ -139,6 +136,7 @@ int run(int argc, char** argv) {
   add_survival(app, action);
   add_lyapunov(app, action);
   add_diffusion(app, action);
+  add_doctor(app, action);
   app.footer(
       statuses +
       "\nExample: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"

@@ -26,6 +26,7 @@ void add_diffusion(CLI::App& app, Action& action);
 void add_fuzz(CLI::App& app, Action& action);
 void add_judge(CLI::App& app, Action& action);
 void add_golden(CLI::App& app, Action& action);
+void add_doctor(CLI::App& app, Action& action);
 
 /// The shell line that this program was called with.
 const std::string& command_line();

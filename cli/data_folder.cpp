@@ -27,9 +27,10 @@ std::vector<fs::path> data_folders() {
   }
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
+    // Installed; first, for /usr/bin/../../data would be somebody else's.
+    folders.push_back(program.parent_path() / "../share/lorentz");
     folders.push_back(program.parent_path() / "../data");
     folders.push_back(program.parent_path() / "../../data");
-    folders.push_back(program.parent_path() / "../share/lorentz");  // installed
   }
   return folders;
 }

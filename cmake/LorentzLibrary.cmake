@@ -3,13 +3,18 @@
 # Floating point, pinned. The binary64 engines are specified operation by operation: if the compiler fuses a*b + c on its
 # own, or reorders sums, the same source gives other bits on another machine, and an error bound derived for two
 # roundings no longer describes the program. So: no contraction (an fma is written where one is meant), no fast-math,
-# SSE arithmetic on x86 (the default there), and no -march=native.
+# SSE arithmetic on x86 (the default there), and no -march=native. docs/determinism.md tells how each was found:
+#  - after -fno-fast-math, for clang's takes the contraction that was asked for back;
+#  - GCC's vectorizer fuses pairs of a difference and a sum whatever -ffp-contract says (x86 with FMA), so none of it. What
+#    vectors are worth it for is written in vectors (src/engines/batch); the searches of `reduction` were a fifth slower
+#    with it, for numbers that are stored and loaded at different widths wait for each other.
+# PRIVATE, all of it: who uses the library compiles as he likes, and the public headers' arithmetic is not the library's.
 function(lorentz_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math -Wall -Wextra -Wpedantic
+  target_compile_options(${target} PRIVATE -fno-fast-math -ffp-contract=off -Wall -Wextra -Wpedantic
     # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651).
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict>)
   # Headers are named by their path from the root: "oracle/exact/quadratic.hpp"; public ones <lorentz/oracle.hpp>.
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()

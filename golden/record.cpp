@@ -1,5 +1,6 @@
 #include "golden/record.hpp"
 
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
 
 #include <stdexcept>
@@ -128,6 +129,10 @@ void append_record_line(std::string& out, const Record& record, int dimension) {
   }
   if (record.certificate) append_certificate(out, *record.certificate, dimension);
   out += "}\n";
+}
+
+std::string record_libraries() {
+  return std::string("OpenSSL ") + OpenSSL_version(OPENSSL_VERSION_STRING);
 }
 
 }  // namespace lorentz::golden

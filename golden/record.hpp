@@ -46,4 +46,7 @@ inline constexpr int kDigits = 40;
 void append_header_line(std::string& out, const Header& header);
 void append_record_line(std::string& out, const Record& record, int dimension);
 
+/// The library that ids are made by, and its version.
+std::string record_libraries();
+
 }  // namespace lorentz::golden

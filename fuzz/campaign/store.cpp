@@ -384,4 +384,8 @@ void StoreJournal::tick() {
   if (Impl::Clock::now() - impl_->last_commit >= Impl::kBetweenCommits) impl_->write();
 }
 
+std::string store_libraries() {
+  return std::string("SQLite ") + sqlite3_libversion();
+}
+
 }  // namespace lorentz::fuzz

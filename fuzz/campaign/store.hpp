@@ -91,4 +91,7 @@ class StoreJournal final : public Journal {
 /// stores, if they are not shards of the same campaigns, or one is named twice.
 void merge(const std::vector<std::string>& paths, Store& into);
 
+/// The library that stores are kept by, and its version.
+std::string store_libraries();
+
 }  // namespace lorentz::fuzz

@@ -132,4 +132,7 @@ class Batch {
   std::unique_ptr<const Inside> inside_;
 };
 
+/// The libraries that the batch engine computes with, and their versions.
+std::string batch_libraries();
+
 }  // namespace lorentz

@@ -1,6 +1,9 @@
 // Elementary geometry in plain binary64: products, a line and a ball, coordinates in a cell or an ellipsoid.
 // Each is the textbook formula, rounded at every step: what it errs by is for the caller to know. To have the
 // same bits everywhere, compile without contraction (-ffp-contract=off).
+//
+// Always inline: of a function that is not, the linker keeps one copy of all, and the library would compute
+// with that of a program that was compiled with -ffast-math.
 #pragma once
 
 #include <algorithm>
@@ -11,31 +14,31 @@
 
 namespace lorentz {
 
-inline double dot(const Vec& a, const Vec& b) {
+[[gnu::always_inline]] inline double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-inline Vec cross(const Vec& a, const Vec& b) {
+[[gnu::always_inline]] inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-inline Vec sum(const Vec& a, const Vec& b) {
+[[gnu::always_inline]] inline Vec sum(const Vec& a, const Vec& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-inline Vec scaled(const Vec& a, double factor) {
+[[gnu::always_inline]] inline Vec scaled(const Vec& a, double factor) {
   return {a[0] * factor, a[1] * factor, a[2] * factor};
 }
 
 /// The square root of a.a, which may overflow or underflow where the length itself does not.
-inline double length(const Vec& a) {
+[[gnu::always_inline]] inline double length(const Vec& a) {
   return std::sqrt(dot(a, a));
 }
 
 /// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
 /// quadratic t = -B - sqrt(B^2 - C), B = x.v / v^2, C = (x^2 - r^2) / v^2; may be negative; nothing if B^2 <
 /// C.
-inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
+[[gnu::always_inline]] inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
   const double v2 = dot(v, v);
   const double B = dot(x, v) / v2;
   const double C = (dot(x, x) - r * r) / v2;
@@ -46,7 +49,7 @@ inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
 
 /// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
 /// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.
-inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
+[[gnu::always_inline]] inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
   double largest = 0;
   for (int i = 0; i < dimension; ++i)
     for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
@@ -65,7 +68,7 @@ inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
 
 /// The columns of A of an obstacle { position + A y : |y| < 1 }; a ball's are its radius times the axes. In
 /// 2D the third is zero.
-inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
+[[gnu::always_inline]] inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
   std::array<Vec, 3> columns{};
   for (int i = 0; i < dimension; ++i) {
     if (atom.is_ball())
@@ -77,7 +80,7 @@ inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
 }
 
 /// (dual_1 . a, dual_2 . a, dual_3 . a): the coordinates of a.
-inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
+[[gnu::always_inline]] inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
   return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};
 }
 

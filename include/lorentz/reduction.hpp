@@ -27,7 +27,8 @@ struct AtomDirections;  // of the engine's inside: a velocity as seen from each 
 ///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The same bits on every processor that computes in IEEE 754 binary64, with a fused multiply-add or
 ///     without, if it is compiled without contraction and fast-math, as this project's build files do.
-///     held by "The reduction engine agrees with the oracle on drawn and constructed cases"
+///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
+///             "lorentz doctor finds this machine fit, and says what it looked at"
 ///  4. The same bits along a prepared direction as without.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "A prepared direction keeps the limit, at any speed"

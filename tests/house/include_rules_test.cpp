@@ -141,12 +141,22 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "src/engines/batch"},
      {"src/exchange"},
      {"fmt/", "boost/math/ power_fit.cpp", "boost/math/ share.cpp", "sys/utsname.h manifest.cpp"}},
+    {"fitness/digests",
+     {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "src/trajectory",
+      "src/trajectory/batch"},
+     {"cases", "flights/starts"},
+     {}},
+    {"fitness",
+     {"src/problem", "src/engines/base", "oracle", "oracle/walk", "oracle/certified", "oracle/certificate",
+      "oracle/certificate/check", "oracle/itinerary"},
+     {"fitness/digests"},
+     {}},
     {"cli",
-     {"src/problem", "src/exchange", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
+     {"src/problem", "src/exchange", "src/engines/batch", "src/trajectory", "oracle", "oracle/exact", "oracle/contacts",
       "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
      {"src/problem", "src/exchange", "cases", "compare", "golden", "flights", "flights/sample",
       "flights/starts", "flights/theory", "chaos", "fuzz/examine", "fuzz/campaign", "judge", "pictures",
-      "report"},
+      "report", "fitness"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h output.cpp", "unistd.h progress.hpp",
       "unistd.h whole_file.cpp"}},
     {"bench",
@@ -166,6 +176,7 @@ const std::map<std::string, std::string> kPublic{
     {"exchange", "src/exchange"},
     {"line_reader", "src/exchange"},
     {"engine", "src/engines/base"},
+    {"environment", "src/engines/base"},
     {"collision", "src/engines/base"},
     {"flight", "src/engines/reduction"},
     {"reduction", "src/engines/reduction"},
@@ -280,7 +291,7 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     CHECK(above.insert(room.folder).second);
   }
   for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
-                            "judge", "pictures", "report", "cli", "bench"})
+                            "judge", "pictures", "report", "fitness", "cli", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());

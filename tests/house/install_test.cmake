@@ -39,9 +39,21 @@ run(${COMPILER} -std=c++20 ${SOURCE}/examples/engine_only.cpp -o ${SCRATCH}/by_p
 run(${SCRATCH}/by_pkg_config)
 prints("cell \\(27, 1\\)")
 
-# As a subproject, without the headers of any library.
+# Whatever the program's flags: the library's answers are the same.
+set(hostile ${SCRATCH}/hostile)
+run(${COMPILER} -std=c++20 -O1 ${SOURCE}/tests/house/hostile_consumer.cpp -o ${hostile} ${flags})
+run(${hostile})
+set(expected "${output}")
+run(${COMPILER} -std=c++20 -O0 -ffast-math -c ${SOURCE}/tests/house/hostile_consumer.cpp -o ${hostile}.o ${flags})
+run(${COMPILER} ${hostile}.o -o ${hostile} ${flags})
+run(${hostile})
+if(NOT output STREQUAL expected)
+  message(FATAL_ERROR "a program compiled with -ffast-math gets other answers:\n${output}instead of\n${expected}")
+endif()
+
+# As a subproject, without the headers of any library, and whatever the parent's flags.
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/tests/house/subproject -B ${SCRATCH}/subproject
-  -DLORENTZ_SOURCE_DIR=${SOURCE} -DCMAKE_CXX_FLAGS=-O0)
+  -DLORENTZ_SOURCE_DIR=${SOURCE} "-DCMAKE_CXX_FLAGS=-O0 -ffast-math")
 run(${CMAKE_COMMAND} --build ${SCRATCH}/subproject)
 run(${SCRATCH}/subproject/engine_only)
 prints("cell \\(27, 1\\) at 26.95085432627853")

@@ -1,5 +1,6 @@
 #include <lorentz/collision.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -30,11 +31,17 @@ Vec gradient(const Atom& atom, int dimension, const Vec& a) {
   return sum;
 }
 
+// The length of a vector of any size. Standard libraries' hypot differ in the last bit; this is GCC's.
+double length_of_any(const Vec& a) {
+  const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+  return largest > 0 ? largest * length({a[0] / largest, a[1] / largest, a[2] / largest}) : largest;
+}
+
 }  // namespace
 
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer) {
   const Vec centre = centre_of(scene, answer.obstacle);
-  const double speed = std::hypot(query.v[0], query.v[1], query.v[2]);
+  const double speed = length_of_any(query.v);
   Detail detail;
   double along = 0;
   Vec arm{};
@@ -45,13 +52,13 @@ Detail collision_detail(const Scene& scene, const Query& query, const Answer& an
   }
   const Atom& atom = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
   const Vec outward = gradient(atom, scene.dimension, arm);
-  const double length = std::hypot(outward[0], outward[1], outward[2]);
+  const double length = length_of_any(outward);
   Vec across{};
   for (int k = 0; k < 3; ++k) {
     detail.normal[k] = outward[k] / length;
     across[k] = arm[k] - along * (query.v[k] / speed);
   }
-  detail.impact_parameter = std::hypot(across[0], across[1], across[2]);
+  detail.impact_parameter = length_of_any(across);
   return detail;
 }
 

@@ -3,7 +3,13 @@
 // it is compiled once for each (reduction/kernels_*.cpp) and chosen when the program starts.
 #pragma once
 
+#include <cfloat>
 #include <cmath>
+
+#if defined(__FAST_MATH__) || FLT_EVAL_METHOD != 0
+#error \
+    "lorentz computes in plain binary64: compile it without -ffast-math, and for 32-bit x86 with -msse2 -mfpmath=sse"
+#endif
 
 // A function that is inlined as a whole into one for one kind of processor, so that an fma is one instruction
 // or none. (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
@@ -11,6 +17,14 @@
 #define LORENTZ_FLATTEN
 #else
 #define LORENTZ_FLATTEN gnu::flatten
+#endif
+
+// The one for processors that have it: x86 has to be told; others have it or not as long as they are
+// themselves.
+#if defined(__x86_64__)
+#define LORENTZ_WITH_FMA gnu::target("fma"), LORENTZ_FLATTEN
+#else
+#define LORENTZ_WITH_FMA LORENTZ_FLATTEN
 #endif
 
 namespace lorentz {

@@ -1,4 +1,5 @@
 // Which sets of vector instructions there are.
+#include <hwy/highway.h>
 #include <hwy/targets.h>
 
 #include "src/engines/batch/stretch.hpp"
@@ -13,6 +14,11 @@ std::vector<StretchKernels> stretch_kernels() {
       kernels.push_back({hwy::TargetName(plane[i].target), plane[i].kernel, space[i].kernel});
   kernels.push_back({"none", nullptr, nullptr});
   return kernels;
+}
+
+std::string batch_libraries() {
+  return "Highway " + std::to_string(HWY_MAJOR) + '.' + std::to_string(HWY_MINOR) + '.' +
+         std::to_string(HWY_PATCH);
 }
 
 }  // namespace lorentz

@@ -56,7 +56,7 @@ class EntryTime {
   }
 
  private:
-  [[gnu::noinline, gnu::target("fma"), LORENTZ_FLATTEN]] Wide rare_with_fma(double& error) const {
+  [[gnu::noinline, LORENTZ_WITH_FMA]] Wide rare_with_fma(double& error) const {
     return Wide(wide_in<HardwareFma>(error));
   }
   [[gnu::noinline]] Wide rare_without_fma(double& error) const { return wide_in<SplitProduct>(error); }

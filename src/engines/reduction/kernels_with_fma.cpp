@@ -5,7 +5,7 @@ namespace lorentz {
 namespace {
 
 template <int D, SceneModel kModel, bool kBall>
-[[gnu::target("fma"), LORENTZ_FLATTEN]] void fly_fma(const Task& task, Flight& flight) {
+[[LORENTZ_WITH_FMA]] void fly_fma(const Task& task, Flight& flight) {
   fly_with<HardwareFma, D, kModel, kBall>(task, flight);
 }
 

@@ -51,7 +51,7 @@ class Lines3 {
                  k_last = (z_last - q.z) / arm.z + kSlop3d;
     const Point3 first(q, k_first, arm);
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
-    const double distance = std::hypot(first.p[0], first.p[1]);
+    const double distance = std::sqrt(first.p[0] * first.p[0] + first.p[1] * first.p[1]);
     const double unsure = kDiscriminant * line_error(first);
     if (distance - drift > 1 + unsure) return true;
     if (distance < 1 - unsure || k_last - k_first < kShortStretch || !(estimate > k_first))

@@ -14,6 +14,8 @@ namespace {
 bool has_fma() {
 #if defined(__x86_64__)
   return __builtin_cpu_supports("fma");
+#elif defined(__FP_FAST_FMA)
+  return true;
 #else
   return false;
 #endif

@@ -24,6 +24,14 @@ void set_rounded(const WideMatrix& wide, Vec (&rounded)[3]) {
     for (int k = 0; k < 3; ++k) rounded[i][k] = wide[i][k].hi;
 }
 
+// Libraries' cube roots differ in the last bit, and every answer among ellipsoids with them: a step of Newton
+// in double-double makes one of them all.
+double cube_root(double x) {
+  const double guess = std::cbrt(x);
+  const Wide square = Wide::product(guess, guess);
+  return guess + ((x - square * guess) / (3.0 * square)).value();
+}
+
 }  // namespace
 
 std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes) {
@@ -37,7 +45,7 @@ std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes) {
   }
   ShapeForms<Wide> forms;
   forms.set_adjugate(a);
-  if (d == 3) shape.radius = std::cbrt(std::fabs(forms.det.hi));
+  if (d == 3) shape.radius = cube_root(std::fabs(forms.det.hi));
   const double r = shape.radius;
   if (!(r > 1 / kMaxShapeRadius && r < kMaxShapeRadius)) return std::nullopt;
   forms.set_forms(a, r);

@@ -1,0 +1,134 @@
+// lorentz doctor: is this machine, and this build, fit to be believed?
+#include <lorentz/batch.hpp>
+#include <lorentz/exchange.hpp>
+
+#include <cfenv>
+
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/messages.hpp"
+#include "cli/versions.hpp"
+#include "fitness/examination.hpp"
+#include "report/manifest.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+using fitness::Finding;
+using fitness::Use;
+
+struct Options {
+  bool json = false;
+  std::string rounding;
+};
+
+/// What was seen, and what it means.
+struct Diagnosis {
+  report::Manifest manifest;
+  std::vector<std::string> instruction_sets, libraries;
+  std::vector<Finding> findings;
+  std::vector<Use> unfit;
+
+  bool fit() const { return unfit.empty(); }
+};
+
+// For tests: what is wrong must be seen to be wrong.
+void set_rounding(const std::string& mode) {
+  std::fesetround(mode == "upward" ? FE_UPWARD : mode == "downward" ? FE_DOWNWARD : FE_TOWARDZERO);
+}
+
+Diagnosis diagnose() {
+  Diagnosis diagnosis{
+      report::manifest_of(0, command_line()), Batch::instruction_sets(), library_versions(), {}, {}};
+  diagnosis.findings = fitness::examine_arithmetic();
+  for (Finding& finding : fitness::examine_answers()) diagnosis.findings.push_back(std::move(finding));
+  diagnosis.unfit = fitness::unfit_uses(diagnosis.findings);
+  return diagnosis;
+}
+
+std::vector<std::string> names(const std::vector<Use>& uses) {
+  std::vector<std::string> names;
+  for (const Use use : uses) names.emplace_back(fitness::name_of(use));
+  return names;
+}
+
+std::vector<Use> fit_uses(const Diagnosis& diagnosis) {
+  std::vector<Use> uses;
+  for (const Use use : fitness::kUses)
+    if (std::find(diagnosis.unfit.begin(), diagnosis.unfit.end(), use) == diagnosis.unfit.end())
+      uses.push_back(use);
+  return uses;
+}
+
+std::string verdict(const Diagnosis& diagnosis) {
+  if (diagnosis.fit()) return "Fit: answers here are what they are everywhere.\n";
+  const std::vector<Use> fit = fit_uses(diagnosis);
+  return fmt::format("NOT FIT for {}.\n{}docs/doctor.md says what each finding means, and what helps.\n",
+                     fmt::join(names(diagnosis.unfit), "; "),
+                     fit.empty() ? "" : fmt::format("Fit for {}.\n", fmt::join(names(fit), "; ")));
+}
+
+std::string text_of(const Diagnosis& diagnosis) {
+  const bool lanes = diagnosis.instruction_sets.front() != "none";
+  std::string text = fmt::format(
+      "lorentz {} ({})\n  compiled by    {}\n  options        {}\n  machine        {}\n  vectors        {}\n "
+      " fused a b + c  {}\n\n",
+      diagnosis.manifest.version, diagnosis.manifest.commit, diagnosis.manifest.compiler,
+      diagnosis.manifest.flags, diagnosis.manifest.machine,
+      lanes ? diagnosis.instruction_sets.front() : "none: batches take as long as single flights",
+      lanes ? "in hardware" : "by splitting: slower, the same answers");
+  for (const Finding& finding : diagnosis.findings)
+    text +=
+        fmt::format("  {:<8}  {:<37}  {}\n", finding.fit ? "fit" : "NOT FIT", finding.name, finding.found);
+  text += "\nlibraries: " + fmt::format("{}", fmt::join(diagnosis.libraries, ", ")) + "\n\n";
+  return text + verdict(diagnosis);
+}
+
+std::string json_list(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ",") + json_quoted(word);
+  return '[' + list + ']';
+}
+
+std::string json_of(const Diagnosis& diagnosis) {
+  std::string findings;
+  for (const Finding& finding : diagnosis.findings)
+    findings += fmt::format("{}{{\"name\":{},\"fit\":{},\"found\":{}}}", findings.empty() ? "" : ",",
+                            json_quoted(finding.name), finding.fit, json_quoted(finding.found));
+  return fmt::format(
+      "{{\"fit\":{},\"fit_for\":{},\"not_fit_for\":{},\"version\":{},\"compiler\":{},\"machine\":{},"
+      "\"instructions\":{},\"findings\":[{}],\"libraries\":{}}}\n",
+      diagnosis.fit(), json_list(names(fit_uses(diagnosis))), json_list(names(diagnosis.unfit)),
+      json_quoted(diagnosis.manifest.version), json_quoted(diagnosis.manifest.compiler),
+      json_quoted(diagnosis.manifest.machine), json_list(diagnosis.instruction_sets), findings,
+      json_list(diagnosis.libraries));
+}
+
+int act(const Options& options) {
+  if (!options.rounding.empty()) set_rounding(options.rounding);
+  const Diagnosis diagnosis = diagnose();
+  std::fesetround(FE_TONEAREST);
+  print(options.json ? json_of(diagnosis) : text_of(diagnosis));
+  return diagnosis.fit() ? kDone : kDisagreement;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("doctor",
+                         "Is this machine fit? Looks at its arithmetic and at this build, and computes known "
+                         "answers again with every engine and both oracles.");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->add_option("--pretend-rounding", options->rounding)
+      ->check(CLI::IsMember({"upward", "downward", "toward-zero"}))
+      ->group("");  // not shown: for tests
+  command->footer(
+      "Exit status: 0 fit, 1 not fit for something that is named, 2 bad usage, 3 the work could not be "
+      "done.\n"
+      "Example:\n  lorentz doctor");
+  command->callback([options, &action] { action = [options] { return act(*options); }; });
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,146 @@
+#include "fitness/known_answers.hpp"
+
+#include <functional>
+
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/certified.hpp>
+#include <lorentz/itinerary.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/walk.hpp>
+#include "fitness/digests/scenes.hpp"
+
+namespace lorentz::fitness {
+namespace {
+
+struct KnownAnswer {
+  Scene scene;
+  Query query;
+  Answer answer;
+};
+
+Cell cell(const char* a, const char* b, const char* c = "0") {
+  return {*Integer::from_decimal(a), *Integer::from_decimal(b), *Integer::from_decimal(c)};
+}
+
+Answer hit(int lattice, const Cell& cell, double time) {
+  return Answer::hit({lattice, 0, cell}, time);
+}
+
+// Drawn, hopeless, very far, inside; in space; among ellipses; in two lattices. Each is held against the
+// golden sets' way of answering by a test: oracle, walk and check of certificates agree on it.
+const std::vector<KnownAnswer>& known_answers() {
+  static const std::vector<KnownAnswer> known{
+      {square(0.1),
+       {{0, 0.445}, {0.9998476951563913, 0.01745240643728351}, {}},
+       hit(0, cell("27", "1"), 26.950854326278535)},
+      {square(0.1), {{0, 0.445}, {1, 0}, {}}, Answer::never()},
+      {square(0.1), {{0, 0.445}, {1, 1e-20}, {}}, hit(0, cell("45500000000000001275", "1"), 4.55e+19)},
+      {square(0.1), {{0.05, 0}, {1, 0}, {}}, Answer::inside({0, 0, cell("0", "0")})},
+      {unit_scene(3, 0.01),
+       {{0.5, 0.5, 0.5}, {1, 0.6180339887498949, 0.41421356237309503}, {}},
+       hit(0, cell("9970", "6162", "4130"), 9969.500777773532)},
+      {unit_scene(3, 0.01),
+       {{0.5, 0.5, 0.5}, {1, 1e-9, 1e-18}, {}},
+       hit(0, cell("490000000499996808", "490000001", "1"), 4.900000004999968e+17)},
+      {leaning_ellipses(),
+       {{0.5, 0.5}, {1, -0.7320508075688772}, {}},
+       hit(0, cell("1", "0"), 0.5252055495001422)},
+      {superposition(), {{0.5, 0.5}, {1, 1e-8}, {}}, hit(1, cell("20", "-14"), 24.203702892796873)},
+  };
+  return known;
+}
+
+bool same(const Answer& a, const Answer& b) {
+  return a.outcome == b.outcome && a.obstacle == b.obstacle && a.time == b.time;
+}
+
+using Ask = std::function<Answer(const Scene&, const Query&)>;
+
+// `undecided` is no wrong answer: the second oracle does not go far.
+Finding examine(const char* name, std::vector<Use> spoiled, const Ask& ask) {
+  std::size_t right = 0, undecided = 0;
+  for (const auto& [scene, query, known] : known_answers()) {
+    const Answer answer = ask(scene, query);
+    right += same(answer, known);
+    undecided += answer.outcome == Outcome::undecided;
+  }
+  const std::size_t all = known_answers().size();
+  const bool fit = right + undecided == all && right >= all / 2;
+  return {name, fit,
+          std::to_string(right) + " of " + std::to_string(all) + " answers right" +
+              (undecided ? ", " + std::to_string(undecided) + " left undecided" : ""),
+          std::move(spoiled)};
+}
+
+// Each true answer is proved, and the same with another obstacle, or none where there is one, is not.
+Finding examine_certificates() {
+  std::size_t accepted = 0, refused = 0;
+  for (const auto& [scene, query, known] : known_answers()) {
+    const oracle::Certificate proof = oracle::Prover(scene).prove(query, known);
+    const oracle::CertificateCheck check(scene);
+    accepted += !check.refutation(query, known, proof);
+    Answer other = known;
+    if (known.outcome == Outcome::never)
+      other = hit(0, cell("5", "0"), 5);
+    else
+      other.obstacle.cell[0] = 12345;
+    refused += check.refutation(query, other, proof).has_value();
+  }
+  const std::size_t all = known_answers().size();
+  return {"certificates",
+          accepted == all && refused == all,
+          std::to_string(accepted) + " of " + std::to_string(all) + " true ones accepted, " +
+              std::to_string(refused) + " false ones refused",
+          {Use::certificates}};
+}
+
+// Bornemann, Laurie, Wagon, Waldvogel, "The SIAM 100-digit challenge" (2004), problem 2.
+Finding examine_itinerary() {
+  constexpr const char* kDistance = "0.9952629194433541608903118094";
+  const auto number = [](const char* text) { return *rational_from(text); };
+  RationalScene mirrors = rational(square(0.25));
+  mirrors.lattices[0].atoms[0].radius = number("1/3");
+  Start photon;
+  photon.x = {number("1/2"), number("1/10"), 0.0};
+  photon.v = {Surd(1.0), Surd(), Surd()};
+  oracle::Journey journey;
+  journey.time = 10.0, journey.digits = 28;
+  const oracle::Arrival end = oracle::Itinerary(mirrors).follow(photon, journey);
+  return {"problem 2 of the 100-digit challenge",
+          end.distance == kDistance,
+          end.distance.empty() ? "no answer" : end.distance,
+          {Use::itineraries}};
+}
+
+// What cannot even be computed is not fit either.
+Finding guarded(const char* name, const std::vector<Use>& spoiled, const std::function<Finding()>& examine) {
+  try {
+    return examine();
+  } catch (const std::exception& error) {
+    return {name, false, error.what(), spoiled};
+  }
+}
+
+Finding examine_guarded(const char* name, const std::vector<Use>& spoiled, const Ask& ask) {
+  return guarded(name, spoiled, [&] { return examine(name, spoiled, ask); });
+}
+
+}  // namespace
+
+std::vector<Finding> examine_known_answers() {
+  return {examine_guarded(
+              "the oracle", {Use::oracle, Use::certificates, Use::itineraries},
+              [](const Scene& scene, const Query& query) { return oracle::Oracle(scene).first_hit(query); }),
+          examine_guarded(
+              "the second oracle", {Use::oracle},
+              [](const Scene& scene, const Query& query) { return oracle::Walk(scene).first_hit(query); }),
+          examine_guarded("certified", {Use::oracle, Use::engines},
+                          [](const Scene& scene, const Query& query) {
+                            return oracle::Certified(scene).first_hit(query);
+                          }),
+          guarded("certificates", {Use::certificates}, examine_certificates),
+          guarded("problem 2 of the 100-digit challenge", {Use::itineraries}, examine_itinerary)};
+}
+
+}  // namespace lorentz::fitness
