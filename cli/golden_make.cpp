@@ -56,6 +56,7 @@ void check_place(const std::string& path) {
 
 golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
   check_place(path);
+  goes_on_when_repeated();
   Progress progress(order.set->name.c_str(), order.count, 1);
   return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
 }

@@ -203,6 +203,7 @@ int act(const Options& options) {
   const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
   const oracle::Oracle oracle(scene);
   const RationalScene exact = rational(scene);
+  RequestedFile csv(options.csv), svg(options.svg);
   const Interrupt interrupt;
   Progress progress("following", count, 1);
   for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
@@ -211,14 +212,9 @@ int act(const Options& options) {
     say("interrupted: after {} of {} starts", survival.arithmetics[0].right.size(), count);
   if (survival.arithmetics[0].right.empty()) return kFailed;
   print(options.json ? survival.json() : survival.table());
-  const auto write = [](const std::optional<std::string>& path, const std::string& text) {
-    if (!path) return;
-    WholeFile file(*path);
-    file.write(text);
-    file.commit();
-  };
-  write(options.csv, survival.csv());
-  if (options.svg) write(options.svg, survival.svg());
+  if (Interrupt::came()) return kFailed;  // what is left out of the files would not show there
+  csv.write([&] { return survival.csv(); });
+  svg.write([&] { return survival.svg(); });
   return kDone;
 }
 
