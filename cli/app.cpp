@@ -1,13 +1,16 @@
 #include "cli/app.hpp"
 
 #include <CLI/Version.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <iostream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
+#include "cli/completion.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/manual.hpp"
 #include "cli/messages.hpp"
 #include "cli/signals.hpp"
 #include "compare/nearest_name.hpp"
@@ -77,8 +80,22 @@ std::string& called() {
   return line;
 }
 
+// What shells and the build ask for, and no person: not in --help.
+bool serves(const CLI::App& app, int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
+  const std::string service = argc > 1 ? argv[1] : "";
+  if (service == "--complete") {
+    print(completions(app, words));
+    return true;
+  }
+  if (service != "--manuals" || words.size() != 1) return false;
+  write_manuals(app, words[0]);
+  return true;
+}
+
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   try {
+    if (serves(app, argc, argv)) return kDone;
     parse(app, argc, argv);
     return action();
   } catch (const CLI::ParseError& help) {

@@ -122,12 +122,12 @@ void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("bench", "Speed against error: engines by scenes by radii by difficulty.");
-  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("E");
+  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("ENGINE");
   command
       ->add_option("--scene", options->scenes,
                    "scene files, or names of the catalogue (default: square,cubic)")
       ->delimiter(',')
-      ->type_name("S");
+      ->type_name("SCENE");
   command
       ->add_option("--radius", options->radii,
                    "radii (default: 0.3,0.1,0.01,0.001,1e-06; scenes with semiaxes at their own size)")
@@ -137,7 +137,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->add_option("--difficulty", options->difficulties,
                    "of the queries (default: drawn,near-rational,grazing)")
       ->delimiter(',')
-      ->type_name("D");
+      ->type_name("drawn|near-rational|grazing");
   command->add_option("--count", options->count, "queries for each cell of the table")
       ->capture_default_str()
       ->type_name("N");

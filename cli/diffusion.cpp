@@ -166,7 +166,7 @@ void add_diffusion(CLI::App& app, Action& action) {
       ->add_option("--from", options->from,
                    "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)")
       ->capture_default_str()
-      ->type_name("KIND");
+      ->type_name("uniform|surface");
   command->add_option("--csv", options->csv, "the displacements to a file")->type_name("FILE");
   command->footer(
       "docs/chaos.md: what is measured, how, and what theory knows.\n"

@@ -266,7 +266,7 @@ void add_flights(CLI::App& app, Action& action) {
       "flights", "Very many free flights from drawn starts: their statistics, and theory beside them.");
   command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
       ->capture_default_str()
-      ->type_name("S");
+      ->type_name("SCENE");
   command
       ->add_option("--radius", options->radii,
                    "radius of every ball; several, with commas between them, are flown one after the other "
@@ -279,12 +279,12 @@ void add_flights(CLI::App& app, Action& action) {
           "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
           "collision to the next (cosine law)")
       ->capture_default_str()
-      ->type_name("KIND");
+      ->type_name("uniform|surface");
   command
       ->add_option("-e,--engine", options->engine,
                    "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", ")))
       ->capture_default_str()
-      ->type_name("E");
+      ->type_name("ENGINE");
   command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
   command->add_option("--time", options->seconds, "stop after so long (each radius)")->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");

@@ -129,8 +129,8 @@ int show(const Options& options, const std::string& id) {
   const Store store(options.store, Store::Access::read);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
-    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
+    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
@@ -206,7 +206,9 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
 
   command = fuzz.add_subcommand("merge", "Puts the stores of shards together: as if one run had made them.");
   auto merging = std::make_shared<MergeOptions>();
-  command->add_option("STORE", merging->stores, "stores of shards of one campaign")->required();
+  command->add_option("STORE", merging->stores, "stores of shards of one campaign")
+      ->required()
+      ->type_name("FILE");
   command->add_option("-o,--output", merging->output, "the new store")->required()->type_name("FILE");
   command->footer("Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign");
   command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });

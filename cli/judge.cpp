@@ -289,7 +289,9 @@ void add_judge(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "judge",
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.");
-  command->add_option("-e,--engine", options->engine, compare::names_for_help())->required()->type_name("E");
+  command->add_option("-e,--engine", options->engine, compare::names_for_help())
+      ->required()
+      ->type_name("ENGINE");
   command->add_flag("--quick", options->quick, "20 seconds instead of two minutes");
   command
       ->add_option("--time", options->seconds,

@@ -226,13 +226,13 @@ void add_survival(CLI::App& app, Action& action) {
       "survival", "How many collisions of a trajectory are right, in binary64 and in more bits.");
   command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
       ->capture_default_str()
-      ->type_name("S");
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
   command
       ->add_option("-e,--engine", options->engine,
                    "whose flights binary64 and double-double have: one of " + compare::names_for_help())
       ->capture_default_str()
-      ->type_name("E");
+      ->type_name("ENGINE");
   command
       ->add_option("--bits", options->bits,
                    "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
