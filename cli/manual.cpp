@@ -174,7 +174,9 @@ std::string page_of(const CLI::App& app) {
   if (app.get_parent() && !footer.prose.empty()) out += ".PP\n" + footer.prose;
   out += section_of_options(app, "ARGUMENTS", true) + section_of_options(app, "OPTIONS", false);
   out += section_of_subcommands(app);
-  out += ".SH EXIT STATUS\n" + footer_of(root_of(app)).prose;
+  out +=
+      ".SH EXIT STATUS\n" + footer_of(root_of(app)).prose +
+      "Files are put in their place when they are whole: if the program is ended,\nwhat was there stands.\n";
   out += section_of_files();
   if (!footer.examples.empty()) out += ".SH EXAMPLES\n" + footer.examples;
   return out + section_of_others(app);
