@@ -1,14 +1,18 @@
 #include "cli/app.hpp"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <iostream>
 
 #include <lorentz/exchange.hpp>
+#include "cli/completion.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/manual.hpp"
 #include "cli/messages.hpp"
+#include "cli/signals.hpp"
 #include "cli/versions.hpp"
 #include "compare/nearest_name.hpp"
+#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -59,10 +63,12 @@ void parse(CLI::App& app, int argc, char** argv) {
   const Called command = subcommand_of(app, "", argc, argv);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError&) {
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) throw;  // --help, --version
     const std::string options = unknown_options(app, command.app);
-    if (options.empty()) throw;
-    throw InputError(fmt::format("no such option: {}; {} --help has all", options, command.name));
+    throw InputError(fmt::format("{}; {} --help has all",
+                                 options.empty() ? error.what() : "no such option: " + options,
+                                 command.name));
   }
 }
 
@@ -71,12 +77,27 @@ std::string& called() {
   return line;
 }
 
+// What shells and the build ask for, and no person: not in --help.
+bool serves(const CLI::App& app, int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
+  const std::string service = argc > 1 ? argv[1] : "";
+  if (service == "--complete") {
+    print(completions(app, words));
+    return true;
+  }
+  if (service != "--manuals" || words.size() != 1) return false;
+  write_manuals(app, words[0]);
+  return true;
+}
+
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   try {
+    if (serves(app, argc, argv)) return kDone;
     parse(app, argc, argv);
     return action();
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+  } catch (const CLI::ParseError& help) {
+    app.exit(help);  // prints it
+    return kDone;
   } catch (const InputError& error) {
     say("{}", error.what());
     return kBadInput;
@@ -99,22 +120,22 @@ const std::string& command_line() {
 }
 
 void finish_output() {
+  static bool is_lost = false;  // is said once
+  if (is_lost) return;
   std::cout.flush();
   const bool flushed = std::fflush(stdout) == 0;
-  if (!flushed || std::ferror(stdout) || !std::cout)
-    throw FileError(std::string("standard output: ") + std::strerror(errno));
+  is_lost = !flushed || std::ferror(stdout) || !std::cout;
+  if (is_lost) throw write_error("standard output", errno);
 }
 
 int run(int argc, char** argv) {
+  end_in_order();
   called() = "lorentz";
   for (int i = 1; i < argc; ++i) called() += ' ' + shell_quoted(argv[i]);
   CLI::App app{"Exact first hits in periodic Lorentz gases: the reference that engines are checked against."};
   app.name("lorentz");
   app.set_version_flag("--version", versions());
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
-    return "lorentz: " + CLI::FailureMessage::simple(failed, error);
-  });
   const std::string statuses =
       "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be "
       "done.";

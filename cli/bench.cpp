@@ -84,30 +84,14 @@ BenchPlan plan_of(const Options& options) {
   return plan;
 }
 
-// A file that is asked for, or none.
-class Output {
- public:
-  explicit Output(const std::optional<std::string>& path) {
-    if (path) file_.emplace(*path);
-  }
-  template <class MakeText>
-  void write(const MakeText& text) {
-    if (!file_) return;
-    file_->write(text());
-    file_->commit();
-  }
-
- private:
-  std::optional<WholeFile> file_;
-};
-
 int act(const Options& options) {
   check_apart({{"--csv", options.csv}, {"--html", options.html}, {"--store", options.store}});
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());
   if (options.html && !report::has_page()) report::page("");  // says why
-  Output csv(options.csv), html(options.html);
+  RequestedFile csv(options.csv), html(options.html);
+  if (options.store) goes_on_when_repeated();
   std::string manifest_text;
   append_manifest(manifest_text, manifest);
   BenchStore store(options.store, run_of(plan, groups, manifest), manifest_text);
@@ -138,12 +122,12 @@ void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("bench", "Speed against error: engines by scenes by radii by difficulty.");
-  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("E");
+  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("ENGINE");
   command
       ->add_option("--scene", options->scenes,
                    "scene files, or names of the catalogue (default: square,cubic)")
       ->delimiter(',')
-      ->type_name("S");
+      ->type_name("SCENE");
   command
       ->add_option("--radius", options->radii,
                    "radii (default: 0.3,0.1,0.01,0.001,1e-06; scenes with semiaxes at their own size)")
@@ -153,7 +137,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->add_option("--difficulty", options->difficulties,
                    "of the queries (default: drawn,near-rational,grazing)")
       ->delimiter(',')
-      ->type_name("D");
+      ->type_name("drawn|near-rational|grazing");
   command->add_option("--count", options->count, "queries for each cell of the table")
       ->capture_default_str()
       ->type_name("N");

@@ -24,6 +24,8 @@ BenchStore::BenchStore(std::optional<std::string> path, report::CellStore::Run r
     : path_(std::move(path)), store_{std::move(run), std::move(manifest), {}} {
   if (!path_) return;
   if (std::filesystem::exists(*path_)) {
+    if (!std::filesystem::is_regular_file(*path_))
+      throw InputError("--store: " + *path_ + ": is no file; name one to keep the cells in");
     try {
       report::CellStore kept = read(*path_);
       kept.check(store_.run);

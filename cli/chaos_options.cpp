@@ -17,7 +17,7 @@ ChaosOptions::ChaosOptions() : seed(std::to_string(compare::kDefaultSeed)) {}
 void add_chaos_options(CLI::App& command, ChaosOptions& options) {
   command.add_option("--scene", options.scene, "a file, or a name of the catalogue")
       ->capture_default_str()
-      ->type_name("S");
+      ->type_name("SCENE");
   command.add_option("--radius", options.radius, "radius of every ball")->type_name("R");
   command.add_option("--seed", options.seed, "of the starts")->capture_default_str()->type_name("N");
   command.add_option("--jobs", options.jobs, "threads; the result is the same")

@@ -363,16 +363,17 @@ void add_compare(CLI::App& app, Action& action) {
       ->add_option("-e,--engine", options->engines,
                    names_for_help() +
                        "; several with commas between them, or once each (default: classical,published)")
-      ->type_name("E");
+      ->type_name("ENGINE");
   command
       ->add_option("--answers", options->answers,
                    "judge an answer stream that some program wrote, as an engine NAME")
       ->type_name("NAME=FILE");
-  command->add_option("--scene", options->scene,
-                      "a scene file, or a name of the catalogue (default: square)");
+  command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue (default: square)")
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
   CLI::Option* queries = command->add_option(
       "--queries", options->queries, "query stream (NDJSON) instead of drawn queries; - is standard input");
+  queries->type_name("FILE");
   command->add_option("--count", options->count, "how many queries to draw")
       ->capture_default_str()
       ->type_name("N")
@@ -388,7 +389,9 @@ void add_compare(CLI::App& app, Action& action) {
           "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
           "(default: 4)")
       ->type_name("K");
-  command->add_option("--judge", options->judge, kJudgeHelp)->capture_default_str()->type_name("J");
+  command->add_option("--judge", options->judge, kJudgeHelp)
+      ->capture_default_str()
+      ->type_name("oracle|certified");
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->add_option("--failures", options->failures, "show so many wrong answers of each engine")

@@ -138,6 +138,7 @@ int act(const Options& options) {
   report.plan = {scene_of(options), ensemble_of(options.from), seed_of(options),
                  whole_number(options.count, "--count", 1, std::uint64_t{1} << 52),
                  positive_number(options.time, "--time").value_or(100)};
+  RequestedFile csv(options.csv);
   with_work(options, [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
   if (report.found.particles == 0) {
     say("no part was done: there is nothing to report");
@@ -146,11 +147,8 @@ int act(const Options& options) {
   report.random_walk = chaos::machta_zwanzig(report.plan.scene);
   report.tail = tail_of(report.plan.scene);
   print(options.json ? report.json() : report.table());
-  if (options.csv) {
-    WholeFile file(*options.csv);
-    file.write(report.csv());
-    file.commit();
-  }
+  if (!report.found.is_whole) return kFailed;
+  csv.write([&] { return report.csv(); });
   return kDone;
 }
 
@@ -168,7 +166,7 @@ void add_diffusion(CLI::App& app, Action& action) {
       ->add_option("--from", options->from,
                    "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)")
       ->capture_default_str()
-      ->type_name("KIND");
+      ->type_name("uniform|surface");
   command->add_option("--csv", options->csv, "the displacements to a file")->type_name("FILE");
   command->footer(
       "docs/chaos.md: what is measured, how, and what theory knows.\n"

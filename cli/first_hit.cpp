@@ -179,10 +179,16 @@ void add_first_hit(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
-  command->add_option("queries", options->queries, "queries; - is standard input")->capture_default_str();
-  command->add_option("-e,--engine", options->engine, "one of " + names_for_help())->capture_default_str();
-  command->add_option("--scene", options->scene,
-                      "scene before the first scene line: a file, or a name of the catalogue");
+  command->add_option("queries", options->queries, "queries; - is standard input")
+      ->capture_default_str()
+      ->type_name("FILE");
+  command->add_option("-e,--engine", options->engine, "one of " + names_for_help())
+      ->capture_default_str()
+      ->type_name("ENGINE");
+  command
+      ->add_option("--scene", options->scene,
+                   "scene before the first scene line: a file, or a name of the catalogue")
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
   command
       ->add_option("--digits", options->digits,
@@ -197,7 +203,7 @@ void add_first_hit(CLI::App& app, Action& action) {
                    "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
                    "docs/formats.md), which need --scene")
       ->capture_default_str()
-      ->type_name("FORMAT");
+      ->type_name("ndjson|csv|npy");
   command->add_option("--jobs", options->jobs, "threads, of batch and certified-batch: the same answers")
       ->type_name("N");
   command->add_flag("--strict", options->strict, kStrictKeysHelp);

@@ -200,9 +200,25 @@ FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options
   return result;
 }
 
-// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
-void fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const Options& options,
-             flights::Ranks* ranks) {
+// The files that are made of all radii.
+class Files {
+ public:
+  explicit Files(const Options& options)
+      : csv_(options.csv), svg_(options.svg), density_svg_(options.density_svg) {}
+  void write(const std::vector<FlightsReport>& reports) {
+    csv_.write([&] { return csv_of(reports); });
+    svg_.write([&] { return survival_svg(reports); });
+    density_svg_.write([&] { return density_svg(reports); });
+  }
+
+ private:
+  RequestedFile csv_, svg_, density_svg_;
+};
+
+// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is, and the files.
+int fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const Options& options,
+            flights::Ranks* ranks) {
+  Files files(options);
   std::vector<FlightsReport> reports;
   for (const Task& task : tasks) {
     FlightsReport report = fly(task, bounds, options, ranks);
@@ -210,12 +226,13 @@ void fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, cons
     print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
     reports.push_back(std::move(report));
   }
-  if (Interrupt::came())
+  if (Interrupt::came()) {
     say("interrupted; {}",
         options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
-  if (options.csv) write_file(*options.csv, csv_of(reports));
-  if (options.svg) write_file(*options.svg, survival_svg(reports));
-  if (options.density_svg) write_file(*options.density_svg, density_svg(reports));
+    return kFailed;
+  }
+  files.write(reports);
+  return kDone;
 }
 
 int act(const Options& options) {
@@ -228,17 +245,12 @@ int act(const Options& options) {
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
   const std::unique_ptr<flights::Ranks> ranks = ranks::join<flights::Ranks>("--jobs, or --shard and --add");
-  if (!ranks) {
-    fly_all(tasks, bounds, options, nullptr);
-    return kDone;
-  }
+  if (!ranks) return fly_all(tasks, bounds, options, nullptr);
   try {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
-    if (ranks->rank() == 0)
-      fly_all(tasks, bounds, options, ranks.get());
-    else
-      for (const Task& task : tasks) fly_share(task.plan, bounds, options, *ranks);
+    if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
+    for (const Task& task : tasks) fly_share(task.plan, bounds, options, *ranks);
     return kDone;
   } catch (const std::exception& error) {  // nobody waits for a process that is gone
     say("{}", error.what());
@@ -254,7 +266,7 @@ void add_flights(CLI::App& app, Action& action) {
       "flights", "Very many free flights from drawn starts: their statistics, and theory beside them.");
   command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
       ->capture_default_str()
-      ->type_name("S");
+      ->type_name("SCENE");
   command
       ->add_option("--radius", options->radii,
                    "radius of every ball; several, with commas between them, are flown one after the other "
@@ -267,12 +279,12 @@ void add_flights(CLI::App& app, Action& action) {
           "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
           "collision to the next (cosine law)")
       ->capture_default_str()
-      ->type_name("KIND");
+      ->type_name("uniform|surface");
   command
       ->add_option("-e,--engine", options->engine,
                    "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", ")))
       ->capture_default_str()
-      ->type_name("E");
+      ->type_name("ENGINE");
   command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
   command->add_option("--time", options->seconds, "stop after so long (each radius)")->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");

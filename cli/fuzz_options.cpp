@@ -173,7 +173,7 @@ void add_options(CLI::App* command, FuzzOptions& options) {
   command
       ->add_option("-t,--target", options.targets,
                    fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")))
-      ->type_name("T");
+      ->type_name("TARGET");
   command
       ->add_option("--dimension", options.dimension, "only scenes in the plane, or in space (default: both)")
       ->type_name("2|3");
@@ -182,8 +182,10 @@ void add_options(CLI::App* command, FuzzOptions& options) {
                    "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
                    "ball), lattice (one, with one ball), any")
       ->capture_default_str()
-      ->type_name("S");
-  command->add_option("-e,--engine", options.engine, names_for_help())->capture_default_str()->type_name("E");
+      ->type_name("unit|lattice|any");
+  command->add_option("-e,--engine", options.engine, names_for_help())
+      ->capture_default_str()
+      ->type_name("ENGINE");
   command->add_option("--time", options.seconds, "how long (default: 60, or until --count)")
       ->type_name("SECONDS");
   command
@@ -215,7 +217,9 @@ void add_options(CLI::App* command, FuzzOptions& options) {
                    "ask one in so many cases, and its variants, in other words, too; 0: none")
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--judge", options.judge, kJudgeHelp)->capture_default_str()->type_name("J");
+  command->add_option("--judge", options.judge, kJudgeHelp)
+      ->capture_default_str()
+      ->type_name("oracle|certified");
   command->add_flag("--first", options.first, "stop at the first finding");
   command
       ->add_option("--ulps", options.ulps,

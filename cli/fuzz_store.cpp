@@ -1,4 +1,6 @@
 // lorentz fuzz list, show, merge: what a store holds.
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -127,20 +129,41 @@ int show(const Options& options, const std::string& id) {
   const Store store(options.store, Store::Access::read);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
-    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
+    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
                                options.store, json_quoted(id)));
 }
 
+// Half a store would look like a whole one: it is made beside its place.
+class UnfinishedStore {
+ public:
+  explicit UnfinishedStore(std::string path)
+      : path_(std::move(path)),
+        file_(path_),
+        ahead_(path_ + "-wal"),
+        shared_(path_ + "-shm"),
+        lock_(path_ + ".lock") {}
+  ~UnfinishedStore() {
+    std::error_code error;
+    for (const char* end : {"", "-wal", "-shm", ".lock"}) std::filesystem::remove(path_ + end, error);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  Unfinished file_, ahead_, shared_, lock_;
+};
+
 int merge_stores(const MergeOptions& options) {
   std::error_code error;
   if (std::filesystem::exists(options.output, error))
     throw InputError(options.output + ": is there already; merge into a new store");
-  try {
-    Store into(options.output, Store::Access::write);
+  const UnfinishedStore beside(fmt::format("{}.{}.new", options.output, getpid()));
+  {
+    Store into(beside.path(), Store::Access::write);
     fuzz::merge(options.stores, into);
     for (const fuzz::Campaign& campaign : into.campaigns())
       say("{}: campaign {} of {} merged from {} shards{}", options.output, campaign.id,
@@ -148,11 +171,8 @@ int merge_stores(const MergeOptions& options) {
           campaign.manifest.shard == fuzz::Manifest::kMerged
               ? "; they are not all there, or not equally far: to be read, not gone on with"
               : "");
-  } catch (...) {  // half a store would look like a whole one
-    for (const char* end : {"", "-wal", "-shm", ".lock"})
-      std::filesystem::remove(options.output + end, error);
-    throw;
   }
+  std::filesystem::rename(beside.path(), options.output);
   return kDone;
 }
 
@@ -179,14 +199,16 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   command->add_option("ID", *id, "CAMPAIGN/TARGET/INDEX, as in the list")->required();
   command->add_flag("--json", options->json, "one JSON object");
   options->files.add_options(*command);
-  command->footer("Example:\n  lorentz fuzz show 1/leaving/98.1 --store published.campaign");
+  command->footer("Example:\n  lorentz fuzz show 1/leaving/6 --store published.campaign");
   command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
 
   add_fuzz_export(fuzz, action);
 
   command = fuzz.add_subcommand("merge", "Puts the stores of shards together: as if one run had made them.");
   auto merging = std::make_shared<MergeOptions>();
-  command->add_option("STORE", merging->stores, "stores of shards of one campaign")->required();
+  command->add_option("STORE", merging->stores, "stores of shards of one campaign")
+      ->required()
+      ->type_name("FILE");
   command->add_option("-o,--output", merging->output, "the new store")->required()->type_name("FILE");
   command->footer("Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign");
   command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });

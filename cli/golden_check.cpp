@@ -362,9 +362,11 @@ void add_golden_check(CLI::App& golden, Action& action) {
   command
       ->add_option("-e,--engine", options->engines, names_for_help() + "; several with commas, or once each")
       ->allow_extra_args(false)  // what follows is a set
-      ->type_name("E");
-  command->add_option("sets", options->sets,
-                      "files, folders, or names of committed sets (default: all of these)");
+      ->type_name("ENGINE");
+  command
+      ->add_option("sets", options->sets,
+                   "files, folders, or names of committed sets (default: all of these)")
+      ->type_name("SET");
   command
       ->add_option("--ulps", options->ulps,
                    "the tolerance k of the verdicts; 0 forgives nothing (default: 4)")

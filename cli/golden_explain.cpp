@@ -108,8 +108,8 @@ int act(const Options& options) {
       if (options.files.any() && !read.query)
         throw InputError(fmt::format("{}: the record is no valid query, and there is nothing to be drawn",
                                      read.record.id));
-      explain(reader, read, most);
       if (options.files.any()) options.files.write(case_report(reader, read, options.files));
+      explain(reader, read, most);
       break;
     }
   return kDone;
@@ -123,8 +123,10 @@ void add_golden_explain(CLI::App& golden, Action& action) {
       "explain",
       "One record in full: the line, the obstacles passed and by how much, the decision that is hard.");
   command->add_option("id", options->id, "the record's id, or its first characters")->required();
-  command->add_option("sets", options->sets,
-                      "files, folders, or names of committed sets, to look in (default: all of these)");
+  command
+      ->add_option("sets", options->sets,
+                   "files, folders, or names of committed sets, to look in (default: all of these)")
+      ->type_name("SET");
   command->add_option("--most", options->most, "list so many obstacles")
       ->capture_default_str()
       ->type_name("N");

@@ -56,6 +56,7 @@ void check_place(const std::string& path) {
 
 golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
   check_place(path);
+  goes_on_when_repeated();
   Progress progress(order.set->name.c_str(), order.count, 1);
   return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
 }
@@ -123,7 +124,7 @@ void add_golden_make(CLI::App& golden, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       golden.add_subcommand("make", "Produces a set: the same, bit for bit, whatever --jobs.");
-  command->add_option("--set", options->set, "which set (lorentz golden list)")->type_name("NAME");
+  command->add_option("--set", options->set, "which set (lorentz golden list)")->type_name("SET");
   command->add_option("--count", options->count, "how many records (default: as many as are committed)")
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the cases")->capture_default_str()->type_name("N");

@@ -76,7 +76,8 @@ void add_golden_verify(CLI::App& golden, Action& action) {
   CLI::App* command = golden.add_subcommand(
       "verify",
       "Checks each record: its certificate proves the answer, its id, margin and condition are right.");
-  command->add_option("sets", *names, "files, folders, or names of committed sets (default: all of these)");
+  command->add_option("sets", *names, "files, folders, or names of committed sets (default: all of these)")
+      ->type_name("SET");
   command->add_flag("--walk", *walk, "ask walk, too, where it can go");
   command->footer(
       "The certificates are checked by code that shares nothing with what wrote them; data/check.py, which "

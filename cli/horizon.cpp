@@ -255,7 +255,7 @@ void add_horizon(CLI::App& app, Action& action) {
       "channels (3D).");
   command->add_option("name", options->name, "the scene: a file, or a name of the catalogue")
       ->type_name("SCENE");
-  command->add_option("--scene", options->scene, "the same");
+  command->add_option("--scene", options->scene, "the same")->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
   command
       ->add_option("--min-width", options->min_width,

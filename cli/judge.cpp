@@ -1,4 +1,5 @@
 // lorentz judge: all that this program can say of one engine, and a verdict.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -268,20 +269,16 @@ JudgeReport judged(const Options& options, const Plan& plan) {
 int act(const Options& options) {
   compare::check_name(options.engine);
   const Plan plan = plan_of(options);
-  std::optional<WholeFile> html;
-  if (options.html) {
-    report::page("{}");  // throws if the program has none: now rather than after two minutes
-    html.emplace(*options.html);
-  }
+  if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
+  RequestedFile html(options.html);
   const Interrupt interrupt;
   const JudgeReport report = judged(options, plan);
   print(options.json ? report.json() : report.text());
   if (Interrupt::came()) {
-    say("interrupted: this is what was found so far{}", html ? "; no page is written of it" : "");
-  } else if (html) {
-    html->write(report::page(report.json()));
-    html->commit();
+    say("interrupted: this is what was found so far{}", options.html ? "; no page is written of it" : "");
+    return std::max(exit_status(report, options), +kFailed);
   }
+  html.write([&] { return report::page(report.json()); });
   return exit_status(report, options);
 }
 
@@ -292,7 +289,9 @@ void add_judge(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "judge",
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.");
-  command->add_option("-e,--engine", options->engine, compare::names_for_help())->required()->type_name("E");
+  command->add_option("-e,--engine", options->engine, compare::names_for_help())
+      ->required()
+      ->type_name("ENGINE");
   command->add_flag("--quick", options->quick, "20 seconds instead of two minutes");
   command
       ->add_option("--time", options->seconds,

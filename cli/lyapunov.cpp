@@ -114,7 +114,7 @@ int act(const Options& options) {
   report.limit =
       scene.dimension == 2 ? chaos::exponent_of_small_discs(scene) : chaos::exponents_of_small_balls(scene);
   print(options.json ? report.json() : report.table());
-  return kDone;
+  return report.found.is_whole ? kDone : kFailed;
 }
 
 }  // namespace

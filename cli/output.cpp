@@ -3,9 +3,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
-#include <lorentz/errors.hpp>
+#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 
@@ -19,7 +18,7 @@ void Output::flush() {
   for (std::size_t done = 0; done < buffer_.size();) {
     const ssize_t count = write(STDOUT_FILENO, buffer_.data() + done, buffer_.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw FileError(std::string("standard output: ") + std::strerror(errno));
+    if (count < 0) throw write_error("standard output", errno);
     done += static_cast<std::size_t>(count);
   }
   buffer_.clear();

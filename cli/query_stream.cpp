@@ -1,5 +1,7 @@
 #include "cli/query_stream.hpp"
 
+#include <unistd.h>
+
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/messages.hpp"
@@ -47,6 +49,8 @@ SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<
                                          UnknownKeys unknown)
     : lines_(path), keys_(lines_.name(), unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {
   reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
+  if (path == "-" && isatty(STDIN_FILENO) == 1)
+    say("reads lines from the terminal (--help has an example); Ctrl-D ends them");
 }
 
 template <class AnItem, class AScene>

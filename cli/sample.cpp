@@ -129,7 +129,8 @@ void add_sample(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("sample", "Drawn starts of flights: a query stream for first-hit, or columns.");
   command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
   command
       ->add_option("--kind", options->kind,
@@ -137,7 +138,7 @@ void add_sample(CLI::App& app, Action& action) {
                    "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
                    "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40")
       ->capture_default_str()
-      ->type_name("KIND");
+      ->type_name("uniform|surface|near-rational|grazing");
   command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
   command
@@ -145,7 +146,7 @@ void add_sample(CLI::App& app, Action& action) {
                    "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
                    "(docs/formats.md), which first-hit reads with --scene")
       ->capture_default_str()
-      ->type_name("FORMAT");
+      ->type_name("ndjson|csv|npy");
   command->add_flag("--strict", options->strict, kStrictKeysHelp);
   command->footer(
       "No start lies in an obstacle (but the one it leaves): that is decided exactly. The first N starts of "

@@ -255,7 +255,9 @@ void add_scene(CLI::App& app, Action& action) {
 
   CLI::App* show_command = command->add_subcommand(
       "show", "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.");
-  show_command->add_option("scene", options->scene, "a name of the catalogue, or a file")->required();
+  show_command->add_option("scene", options->scene, "a name of the catalogue, or a file")
+      ->required()
+      ->type_name("SCENE");
   show_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
   show_command->add_flag("--no-horizon", options->no_horizon,
                          "leave out the horizon: among small obstacles its search takes half a minute");

@@ -206,11 +206,15 @@ int draw(const Options& options) {
 void add_scene_draw(CLI::App& scene, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = scene.add_subcommand("draw", "A picture (SVG), with flights if queries are given.");
-  command->add_option("scene", options->scene,
-                      "a name of the catalogue, or a file; without it, the first scene of the queries");
+  command
+      ->add_option("scene", options->scene,
+                   "a name of the catalogue, or a file; without it, the first scene of the queries")
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  command->add_option("--queries", options->queries,
-                      "query stream (NDJSON): its flights to their first hits, exactly; - is standard input");
+  command
+      ->add_option("--queries", options->queries,
+                   "query stream (NDJSON): its flights to their first hits, exactly; - is standard input")
+      ->type_name("FILE");
   command
       ->add_option("--channels", options->channels,
                    "draw the N widest corridors (2D), planar channels and cylinders (3D)")
@@ -226,7 +230,8 @@ void add_scene_draw(CLI::App& scene, Action& action) {
       ->add_option("-o,--output", options->output,
                    "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
                    "standard output")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("FILE");
   command->callback([options, &action] { action = [options] { return draw(*options); }; });
   command->footer(
       "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "

@@ -203,6 +203,7 @@ int act(const Options& options) {
   const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
   const oracle::Oracle oracle(scene);
   const RationalScene exact = rational(scene);
+  RequestedFile csv(options.csv), svg(options.svg);
   const Interrupt interrupt;
   Progress progress("following", count, 1);
   for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
@@ -211,14 +212,9 @@ int act(const Options& options) {
     say("interrupted: after {} of {} starts", survival.arithmetics[0].right.size(), count);
   if (survival.arithmetics[0].right.empty()) return kFailed;
   print(options.json ? survival.json() : survival.table());
-  const auto write = [](const std::optional<std::string>& path, const std::string& text) {
-    if (!path) return;
-    WholeFile file(*path);
-    file.write(text);
-    file.commit();
-  };
-  write(options.csv, survival.csv());
-  if (options.svg) write(options.svg, survival.svg());
+  if (Interrupt::came()) return kFailed;  // what is left out of the files would not show there
+  csv.write([&] { return survival.csv(); });
+  svg.write([&] { return survival.svg(); });
   return kDone;
 }
 
@@ -230,13 +226,13 @@ void add_survival(CLI::App& app, Action& action) {
       "survival", "How many collisions of a trajectory are right, in binary64 and in more bits.");
   command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
       ->capture_default_str()
-      ->type_name("S");
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
   command
       ->add_option("-e,--engine", options->engine,
                    "whose flights binary64 and double-double have: one of " + compare::names_for_help())
       ->capture_default_str()
-      ->type_name("E");
+      ->type_name("ENGINE");
   command
       ->add_option("--bits", options->bits,
                    "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "

@@ -191,11 +191,7 @@ class Picture {
     drawing_.other_name = engine;
   }
 
-  void write(const std::string& file) const {
-    WholeFile svg(file);
-    svg.write(pictures::draw_path(drawing_));
-    svg.commit();
-  }
+  std::string svg() const { return pictures::draw_path(drawing_); }
 
  private:
   pictures::PathDrawing drawing_;
@@ -252,6 +248,7 @@ int act(const Options& options) {
                      options.strict ? UnknownKeys::errors : UnknownKeys::warned);
   Output output;
   Report report(output, options);
+  RequestedFile svg(options.svg);
   Run run{options, journey, precision, report, {}};
   const Interrupt interrupt;
   bool refused = false;
@@ -272,7 +269,7 @@ int act(const Options& options) {
     return kFailed;
   }
   report.commit();
-  if (run.picture) run.picture->write(*options.svg);
+  if (run.picture) svg.write([&] { return run.picture->svg(); });
   if (run.failed) return kFailed;
   return refused || stream.had_bad_input() ? kBadInput : kDone;
 }
@@ -286,9 +283,12 @@ void add_trajectory(CLI::App& app, Action& action) {
   command
       ->add_option("starts", options->starts,
                    "a query stream, whose numbers may be texts like \"1/3\"; - is standard input")
-      ->capture_default_str();
-  command->add_option("--scene", options->scene,
-                      "scene before the first scene line: a file, or a name of the catalogue");
+      ->capture_default_str()
+      ->type_name("FILE");
+  command
+      ->add_option("--scene", options->scene,
+                   "scene before the first scene line: a file, or a name of the catalogue")
+      ->type_name("SCENE");
   command->add_option("--radius", options->radius, "radius of every ball of --scene, exactly: 1/3, 0.1")
       ->type_name("R");
   command->add_option("--collisions", options->collisions, "follow each start so far")->type_name("N");
@@ -306,11 +306,11 @@ void add_trajectory(CLI::App& app, Action& action) {
       ->add_option(
           "-e,--engine", options->engine,
           "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help())
-      ->type_name("E");
+      ->type_name("ENGINE");
   command
       ->add_option("--precision", options->precision, "of the engine's trajectory: binary64, double-double")
       ->capture_default_str()
-      ->type_name("P");
+      ->type_name("binary64|double-double");
   command->add_option("--csv", options->csv, "collisions as a table, to a file")->type_name("FILE");
   command->add_option("--svg", options->svg, "a picture of the first start's path (2D)")->type_name("FILE");
   command->add_flag("--json", options->json, "lines of JSON, which is what there is without it, too");

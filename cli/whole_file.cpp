@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include <lorentz/errors.hpp>
+#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 
@@ -16,7 +16,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path), place_(path), besid
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
   if (fs::is_regular_file(there) && ::access(path.c_str(), W_OK) != 0)  // renaming would not mind
-    throw FileError(path_ + ": " + std::strerror(errno));
+    throw write_error(path_, errno);
   if (!fs::exists(there) || fs::is_regular_file(there)) {
     if (fs::is_symlink(fs::symlink_status(path, error))) {
       const fs::path target = fs::weakly_canonical(path, error);
@@ -24,8 +24,9 @@ WholeFile::WholeFile(const std::string& path) : path_(path), place_(path), besid
     }
     beside_ = place_ + '.' + std::to_string(::getpid()) + ".new";
   }
+  if (beside_ != path_) unfinished_.emplace(beside_);
   file_ = std::fopen(beside_.c_str(), "wb");
-  if (!file_) throw FileError(path_ + ": " + std::strerror(errno));
+  if (!file_) throw write_error(path_, errno);
   if (fs::is_regular_file(there)) fs::permissions(beside_, there.permissions(), error);
 }
 
@@ -49,9 +50,9 @@ void WholeFile::commit() {
 }
 
 void WholeFile::fail() {
-  const std::string why = std::strerror(errno);
+  const int why = errno;
   if (beside_ != path_) std::remove(beside_.c_str());
-  throw FileError(path_ + ": " + why + "; what was there stands");
+  throw write_error(path_, why);
 }
 
 namespace {

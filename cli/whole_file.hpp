@@ -1,5 +1,5 @@
 // A file that is written beside its place and put there when it is whole: killed at any moment, the old file
-// stands.
+// stands, and nothing is left beside it by any signal that can be met.
 #pragma once
 
 #include <cstdio>
@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "cli/signals.hpp"
 
 namespace lorentz::cli {
 
@@ -32,6 +34,26 @@ class WholeFile {
 
   std::string path_, place_, beside_;  // as it was named; without links; where it is written
   std::FILE* file_;
+  std::optional<Unfinished> unfinished_;
+};
+
+/// What an option asks for, or no file. Opened before the work, so that a file that cannot be written costs
+/// none.
+class RequestedFile {
+ public:
+  explicit RequestedFile(const std::optional<std::string>& path) {
+    if (path) file_.emplace(*path);
+  }
+  /// Writes the text that `make_text` makes and puts the file in its place. Throws FileError.
+  template <class MakeText>
+  void write(const MakeText& make_text) {
+    if (!file_) return;
+    file_->write(make_text());
+    file_->commit();
+  }
+
+ private:
+  std::optional<WholeFile> file_;
 };
 
 /// An option that names a file to be written, if it was given.

@@ -88,21 +88,30 @@ void replace_group(pid_t old_group, pid_t new_group) {
 
 // A program in a group of its own does not get the terminal's Ctrl-C, so it is passed on, and then does here
 // what it would have done.
+// What these signals did before: their default, or a handler that ends the program, too.
+constexpr std::array kEndings{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+std::array<struct sigaction, kEndings.size()> former;
+
 void kill_groups_and_die(int signal_number) {
   for (const auto& slot : live_groups)
     if (const pid_t group = slot.load()) kill(-group, SIGKILL);
-  raise(signal_number);  // blocked until the handler returns, then deadly: SA_RESETHAND
+  for (std::size_t i = 0; i < kEndings.size(); ++i)
+    if (kEndings[i] == signal_number) sigaction(signal_number, &former[i], nullptr);
+  raise(signal_number);  // blocked until the handler returns
+}
+
+// Whoever comes once only (SA_RESETHAND) ends the program; who means to come again has other plans with it.
+bool ends_the_program(const struct sigaction& action) {
+  return action.sa_handler == SIG_DFL || (action.sa_handler != SIG_IGN && (action.sa_flags & SA_RESETHAND));
 }
 
 void handle_signals_once() {
   static const bool done = [] {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
-      struct sigaction now {};
-      if (sigaction(number, nullptr, &now) != 0 || now.sa_handler != SIG_DFL) continue;
+    for (std::size_t i = 0; i < kEndings.size(); ++i) {
       struct sigaction ours {};
+      if (sigaction(kEndings[i], nullptr, &former[i]) != 0 || !ends_the_program(former[i])) continue;
       ours.sa_handler = kill_groups_and_die;
-      ours.sa_flags = SA_RESETHAND;
-      sigaction(number, &ours, nullptr);
+      sigaction(kEndings[i], &ours, nullptr);
     }
     return true;
   }();

@@ -16,6 +16,7 @@
 #include <unordered_set>
 
 #include "golden/maker.hpp"
+#include "src/problem/write_error.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -158,7 +159,7 @@ void produce_rest(const Order& order, State& state, const std::function<void(std
 }
 
 [[noreturn]] void fail(const std::string& path) {
-  throw FileError(path + ": " + std::strerror(errno));
+  throw write_error(path, errno);
 }
 
 // The unfinished file, and beside it a note of how far it is. The note is replaced as a whole after each

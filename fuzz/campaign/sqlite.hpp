@@ -34,7 +34,9 @@ class Connection {
   [[noreturn]] void fail() const {
     if (sqlite3_errcode(handle_) == SQLITE_NOTADB)
       throw FileError(path_ + ": is no store of lorentz fuzz, nor any database");
-    throw FileError(path_ + ": " + sqlite3_errmsg(handle_));
+    const bool is_full = sqlite3_errcode(handle_) == SQLITE_FULL || sqlite3_errcode(handle_) == SQLITE_IOERR;
+    throw FileError(path_ + ": " + sqlite3_errmsg(handle_) +
+                    (is_full ? "; with more space the same command can be given again" : ""));
   }
   sqlite3* handle() const { return handle_; }
   const std::string& path() const { return path_; }

@@ -14,6 +14,7 @@
 
 #include "fuzz/campaign/batch.hpp"
 #include "fuzz/campaign/sqlite.hpp"
+#include "src/problem/write_error.hpp"
 
 namespace lorentz::fuzz {
 
@@ -66,7 +67,7 @@ class LockFile {
       close();
       file_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
       if (file_ < 0 && !writes_) return;
-      if (file_ < 0) throw FileError(path_ + ": " + std::strerror(errno));
+      if (file_ < 0) throw write_error(path_, errno);
       if (::flock(file_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
         close();
         throw FileError(store +

@@ -441,3 +441,12 @@ TEST_CASE("Times beyond the largest binary64: an infinity is right, a small numb
   CHECK(judgement(1).wrong_time);
   CHECK(judgement(1e300).wrong_time);
 }
+
+TEST_CASE("Answers so far away that the times of neighbours agree in 150 digits are judged, too",
+          "[oracle][verdict]") {
+  // Down between two columns of discs that touch, and so little to the left that it is one disc in 10^215.
+  const Query query{{-33.5, 36}, {-1.300974440221139e-216, -1}, {}};
+  const Integer row = *Integer::from_decimal("-1" + std::string(215, '0'));
+  CHECK(judged(unit_scene(2, 0.5), query, Answer::hit({0, 0, {-34, row, 0}}, 1e215)).verdict ==
+        Verdict::wrong);
+}

@@ -1,0 +1,323 @@
+"""The edges of every subcommand: help, mistakes, missing files, closed pipes, full disks, signals.
+
+usage: edges_test.py PROGRAM SOURCE
+
+Which subcommands there are is asked of the program; each must have a line in EDGES. A full disk is played by
+/dev/full, and by a limit on the size of files.
+"""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+PROGRAM, SOURCE = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
+
+
+@dataclass
+class Edge:
+    """What a subcommand is called with."""
+
+    quick: str = ""  # done at once
+    work: str = ""  # takes seconds: a signal comes in between. Empty: there is no such work
+    outputs: list = field(default_factory=list)  # options that name files to be written
+    missing: str = ""  # names /no/such/file as an input
+    status: int = 0  # of quick
+    prints: bool = True  # on standard output
+    slow: bool = False  # quick is not quick: --help takes its place
+    room: int = 20  # bytes on the full disk
+    report: bool = False  # --html needs the page, which a program built without npm has not
+
+
+EDGES = {
+    "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
+    "compare": Edge("--count 100", "--count 1e7 --disagreements OUT", ["--disagreements"],
+                    "--queries /no/such/file"),
+    "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html"], "-e cmd:/no/such/file --time 0.01",
+                  report=True),
+    "convergents": Edge("0.5"),
+    "horizon": Edge("square", missing="/no/such/file"),
+    "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
+    "demo": Edge("", "--disagreements OUT", slow=True),
+    "doctor": Edge("", slow=True),
+    "bench": Edge("--scene square --radius 0.3 -e reduction --count 100 --difficulty drawn", "--count 1e6 --csv OUT",
+                  ["--csv", "--store", "--html"], "--scene /no/such/file", report=True),
+    "scene list": Edge(),
+    "scene show": Edge("square", missing="/no/such/file"),
+    "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
+    "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
+    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", missing="/no/such/file -e oracle"),
+    "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
+    "golden explain": Edge("9cbb135e", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
+    "golden list": Edge(),
+    "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600", ["--store"], status=1),
+    "fuzz list": Edge("--store published.campaign", missing="--store /no/such/file"),
+    "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
+                      room=1000, report=True),
+    "fuzz export": Edge("--store published.campaign", missing="--store /no/such/file"),
+    "fuzz merge": Edge("published.campaign -o merged", "", ["-o"], "/no/such/file -o merged", prints=False),
+    "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--svg", "--density-svg", "--store"],
+                    "--scene /no/such/file"),
+    "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
+                       "--scene square --radius 1/3 --collisions 1e7 --csv OUT start", ["--csv", "--svg"],
+                       "--scene square --time 1 /no/such/file"),
+    "survival": Edge("--count 2 --collisions 10", "--count 1e6 --csv OUT", ["--csv", "--svg"],
+                     "--scene /no/such/file"),
+    "lyapunov": Edge("--collisions 1e4 --radius 0.3", "--collisions 1e12", missing="--scene /no/such/file"),
+    "diffusion": Edge("--count 1e3 --time 5 --radius 0.3", "--count 1e9 --csv OUT", ["--csv"],
+                      "--scene /no/such/file"),
+}
+
+HAS_PAGE = True  # found out in prepare()
+
+
+class Folder:
+    """A folder of its own for each subcommand, with what their lines name."""
+
+    def __init__(self, made):
+        self.path = Path(tempfile.mkdtemp(prefix="lorentz-edges-"))
+        self.given = os.listdir(made)
+        for name in self.given:
+            if name.endswith(".campaign"):  # of which an example makes more
+                shutil.copy(made / name, self.path / name)
+            else:
+                os.symlink(made / name, self.path / name)
+
+    def new(self):
+        """What was made here."""
+        return sorted(set(os.listdir(self.path)) - set(self.given))
+
+    def clear(self):
+        for name in self.new():
+            (self.path / name).unlink(missing_ok=True)  # what an example left behind may still go
+
+
+@dataclass
+class Ended:
+    status: int
+    out: str
+    err: str
+
+
+def start(words, folder, stdout=subprocess.PIPE, bytes_a_file=None):
+    limit = ["prlimit", f"--fsize={bytes_a_file}"] if bytes_a_file else []
+    return subprocess.Popen([*limit, PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=stdout,
+                            stderr=subprocess.PIPE, text=True)
+
+
+def ended(process):
+    out, err = process.communicate(timeout=120)
+    return Ended(process.returncode, out or "", err)
+
+
+def lorentz(words, folder, **how):
+    return ended(start(words, folder, **how))
+
+
+def candidates(*words):
+    """What the program itself says may stand next."""
+    out = subprocess.run([PROGRAM, "--complete", *words, ""], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return [line.split("\t")[0] for line in out.splitlines()[1:]]
+
+
+def usage(words):
+    """What help says may follow a subcommand; empty for what is none (the name of a scene, of a set)."""
+    before = f"Usage: lorentz {' '.join(words)} "
+    lines = lorentz([*words, "--help"], "/").out.splitlines()
+    return next((line[len(before):] for line in lines if line.startswith(before)), "")
+
+
+def subcommands():
+    """All that do something of their own, nested ones too."""
+    found = []
+    for name in candidates():
+        if not usage([name]).endswith(" SUBCOMMAND"):
+            found.append(name)
+        found += [f"{name} {word}" for word in candidates(name) if usage([name, word])]
+    return found
+
+
+class Test:
+    def __init__(self, name, made):
+        self.name, self.words, self.edge = name, name.split(), EDGES[name]
+        self.folder, self.failures = Folder(made), []
+        self.quick = self.words + (["--help"] if self.edge.slow else self.edge.quick.split())
+
+    def check(self, good, what, run):
+        if not good:
+            self.failures.append(f"lorentz {self.name}: {what}\n    status {run.status}, {self.folder.new()}, {run.err!r}")
+
+    def run(self, words, **how):
+        self.folder.clear()
+        return lorentz(words, self.folder.path, **how)
+
+    def help_and_mistakes(self):
+        run = self.run([*self.words, "--help"])
+        self.check(run.status == 0 and "Example" in run.out, "help has no example", run)
+        self.examples(run.out)
+        run = self.run([*self.words, "--no-such-option"])
+        self.check(run.status == 2 and f"no such option: --no-such-option; lorentz {self.name} --help has all" in run.err,
+                   "an unknown option is not named", run)
+        mistyped = self.words[-1][:-2] + self.words[-1][-1]
+        run = self.run([*self.words[:-1], mistyped])
+        if self.words[0] != "fuzz" or len(self.words) == 1:  # fuzz takes what follows for itself
+            self.check(run.status == 2 and "did you mean" in run.err, f"{mistyped} gets no nearest name", run)
+        if self.edge.missing:
+            run = self.run(self.words + self.edge.missing.split())
+            self.check(run.status == 3 and "/no/such/file" in run.err, "a missing file is not named", run)
+
+    def examples(self, text):
+        """Each begins to work: what is still at it after a moment is ended."""
+        lines = text[text.index("Example"):].splitlines()
+        lines = [line.strip() for line in lines if line.startswith("  ") and "lorentz" in line]
+        environment = dict(os.environ, PATH=f"{Path(PROGRAM).parent}:{os.environ['PATH']}")
+        for line in lines:
+            self.folder.clear()
+            process = subprocess.Popen(["sh", "-c", line], cwd=self.folder.path, stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment,
+                                       start_new_session=True)
+            try:
+                out, err = process.communicate(timeout=0.3)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.communicate()
+                continue
+            run = Ended(process.returncode, out, err)
+            works = run.status in (0, 1) or (self.edge.report and not HAS_PAGE and "--html" in line)
+            self.check(works, f"the example does not work: {line}", run)
+
+    def standard_output(self):
+        run = self.run(self.quick)
+        self.check(run.status == (0 if self.edge.slow else self.edge.status), "its short work fails", run)
+        if not self.edge.prints:
+            return
+        with open("/dev/full", "w") as full:
+            run = self.run(self.quick, stdout=full)
+        self.check(run.status == 3 and "lorentz: standard output: No space left on device; free some" in run.err
+                   and run.err.count("standard output") == 1, "a full disk is not said once", run)
+        read, write = os.pipe()
+        os.close(read)
+        run = self.run(self.quick, stdout=write)
+        os.close(write)
+        self.check(run.status == -signal.SIGPIPE and "standard output" not in run.err, "a closed pipe is not quiet", run)
+
+    def without(self, option):
+        """The short work, and no such option."""
+        words = self.quick
+        if option not in words:
+            return words
+        at = words.index(option)
+        return words[:at] + words[at + 2:]
+
+    def output_files(self):
+        for option in self.edge.outputs:
+            if option == "--html" and not HAS_PAGE:
+                continue
+            fresh = option == "--store" or self.name in ("golden make", "fuzz merge")  # must not be there
+            self.folder.clear()
+            if not fresh:
+                (self.folder.path / "OUT").write_text("<svg old")
+            run = lorentz(self.without(option) + [option, "OUT"], self.folder.path, bytes_a_file=self.edge.room)
+            self.check(run.status == 3 and "OUT" in run.err and ";" in run.err, f"{option} on a full disk: what, and what to do?",
+                       run)
+            if not fresh:
+                self.check(self.folder.new() == ["OUT"] and (self.folder.path / "OUT").read_text() == "<svg old",
+                           f"{option} on a full disk does not leave things as they were", run)
+            left = [name for name in self.folder.new() if name != "OUT" and ".part" not in name]
+            whole = [name for name in self.folder.new() if name == "OUT" and (self.folder.path / name).stat().st_size > 20]
+            self.check(not left and not whole, f"{option} on a full disk leaves {left + whole}", run)
+            run = self.run(self.without(option) + [option, "/no/such/folder/f"])
+            self.check(run.status == 3 and "/no/such/folder/f" in run.err and "make its folder first" in run.err
+                       and not run.out, f"{option} into a missing folder is said late, or not well", run)
+
+    def signals(self):
+        if not self.edge.work:
+            return
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.folder.clear()
+            if "OUT" in self.edge.work and self.name != "golden make":
+                (self.folder.path / "OUT").write_text("old")
+            process = start(self.words + self.edge.work.split(), self.folder.path)
+            wait_for_handler(process, number)
+            time.sleep(0.1)
+            process.send_signal(number)
+            run = ended(process)
+            if number == signal.SIGTERM:
+                good = run.status == -number and "lorentz: terminated" in run.err
+            else:  # some say first what is done
+                good = run.status in (-number, 3) and ("interrupted" in run.err or "nothing to report" in run.err)
+                good |= self.name == "fuzz" and run.status == 0 and "interrupted" in run.err  # as the end of its time
+            self.check(good, f"{signal.Signals(number).name} gets no clear end", run)
+            left = [name for name in self.folder.new() if name != "OUT" and ".part" not in name]
+            self.check(not left, f"{signal.Signals(number).name} leaves {left}", run)
+            old = self.folder.path / "OUT"
+            self.check(not old.exists() or old.read_text() == "old", f"{signal.Signals(number).name} changes OUT", run)
+
+    def all(self):
+        try:
+            self.help_and_mistakes()
+            self.standard_output()
+            self.output_files()
+            self.signals()
+        finally:
+            shutil.rmtree(self.folder.path)
+        return self.failures
+
+
+def wait_for_handler(process, number):
+    """Until the program is so far that it catches the signal."""
+    while process.poll() is None:
+        status = Path(f"/proc/{process.pid}/status").read_text()
+        caught = next(line for line in status.splitlines() if line.startswith("SigCgt:"))
+        if int(caught.split()[1], 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.005)
+
+
+def prepare(made):
+    """The files that the lines above and the examples of the help name."""
+    global HAS_PAGE
+    for name in ("data", "examples"):
+        os.symlink(Path(SOURCE) / name, made / name)
+    (made / "start").write_text('{"x":["1/2","1/10"],"v":[1,0]}\n')
+    for file, words in {
+        "q.ndjson": "sample --count 1",
+        "many.ndjson": "sample --count 50000",
+        "queries.npy": "sample --count 10 --format npy",
+        "campaign": f"fuzz {EDGES['fuzz'].quick} --store published.campaign",
+        "shard": f"fuzz {EDGES['fuzz'].quick} --shard 0/2 --store shard-0.campaign",
+        "other": f"fuzz {EDGES['fuzz'].quick} --shard 1/2 --store shard-1.campaign",
+        "findings.ndjson": "fuzz export --store published.campaign",
+    }.items():
+        with open(made / file, "w") as out:
+            run = subprocess.run([PROGRAM, *words.split()], cwd=made, stdout=out, stderr=subprocess.PIPE, text=True)
+        assert run.returncode in (0, 1), (words, run)
+    page = lorentz(["golden", "explain", "9cbb135e", "--html", "page"], made)
+    HAS_PAGE = "without the page" not in page.err
+
+
+def main():
+    os.environ["LORENTZ_DATA"] = f"{SOURCE}/data"
+    found = subcommands()
+    missing = sorted(set(found) - set(EDGES))
+    if missing or len(found) < 20:
+        sys.exit(f"the program has {len(found)} subcommands, and {missing} have no line in EDGES of this test")
+    made = Path(tempfile.mkdtemp(prefix="lorentz-edges-"))
+    try:
+        prepare(made)
+        with ThreadPoolExecutor(2) as pool:
+            failures = sum(pool.map(lambda name: Test(name, made).all(), found), [])
+    finally:
+        shutil.rmtree(made)
+    print("\n".join(failures))
+    print(f"{len(found)} subcommands, {len(failures)} failures{'' if HAS_PAGE else ' (--html not tried: no page)'}")
+    sys.exit(1 if failures else 0)
+
+
+main()

@@ -1,0 +1,100 @@
+"""What the shell has of the program: completion in a real bash, and manual pages that say what --help says.
+
+usage: shell_test.py PROGRAM SOURCE
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
+
+# The words after `lorentz`, the last of them being typed; what bash offers, or some of it.
+COMPLETIONS = [
+    (["sc"], ["scene"]),
+    (["scene", ""], ["list", "show", "draw"]),
+    (["scene", "show", "hon"], ["honeycomb"]),
+    (["compare", "--disa"], ["--disagreements"]),
+    (["compare", "--engine", "red"], ["reduction"]),
+    (["compare", "-e", "classical,certified-"], ["classical,certified-batch"]),
+    (["compare", "--engine", "=", "red"], ["reduction"]),  # bash makes three words of --engine=red
+    (["compare", "--scene", "triangul"], ["triangular"]),
+    (["golden", "check", "graz"], ["grazing"]),
+    (["golden", "check", "-e", "reduction", "my"], ["my-set.ndjson"]),
+    (["golden", "make", "--set", "near-r"], ["near-rational"]),
+    (["fuzz", "--target", "long-"], ["long-flight"]),
+    (["fuzz", "exp"], ["export"]),
+    (["sample", "--kind", ""], ["uniform", "surface", "near-rational", "grazing"]),
+    (["first-hit", "my"], ["my-set.ndjson"]),
+    (["first-hit", "--jobs", ""], []),
+    (["convergents", "--", "--j"], []),
+    (["convergents", "--j"], ["--json"]),
+]
+
+
+def in_bash(folder):
+    """One bash for all: it prints a line for each."""
+    script = [f"source {SOURCE}/cli/shell/lorentz.bash"]
+    for words, _ in COMPLETIONS:
+        line = " ".join(f"'{word}'" for word in [str(PROGRAM), *words])
+        script.append(f'COMP_WORDS=({line}); COMP_CWORD={len(words)}; _lorentz; echo "${{COMPREPLY[*]}}"')
+    run = subprocess.run(["bash", "--norc", "-c", "\n".join(script)], cwd=folder, stdout=subprocess.PIPE, text=True,
+                         env=dict(os.environ, LORENTZ_DATA=f"{SOURCE}/data"), check=True)
+    return [line.split() for line in run.stdout.splitlines()]
+
+
+def completion_failures(folder):
+    (folder / "my-set.ndjson").touch()
+    offered = in_bash(folder)
+    assert len(offered) == len(COMPLETIONS), offered
+    return [f"completion of {words}: {there}, and not {wanted}"
+            for (words, wanted), there in zip(COMPLETIONS, offered) if there != wanted]
+
+
+def plain(page):
+    """A page without roff's escapes."""
+    return re.sub(r"\\f[BIR]|\\&", "", page).replace("\\-", "-").replace("\\e", "\\")
+
+
+def page_failures(page):
+    """Options and subcommands of --help that the page has not, and what the formatters say of it."""
+    words = page.stem.split("-", 1)[1] if "-" in page.stem else ""
+    for group in ("scene", "golden", "fuzz"):
+        words = words.replace(f"{group}-", f"{group} ")
+    text = plain(page.read_text())
+    help_text = subprocess.run([PROGRAM, *words.split(), "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    names = re.findall(r"^  (?:-\w,)?(--[\w-]+)", help_text, re.M)
+    names += [f"{page.stem}-{name}" for name in re.findall(r"^  ([\w-]+)", help_text.partition("Subcommands:")[2].split("\n\n")[0], re.M)]
+    names += [line.strip() for line in help_text.splitlines() if line.startswith("  lorentz ")]
+    failures = [f"{page.name} has no {name}" for name in names if name not in text]
+    for formatter in (["groff", "-man", "-ww", "-z"], ["mandoc", "-T", "lint", "-W", "warning"]):
+        if shutil.which(formatter[0]):
+            run = subprocess.run([*formatter, page], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            failures += run.stdout.splitlines()
+    return failures
+
+
+def manual_failures(folder):
+    subprocess.run([PROGRAM, "--manuals", folder / "man1"], check=True, env=dict(os.environ, SOURCE_DATE_EPOCH="0"))
+    pages = sorted((folder / "man1").iterdir())
+    assert len(pages) > 25 and all(page.suffix == ".1" for page in pages), pages
+    first = (folder / "man1" / "lorentz.1").read_text()
+    assert first.startswith('.TH LORENTZ 1 1970-01-01 "lorentz '), first[:60]
+    return sum((page_failures(page) for page in pages), [])
+
+
+def main():
+    folder = Path(tempfile.mkdtemp(prefix="lorentz-shell-"))
+    try:
+        failures = completion_failures(folder) + manual_failures(folder)
+    finally:
+        shutil.rmtree(folder)
+    print("\n".join(failures))
+    sys.exit(1 if failures else 0)
+
+
+main()

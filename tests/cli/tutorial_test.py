@@ -1,0 +1,108 @@
+"""Runs the commands of docs/tutorial.md, in order and as they stand, and compares what they print.
+
+usage: tutorial_test.py PROGRAM SOURCE [--write]     --write: puts what they print into the tutorial
+
+They run in one shell, in a folder that has the project's build/, data/ and examples/. What is printed must be
+what the tutorial shows, but for
+- the verdict of `judge`, which asks as many questions as its time allows, and takes times: only what comes
+  before its first colon is compared (broken, wrong, ..);
+- `..`, which stands for any number of lines.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
+TUTORIAL = SOURCE / "docs" / "tutorial.md"
+DONE_ALREADY = ["./run build"]  # by whoever runs this test
+VERDICTS = ("broken", "wrong", "undecided", "ill-posed", "right")
+MARK = "\x01"
+
+
+def steps_of(lines):
+    """(command, lines printed, first and last line of these) of each `$` in the fenced blocks."""
+    steps, fenced, end = [], False, None
+    for number, line in enumerate(lines):
+        if line.startswith("```"):
+            fenced, end = not fenced, None
+        elif fenced and line.startswith("$ ") and end is None:
+            steps.append([line[2:], [], number + 1])
+            heredoc = re.search(r"<< '(\w+)'$", line)
+            end = heredoc[1] if heredoc else None
+        elif fenced and end:
+            steps[-1][0] += "\n" + line
+            steps[-1][2] = number + 1
+            end = None if line == end else end
+        elif fenced and steps:
+            steps[-1][1].append(line)
+    return steps
+
+
+def run(commands):
+    """What each prints, on both outputs, and its exit status."""
+    folder = Path(tempfile.mkdtemp(prefix="lorentz-tutorial-"))
+    try:
+        for name in ("data", "examples"):
+            os.symlink(SOURCE / name, folder / name)
+        os.symlink(PROGRAM.parent, folder / "build")
+        script = "\n".join(f"{command}\nprintf '{MARK}%s\\n' $?" for command in commands)
+        environment = {key: value for key, value in os.environ.items() if not key.startswith("LORENTZ_")}
+        done = subprocess.run(["bash", "--norc", "-c", script], cwd=folder, stdin=subprocess.DEVNULL, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment, timeout=300)
+    finally:
+        shutil.rmtree(folder)
+    parts = re.split(f"{MARK}(\\d+)\n", done.stdout)
+    return [(text.splitlines(), int(status)) for text, status in zip(parts[0::2], parts[1::2])]
+
+
+def comparable(lines):
+    """Up to the verdict of `judge`, if there is one: what follows depends on how far it came."""
+    out = []
+    for line in lines:
+        verdict = line.split(":")[0]
+        if verdict in VERDICTS:
+            return out + [verdict]
+        out.append(line)
+    return out
+
+
+def agree(shown, printed):
+    """Whether the tutorial's lines are those printed; `..` is any lines."""
+    if not shown:
+        return not printed
+    if shown[0].strip() == "..":
+        return any(agree(shown[1:], printed[i:]) for i in range(len(printed) + 1))
+    return bool(printed) and shown[0].rstrip() == printed[0].rstrip() and agree(shown[1:], printed[1:])
+
+
+def write(lines, steps, printed):
+    for (_, shown, first), (text, _) in reversed(list(zip(steps, printed))):
+        lines[first:first + len(shown)] = [line.rstrip() for line in text]
+    TUTORIAL.write_text("\n".join(lines) + "\n")
+
+
+def main():
+    lines = TUTORIAL.read_text().splitlines()
+    steps = [step for step in steps_of(lines) if step[0] not in DONE_ALREADY]
+    printed = run([command for command, _, _ in steps])
+    if len(printed) != len(steps) or len(steps) < 15:
+        sys.exit(f"{len(printed)} of {len(steps)} commands ended; the last printed {printed[-1:]}")
+    if "--write" in sys.argv:
+        return write(lines, steps, printed)
+    failures = 0
+    for (command, shown, first), (text, status) in zip(steps, printed):
+        good = status in (0, 1) and agree(comparable(shown), comparable(text))
+        if not good:
+            failures += 1
+            print(f"docs/tutorial.md:{first}: {command}\nis shown to print\n" + "\n".join(shown))
+            print(f"and prints (status {status})\n" + "\n".join(text))
+    print(f"{len(steps)} commands, {failures} failures")
+    sys.exit(1 if failures else 0)
+
+
+main()

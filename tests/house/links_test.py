@@ -1,0 +1,60 @@
+"""What the documents point to is there: links to files and to headings, and the paths of trust.md.
+
+usage: links_test.py SOURCE
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(sys.argv[1]).resolve()
+
+
+def documents():
+    """All Markdown that git knows, or that is there if this is no clone."""
+    listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    names = listed.stdout.split()
+    return [ROOT / name for name in names] or [f for f in ROOT.rglob("*.md") if "node_modules" not in f.parts]
+
+
+def prose_of(document):
+    """Without code blocks."""
+    return re.sub(r"^```.*?^```", "", document.read_text(), flags=re.M | re.S)
+
+
+def anchors_of(document):
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.*)$", prose_of(document), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def broken_links(document):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose_of(document)):
+        if re.match(r"\w+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (document.parent / path).resolve() if path else document
+        if not file.exists():
+            yield f"{document.relative_to(ROOT)}: no {path}"
+        elif anchor and file.suffix == ".md" and anchor not in anchors_of(file):
+            yield f"{document.relative_to(ROOT)}: {path} has no heading #{anchor}"
+
+
+def missing_paths(document):
+    """What stands in backticks and has a folder of this project in front."""
+    for path in re.findall(r"`((?:tests|data|proof|fuzz|cmake|src|oracle|examples)/[\w./-]+)`", document.read_text()):
+        if path != "proof/check" and not (ROOT / path).exists():  # which is made by ./run proof
+            yield f"{document.relative_to(ROOT)}: no {path}"
+
+
+def main():
+    found = documents()
+    broken = [link for document in found for link in broken_links(document)]
+    broken += missing_paths(ROOT / "docs" / "trust.md")
+    print("\n".join(broken))
+    print(f"{len(found)} documents, {len(broken)} broken links")
+    sys.exit(1 if broken or len(found) < 20 else 0)
+
+
+main()
