@@ -84,30 +84,14 @@ BenchPlan plan_of(const Options& options) {
   return plan;
 }
 
-// A file that is asked for, or none.
-class Output {
- public:
-  explicit Output(const std::optional<std::string>& path) {
-    if (path) file_.emplace(*path);
-  }
-  template <class MakeText>
-  void write(const MakeText& text) {
-    if (!file_) return;
-    file_->write(text());
-    file_->commit();
-  }
-
- private:
-  std::optional<WholeFile> file_;
-};
-
 int act(const Options& options) {
   check_apart({{"--csv", options.csv}, {"--html", options.html}, {"--store", options.store}});
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());
   if (options.html && !report::has_page()) report::page("");  // says why
-  Output csv(options.csv), html(options.html);
+  check_writable(options.csv);
+  check_writable(options.html);
   std::string manifest_text;
   append_manifest(manifest_text, manifest);
   BenchStore store(options.store, run_of(plan, groups, manifest), manifest_text);
@@ -127,8 +111,8 @@ int act(const Options& options) {
   print(options.json ? json
                      : fmt::format("Speed against error, one thread (seed {}).\n\n{}", plan.seed,
                                    bench_text(cells, plan.engines)));
-  csv.write([&] { return bench_csv(cells); });
-  html.write([&] { return report::page(json); });
+  if (options.csv) write_whole(*options.csv, bench_csv(cells));
+  if (options.html) write_whole(*options.html, report::page(json));
   return failed ? kFailed : kDone;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/whole_file.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -56,6 +57,47 @@ void WholeFile::fail() {
 
 namespace {
 
+// While it is there the signals wait that people and systems end programs with.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t deadly;
+    sigemptyset(&deadly);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) sigaddset(&deadly, signal);
+    pthread_sigmask(SIG_BLOCK, &deadly, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+// What is no file may be read by somebody who is slower than any signal should wait.
+void write_whole(const std::string& path, std::string_view text) {
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  std::optional<SignalsWait> wait;
+  if (!fs::exists(there) || fs::is_regular_file(there)) wait.emplace();
+  WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+void check_writable(const std::optional<std::string>& path) {
+  std::error_code error;
+  if (!path) return;
+  const fs::file_status there = fs::status(*path, error);
+  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_directory(there)) return;
+  const SignalsWait wait;
+  WholeFile trial(*path);
+}
+
+namespace {
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status there = fs::status(a, error);
@@ -67,6 +109,10 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }  // namespace
 
 void check_apart(std::initializer_list<FileOption> options) {
+  for (const FileOption& option : options)
+    if (option.path && option.path->empty())
+      throw InputError(std::string(option.name) +
+                       ": the name is empty; give the file one, or leave the option out");
   for (auto one = options.begin(); one != options.end(); ++one)
     for (auto other = options.begin(); other != one; ++other)
       if (one->path && other->path && is_same_file(*one->path, *other->path))

@@ -34,14 +34,22 @@ class WholeFile {
   std::FILE* file_;
 };
 
+/// A file of this text, whole or not at all. Signals that would end the program wait meanwhile, so that
+/// nothing is left beside it. Throws FileError.
+void write_whole(const std::string& path, std::string_view text);
+
+/// Throws FileError if no such file can be made: now, rather than when there is something to write after
+/// minutes. Leaves nothing behind; devices and pipes are left alone.
+void check_writable(const std::optional<std::string>& path);
+
 /// An option that names a file to be written, if it was given.
 struct FileOption {
   const char* name;
   std::optional<std::string> path;
 };
 
-/// Throws InputError if two options name the same file, of which one would be lost. (Devices and pipes take
-/// both.)
+/// Throws InputError if an option has an empty name, or two name the same file, of which one would be lost.
+/// (Devices and pipes take both.)
 void check_apart(std::initializer_list<FileOption> options);
 
 }  // namespace lorentz::cli

@@ -18,6 +18,19 @@ long complexity_of(const Question& question) {
                              : static_cast<long>(question.text.size());
 }
 
+// Rows that asked nothing do not count.
+double mean_share(const std::map<std::string, std::size_t>& by_row, const Asked& asked) {
+  double sum = 0;
+  std::size_t rows = 0;
+  for (const auto& [row, number] : asked) {
+    if (number == 0) continue;
+    ++rows;
+    const auto its = by_row.find(row);
+    if (its != by_row.end()) sum += static_cast<double>(its->second) / static_cast<double>(number);
+  }
+  return rows ? sum / static_cast<double>(rows) : 0;
+}
+
 std::string share_text(double share) {
   return share == 0 ? "none of the right answers" : fmt::format("{:.2g} % of the right answers", 100 * share);
 }
@@ -27,7 +40,8 @@ std::string share_text(double share) {
 std::string Finding::summary() const {
   const std::string text = sentence_of(cause(), by_radii);
   // A grazing one says that of itself.
-  const bool is_said = cause() == Cause::passed_over_grazing && circumstance && circumstance->is_of_depth;
+  const bool is_said = (cause() == Cause::passed_over_grazing || cause() == Cause::never_for_grazing) &&
+                       circumstance && circumstance->is_of_depth;
   return circumstance && !is_said ? text + ", only " + circumstance->text : text;
 }
 
@@ -36,11 +50,12 @@ std::string Finding::explanation() const {
                       : summary();
 }
 
-void Findings::add(const Example& example) {
+void Findings::add(const Example& example, const std::string& row) {
   Finding& its =
       findings_
           .try_emplace({example.diagnosis.severity, example.diagnosis.cause}, Finding{example, {}, 0, {}})
           .first->second;
+  ++its.by_row[row];
   if (its.count++ == 0) its.where = example.question.where;
   if (example.diagnosis.by_radii)
     its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
@@ -58,6 +73,7 @@ void Findings::add(const Findings& others) {
     if (is_new) continue;
     Finding& its = place->second;
     its.count += other.count;
+    for (const auto& [row, count] : other.by_row) its.by_row[row] += count;
     if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
     its.features.insert(its.features.end(), other.features.begin(), other.features.end());
     if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) continue;
@@ -66,15 +82,15 @@ void Findings::add(const Findings& others) {
   }
 }
 
-std::vector<Finding> Findings::all() const {
+std::vector<Finding> Findings::all(const Asked& asked) const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) {
     all.push_back(finding);
+    all.back().share = mean_share(finding.by_row, asked);
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
   std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return std::make_tuple(a.severity(), -static_cast<long>(a.count)) <
-           std::make_tuple(b.severity(), -static_cast<long>(b.count));
+    return std::make_tuple(a.severity(), -a.share) < std::make_tuple(b.severity(), -b.share);
   });
   return all;
 }

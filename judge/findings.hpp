@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,12 +21,18 @@ struct Example {
 
 /// All answers that went wrong in one way.
 struct Finding {
-  Example simplest;                     ///< by fuzz::complexity
-  std::string where;                    ///< it was met first
-  std::size_t count = 0;                ///< answers
-  std::optional<double> by_radii;       ///< the most of any
+  Example simplest;                                ///< by fuzz::complexity
+  std::string where;                               ///< it was met first
+  std::size_t count = 0;                           ///< answers
+  std::optional<double> by_radii;                  ///< the most of any
+  std::map<std::string, std::size_t> by_row = {};  ///< the same answers, by the row that asked
+  double share =
+      0;  ///< of what was asked in a row, the mean over all rows: each kind of question weighs the same
   std::vector<Features> features = {};  ///< of the questions, the first of them
   std::optional<Circumstance> circumstance = {};
+  /// Asked so often in a row, from the start of a program on, the simplest case goes wrong; 0: not even if it
+  /// is asked kMostRepetitions times.
+  std::size_t repetitions = 1;
 
   Cause cause() const { return simplest.diagnosis.cause; }
   Severity severity() const { return simplest.diagnosis.severity; }
@@ -35,16 +42,20 @@ struct Finding {
   std::string explanation() const;
 };
 
+/// How many questions a row asked, by its name.
+using Asked = std::map<std::string, std::size_t>;
+
 class Findings {
  public:
-  void add(const Example& example);
+  /// Met in the row of this name.
+  void add(const Example& example, const std::string& row);
   void add(const Findings& others);
 
   /// A right answer, for comparison.
   void add_right(const Features& features) { right_.push_back(features); }
 
-  /// The worst first, of these the most frequent; with their circumstances.
-  std::vector<Finding> all() const;
+  /// The worst first, of these those with the largest share; with their circumstances.
+  std::vector<Finding> all(const Asked& asked) const;
 
  private:
   std::map<std::pair<Severity, Cause>, Finding> findings_;
