@@ -231,7 +231,8 @@ void race(JudgeReport& report, const std::vector<Place>& places, const Terms& te
   const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
                                                                {}, {report.engine, "reduction"}, {}, options);
   report.failed |= tallies[0].failed;
-  if (tallies[0].failed || options.enough()) return;
+  const bool is_cut = compare::is_command(report.engine) && options.enough();
+  if (tallies[0].failed || is_cut) return;
   report.ns_per_query = tallies[0].ns_per_query;
   report.ns_of_reduction = tallies[1].ns_per_query;
   std::vector<std::string> names;

@@ -173,11 +173,13 @@ std::string json_of(const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
   const int dimension = dimension_of(example);
   return fmt::format(
-      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"share\":{},\"often\":{},\"where\":{},\"verdict\":{},"
+      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"share_of_plain\":{},\"share_of_hard\":{},\"often\":{}"
+      ",\"where\":{},\"verdict\":{},"
       "\"scene\":{},\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
       "\"commands\":{},\"drawing\":{}}}",
       json_quoted(judge::name_of(finding.cause())), json_quoted(finding.explanation()), finding.count,
-      number_or_null(finding.share), json_quoted(often(finding, report)), json_quoted(finding.where),
+      number_or_null(finding.share_of_plain), number_or_null(finding.share_of_hard),
+      json_quoted(often(finding, report)), json_quoted(finding.where),
       json_quoted(name_of(finding.severity())), scene_object(example.question.setting->scene()),
       members_of(example), answer_object(example.given, dimension),
       answer_object(exact_of(example), dimension), number_or_null(example.diagnosis.by_radii),

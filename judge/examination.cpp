@@ -167,7 +167,8 @@ void Examination::take(const Question& question, const Answer& given, Row& row, 
 
 std::vector<Finding> Examination::findings() const {
   Asked asked;
-  for (const Row& row : rows_) asked[row.name] += row.tally.queries - row.tally.unsupported;
+  for (const Row& row : rows_)
+    asked[row.name] = {asked[row.name].number + row.tally.queries - row.tally.unsupported, row.is_hard};
   return findings_.all(asked);
 }
 

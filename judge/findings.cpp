@@ -18,17 +18,15 @@ long complexity_of(const Question& question) {
                              : static_cast<long>(question.text.size());
 }
 
-// Rows that asked nothing do not count.
-double mean_share(const std::map<std::string, std::size_t>& by_row, const Asked& asked) {
-  double sum = 0;
-  std::size_t rows = 0;
-  for (const auto& [row, number] : asked) {
-    if (number == 0) continue;
-    ++rows;
-    const auto its = by_row.find(row);
-    if (its != by_row.end()) sum += static_cast<double>(its->second) / static_cast<double>(number);
+// Of all that was asked in the rows that are hard, or in the others.
+double share_of(const std::map<std::string, std::size_t>& by_row, const Asked& asked, bool hard) {
+  double all = 0, its = 0;
+  for (const auto& [row, asked_of] : asked) {
+    if (asked_of.is_hard != hard) continue;
+    all += static_cast<double>(asked_of.number);
+    if (const auto place = by_row.find(row); place != by_row.end()) its += static_cast<double>(place->second);
   }
-  return rows ? sum / static_cast<double>(rows) : 0;
+  return all > 0 ? its / all : 0;
 }
 
 std::string share_text(double share) {
@@ -86,12 +84,15 @@ std::vector<Finding> Findings::all(const Asked& asked) const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) {
     all.push_back(finding);
-    all.back().share = mean_share(finding.by_row, asked);
+    all.back().share_of_plain = share_of(finding.by_row, asked, false);
+    all.back().share_of_hard = share_of(finding.by_row, asked, true);
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
-  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return std::make_tuple(a.severity(), -a.share) < std::make_tuple(b.severity(), -b.share);
-  });
+  const auto rank = [](const Finding& finding) {
+    return std::make_tuple(finding.severity(), -finding.share_of_plain, -finding.share_of_hard);
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
   return all;
 }
 

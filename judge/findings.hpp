@@ -26,8 +26,8 @@ struct Finding {
   std::size_t count = 0;                           ///< answers
   std::optional<double> by_radii;                  ///< the most of any
   std::map<std::string, std::size_t> by_row = {};  ///< the same answers, by the row that asked
-  double share =
-      0;  ///< of what was asked in a row, the mean over all rows: each kind of question weighs the same
+  double share_of_plain = 0,
+         share_of_hard = 0;             ///< of all the plain flights that were asked; of the hard ones
   std::vector<Features> features = {};  ///< of the questions, the first of them
   std::optional<Circumstance> circumstance = {};
   /// Asked so often in a row, from the start of a program on, the simplest case goes wrong; 0: not even if it
@@ -42,8 +42,13 @@ struct Finding {
   std::string explanation() const;
 };
 
-/// How many questions a row asked, by its name.
-using Asked = std::map<std::string, std::size_t>;
+/// How many questions a row asked.
+struct AskedOf {
+  std::size_t number = 0;
+  bool is_hard = false;  ///< chosen to be difficult
+};
+/// By the row's name.
+using Asked = std::map<std::string, AskedOf>;
 
 class Findings {
  public:
@@ -54,7 +59,8 @@ class Findings {
   /// A right answer, for comparison.
   void add_right(const Features& features) { right_.push_back(features); }
 
-  /// The worst first, of these those with the largest share; with their circumstances.
+  /// The worst first; of these the most frequent in plain flights, then in hard ones. With their
+  /// circumstances.
   std::vector<Finding> all(const Asked& asked) const;
 
  private:

@@ -147,15 +147,17 @@ TEST_CASE("Findings of one cause are one, the simplest case in front, the most f
   add(plain, Answer::never(), "many");
   add(odd, Answer::never(), "many");
   add(odd, Answer::hit(disc(2, 0), *odd.exact.time + 1), "few");
-  const std::vector<Finding> all = findings.all({{"many", 100}, {"few", 2}, {"none", 0}});
-  REQUIRE(all.size() == 3);
-  // One of two questions is more than three of a hundred; but a wrong time is less than a wrong answer.
+  add(odd, Answer::inside(disc(1, 0)), "many");
+  const std::vector<Finding> all = findings.all({{"many", {100, true}}, {"few", {20, false}}, {"none", {}}});
+  REQUIRE(all.size() == 4);
+  // One of twenty plain flights is more than three of a hundred hard ones; but no wrong time is.
   CHECK(all[0].cause() == Cause::passed_over);
-  CHECK(all[0].share == Approx(0.25));
+  CHECK(all[0].share_of_plain == Approx(0.05));
   CHECK(all[1].cause() == Cause::never_for_hit);
-  CHECK(all[1].share == Approx(0.015));
+  CHECK(all[1].share_of_hard == Approx(0.03));
   CHECK(all[1].count == 3);
   CHECK(all[1].simplest.question.query.v[1] == 0);
   CHECK(all[1].by_radii == Approx(1));
-  CHECK(all[2].cause() == Cause::wrong_time);
+  CHECK(all[2].cause() == Cause::inside_not_so);
+  CHECK(all[3].cause() == Cause::wrong_time);
 }

@@ -52,7 +52,7 @@ export function calls(report) {
       x: {
         type: "band",
         domain,
-        label: "radii by which the line enters or misses the obstacle in question",
+        label: "radii by which it is met or missed",
         labelAnchor: "center",
         tickSize: 0,
         padding: 0.12,

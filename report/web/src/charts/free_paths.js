@@ -17,8 +17,10 @@ export function freePaths(report) {
     const points = curves.flatMap((c) =>
       c.points.filter((p) => p.t > 0 && p.survival > 0).map((p) => ({ ...p, name: nameOf(c) })),
     );
-    const theory = points.filter((p) => p.theory > 0),
-      exact = points.filter((p) => p.exact > 0);
+    // Theory goes on where there are no more flights to draw.
+    const least = Math.min(...points.map((p) => p.survival)) / 1.6;
+    const theory = points.filter((p) => p.theory > least),
+      exact = points.filter((p) => p.exact > least);
     if (!points.length) return null;
     const svg = plot({
       width,
