@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
+#include "report/page.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -107,7 +108,8 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   CHECK(contains(often.out, "gives no answer: it dies, falls silent, or writes what is none"));
   // Never an answer; then the signals, of which each must end it and all that it started.
   const std::string page = folder.file("page.html"),
-                    judge = LORENTZ_PROGRAM " judge " + hangs + "1' --html " + page;
+                    judge = LORENTZ_PROGRAM " judge " + hangs + "1'" +
+                            (lorentz::report::has_page() ? " --html " + page : "");
   for (const char* signal : {"INT", "TERM", "HUP"}) {
     const Run run = folder.run(std::string("timeout --preserve-status -s ") + signal + " 1 " + judge);
     INFO(signal << run.out << run.err);
@@ -132,4 +134,26 @@ TEST_CASE("judge: starting takes no part in the speed; free paths that are cut s
   CHECK(contains(cut.out, "; P(free path > "));
   CHECK(contains(cut.out, "wrong: "));
   CHECK(contains(cut.out, "says never where an obstacle is hit"));
+}
+
+TEST_CASE("flights and survival make pages of their curves", "[judge][judge_command]") {
+  if (!lorentz::report::has_page()) return;
+  const Folder folder;
+  CHECK(
+      folder.lorentz("flights --radius 0.1,0.01 --from surface --count 2e4 --html " + folder.file("flights"))
+          .status == 0);
+  const std::string flights = folder.read("flights");
+  CHECK(contains(
+      flights, R"("kind":"flights","title":"Free paths: square, surface starts","line":"square, r = 0.1: )"));
+  CHECK(contains(flights,
+                 R"("free_paths":[{"scene":"square","engine":"batch","radius":0.1,"from":"surface",)"));
+  CHECK(contains(flights, R"("law":"Boca-Zaharescu, r -)"));
+  CHECK(contains(flights, R"({"scene":"square","engine":"batch","radius":0.01,)"));
+  CHECK(
+      folder.lorentz("survival --radius 0.1 --count 20 --bits 53 --html " + folder.file("survival")).status ==
+      0);
+  const std::string survival = folder.read("survival");
+  CHECK(contains(survival,
+                 R"("survival":[{"scene":"square","engine":"reduction, binary64","radius":0.1,"points":[)"));
+  CHECK(contains(survival, R"({"collisions":1,"share":1,"low":0.83)"));
 }

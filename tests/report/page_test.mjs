@@ -198,7 +198,10 @@ test("Right obstacles at wrong times are no praise, rows that were not asked do 
     const summary = (chart) => page.locator(`[data-chart=${chart}] .summary`).innerText();
     assert.match(await summary("difficulties"), /^Of 2 kinds of query that it was asked 1 were answered/);
     assert.match(await summary("calls"), /^3\u202f140 answers; wrong ones only .* less than 10⁻⁹ radii/);
-    assert.match(await summary("free-paths"), /farthest from them at t = 8 in cubic, r = 0.1: 19\.3\u202f% instead of 17\.3\u202f%/);
+    assert.match(
+      await summary("free-paths"),
+      /farthest from them at t = 8 in cubic, r = 0.1: 19\.3\u202f% instead of 17\.3\u202f%/,
+    );
   });
 });
 

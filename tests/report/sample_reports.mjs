@@ -339,7 +339,14 @@ function timed() {
   const report = judge();
   const [plain, , grazing, , campaign] = report.difficulties;
   const beyond = { ...campaign, name: "drawn ellipses", agree: 0, wrong: 0, unsupported: campaign.queries };
-  const late = { ...grazing, agree: grazing.queries - 70, wrong: 0, ill_posed: 0, undecided: 0, wrong_time: 70 };
+  const late = {
+    ...grazing,
+    agree: grazing.queries - 70,
+    wrong: 0,
+    ill_posed: 0,
+    undecided: 0,
+    wrong_time: 70,
+  };
   return {
     ...report,
     title: "late_engine, judged",

@@ -27,7 +27,9 @@ function gathered(calls) {
 }
 
 const rangeOf = ({ decade }) =>
-  decade === LOWEST ? `below ${powerTick(10 ** (LOWEST + 1))}` : `${powerTick(10 ** decade)} to ${powerTick(10 ** (decade + 1))}`;
+  decade === LOWEST
+    ? `below ${powerTick(10 ** (LOWEST + 1))}`
+    : `${powerTick(10 ** decade)} to ${powerTick(10 ** (decade + 1))}`;
 
 export function calls(report) {
   const all = gathered(report.calls ?? []);
@@ -56,18 +58,24 @@ export function calls(report) {
         labelAnchor: "center",
         tickSize: 0,
         padding: 0.12,
-        tickFormat: (d) => ((d - first) % step === 0 ? `${d === LOWEST ? "<" : ""}${powerTick(10 ** (d + (d === LOWEST ? 1 : 0)))}` : ""),
+        tickFormat: (d) =>
+          (d - first) % step === 0
+            ? `${d === LOWEST ? "<" : ""}${powerTick(10 ** (d + (d === LOWEST ? 1 : 0)))}`
+            : "",
       },
       y: { domain: [0, 1], label: "share of the answers", tickFormat: "%", labelAnchor: "center" },
       marks: [
-        Plot.rectY(bars.filter((b) => b.to > b.from), {
-          x: "decade",
-          y1: "from",
-          y2: "to",
-          fill: (b) => b.verdict.colour,
-          fillOpacity: (b) => (b.verdict.word === "right" ? 0.35 : 0.95),
-          inset: 0.4,
-        }),
+        Plot.rectY(
+          bars.filter((b) => b.to > b.from),
+          {
+            x: "decade",
+            y1: "from",
+            y2: "to",
+            fill: (b) => b.verdict.colour,
+            fillOpacity: (b) => (b.verdict.word === "right" ? 0.35 : 0.95),
+            inset: 0.4,
+          },
+        ),
       ],
     });
     const [sx, sy] = [svg.scale("x"), svg.scale("y")];
@@ -82,7 +90,10 @@ export function calls(report) {
           `${count(totalOf(call))} answers`,
           ...parts
             .filter(({ key }) => call[key] > 0)
-            .map(({ key, verdict }) => `${count(call[key])} ${verdict.word} (${percent(call[key] / totalOf(call))})`),
+            .map(
+              ({ key, verdict }) =>
+                `${count(call[key])} ${verdict.word} (${percent(call[key] / totalOf(call))})`,
+            ),
         ],
       })),
       legend: parts.map(({ verdict }) => ({

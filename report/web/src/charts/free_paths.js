@@ -82,9 +82,7 @@ export function freePaths(report) {
 function said(points, exact) {
   if (!exact.length) return "";
   const apart = (p) => Math.abs(p.survival - p.exact);
-  const farthest = points
-    .filter((p) => isNumber(p.exact))
-    .reduce((a, b) => (apart(b) > apart(a) ? b : a));
+  const farthest = points.filter((p) => isNumber(p.exact)).reduce((a, b) => (apart(b) > apart(a) ? b : a));
   return apart(farthest) === 0
     ? " Line: the exact ones of the same flights, and the engine's are the same."
     : ` Line: the exact ones of the same flights; the engine's are farthest from them at t = ${number(farthest.t)} in ${farthest.name}: ${percent(farthest.survival)} instead of ${percent(farthest.exact)}.`;
