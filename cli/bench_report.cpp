@@ -91,6 +91,7 @@ class Summary {
     wrong_ += cell.wrong.count, ill_posed_ += cell.ill_posed.count, undecided_ += cell.undecided.count;
     wrong_time_ += cell.wrong_time.count;
     unsupported_ += cell.unsupported, failed_ += cell.error + cell.missing;
+    has_times_ |= cell.ulps.exact > 0 || !cell.ulps.counts.empty();
     max_ulp_ = std::max(max_ulp_, cell.ulps.max);
     max_condition_ = std::max(max_condition_, cell.conditions.max);
   }
@@ -109,8 +110,10 @@ class Summary {
     if (wrong_time_ > 0)
       text +=
           fmt::format("  {} wrong {} of right obstacles\n", wrong_time_, wrong_time_ == 1 ? "time" : "times");
-    text += fmt::format("  {:.0f} to {:.0f} ns; times at worst {:.3g} ulps off, {:.3g} times the condition",
-                        fastest_, slowest_, max_ulp_, max_condition_);
+    text += fmt::format("  {:.0f} to {:.0f} ns", fastest_, slowest_);
+    if (has_times_)
+      text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,
+                          max_condition_);
     if (skipped_ > 0) text += fmt::format("; too slow for {} {}", skipped_, skipped_ == 1 ? "cell" : "cells");
     if (beyond_ > 0) text += fmt::format("; {} {} unsupported", beyond_, beyond_ == 1 ? "cell" : "cells");
     return text + '\n';
@@ -130,6 +133,7 @@ class Summary {
 
   std::size_t queries_ = 0, wrong_ = 0, ill_posed_ = 0, undecided_ = 0, wrong_time_ = 0, unsupported_ = 0,
               failed_ = 0, skipped_ = 0, beyond_ = 0;
+  bool has_times_ = false;
   double fastest_ = 0, slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
 };
 

@@ -23,6 +23,8 @@ report::CellStore read(const std::string& path) {
 BenchStore::BenchStore(std::optional<std::string> path, report::CellStore::Run run, std::string manifest)
     : path_(std::move(path)), store_{std::move(run), std::move(manifest), {}} {
   if (!path_) return;
+  lock_ = std::make_unique<fuzz::LockFile>(
+      *path_, true, "another process is writing this store; wait for it, stop it, or name another file");
   if (std::filesystem::exists(*path_)) {
     if (!std::filesystem::is_regular_file(*path_))
       throw InputError("--store: " + *path_ + ": is no file; name one to keep the cells in");
@@ -58,10 +60,7 @@ void BenchStore::add(const std::vector<report::Cell>& cells) {
 }
 
 void BenchStore::save() const {
-  if (!path_) return;
-  WholeFile file(*path_);
-  file.write(store_.text());
-  file.commit();
+  if (path_) write_whole(*path_, store_.text());
 }
 
 }  // namespace lorentz::cli

@@ -1,11 +1,13 @@
 // The file in which `lorentz bench --store` keeps the cells that are done.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/bench_cells.hpp"
+#include "fuzz/campaign/lock_file.hpp"
 #include "report/cell_store.hpp"
 
 namespace lorentz::cli {
@@ -13,7 +15,7 @@ namespace lorentz::cli {
 class BenchStore {
  public:
   /// Without a path nothing is kept in a file. A file that is there must be of this run; one that is not is
-  /// begun. Throws InputError or FileError.
+  /// begun. No other process may write it meanwhile. Throws InputError or FileError.
   BenchStore(std::optional<std::string> path, report::CellStore::Run run, std::string manifest);
 
   /// The cells of a group, one an engine in their order, if all of them are there.
@@ -30,6 +32,7 @@ class BenchStore {
   void save() const;
 
   std::optional<std::string> path_;
+  std::unique_ptr<fuzz::LockFile> lock_;
   report::CellStore store_;
 };
 

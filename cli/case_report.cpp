@@ -97,11 +97,7 @@ void CaseFiles::write(const CaseReport& report) const {
   std::vector<std::pair<std::string, std::string>> files;
   if (html) files.emplace_back(*html, text_for(true));
   if (svg) files.emplace_back(*svg, text_for(false));
-  for (const auto& [path, text] : files) {
-    WholeFile file(path);
-    file.write(text);
-    file.commit();
-  }
+  for (const auto& [path, text] : files) write_whole(path, text);
 }
 
 }  // namespace lorentz::cli

@@ -63,6 +63,11 @@ std::string printed(const Scene& scene, const std::string& query_members) {
                      shell_quoted("{\"id\":1," + query_members + '}'));
 }
 
+std::string printed_often(const Scene& scene, const std::string& query_members, std::size_t times) {
+  return fmt::format("{{ printf '%s\\n' {}; yes {} | head -n {}; }}", shell_quoted(scene_line(scene)),
+                     shell_quoted("{\"id\":1," + query_members + '}'), times);
+}
+
 std::string array_of(const std::vector<std::string>& texts) {
   std::string out = "[";
   for (const std::string& text : texts) out += (out.size() > 1 ? "," : "") + json_quoted(text);

@@ -19,6 +19,7 @@
 #include "compare/sampling.hpp"
 #include "flights/ranks.hpp"
 #include "flights/run.hpp"
+#include "report/page.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -33,7 +34,7 @@ struct Options {
   std::string scene = "square", engine = "batch", from = "uniform", count = "1000000",
               seed = std::to_string(compare::kDefaultSeed), jobs = "1", shard = "0/1",
               cells = std::to_string(flights::kCellsOfBox);
-  std::optional<std::string> seconds, store, csv, svg, density_svg;
+  std::optional<std::string> seconds, store, csv, svg, density_svg, html;
   bool json = false;
   std::vector<std::string> radii, parts;
 };
@@ -111,12 +112,6 @@ Account read_account(const std::string& path) {
   }
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  WholeFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 Account empty_account(const Plan& plan) {
   Account account;
   account.plan = plan.text();
@@ -162,7 +157,7 @@ class News {
     if (others)
       ranks_->report(account, false);
     else if (store_)
-      write_file(*store_, (ranks_ ? ranks_->sum(account, false) : account).text());
+      write_whole(*store_, (ranks_ ? ranks_->sum(account, false) : account).text());
   }
 
  private:
@@ -195,7 +190,7 @@ FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options
   }
   if (ranks) result.account = ranks->sum(result.account, true);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (options.store) write_file(*options.store, result.account.text());
+  if (options.store) write_whole(*options.store, result.account.text());
   say("{:.2f} s", *result.seconds);
   return result;
 }
@@ -204,15 +199,16 @@ FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options
 class Files {
  public:
   explicit Files(const Options& options)
-      : csv_(options.csv), svg_(options.svg), density_svg_(options.density_svg) {}
+      : csv_(options.csv), svg_(options.svg), density_svg_(options.density_svg), html_(options.html) {}
   void write(const std::vector<FlightsReport>& reports) {
     csv_.write([&] { return csv_of(reports); });
     svg_.write([&] { return survival_svg(reports); });
     density_svg_.write([&] { return density_svg(reports); });
+    html_.write([&] { return report::page(page_json(reports, command_line())); });
   }
 
  private:
-  RequestedFile csv_, svg_, density_svg_;
+  RequestedFile csv_, svg_, density_svg_, html_;
 };
 
 // Each radius is reported when it is flown; an interrupt leaves out those of which nothing is, and the files.
@@ -239,7 +235,9 @@ int act(const Options& options) {
   check_apart({{"--store", options.store},
                {"--csv", options.csv},
                {"--svg", options.svg},
-               {"--density-svg", options.density_svg}});
+               {"--density-svg", options.density_svg},
+               {"--html", options.html}});
+  if (options.html && !report::has_page()) report::page("");  // says why
   const std::vector<Task> tasks = tasks_of(options);
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;
@@ -319,6 +317,10 @@ void add_flights(CLI::App& app, Action& action) {
       ->add_option("--density-svg", options->density_svg,
                    "the picture of the density in linear bins, theory drawn in; several radii in one, in "
                    "units of the mean free path")
+      ->type_name("FILE");
+  command
+      ->add_option("--html", options->html,
+                   "a page that opens offline: P(free path > t) and theory, with numbers on hover")
       ->type_name("FILE");
   command->add_flag("--json", options->json,
                     "one JSON object a line instead of a table; of several radii one a radius");

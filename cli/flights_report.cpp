@@ -6,6 +6,8 @@
 #include <lorentz/exchange.hpp>
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
+#include "report/curves.hpp"
+#include "report/manifest.hpp"
 
 namespace lorentz::cli {
 
@@ -110,6 +112,18 @@ std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindi
   return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
 }
 
+// Of all obstacles, if it is one.
+std::optional<double> common_radius(const Scene& scene) {
+  std::optional<double> radius;
+  bool same = true;
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms) {
+      same = same && atom.is_ball() && (!radius || *radius == atom.radius);
+      radius = atom.radius;
+    }
+  return same ? radius : std::nullopt;
+}
+
 std::string name_of(Ensemble from) {
   return from == Ensemble::uniform ? "uniform" : "surface";
 }
@@ -117,14 +131,8 @@ std::string name_of(Ensemble from) {
 }  // namespace
 
 std::string FlightsReport::name_with_radius() const {
-  std::optional<double> radius;
-  bool same = true;
-  for (const Lattice& lattice : plan.scene.lattices)
-    for (const Atom& atom : lattice.atoms) {
-      same = same && atom.is_ball() && (!radius || *radius == atom.radius);
-      radius = atom.radius;
-    }
-  return same && radius ? fmt::format("{}, r = {:g}", scene_name, *radius) : scene_name;
+  const auto radius = common_radius(plan.scene);
+  return radius ? fmt::format("{}, r = {:g}", scene_name, *radius) : scene_name;
 }
 
 std::string FlightsReport::table() const {
@@ -230,6 +238,55 @@ std::string csv_names(const FlightsFindings& found, bool with_radius) {
 }
 
 }  // namespace
+
+namespace {
+
+std::optional<double> radius_of(const FlightsReport& report) {
+  return report.radius ? report.radius : common_radius(report.plan.scene);
+}
+
+// At every other bin, where there is chance for a point.
+report::FreePathCurve curve_of(const FlightsReport& report, const FlightsFindings& found) {
+  constexpr std::size_t kStep = Bins::kAnOctave / 4;
+  constexpr double kNearlyAll = 0.995;
+  report::FreePathCurve curve{
+      report.scene_name, report.plan.engine, radius_of(report), name_of(report.plan.from), "", {}};
+  const Law* law = found.fits.empty() ? nullptr : &found.fits[0].law;
+  if (law) curve.law = law->name + ", " + law->when;
+  const auto total = static_cast<double>(found.total);
+  for (std::size_t i = 0; i < found.edges.size(); i += kStep) {
+    const double share = static_cast<double>(found.beyond[i]) / total;
+    if (found.beyond[i] == 0 || share > kNearlyAll) continue;
+    report::FreePathCurve::Point point{found.edges[i], share, {}, {}};
+    if (law) point.theory = law->survival(point.t);
+    curve.points.push_back(point);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string page_json(const std::vector<FlightsReport>& reports, const std::string& command) {
+  const FlightsReport& first = reports.front();
+  std::vector<report::FreePathCurve> curves;
+  std::string line;
+  for (const FlightsReport& report : reports) {
+    const FlightsFindings found(report);
+    curves.push_back(curve_of(report, found));
+    const Tally& tally = report.account.tally;
+    line +=
+        fmt::format("{}{}: {} flights", line.empty() ? "" : "; ", report.name_with_radius(), tally.flights());
+    if (tally.hits > 0) line += fmt::format(", mean {:.6g} ± {:.2g}", tally.mean(), tally.standard_error());
+    if (const auto exact = exact_mean(report, found)) line += fmt::format(", exact {:.6g}", *exact);
+  }
+  std::string out = fmt::format(
+      "{{\"format\":1,\"kind\":\"flights\",\"title\":{},\"line\":{},\"manifest\":",
+      json_quoted(fmt::format("Free paths: {}, {} starts", first.scene_name, name_of(first.plan.from))),
+      json_quoted(line));
+  report::append_manifest(out, report::manifest_of(first.plan.seed, command));
+  report::append_curves(out, "free_paths", curves);
+  return out + "}\n";
+}
 
 std::string csv_of(const std::vector<FlightsReport>& reports) {
   std::string names, text;

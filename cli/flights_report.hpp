@@ -30,6 +30,9 @@ struct FlightsReport {
 /// The bins, with what theory expects in them; of several radii with the radius before each row.
 std::string csv_of(const std::vector<FlightsReport>& reports);
 
+/// The report of a page (docs/page.md), of kind "flights".
+std::string page_json(const std::vector<FlightsReport>& reports, const std::string& command);
+
 /// Pictures of one scene at one or several radii: P(free path > t) on logarithmic axes, and the density on
 /// linear ones. Throw InputError if nothing was hit.
 std::string survival_svg(const std::vector<FlightsReport>& reports);

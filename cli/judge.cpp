@@ -9,6 +9,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/judge_paths.hpp"
 #include "cli/judge_report.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
@@ -17,6 +18,7 @@
 #include "cli/whole_file.hpp"
 #include "compare/measure.hpp"
 #include "judge/questions.hpp"
+#include "judge/repetition.hpp"
 #include "judge/simplest.hpp"
 #include "report/page.hpp"
 
@@ -36,16 +38,16 @@ struct Options {
 
 // How long each part takes at the most, in seconds, and how many flights are drawn.
 struct Plan {
-  double drawn, hard, golden, campaign, speed, simplest;
+  double drawn, hard, paths, golden, campaign, speed, simplest;
   std::size_t count;
-  double seconds() const { return drawn + hard + golden + campaign + speed + simplest; }
+  double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
   /// The same in another time.
   Plan lasting(double other) const {
     const double k = other / seconds();
-    return {k * drawn, k * hard, k * golden, k * campaign, k * speed, k * simplest, count};
+    return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
   }
 };
-constexpr Plan kWhole{15, 8, 25, 60, 4, 12, 4000}, kQuick{4, 2.5, 4, 5, 1, 3, 500};
+constexpr Plan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
 
 // The catalogue's scenes that are flown in, and their radii; without any at their own size.
 struct Scenery {
@@ -78,21 +80,28 @@ std::vector<Place> places_of(const Scenery& scenery) {
   return places;
 }
 
+using Clock = std::chrono::steady_clock;
+
+// A stretch of time.
+class Countdown {
+ public:
+  explicit Countdown(double seconds)
+      : end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+  double left() const { return std::max(std::chrono::duration<double>(end_ - Clock::now()).count(), 0.0); }
+
+ private:
+  Clock::time_point end_;
+};
+
 // Parts of one stretch of time: what one leaves over is the others'.
 class Shares {
  public:
-  Shares(double seconds, std::size_t parts)
-      : end_(Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))),
-        parts_(parts) {}
-  double next() {
-    const std::chrono::duration<double> left = end_ - Clock::now();
-    return std::max(left.count(), 0.0) / static_cast<double>(std::max<std::size_t>(parts_--, 1));
-  }
+  Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
+  double next() { return all_.left() / static_cast<double>(std::max<std::size_t>(parts_--, 1)); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point end_;
+  Countdown all_;
   std::size_t parts_;
 };
 
@@ -142,10 +151,37 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
   }
 }
 
-void simplify(std::vector<judge::Finding>& findings, Examination& examination, double seconds) {
-  Shares shares(seconds, findings.size());
-  for (judge::Finding& finding : findings)
+// Who is examined, and on which terms.
+struct Terms {
+  std::string engine;
+  double ulps = 0;
+  compare::AnswererOptions answerer;
+
+  std::unique_ptr<Examination> examination() const {
+    return std::make_unique<Examination>(engine, answerer, ulps, Interrupt::came());
+  }
+  /// That tells nobody what it meets.
+  std::unique_ptr<Examination> silent_examination() const {
+    Terms silent = *this;
+    silent.answerer.listener = {};
+    return silent.examination();
+  }
+};
+
+// The simplest case of each; and of another program, whether that case goes wrong by itself.
+void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
+              double seconds) {
+  const bool by_itself = compare::is_command(terms.engine);
+  Shares shares(seconds, (by_itself ? 2 : 1) * findings.size());
+  for (judge::Finding& finding : findings) {
     finding.simplest = judge::simplest(finding, examination, shares.next());
+    if (!by_itself) continue;
+    const double share = shares.next();
+    if (finding.severity() == judge::Severity::ill_posed) continue;
+    finding.repetitions = judge::repetitions_to_fail(
+                              finding, [&] { return terms.silent_examination(); }, share)
+                              .value_or(0);
+  }
 }
 
 // ---- Speed
@@ -163,32 +199,45 @@ std::vector<const Place*> places_to_race_in(const std::vector<Place>& places) {
   return chosen;
 }
 
-void race(JudgeReport& report, const std::vector<Place>& places, double seconds, double timeout,
-          std::uint64_t seed) {
-  const std::vector<const Place*> chosen = places_to_race_in(places);
-  if (chosen.empty()) return;
-  double slowest = 0;
-  for (const judge::Row& row : report.rows)
-    if (!row.is_hard) slowest = std::max(slowest, row.tally.ns_per_query);
-  constexpr int kRounds = 5;
-  constexpr std::size_t kFewest = 32, kMost = 2000;
-  const double affordable = 1e9 * seconds / kRounds / std::max(slowest, 1.0);
-  const auto count = static_cast<std::size_t>(std::clamp<double>(affordable, kFewest, kMost));
+// As many of each place as can be afforded.
+compare::CaseSet cases_to_race_in(const std::vector<const Place*>& places, std::uint64_t seed,
+                                  std::size_t count) {
   compare::CaseSet set;
-  std::vector<std::string> names;
-  for (const Place* place : chosen) {
+  for (const Place* place : places) {
     const Scene& scene = place->setting->scene();
     for (const Query& query : compare::draw_queries(scene, place->setting->oracle(), seed, count))
       set.cases.push_back({std::to_string(set.cases.size()), set.scenes.size(), query});
     set.scenes.push_back(scene);
-    names.push_back(place->name);
   }
-  const std::vector<compare::Tally> tallies = compare::measure(
-      set, {}, {report.engine, "reduction"}, {}, {oracle::kDefaultUlps, kRounds, timeout, terminal()});
+  return set;
+}
+
+std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
+  constexpr double kFewest = 32, kMost = 2000;
+  double slowest = 1;
+  for (const judge::Row& row : report.rows)
+    if (!row.is_hard) slowest = std::max(slowest, row.tally.ns_per_query);
+  return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
+}
+
+void race(JudgeReport& report, const std::vector<Place>& places, const Terms& terms, double seconds) {
+  constexpr int kRounds = 5;
+  constexpr double kTooLong = 2;  // times as long as it should take
+  const std::vector<const Place*> chosen = places_to_race_in(places);
+  if (chosen.empty()) return;
+  const std::size_t count = affordable(report, kRounds, seconds);
+  const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
+  compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
+  options.enough = [&] { return Interrupt::came() || until.left() == 0; };
+  const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
+                                                               {}, {report.engine, "reduction"}, {}, options);
   report.failed |= tallies[0].failed;
-  if (tallies[0].failed) return;
+  const bool is_cut = compare::is_command(report.engine) && options.enough();
+  if (tallies[0].failed || is_cut) return;
   report.ns_per_query = tallies[0].ns_per_query;
   report.ns_of_reduction = tallies[1].ns_per_query;
+  std::vector<std::string> names;
+  for (const Place* place : chosen) names.push_back(place->name);
   report.speed_of =
       fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
 }
@@ -233,42 +282,65 @@ std::string command_of(const Options& o) {
   return command;
 }
 
+// Without --timeout: much more than any answer should take here, and little of the time there is. A program's
+// first answer may take as long as elsewhere.
+Terms terms_of(const Options& options, const Plan& plan) {
+  constexpr double kShortest = 2, kPart = 0.1;
+  Terms terms{options.engine, tolerance(options.ulps), {}};
+  const double most = compare::AnswererOptions::kDefaultTimeout;
+  const double own = std::clamp(kPart * plan.seconds(), kShortest, most);
+  terms.answerer.timeout = positive_number(options.timeout, "--timeout").value_or(own);
+  terms.answerer.start_timeout = most;
+  terms.answerer.listener = terminal();
+  return terms;
+}
+
+// All that it is asked in turn; returns where.
+std::vector<Place> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
+                           JudgeReport& report) {
+  const Countdown all(plan.seconds());
+  std::vector<Place> places = fly_drawn(examination, plan, report.seed);
+  report.flown = fly_free_paths(examination, report.seed, plan.paths);
+  check_golden_sets(examination, plan.golden);
+  std::vector<std::unique_ptr<Examination>> others;
+  for (unsigned i = 1; i < jobs; ++i) {
+    others.push_back(terms.examination());
+    others.back()->limit(all.left());
+  }
+  run_campaign(examination, others, judge::scope_of(places), report.seed, plan.campaign);
+  report.rows = examination.rows();
+  report.findings = examination.findings();
+  report.calls = examination.calls();
+  if (!examination.is_over()) simplify(report.findings, examination, terms, plan.simplest);
+  return places;
+}
+
 JudgeReport judged(const Options& options, const Plan& plan) {
   JudgeReport report;
   report.engine = options.engine;
   report.command = command_of(options);
   report.times = options.times;
   report.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  const double ulps = tolerance(options.ulps);
-  const double timeout =
-      positive_number(options.timeout, "--timeout").value_or(compare::AnswererOptions::kDefaultTimeout);
   const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
-  const auto examined = [&] {
-    return std::make_unique<Examination>(options.engine, compare::AnswererOptions{{}, timeout, terminal()},
-                                         ulps, Interrupt::came());
-  };
-  const std::unique_ptr<Examination> first = examined();
-  Examination& examination = *first;
-  examination.on_progress(clock_of(plan));
-  const std::vector<Place> places = fly_drawn(examination, plan, report.seed);
-  check_golden_sets(examination, plan.golden);
-  std::vector<std::unique_ptr<Examination>> others;
-  for (unsigned i = 1; i < jobs; ++i) others.push_back(examined());
-  run_campaign(examination, others, judge::scope_of(places), report.seed, plan.campaign);
-  report.rows = examination.rows();
-  report.findings = examination.findings().all();
-  report.failed = examination.failed();
-  if (!examination.is_over()) simplify(report.findings, examination, plan.simplest);
-  const bool is_over = examination.is_over();
-  examination.on_progress({});
-  examination.finish();
-  if (!is_over) race(report, places, plan.speed, timeout, report.seed);
+  const Terms terms = terms_of(options, plan);
+  const std::unique_ptr<Examination> examination = terms.examination();
+  examination->on_progress(clock_of(plan));
+  examination->limit(plan.seconds());
+  report.start_up = examination->warm_up();
+  if (!examination->is_over()) examination->limit(plan.seconds());
+  const std::vector<Place> places = examine(*examination, terms, plan, jobs, report);
+  report.failed = examination->failed();
+  const bool is_over = examination->is_over();
+  examination->on_progress({});
+  examination->finish();
+  if (!is_over) race(report, places, terms, plan.speed);
   return report;
 }
 
 int act(const Options& options) {
   compare::check_name(options.engine);
   const Plan plan = plan_of(options);
+  check_apart({{"--html", options.html}});
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
   const Interrupt interrupt;
@@ -292,10 +364,10 @@ void add_judge(CLI::App& app, Action& action) {
   command->add_option("-e,--engine", options->engine, compare::names_for_help())
       ->required()
       ->type_name("ENGINE");
-  command->add_flag("--quick", options->quick, "20 seconds instead of two minutes");
+  command->add_flag("--quick", options->quick, "20 seconds instead of two minutes, and fewer drawn flights");
   command
       ->add_option("--time", options->seconds,
-                   "how long in all, about (default: 124; with --quick, which draws fewer flights, 19.5)")
+                   "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)")
       ->type_name("SECONDS");
   command->add_option("--seed", options->seed, "of all that is drawn")->capture_default_str()->type_name("N");
   command->add_option("--jobs", options->jobs, "threads of the campaign; all else is asked on one")
@@ -305,7 +377,11 @@ void add_judge(CLI::App& app, Action& action) {
       ->add_option("--ulps", options->ulps,
                    "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)")
       ->type_name("K");
-  command->add_option("--timeout", options->timeout, compare::kTimeoutHelp)->type_name("SECONDS");
+  command
+      ->add_option("--timeout", options->timeout,
+                   "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
+                   "in all, from 2 to 60; for its first answer 60)")
+      ->type_name("SECONDS");
   command->add_option("--html", options->html, "write the report there as a page, whole or not at all")
       ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of tables");

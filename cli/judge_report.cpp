@@ -10,7 +10,7 @@
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
-#include "fuzz/examine/shrink.hpp"
+#include "judge/repetition.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/manifest.hpp"
 
@@ -44,37 +44,76 @@ Answer exact_of(const Example& example) {
 
 // ---- Findings
 
-std::vector<std::string> commands_of(const Finding& finding, const std::string& engine) {
-  const std::string lines = printed(finding.simplest.question.setting->scene(), members_of(finding.simplest));
-  std::vector<std::string> commands;
+// Two digits, or all before the point.
+std::string two_digits(double a) {
+  return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
+}
+
+const char* option_for(Severity severity) {
+  if (severity == Severity::wrong_time) return " --times";
+  return severity == Severity::wrong ? "" : " --strict";
+}
+
+// The shell command that prints the question, as often as it takes.
+std::string lines_of_question(const Finding& finding) {
+  const Scene& scene = finding.simplest.question.setting->scene();
+  const std::string members = members_of(finding.simplest);
+  return finding.repetitions > 1 ? printed_often(scene, members, finding.repetitions)
+                                 : printed(scene, members);
+}
+
+std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
+  if (finding.repetitions == 0) return {report.command};  // the question alone does not show it
+  const std::string lines = lines_of_question(finding), engine = shell_quoted(report.engine);
   if (finding.simplest.question.is_query())
-    commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
-                                   shell_quoted(engine),
-                                   finding.severity() == Severity::wrong_time ? " --times"
-                                   : finding.severity() != Severity::wrong    ? " --strict"
-                                                                              : ""));
+    return {fmt::format("{} | lorentz compare --queries - --engine {}{}", lines, engine,
+                        option_for(finding.severity())),
+            fmt::format("{} | lorentz first-hit --engine {}", lines, engine)};
   // Lines that are no question only golden sets hand on; a program reads them by itself.
-  if (finding.simplest.question.is_query())
-    commands.push_back(fmt::format("{} | lorentz first-hit --engine {}", lines, shell_quoted(engine)));
-  else if (compare::is_command(engine))
-    commands.push_back(
-        fmt::format("{} | sh -c {}", lines, shell_quoted(engine.substr(std::string_view("cmd:").size()))));
-  return commands;
+  if (!compare::is_command(report.engine)) return {};
+  return {fmt::format("{} | sh -c {}", lines,
+                      shell_quoted(report.engine.substr(std::string_view("cmd:").size())))};
+}
+
+// Why an answer is not the exact one: what decides, and whether rounding explains it.
+std::vector<std::string> lines_of_dispute(const Example& example) {
+  const judge::Setting& setting = *example.question.setting;
+  std::vector<std::string> lines;
+  if (const auto dispute = dispute_of(setting.margins(), setting.scene(), example.question.query,
+                                      example.question.exact, example.given))
+    lines.push_back(dispute->text);
+  const double departs = example.judgement.departs;
+  if (example.diagnosis.severity == Severity::ill_posed)
+    lines.push_back(fmt::format("inputs moved by {:.3g} ulps would make it right", departs));
+  else if (std::isfinite(departs))
+    lines.push_back(fmt::format(
+        "rounding does not explain it: inputs would have to move by {:.3g} ulps or more", departs));
+  else
+    lines.push_back("rounding does not explain it: no inputs near these make it right");
+  return lines;
 }
 
 std::vector<std::string> reason_lines(const Finding& finding) {
   const Example& example = finding.simplest;
-  if (!example.question.is_query()) return {"the question is none; the answer is an error"};
-  if (finding.severity() == Severity::error) return {"the question is a good one"};
-  if (example.judgement.wrong_time || finding.cause() == Cause::other_quantity)
-    return {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
-                        example.judgement.departs)};
-  const judge::Setting& setting = *example.question.setting;
-  std::vector<std::string> lines = lines_of(reason_of(
-      setting.margins(), setting.scene(), example.question.query, example.question.exact, example.given, ""));
-  if (finding.severity() == Severity::ill_posed && example.judgement.departs > 0)
+  std::vector<std::string> lines;
+  if (!example.question.is_query())
+    lines = {"the question is none; the answer is an error"};
+  else if (finding.severity() == Severity::error)
+    lines = {"the question is a good one"};
+  else if (example.judgement.wrong_time || finding.cause() == Cause::other_quantity)
+    lines = {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
+                         example.judgement.departs)};
+  else
+    lines = lines_of_dispute(example);
+  if (finding.repetitions == 0)
     lines.push_back(
-        fmt::format("inputs moved by {:.3g} ulps would make it right", example.judgement.departs));
+        fmt::format("asked alone, or {} times in a row, it is answered otherwise: this takes the questions "
+                    "before it, or chance",
+                    judge::kMostRepetitions));
+  else if (finding.repetitions > 1)
+    lines.push_back(fmt::format(
+        "asked alone it is answered otherwise; asked again and again, this comes at the {}th time",
+        finding.repetitions));
   return lines;
 }
 
@@ -83,20 +122,36 @@ const char* name_of(Severity severity) {
   return kNames[static_cast<int>(severity)];
 }
 
+// The rows in which it is met most often: "17 % of grazing, 9.1 % of golden ties, .."
+std::string often(const Finding& finding, const JudgeReport& report) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<double, std::string>> shares;
+  for (const judge::Row& row : report.rows)
+    if (const auto its = finding.by_row.find(row.name); its != finding.by_row.end())
+      shares.emplace_back(static_cast<double>(its->second) / static_cast<double>(row.tally.queries),
+                          row.name);
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, shares.size()); ++i)
+    text += fmt::format("{}{} % of {}", i ? ", " : "", two_digits(100 * shares[i].first), shares[i].second);
+  return text + (shares.size() > kMost ? ", .." : "");
+}
+
 // In full, but for what rounding of the inputs explains.
-std::string text_of(const Finding& finding, const std::string& engine, int number) {
+std::string text_of(const Finding& finding, const JudgeReport& report, int number) {
   const Example& example = finding.simplest;
   const int dimension = dimension_of(example);
   std::string text =
       fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
-  text += fmt::format("   {} {}; for one {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
-                      finding.where);
+  text += fmt::format("   {} {}: {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
+                      often(finding, report));
   if (finding.severity() == Severity::ill_posed) return text;
-  text += fmt::format("   the simplest:\n   {}\n   {}\n   says  {}\n   truth {}\n",
+  text += fmt::format("   the simplest, from {}:\n   {}\n   {}\n   says  {}\n   truth {}\n", finding.where,
                       scene_line(example.question.setting->scene()), readable_query(example),
                       answer_object(example.given, dimension), answer_object(exact_of(example), dimension));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
-  for (const std::string& command : commands_of(finding, engine)) text += "   $ " + command + '\n';
+  for (const std::string& command : commands_of(finding, report)) text += "   $ " + command + '\n';
   return text;
 }
 
@@ -114,30 +169,28 @@ std::optional<double> ulps_of(const Example& example) {
   return departs > 0 ? std::optional(departs) : std::nullopt;
 }
 
-std::string json_of(const Finding& finding, const std::string& engine) {
+std::string json_of(const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
   const int dimension = dimension_of(example);
   return fmt::format(
-      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"where\":{},\"verdict\":{},\"scene\":{},"
-      "\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
+      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"share_of_plain\":{},\"share_of_hard\":{},\"often\":{}"
+      ",\"where\":{},\"verdict\":{},"
+      "\"scene\":{},\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
       "\"commands\":{},\"drawing\":{}}}",
       json_quoted(judge::name_of(finding.cause())), json_quoted(finding.explanation()), finding.count,
-      json_quoted(finding.where), json_quoted(name_of(finding.severity())),
-      scene_object(example.question.setting->scene()), members_of(example),
-      answer_object(example.given, dimension), answer_object(exact_of(example), dimension),
-      number_or_null(example.diagnosis.by_radii), number_or_null(ulps_of(example)),
-      array_of(reason_lines(finding)), array_of(commands_of(finding, engine)), drawing_of(example));
+      number_or_null(finding.share_of_plain), number_or_null(finding.share_of_hard),
+      json_quoted(often(finding, report)), json_quoted(finding.where),
+      json_quoted(name_of(finding.severity())), scene_object(example.question.setting->scene()),
+      members_of(example), answer_object(example.given, dimension),
+      answer_object(exact_of(example), dimension), number_or_null(example.diagnosis.by_radii),
+      number_or_null(ulps_of(example)), array_of(reason_lines(finding)),
+      array_of(commands_of(finding, report)), drawing_of(example));
 }
 
 // ---- The verdict
 
 std::size_t answers(const compare::Tally& t) {
   return t.agree + t.ill_posed + t.wrong;
-}
-
-// Two digits, or all before the point.
-std::string two_digits(double a) {
-  return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
 }
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -174,6 +227,11 @@ std::string times_text(const std::vector<judge::Row>& rows) {
                      compare::quantile(drawn.wrong_ulps, 1));
 }
 
+std::string paths_text(const std::vector<FlownScene>& flown) {
+  const std::string fault = free_path_fault(flown);
+  return fault.empty() ? "" : "; " + fault;
+}
+
 std::string speed_text(const JudgeReport& report) {
   if (!report.ns_per_query) return "";
   std::string text = fmt::format("; {} ns a query", two_digits(*report.ns_per_query));
@@ -182,33 +240,33 @@ std::string speed_text(const JudgeReport& report) {
   return text;
 }
 
-// The kinds of fault that condemn, and the simplest of them.
+bool condemns(const Finding& finding, const JudgeReport& report) {
+  return finding.severity() != Severity::ill_posed && finding.cause() != Cause::no_answer &&
+         (finding.severity() != Severity::wrong_time || report.times);
+}
+
+// The kinds of fault that condemn, and the first of them: the worst, of these the most frequent.
 std::string faults_text(const JudgeReport& report) {
+  const Finding* main = nullptr;
   std::size_t kinds = 0;
-  const Finding* simplest = nullptr;
-  long least = 0;
-  for (const Finding& finding : report.findings) {
-    if (finding.severity() == Severity::ill_posed) continue;
-    if (finding.severity() == Severity::wrong_time && !report.times) continue;
-    if (finding.cause() == Cause::no_answer) continue;
-    ++kinds;
-    // What is no question comes last.
-    const judge::Question& question = finding.simplest.question;
-    const long complexity = question.is_query() ? fuzz::complexity(question.setting->scene(), question.query)
-                                                : std::numeric_limits<long>::max();
-    if (!simplest || complexity < least) simplest = &finding, least = complexity;
-  }
-  if (!simplest) return "";
-  return kinds == 1 ? simplest->summary()
-                    : fmt::format("{} kinds of fault, the simplest: {}", kinds, simplest->summary());
+  for (const Finding& finding : report.findings)
+    if (condemns(finding, report) && kinds++ == 0) main = &finding;
+  if (!main) return "";
+  return kinds == 1 ? main->summary()
+                    : fmt::format("{} kinds of fault, above all: {}", kinds, main->summary());
 }
 
 std::string heading(const JudgeReport& report) {
   const compare::Tally total = report.total();
   const std::string verdict = report.verdict(), faults = faults_text(report);
-  if (verdict == "broken")
-    return fmt::format("broken: {} {} without an answer that could be read{}", total.error,
-                       total.error == 1 ? "query" : "queries", faults.empty() ? "" : "; wrong: " + faults);
+  if (verdict == "broken") {
+    std::string text = "broken: ";
+    text += total.error + total.missing > 0
+                ? fmt::format("{} of {} {} without an answer that could be read", total.error + total.missing,
+                              total.queries, total.queries == 1 ? "query" : "queries")
+                : "it died, fell silent, or wrote what is no answer";
+    return text + (faults.empty() ? "" : "; wrong: " + faults);
+  }
   if (verdict == "wrong") return "wrong: " + faults;
   if (verdict == "ill-posed")
     return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
@@ -218,6 +276,8 @@ std::string heading(const JudgeReport& report) {
                        total.queries);
   return fmt::format("right: no wrong answer in {}", answers(total));
 }
+
+constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line
 
 const std::vector<std::string> kColumns{"questions", "number",     "agree",     "ill-posed",
                                         "wrong",     "wrong time", "undecided", "unsupported",
@@ -264,6 +324,15 @@ std::string json_of(const judge::Row& row) {
       number_or_null(t.ns_per_query > 0 ? std::optional(t.ns_per_query) : std::nullopt));
 }
 
+void append_calls(std::string& out, const judge::Calls& calls) {
+  out += ",\"calls\":[";
+  for (const auto& [decade, call] : calls.by_decade())
+    out += fmt::format("{}{{\"decade\":{},\"right\":{},\"ill_posed\":{},\"wrong\":{},\"undecided\":{}}}",
+                       out.back() == '[' ? "" : ",", decade, call.right, call.ill_posed, call.wrong,
+                       call.undecided);
+  out += ']';
+}
+
 }  // namespace
 
 compare::Tally JudgeReport::total() const {
@@ -282,14 +351,18 @@ std::string JudgeReport::verdict() const {
 
 std::string JudgeReport::line() const {
   return heading(*this) + share_text("ill-posed", rows, &compare::Tally::ill_posed) +
-         share_text("undecided", rows, &compare::Tally::undecided) + times_text(rows) + speed_text(*this);
+         share_text("undecided", rows, &compare::Tally::undecided) + times_text(rows) + paths_text(flown) +
+         speed_text(*this);
 }
 
 std::string JudgeReport::text() const {
   std::string text = fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine, seed, table_of(*this));
+  for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
+  if (start_up >= kSlowStart)
+    text += fmt::format("Start: {:.2g} s until the first answer, which is in no other figure.\n", start_up);
   int number = 0;
-  for (const Finding& finding : findings) text += text_of(finding, engine, ++number);
+  for (const Finding& finding : findings) text += text_of(finding, *this, ++number);
   return text + '\n' + line() + '\n';
 }
 
@@ -301,14 +374,19 @@ std::string JudgeReport::json() const {
   out += fmt::format(
       ",\"engine\":{},\"verdict\":\"{}\",\"line\":{},\"queries\":{},\"wrong\":{},\"ill_posed\":{},"
       "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"ns_per_query\":{},"
-      "\"ns_of_reduction\":{},\"difficulties\":[",
+      "\"ns_of_reduction\":{},\"start_up_seconds\":{},\"difficulties\":[",
       json_quoted(engine), verdict(), json_quoted(line()), t.queries, t.wrong, t.ill_posed, t.wrong_time,
-      t.undecided, t.unsupported, t.error, number_or_null(ns_per_query), number_or_null(ns_of_reduction));
+      t.undecided, t.unsupported, t.error, number_or_null(ns_per_query), number_or_null(ns_of_reduction),
+      number_or_null(start_up));
   for (const judge::Row& row : rows) out += (&row == &rows.front() ? "" : ",") + json_of(row);
   out += "],\"findings\":[";
   for (const Finding& finding : findings)
-    out += (&finding == &findings.front() ? "" : ",") + json_of(finding, engine);
-  return out + "]}\n";
+    out += (&finding == &findings.front() ? "" : ",") + json_of(finding, *this);
+  append_calls(out += ']', calls);
+  std::vector<report::FreePathCurve> curves;
+  for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine));
+  report::append_curves(out, "free_paths", curves);
+  return out + "}\n";
 }
 
 }  // namespace lorentz::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/judge_paths.hpp"
 #include "judge/examination.hpp"
 
 namespace lorentz::cli {
@@ -15,6 +16,9 @@ struct JudgeReport {
   std::string command;  ///< the shell line that was typed
   std::vector<judge::Row> rows;
   std::vector<judge::Finding> findings;
+  judge::Calls calls;
+  std::vector<FlownScene> flown;
+  double start_up = 0;                                  ///< seconds that another program took to start
   std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
   std::string speed_of;                                 ///< which flights these were
   bool failed = false;                                  ///< another program broke
@@ -24,7 +28,7 @@ struct JudgeReport {
 
   /// right, wrong, ill-posed, undecided, broken: the worst that applies (docs/judge.md).
   std::string verdict() const;
-  /// The verdict in one line, with the simplest fault, shares, times and speed.
+  /// The verdict in one line, with the most frequent fault, shares, times, free paths and speed.
   std::string line() const;
 
   std::string text() const;

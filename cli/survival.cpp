@@ -1,5 +1,6 @@
 // lorentz survival: how many collisions arithmetic of so many bits gets right.
 #include <algorithm>
+#include <cmath>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/itinerary.hpp>
@@ -17,6 +18,9 @@
 #include "compare/sampling.hpp"
 #include "flights/starts/starts.hpp"
 #include "pictures/free_path_plot.hpp"
+#include "report/curves.hpp"
+#include "report/manifest.hpp"
+#include "report/page.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -28,7 +32,7 @@ struct Options {
   std::string scene = "square", engine = "reduction", count = "100", collisions = "500",
               seed = std::to_string(compare::kDefaultSeed);
   std::vector<std::string> bits{"53,106,128,256"};
-  std::optional<std::string> radius, csv, svg;
+  std::optional<std::string> radius, csv, svg, html;
   bool json = false;
 };
 
@@ -86,6 +90,7 @@ class Runner {
 
 struct Survival {
   std::string scene, engine;
+  std::optional<double> radius;
   std::uint64_t seed = 0, collisions = 0;
   std::vector<Arithmetic> arithmetics;
 
@@ -93,6 +98,7 @@ struct Survival {
   std::string json() const;
   std::string csv() const;
   std::string svg() const;
+  std::string page_json() const;
   std::uint64_t longest() const {
     std::uint64_t most = 0;
     for (const Arithmetic& one : arithmetics)
@@ -149,6 +155,29 @@ std::string Survival::svg() const {
   return pictures::draw_free_paths(plot);
 }
 
+// The report of a page (docs/page.md), of kind "survival".
+std::string Survival::page_json() const {
+  const std::size_t starts = arithmetics[0].right.size();
+  std::vector<report::SurvivalCurve> curves;
+  std::string line = fmt::format("{} starts; right collisions, the mean:", starts);
+  for (const Arithmetic& one : arithmetics) {
+    report::SurvivalCurve curve{scene, one.name(engine), radius, {}};
+    double share = 1;
+    for (std::uint64_t k = 1; share > 0; ++k) {
+      share = one.share(k);
+      const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(starts)));
+      curve.points.push_back({k, share, report::share_of(right, starts)});
+    }
+    line += fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(), one.name(engine));
+    curves.push_back(std::move(curve));
+  }
+  std::string out = fmt::format("{{\"format\":1,\"kind\":\"survival\",\"title\":{},\"line\":{},\"manifest\":",
+                                json_quoted("How long trajectories stay right: " + scene), json_quoted(line));
+  report::append_manifest(out, report::manifest_of(seed, command_line()));
+  report::append_curves(out, "survival", curves);
+  return out + "}\n";
+}
+
 // Start `index`, off the surface of an obstacle by the cosine law: the first candidate that lies in no other.
 Start start_of(const flights::Starts& starts, const oracle::Oracle& oracle, std::uint64_t index) {
   Query query;
@@ -186,7 +215,8 @@ std::vector<Arithmetic> arithmetics_of(const Options& options) {
 }
 
 int act(const Options& options) {
-  check_apart({{"--csv", options.csv}, {"--svg", options.svg}});
+  check_apart({{"--csv", options.csv}, {"--svg", options.svg}, {"--html", options.html}});
+  if (options.html && !report::has_page()) report::page("");  // says why
   compare::check_name(options.engine);
   if (compare::is_command(options.engine))
     throw InputError(
@@ -195,6 +225,7 @@ int act(const Options& options) {
   const Scene scene = load_scene(options.scene, radius);
   Survival survival;
   survival.scene = options.scene;
+  survival.radius = radius;
   survival.engine = options.engine;
   survival.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   survival.collisions = whole_number(options.collisions, "--collisions", 1, 1'000'000);
@@ -203,7 +234,7 @@ int act(const Options& options) {
   const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
   const oracle::Oracle oracle(scene);
   const RationalScene exact = rational(scene);
-  RequestedFile csv(options.csv), svg(options.svg);
+  RequestedFile csv(options.csv), svg(options.svg), html(options.html);
   const Interrupt interrupt;
   Progress progress("following", count, 1);
   for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
@@ -215,6 +246,7 @@ int act(const Options& options) {
   if (Interrupt::came()) return kFailed;  // what is left out of the files would not show there
   csv.write([&] { return survival.csv(); });
   svg.write([&] { return survival.svg(); });
+  html.write([&] { return report::page(survival.page_json()); });
   return kDone;
 }
 
@@ -249,6 +281,10 @@ void add_survival(CLI::App& app, Action& action) {
   command->add_option("--csv", options->csv, "shares of starts that are right after k collisions, to a file")
       ->type_name("FILE");
   command->add_option("--svg", options->svg, "the same as a picture")->type_name("FILE");
+  command
+      ->add_option("--html", options->html,
+                   "a page that opens offline: the same with 95 % bounds, and its numbers")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->footer(
       "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "

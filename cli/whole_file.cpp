@@ -55,6 +55,12 @@ void WholeFile::fail() {
   throw write_error(path_, why);
 }
 
+void write_whole(const std::string& path, std::string_view text) {
+  WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 namespace {
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -68,6 +74,10 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }  // namespace
 
 void check_apart(std::initializer_list<FileOption> options) {
+  for (const FileOption& option : options)
+    if (option.path && option.path->empty())
+      throw InputError(std::string(option.name) +
+                       ": the name is empty; give the file one, or leave the option out");
   for (auto one = options.begin(); one != options.end(); ++one)
     for (auto other = options.begin(); other != one; ++other)
       if (one->path && other->path && is_same_file(*one->path, *other->path))

@@ -56,14 +56,17 @@ class RequestedFile {
   std::optional<WholeFile> file_;
 };
 
+/// A file of this text, whole or not at all. Throws FileError.
+void write_whole(const std::string& path, std::string_view text);
+
 /// An option that names a file to be written, if it was given.
 struct FileOption {
   const char* name;
   std::optional<std::string> path;
 };
 
-/// Throws InputError if two options name the same file, of which one would be lost. (Devices and pipes take
-/// both.)
+/// Throws InputError if an option has an empty name, or two name the same file, of which one would be lost.
+/// (Devices and pipes take both.)
 void check_apart(std::initializer_list<FileOption> options);
 
 }  // namespace lorentz::cli

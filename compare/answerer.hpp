@@ -22,6 +22,12 @@ struct AnswererOptions {
   Listener listener = {};            ///< is told what became of another program
   bool strict = false;               ///< an answer with a key that no answer has is none
   int jobs = 1;                      ///< threads, of the batch engines
+  /// Seconds for the first answer of all, if that is more than `timeout`. Later starts of the program then
+  /// get, besides `timeout`, twice what the slowest of them took.
+  double start_timeout = 0;
+  /// Asked often while another program is waited for. Once it says true nothing is waited for any more: what
+  /// is owed gets no answer, and the program is ended.
+  std::function<bool()> enough = {};
 };
 
 inline constexpr const char* kTimeoutHelp =

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 16;  // queries are written out in pieces of this size
 constexpr std::size_t kAskedBetweenSteps = 256;       // a step costs some microseconds
 constexpr double kPatience = 0.5;                     // seconds
+constexpr double kBetweenLooks = 0.1;                 // seconds: whether it is enough
 constexpr std::chrono::milliseconds kGrace{1000};  // to end in, once it is told to or has closed its output
 constexpr std::size_t kMaxComplaints = 20, kRecent = 64;
 constexpr std::size_t kMaxShown = 2000;  // bytes of a scene line in a message
@@ -105,6 +106,7 @@ void CommandEngine::step(Wait wait, int other_descriptor) {
   // It may have ended of itself meanwhile; then the next query is not to blame.
   if (run_ && run_->outstanding == 0 && run_->given > 0) read();
   if (!run_ && open_.empty()) return;
+  if (is_enough()) return abandon();
   if (!run_) start();
   const std::shared_ptr<Run> run = run_;  // what follows may end it
   encode();
@@ -118,6 +120,20 @@ void CommandEngine::step(Wait wait, int other_descriptor) {
 void CommandEngine::start() {
   run_ = std::make_shared<Run>(command_);
   run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
+}
+
+// A program that owes nothing may end by itself. That one is too slow for the time there is, is no fault of
+// it, unless it never gave any answer.
+void CommandEngine::abandon() {
+  const bool owes = run_ && run_->outstanding > 0;
+  if (owes && !ever_answered_)
+    complain(fmt::format("gave no answer in {:.3g} s, which was all the time there is",
+                         Seconds(Clock::now() - run_->started).count()),
+             &open_.front());
+  if (run_) run_->process.end(owes ? kGrace * 0 : kGrace);
+  run_.reset();
+  first_number_ += open_.size();
+  open_.clear();
 }
 
 // Puts queries into words, as many as may be given and a piece of text holds.
@@ -145,7 +161,8 @@ void CommandEngine::wait_for_pipes(Wait wait, int other_descriptor) {
   pollfd pipes[3] = {{run.process.output(), POLLIN, 0},
                      {run.to_write.empty() ? -1 : run.process.input(), POLLOUT, 0},
                      {other_descriptor, POLLIN, 0}};
-  const double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
+  double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
+  if (options_.enough) seconds = std::min(seconds, kBetweenLooks);
   ::poll(pipes, 3, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
 }
 
@@ -180,13 +197,20 @@ CommandEngine::Seconds CommandEngine::patience(Wait wait) const {
   return run_->greeting ? first_patience_ : patience_;
 }
 
+// How long it may be silent before it has failed.
+CommandEngine::Seconds CommandEngine::timeout() const {
+  const Seconds ordinary(options_.timeout), first(options_.start_timeout);
+  if (run_->first_answer || first <= ordinary) return ordinary;
+  return ever_answered_ ? std::min(first, ordinary + 2 * slowest_start_) : first;
+}
+
 CommandEngine::Seconds CommandEngine::until_next_look(Wait wait) const {
   const Run& run = *run_;
   const auto left = [](Seconds all, Clock::time_point since) -> Seconds {
     return all - (Clock::now() - since);
   };
-  if (run.outstanding == 0) return run.ending ? left(kGrace, run.last_move) : Seconds(options_.timeout);
-  const Seconds until_timeout = left(Seconds(options_.timeout), run.last_answer);
+  if (run.outstanding == 0) return run.ending ? left(kGrace, run.last_move) : timeout();
+  const Seconds until_timeout = left(timeout(), run.last_answer);
   const bool only_timeout = manner_ == Manner::line_by_line || run.ending || !run.to_write.empty();
   if (only_timeout && !run.nameless) return until_timeout;
   return std::min(until_timeout, left(run.nameless ? patience_ : patience(wait), run.last_move));
@@ -201,12 +225,12 @@ void CommandEngine::look_at_clock(Wait wait) {
     return;
   }
   if (run.nameless && silent_for(patience_)) return settle_nameless();
-  if (now - run.last_answer >= Seconds(options_.timeout))
-    return run_failed(fmt::format("{}gave no answer within {:g} s",
-                                  run.stopped_reading ? "closed its input and " : "", options_.timeout));
+  if (now - run.last_answer >= timeout())
+    return run_failed(fmt::format("{}gave no answer within {:.4g} s",
+                                  run.stopped_reading ? "closed its input and " : "", timeout().count()));
   if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
   // Queries that come drop by drop do not keep it from being told.
-  const bool long_since = now - run.last_answer >= Seconds(options_.timeout / 2);
+  const bool long_since = now - run.last_answer >= timeout() / 2;
   if (!silent_for(patience(wait)) && !long_since) return;
   const bool more_to_give = run.outstanding < open_.size();
   if (run.greeting) run.last_move = now;
@@ -344,7 +368,10 @@ void CommandEngine::answer_first(Answer& answer) {
   ++run.answers;
   if (!run.ending) ++run.answers_before_end;
   run.last_answer = run.last_move = Clock::now();
-  if (!run.first_answer) run.first_answer = run.last_answer;
+  if (!run.first_answer) {
+    run.first_answer = run.last_answer;
+    slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
+  }
   run.instead.clear();
   failures_in_row_ = 0;
   ever_answered_ = true;

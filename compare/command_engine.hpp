@@ -76,6 +76,8 @@ class CommandEngine final : public Answerer {
   };
   void step(Wait wait, int other_descriptor = -1);
   void start();
+  bool is_enough() const { return options_.enough && options_.enough(); }
+  void abandon();
   void encode();
   void wait_for_pipes(Wait wait, int other_descriptor);
   void write();
@@ -83,6 +85,7 @@ class CommandEngine final : public Answerer {
   void look_at_clock(Wait wait);
   Seconds until_next_look(Wait wait) const;
   Seconds patience(Wait wait) const;
+  Seconds timeout() const;
 
   void take_line(const LineReader::Line& line);
   void see_unknown_key(const std::string& key);
@@ -116,6 +119,7 @@ class CommandEngine final : public Answerer {
   Manner manner_ = Manner::unknown;
   const Seconds patience_;        // of silence, before a program of unknown manner is told the end
   Seconds first_patience_;        // the same before it answers anything: it may be slow to start
+  Seconds slowest_start_{0};      // to a first answer
   int silent_runs_ = 0;           // that had to be told the end before the last answers came
   std::size_t limit_ = kNoLimit;  // queries for the next run, while the one at fault is sought
   int failures_in_row_ = 0;

@@ -153,8 +153,8 @@ Account Account::of(std::string_view text) {
     read_counts(object["logarithmic"].get_array(), tally.bins.logarithmic);
     read_counts(object["linear"].get_array(), tally.bins.linear);
     return account;
-  } catch (const simdjson::simdjson_error& error) {
-    refuse(error.what());
+  } catch (const simdjson::simdjson_error&) {  // what that says means nothing to who named the file
+    refuse("it is of another kind, or was cut off; name another file, or delete it");
   } catch (const std::logic_error& error) {
     refuse(error.what());
   }

@@ -73,6 +73,7 @@ std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
         from(failing, &Features::flight, "after flights of {:g} lattice vectors or more"),
         below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
         from(failing, &Features::start, "from starts {:g} lattice vectors or more from the origin"),
+        from(failing, &Features::cell, "in far cells, with numbers of {:g} or more"),
         below(failing, &Features::speed, "at velocities shorter than {:g}"),
         from(failing, &Features::speed, "at velocities of length {:g} or more")})
     if (one) all.push_back(*one);

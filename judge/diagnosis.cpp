@@ -63,16 +63,28 @@ Fault of_another_answer(const Question& question, const Answer& given) {
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
     return {Cause::other_quantity};
   if (given.outcome == Outcome::hit) return of_false_hit(question, given);
-  return graded(Cause::passed_over_grazing, Cause::never_for_hit,
+  return graded(Cause::never_for_grazing, Cause::never_for_hit,
                 question.setting->margins().approach(query, exact.obstacle).gap);
 }
 
-constexpr std::array<std::string_view, kCauses> kNames{
-    "passed-over-grazing", "passed-over",    "never-for-hit", "false-hit-grazing",
-    "false-hit",           "behind",         "leaving",       "inside-unseen",
-    "inside-not-so",       "inside-another", "tie",           "no-obstacle",
-    "not-the-time",        "wrong-time",     "refused",       "no-answer",
-    "answers-nonsense"};
+constexpr std::array<std::string_view, kCauses> kNames{"passed-over-grazing",
+                                                       "passed-over",
+                                                       "never-for-grazing",
+                                                       "never-for-hit",
+                                                       "false-hit-grazing",
+                                                       "false-hit",
+                                                       "behind",
+                                                       "leaving",
+                                                       "inside-unseen",
+                                                       "inside-not-so",
+                                                       "inside-another",
+                                                       "tie",
+                                                       "no-obstacle",
+                                                       "not-the-time",
+                                                       "wrong-time",
+                                                       "refused",
+                                                       "no-answer",
+                                                       "answers-nonsense"};
 
 }  // namespace
 
@@ -112,6 +124,8 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
       return below("passes over obstacles that the line enters");
     case Cause::passed_over:
       return up_to("passes over the obstacle that is hit first, and names a later one", "entered");
+    case Cause::never_for_grazing:
+      return below("says never of lines that enter obstacles");
     case Cause::never_for_hit:
       return up_to("says never where an obstacle is hit", "entered");
     case Cause::false_hit_grazing:

@@ -12,26 +12,27 @@ namespace lorentz::judge {
 
 /// The ways of being wrong. docs/judge.md has them.
 enum class Cause {
-  passed_over_grazing,  ///< the obstacle that is hit first is passed over; the line enters it by less than
-                        ///< kGrazing of its radii
-  passed_over,          ///< the same, and it enters by more: another, later one is named
-  never_for_hit,        ///< or none
-  false_hit_grazing,    ///< an obstacle is named that the line misses by less than kGrazing of its radii
-  false_hit,            ///< or by more
-  behind,               ///< one that lies behind the start
-  leaving,              ///< the one that the particle leaves
-  inside_not_seen,      ///< the start lies in an obstacle
-  inside_not_so,        ///< the start does not lie in the obstacle named
-  inside_another,       ///< it does, but in a smaller one, too
-  tie,                  ///< two are entered at the same time, and the larger one is named
-  no_such_obstacle,     ///< the scene has no such lattice or atom
-  other_quantity,       ///< the right obstacle with something else than the time of its entry
-  wrong_time,           ///< the right obstacle, and a time that is off by more than rounding explains
-  refused,              ///< a valid question is called an error
-  no_answer,            ///< another program died, fell silent, or wrote what is no answer
-  answered_nonsense     ///< what is no question was answered
+  passed_over_grazing,  ///< a later obstacle is named than the one that is hit first; the line enters that by
+                        ///< less than kGrazing of its radii
+  passed_over,          ///< the same, and it enters by more
+  never_for_grazing,  ///< `never` is said, and the line enters an obstacle by less than kGrazing of its radii
+  never_for_hit,      ///< the same, and it enters one by more
+  false_hit_grazing,  ///< an obstacle is named that the line misses by less than kGrazing of its radii
+  false_hit,          ///< or by more
+  behind,             ///< one that lies behind the start
+  leaving,            ///< the one that the particle leaves
+  inside_not_seen,    ///< the start lies in an obstacle
+  inside_not_so,      ///< the start does not lie in the obstacle named
+  inside_another,     ///< it does, but in a smaller one, too
+  tie,                ///< two are entered at the same time, and the larger one is named
+  no_such_obstacle,   ///< the scene has no such lattice or atom
+  other_quantity,     ///< the right obstacle with something else than the time of its entry
+  wrong_time,         ///< the right obstacle, and a time that is off by more than rounding explains
+  refused,            ///< a valid question is called an error
+  no_answer,          ///< another program died, fell silent, or wrote what is no answer
+  answered_nonsense   ///< what is no question was answered
 };
-inline constexpr int kCauses = 17;
+inline constexpr int kCauses = 18;
 
 /// Below this part of an obstacle's radius it is only just met or missed.
 inline constexpr double kGrazing = 1e-6;

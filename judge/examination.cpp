@@ -9,12 +9,11 @@
 namespace lorentz::judge {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using oracle::Judgement;
 using oracle::Verdict;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 // What is asked together: so much that it takes this long, for a time limit is only looked at in between; and
@@ -29,7 +28,8 @@ std::size_t next_number(std::size_t asked, double took) {
       std::clamp(fitting, double{kFewestAtOnce}, std::max(most, double{kFewestAtOnce})));
 }
 
-// Right answers that are compared with the wrong ones, of each row.
+// Questions of each row that are looked at closely: what right answers are like, and how close the calls
+// were.
 constexpr std::size_t kCompared = 500;
 
 // Answers that are the same need no judge, which most scenes therefore never get.
@@ -49,10 +49,37 @@ Judgement judgement_of_nonsense(const Answer& given) {
 
 }  // namespace
 
-Examination::Examination(const std::string& engine, const compare::AnswererOptions& options, double ulps,
+Examination::Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
                          const std::atomic<bool>& stop)
-    : ulps_(ulps), stop_(stop), answerer_(compare::make_answerer(engine, options)) {
+    : ulps_(ulps), stop_(stop), is_command_(compare::is_command(engine)) {
+  options.enough = [this] { return is_enough(); };
+  answerer_ = compare::make_answerer(engine, options);
   answerer_->on_answer([this](Answer& answer) { answers_.push_back(std::move(answer)); });
+}
+
+void Examination::limit(double seconds) {
+  end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+double Examination::warm_up() {
+  constexpr int kTries = 3;
+  constexpr double kFast = 0.05;  // seconds
+  if (!is_command_) return 0;
+  const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+  const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const Question question{setting, along, setting->oracle().first_hit(along), "the first question", ""};
+  double longest = 0, last = 0;
+  for (int i = 0; i < kTries && !is_over() && (i == 0 || last > kFast); ++i) {
+    longest = std::max(longest, last = ask({question}));
+    if (!answerer_->failed()) continue;
+    Row row{"first question", "an empty place in the square lattice, before anything else"};
+    std::size_t compared = 0;
+    if (answers_.empty()) answers_.push_back(Answer::error("cmd gave no answer while there was time"));
+    take(question, answers_[0], row, compared);
+    rows_.push_back(std::move(row));
+    break;
+  }
+  return longest - last;
 }
 
 // Returns how long it took.
@@ -71,7 +98,7 @@ double Examination::ask(const std::vector<Question>& questions) {
   return seconds_since(start);
 }
 
-void Examination::run(Row row, const Source& source, double seconds) {
+void Examination::run(Row row, const Source& source, double seconds, const Look& look) {
   const auto start = Clock::now();
   row.tally.name = row.name;
   double asking = 0;
@@ -91,6 +118,7 @@ void Examination::run(Row row, const Source& source, double seconds) {
     for (std::size_t i = 0; i < answers_.size(); ++i) {
       questions[i].setting->note_time(took / static_cast<double>(answers_.size()));
       take(questions[i], answers_[i], row, compared);
+      if (look) look(questions[i], answers_[i]);
     }
   }
   if (row.tally.queries > 0) row.tally.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
@@ -105,6 +133,7 @@ void Examination::take_over(const Examination& other) {
   its.add(more);
   if (its.queries > 0) its.ns_per_query = ns / static_cast<double>(its.queries);
   findings_.add(other.findings_);
+  calls_.add(other.calls_);
   failed_ |= other.failed();
 }
 
@@ -118,22 +147,45 @@ Judgement Examination::judgement_of(const Question& question, const Answer& give
   return question.setting->judge().judge(question.query, question.exact, given, ulps_);
 }
 
+std::optional<Example> Examination::departing(const Question& question, const Answer& given) const {
+  const Judgement judgement = judgement_of(question, given);
+  const auto diagnosis = diagnosis_of(question, given, judgement);
+  return diagnosis ? std::optional(Example{question, given, judgement, *diagnosis}) : std::nullopt;
+}
+
 void Examination::take(const Question& question, const Answer& given, Row& row, std::size_t& compared) {
   const Judgement judgement = judgement_of(question, given);
   row.tally.count(judgement);
   question.setting->note(judgement.verdict == Verdict::unsupported);
-  if (const auto diagnosis = diagnosis_of(question, given, judgement))
-    findings_.add({question, given, judgement, *diagnosis});
-  else if (judgement.verdict == Verdict::agree && question.is_query() && compared++ < kCompared)
-    findings_.add_right(features_of(question));
+  const auto diagnosis = diagnosis_of(question, given, judgement);
+  if (diagnosis) findings_.add({question, given, judgement, *diagnosis}, row.name);
+  if (!question.is_query() || compared++ >= kCompared) return;
+  const Features features = features_of(question);
+  if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
+  calls_.add(diagnosis && diagnosis->by_radii ? diagnosis->by_radii : features.depth, judgement.verdict);
+}
+
+std::vector<Finding> Examination::findings() const {
+  Asked asked;
+  for (const Row& row : rows_)
+    asked[row.name] = {asked[row.name].number + row.tally.queries - row.tally.unsupported, row.is_hard};
+  return findings_.all(asked);
 }
 
 std::optional<Example> Examination::example_of(const Question& question) {
   ask({question});
-  if (answers_.size() != 1) return std::nullopt;
-  const Judgement judgement = judgement_of(question, answers_[0]);
-  const auto diagnosis = diagnosis_of(question, answers_[0], judgement);
-  return diagnosis ? std::optional(Example{question, answers_[0], judgement, *diagnosis}) : std::nullopt;
+  return answers_.empty() ? std::nullopt : departing(question, answers_[0]);
+}
+
+std::optional<std::size_t> Examination::first_to_fail(const Question& question, std::size_t copies,
+                                                      Diagnosis like) {
+  ask(std::vector<Question>(copies, question));
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    const auto example = departing(question, answers_[i]);
+    if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)
+      return i + 1;
+  }
+  return std::nullopt;
 }
 
 }  // namespace lorentz::judge

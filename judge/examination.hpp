@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,12 +10,16 @@
 
 #include "compare/answerer.hpp"
 #include "compare/measure.hpp"
+#include "judge/calls.hpp"
 #include "judge/findings.hpp"
 
 namespace lorentz::judge {
 
 /// The next question, or nothing: that was all.
 using Source = std::function<std::optional<Question>()>;
+
+/// Sees each answer of a row.
+using Look = std::function<void(const Question&, const Answer& given)>;
 
 /// One kind of difficulty, and how the engine does there.
 struct Row {
@@ -26,15 +31,25 @@ struct Row {
 class Examination {
  public:
   /// Throws InputError for an unknown engine. `stop`, set by somebody else, ends everything soon.
-  Examination(const std::string& engine, const compare::AnswererOptions& options, double ulps,
+  Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
               const std::atomic<bool>& stop);
+  Examination(const Examination&) = delete;
+  Examination& operator=(const Examination&) = delete;
+
+  /// From now on for so many seconds: then all is over, and no answer is waited for.
+  void limit(double seconds);
 
   /// Is called often while rows run, with the name of the row.
   void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
+  /// Has another program start: asks it a plain question until the answer comes as fast as the one before,
+  /// and counts that nowhere, but if there is none. Returns the seconds that the start took; 0 of an engine
+  /// here.
+  double warm_up();
+
   /// Asks for so many seconds at the most (beyond that only what was asked already), or until there is no
   /// more.
-  void run(Row row, const Source& source, double seconds);
+  void run(Row row, const Source& source, double seconds, const Look& look = {});
 
   /// Takes over what another examination of the same engine came to in its last row, and adds that to the
   /// last row here.
@@ -44,28 +59,42 @@ class Examination {
   /// way.
   std::optional<Example> example_of(const Question& question);
 
+  /// The same of so many copies of it, one after the other: the number of the first whose answer goes wrong
+  /// with this cause and severity, from 1 on.
+  std::optional<std::size_t> first_to_fail(const Question& question, std::size_t copies, Diagnosis like);
+
   const std::vector<Row>& rows() const { return rows_; }
-  const Findings& findings() const { return findings_; }
+  /// As Findings::all; what was unsupported was not asked.
+  std::vector<Finding> findings() const;
+  /// Of the first questions of each row, so many that rows weigh alike.
+  const Calls& calls() const { return calls_; }
 
   /// Another program broke at least once; or so often that it is not asked any more.
   bool failed() const { return failed_ || answerer_->failed(); }
-  bool is_over() const { return stop_ || given_up_; }
+  bool is_over() const { return given_up_ || is_enough(); }
   void finish() { answerer_->finish(); }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
   void take(const Question& question, const Answer& given, Row& row, std::size_t& compared);
   oracle::Judgement judgement_of(const Question& question, const Answer& given) const;
+  std::optional<Example> departing(const Question& question, const Answer& given) const;
 
   const double ulps_;
   const std::atomic<bool>& stop_;
+  std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
   bool given_up_ = false, failed_ = false;  // failed_: of those that were taken over
+  const bool is_command_;
   std::unique_ptr<compare::Answerer> answerer_;
   std::shared_ptr<Setting> setting_;  // that the answerer is in
   std::vector<Answer> answers_;
   std::vector<Row> rows_;
   Findings findings_;
+  Calls calls_;
 };
 
 }  // namespace lorentz::judge

@@ -1,6 +1,7 @@
 #include "judge/features.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -24,6 +25,25 @@ double smallest_radius(const Scene& scene) {
   return smallest;
 }
 
+double as_double(const Integer& number) {
+  const std::string digits = number.decimal();
+  double value = std::numeric_limits<double>::infinity();
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
+}
+
+// Of the cells that a question is about. Nothing where there are none: of `never`.
+double largest_number(const Question& question) {
+  double largest = Features::kNone;
+  const auto see = [&](const ObstacleId& obstacle) {
+    for (const Integer& number : obstacle.cell) largest = std::fmax(largest, std::fabs(as_double(number)));
+  };
+  const Outcome outcome = question.exact.outcome;
+  if (outcome == Outcome::hit || outcome == Outcome::inside) see(question.exact.obstacle);
+  if (question.query.from) see(*question.query.from);
+  return largest;
+}
+
 }  // namespace
 
 Features features_of(const Question& question) {
@@ -41,6 +61,7 @@ Features features_of(const Question& question) {
   its.never = question.exact.outcome == Outcome::never;
   its.radius = smallest_radius(scene) / unit;
   its.start = length(query.x) / unit;
+  its.cell = largest_number(question);
   its.speed = length(query.v);
   if (question.exact.outcome != Outcome::hit) return its;
   its.flight = question.exact.time.value_or(Features::kNone) * its.speed / unit;

@@ -20,6 +20,7 @@ struct Features {
   double flight = kNone;  ///< to the obstacle that is hit
   double radius = kNone;  ///< the smallest
   double start = kNone;   ///< of x from the origin
+  double cell = kNone;    ///< the largest number of a cell, without its sign: of the obstacle hit, of `from`
   double depth = kNone;   ///< by so many of its radii the line enters the obstacle that is hit
   double speed = kNone;   ///< of v, in the scene's own unit
 };

@@ -18,6 +18,17 @@ long complexity_of(const Question& question) {
                              : static_cast<long>(question.text.size());
 }
 
+// Of all that was asked in the rows that are hard, or in the others.
+double share_of(const std::map<std::string, std::size_t>& by_row, const Asked& asked, bool hard) {
+  double all = 0, its = 0;
+  for (const auto& [row, asked_of] : asked) {
+    if (asked_of.is_hard != hard) continue;
+    all += static_cast<double>(asked_of.number);
+    if (const auto place = by_row.find(row); place != by_row.end()) its += static_cast<double>(place->second);
+  }
+  return all > 0 ? its / all : 0;
+}
+
 std::string share_text(double share) {
   return share == 0 ? "none of the right answers" : fmt::format("{:.2g} % of the right answers", 100 * share);
 }
@@ -27,7 +38,8 @@ std::string share_text(double share) {
 std::string Finding::summary() const {
   const std::string text = sentence_of(cause(), by_radii);
   // A grazing one says that of itself.
-  const bool is_said = cause() == Cause::passed_over_grazing && circumstance && circumstance->is_of_depth;
+  const bool is_said = (cause() == Cause::passed_over_grazing || cause() == Cause::never_for_grazing) &&
+                       circumstance && circumstance->is_of_depth;
   return circumstance && !is_said ? text + ", only " + circumstance->text : text;
 }
 
@@ -36,11 +48,12 @@ std::string Finding::explanation() const {
                       : summary();
 }
 
-void Findings::add(const Example& example) {
+void Findings::add(const Example& example, const std::string& row) {
   Finding& its =
       findings_
           .try_emplace({example.diagnosis.severity, example.diagnosis.cause}, Finding{example, {}, 0, {}})
           .first->second;
+  ++its.by_row[row];
   if (its.count++ == 0) its.where = example.question.where;
   if (example.diagnosis.by_radii)
     its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
@@ -58,6 +71,7 @@ void Findings::add(const Findings& others) {
     if (is_new) continue;
     Finding& its = place->second;
     its.count += other.count;
+    for (const auto& [row, count] : other.by_row) its.by_row[row] += count;
     if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
     its.features.insert(its.features.end(), other.features.begin(), other.features.end());
     if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) continue;
@@ -66,16 +80,19 @@ void Findings::add(const Findings& others) {
   }
 }
 
-std::vector<Finding> Findings::all() const {
+std::vector<Finding> Findings::all(const Asked& asked) const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) {
     all.push_back(finding);
+    all.back().share_of_plain = share_of(finding.by_row, asked, false);
+    all.back().share_of_hard = share_of(finding.by_row, asked, true);
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
-  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return std::make_tuple(a.severity(), -static_cast<long>(a.count)) <
-           std::make_tuple(b.severity(), -static_cast<long>(b.count));
-  });
+  const auto rank = [](const Finding& finding) {
+    return std::make_tuple(finding.severity(), -finding.share_of_plain, -finding.share_of_hard);
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,12 +21,18 @@ struct Example {
 
 /// All answers that went wrong in one way.
 struct Finding {
-  Example simplest;                     ///< by fuzz::complexity
-  std::string where;                    ///< it was met first
-  std::size_t count = 0;                ///< answers
-  std::optional<double> by_radii;       ///< the most of any
+  Example simplest;                                ///< by fuzz::complexity
+  std::string where;                               ///< it was met first
+  std::size_t count = 0;                           ///< answers
+  std::optional<double> by_radii;                  ///< the most of any
+  std::map<std::string, std::size_t> by_row = {};  ///< the same answers, by the row that asked
+  double share_of_plain = 0,
+         share_of_hard = 0;             ///< of all the plain flights that were asked; of the hard ones
   std::vector<Features> features = {};  ///< of the questions, the first of them
   std::optional<Circumstance> circumstance = {};
+  /// Asked so often in a row, from the start of a program on, the simplest case goes wrong; 0: not even if it
+  /// is asked kMostRepetitions times.
+  std::size_t repetitions = 1;
 
   Cause cause() const { return simplest.diagnosis.cause; }
   Severity severity() const { return simplest.diagnosis.severity; }
@@ -35,16 +42,26 @@ struct Finding {
   std::string explanation() const;
 };
 
+/// How many questions a row asked.
+struct AskedOf {
+  std::size_t number = 0;
+  bool is_hard = false;  ///< chosen to be difficult
+};
+/// By the row's name.
+using Asked = std::map<std::string, AskedOf>;
+
 class Findings {
  public:
-  void add(const Example& example);
+  /// Met in the row of this name.
+  void add(const Example& example, const std::string& row);
   void add(const Findings& others);
 
   /// A right answer, for comparison.
   void add_right(const Features& features) { right_.push_back(features); }
 
-  /// The worst first, of these the most frequent; with their circumstances.
-  std::vector<Finding> all() const;
+  /// The worst first; of these the most frequent in plain flights, then in hard ones. With their
+  /// circumstances.
+  std::vector<Finding> all(const Asked& asked) const;
 
  private:
   std::map<std::pair<Severity, Cause>, Finding> findings_;

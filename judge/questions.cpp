@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "cases/families/target.hpp"
+#include "flights/sample/free_starts.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "golden/reader.hpp"
 
@@ -55,6 +56,36 @@ class Drawn {
   std::size_t left_, block_ = 0, next_ = 0;
   const Place* place_ = nullptr;
   std::vector<Query> queries_;
+};
+
+// The same of flights that begin on an obstacle.
+class Flown {
+ public:
+  Flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count)
+      : places_(places), count_(count) {
+    for (const Place& place : places)
+      starts_.emplace_back(place.setting->scene(), flights::Kind::surface, seed);
+  }
+
+  std::optional<Question> next() {
+    for (std::size_t tried = 0; number_ < count_ && tried < places_.size(); ++tried) {
+      const std::size_t block = number_ / kBlock, which = block % places_.size();
+      if (const Place& place = places_[which]; !place.setting->is_beyond_engine()) {
+        Query query;
+        starts_[which].draw(block / places_.size() * kBlock + number_ % kBlock, query);
+        ++number_;
+        return question_of(place, query, "free paths, " + place.name);
+      }
+      number_ = (block + 1) * kBlock;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const std::vector<Place>& places_;
+  const std::size_t count_;
+  std::size_t number_ = 0;
+  std::vector<flights::FreeStarts> starts_;
 };
 
 class Golden {
@@ -176,6 +207,10 @@ Source source_of(Arguments&&... arguments) {
 Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
              std::size_t count) {
   return source_of<Drawn>(places, difficulty, seed, count);
+}
+
+Source flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count) {
+  return source_of<Flown>(places, seed, count);
 }
 
 Source golden_set(const std::string& path) {

@@ -22,6 +22,10 @@ struct Place {
 Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
              std::size_t count);
 
+/// `count` flights from collision to collision, a few in each place in turn: starts on obstacles, by the
+/// cosine law. The places must outlast the source.
+Source flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count);
+
 /// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
 /// does.
 Source golden_set(const std::string& path);

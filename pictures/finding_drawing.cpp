@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidth = 640, kHeight = 410;
 constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
-constexpr double kLine = 15;
+constexpr double kLine = 15, kHeadEnds = 85;  // the next line's foot would be there
 
 // At most so many characters; what is cut ends in dots. No character of several bytes is cut in two.
 std::string shortened(const std::string& text, std::size_t most) {
@@ -77,7 +77,7 @@ class Sheet {
   std::string draw();
 
  private:
-  void add_answer(double y, const char* who, const Answer& answer, Ink ink, const std::string& style);
+  void add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style);
   void add_text(double& y, const std::string& text, std::size_t letters, const std::string& style);
   void add_details(const FlightPanel& flight);
   void add_inset(const FlightPanel& flight, const Axes& axes);
@@ -89,12 +89,16 @@ class Sheet {
   Svg svg_;
 };
 
-// A line of text, with the line that stands for the answer in the picture.
-void Sheet::add_answer(double y, const char* who, const Answer& answer, Ink ink, const std::string& style) {
+// Lines of text, with the line that stands for the answer in the picture. Cells may have very large numbers.
+void Sheet::add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style) {
+  constexpr std::size_t kLetters = 86, kMost = 5 * kLetters;
   const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
   open_hint(svg_, words);
   svg_.polyline({{12, y - 4}, {42, y - 4}}, style);
-  svg_.text({50, y}, shortened(words, 86), paint(ink) + " font-size=\"12\"");
+  for (const std::string& line : wrapped(shortened(words, kMost), kLetters)) {
+    svg_.text({50, y}, shortened(line, kLetters), paint(ink) + " font-size=\"12\"");
+    y += kLine;
+  }
   svg_.close();
 }
 
@@ -146,20 +150,23 @@ std::string Sheet::label() const {
 std::string Sheet::draw() {
   double y = 17;
   add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
-  if (given_) add_answer(y += 18, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
-  add_text(y += 20, shortened(case_.words, 160), 82, " font-weight=\"bold\" font-size=\"12\"");
+  if (given_) add_answer(y += 3, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
+  add_text(y += 5, shortened(case_.words, 400), 82, " font-weight=\"bold\" font-size=\"12\"");
+  const double lower = std::max(y - kHeadEnds, 0.0);  // than where there is little to say
+  svg_.raw(fmt::format("<g transform=\"translate(0,{:.0f})\">\n", lower));
   const bool has_inset = case_.issue != Issue::none;
   const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
   if (has_inset)
     add_details(flight);
   else if (!flight.notes.empty())
     add_text(y = kHeight - 4, flight.notes[0], 100, " font-size=\"11\"");
+  svg_.close();
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"{2}\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n"
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" {3}/>\n{4}</svg>\n",
-      kWidth, kHeight, xml_escaped(label()), paint(kPaper), svg_.body());
+      kWidth, kHeight + lower, xml_escaped(label()), paint(kPaper), svg_.body());
 }
 
 bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {

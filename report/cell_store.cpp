@@ -25,7 +25,7 @@ void read_header(std::string_view line, CellStore& store) {
   json::parser parser;
   json::document document = parser.iterate(padded);
   json::object object = document.get_object();
-  if (std::uint64_t(object["bench"]) != 1) throw InputError("a store of another version");
+  if (std::uint64_t(object["bench"]) != 1) throw InputError("");
   const auto text = [&](const char* key) { return std::string(std::string_view(object[key])); };
   store.run.options = text("options");
   store.run.scenes = text("scenes");
@@ -48,9 +48,10 @@ CellStore CellStore::of(std::string_view text) {
       else
         store.cells.push_back(cell_of(line));
     }
-    if (number == 0) throw InputError("is empty");
-  } catch (const std::exception& error) {  // simdjson's, or an InputError
-    throw InputError(fmt::format("line {} is none of a store of cells: {}", number, error.what()));
+    if (number == 0) throw InputError("");
+  } catch (const std::exception&) {  // what simdjson calls it says nothing to who named the file
+    throw InputError(fmt::format(
+        "line {} is none of a store of cells: the file is of another kind, or was cut off", number));
   }
   return store;
 }

@@ -1,7 +1,5 @@
 #include "fuzz/campaign/store.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 #include <fstream>
 
 #include "fuzz/campaign/batch.hpp"
+#include "fuzz/campaign/lock_file.hpp"
 #include "fuzz/campaign/sqlite.hpp"
 #include "src/problem/write_error.hpp"
 
@@ -25,6 +24,9 @@ namespace {
 constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
 constexpr int kFormat = 3;                // 2 had no findings that are still to be shrunk
 constexpr const char* kMemory = ":memory:";
+constexpr const char* kBusy =
+    "another process is running a campaign on this store; wait for it, stop it, or use another store (shards "
+    "have one each, `lorentz fuzz merge` joins them)";
 
 constexpr const char* kSchema = R"sql(
   CREATE TABLE campaign (
@@ -55,50 +57,6 @@ constexpr const char* kFindingColumns =
     "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
     "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
     "bits, complexity, tries";
-
-// Held by whoever writes, beside the store, and gone with him; the system lets go of it however the process
-// ends. (A lock on the store itself would get in the way of SQLite's own.) Who only wants nobody to write
-// makes no file: none that is there is none that is held.
-class LockFile {
- public:
-  LockFile(const std::string& store, Store::Access access)
-      : path_(store + ".lock"), writes_(access == Store::Access::write) {
-    do {
-      close();
-      file_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
-      if (file_ < 0 && !writes_) return;
-      if (file_ < 0) throw write_error(path_, errno);
-      if (::flock(file_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
-        close();
-        throw FileError(store +
-                        ": another process is running a campaign on this store; wait for it, stop it, or "
-                        "use another store (shards have one each, `lorentz fuzz merge` joins them)");
-      }
-    } while (!is_the_one_there());
-  }
-  ~LockFile() {
-    if (writes_) ::unlink(path_.c_str());
-    close();
-  }
-  LockFile(const LockFile&) = delete;
-  LockFile& operator=(const LockFile&) = delete;
-
- private:
-  // Not one that somebody took away between our opening and locking it.
-  bool is_the_one_there() const {
-    struct stat ours {
-    }, there{};
-    return ::fstat(file_, &ours) == 0 && ::stat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino;
-  }
-  void close() {
-    if (file_ >= 0) ::close(file_);
-    file_ = -1;
-  }
-
-  const std::string path_;
-  const bool writes_;
-  int file_ = -1;
-};
 
 // How SQLite is to open a store.
 struct Opening {
@@ -146,7 +104,9 @@ struct Store::Impl {
   Impl(const std::string& path, Access access)
       : path(path),
         writes(access == Access::write),
-        lock(path == kMemory || access == Access::read ? nullptr : std::make_unique<LockFile>(path, access)),
+        lock(path == kMemory || access == Access::read
+                 ? nullptr
+                 : std::make_unique<LockFile>(path, access == Access::write, kBusy)),
         connection(path, opening(path, access).name, opening(path, access).flags) {
     set_up();
   }

@@ -84,7 +84,11 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
   CHECK(other.status == 2);
   CHECK(contains(other.err, "holds the cells of a run with other options"));
   folder.write("cells", "not this\n");
-  CHECK(folder.lorentz(options + radii + store).status == 2);
+  const Run foreign = folder.lorentz(options + radii + store);
+  CHECK(foreign.status == 2);
+  CHECK(contains(foreign.err,
+                 "cells: line 1 is none of a store of cells: the file is of another kind, or was cut off; "
+                 "name another file, or delete it\n"));
   CHECK(folder.read("cells") == "not this\n");
   CHECK(folder.lorentz(options + radii + " --store /nowhere/cells").status == 3);
 
@@ -103,4 +107,29 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
   const Run shown = folder.run(line);
   CHECK(shown.status == 1);
   CHECK(contains(shown.out, "published-float: wrong in 1 of 1 answers"));
+}
+
+TEST_CASE("bench: one process at a time writes a store; no page without a name; times only of who has some",
+          "[cli][bench_command]") {
+  const Folder folder;
+  const std::string bench =
+                        LORENTZ_PROGRAM " bench --scene square --radius 0.1 --difficulty drawn --count 32",
+                    store = " --store " + folder.file("cells");
+  // The first waits for a program that says nothing, until it is told to end, and leaves nothing behind.
+  const std::string script = folder.write(
+      "two.sh", bench + store + " --csv " + folder.file("csv") +
+                    " --engine 'cmd:exec sleep 60' &\nfirst=$!\n" + "until [ -e " +
+                    folder.file("cells.lock") + " ]; do sleep 0.05; done\n" + bench + store +
+                    " --engine reduction\nstatus=$?\nsleep 0.5\nkill $first\nwait $first\nexit $status\n");
+  const Run two = folder.run("sh " + script);
+  INFO(two.out << two.err);
+  CHECK(two.status == 3);
+  CHECK(contains(two.err,
+                 "cells: another process is writing this store; wait for it, stop it, or name another file"));
+  CHECK(folder.run("ls " + folder.file("") + " | grep csv").status == 1);
+  CHECK(folder.run(bench + " --engine reduction --html ''").status == 2);
+  const Run mute = folder.run(bench + " --engine cmd:false");
+  INFO(mute.out);
+  CHECK(contains(mute.out, "cmd:false: no answer to judge"));
+  CHECK_FALSE(contains(mute.out, "ulps off"));
 }

@@ -72,12 +72,13 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
 TEST_CASE("What is only just met or missed is told apart, with the power of ten above it",
           "[judge][diagnosis]") {
   const Question met = asked(0.25, {0.5, 0.25 * (1 - 3e-10), 0}, {1, 0, 0});
-  CHECK(cause(met, Answer::never()) == "passed-over-grazing");
+  CHECK(cause(met, Answer::never()) == "never-for-grazing");
+  CHECK(cause(met, Answer::hit(disc(2, 0), *met.exact.time + 1)) == "passed-over-grazing");
   CHECK(diagnosed(met, Answer::never())->by_radii == Approx(3e-10).epsilon(1e-5));
   const Question missed = asked(0.25, {0.5, 0.25 * (1 + 3e-10), 0}, {1, 0, 0});
   CHECK(cause(missed, Answer::hit(disc(1, 0), 0.5)) == "false-hit-grazing");
   const Question within_rounding = asked(0.25, {0.5, 0.25 - 0x1p-54, 0}, {1, 0, 0});
-  CHECK(cause(within_rounding, Answer::never()) == "~passed-over-grazing");
+  CHECK(cause(within_rounding, Answer::never()) == "~never-for-grazing");
   CHECK(sentence_of(Cause::passed_over_grazing, 3e-10) ==
         "passes over obstacles that the line enters by less than 1e-09 of their radii");
 }
@@ -118,24 +119,45 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   CHECK(circumstance_of(failing, right)->is_of_depth);
 }
 
-TEST_CASE("Findings of one cause are one, the simplest case in front, the worst cause first",
+TEST_CASE("Questions about far cells are told from others", "[judge][circumstance]") {
+  const auto far_start = [](double i) { return features_of(asked(0.25, {i + 0.5, 0, 0}, {1, 0, 0})); };
+  CHECK(far_start(0).cell == 1);
+  CHECK(far_start(-7e8).cell == 7e8 - 1);
+  CHECK(features_of(asked(0.25, {0.5, 0.5, 0}, {1, 0, 0})).cell != 0);  // never: there is none
+  std::vector<Features> failing(8, far_start(3e9));
+  for (Features& f : failing) f.start = std::nan("");
+  std::vector<Features> right(100, far_start(2));
+  REQUIRE(circumstance_of(failing, right));
+  CHECK(circumstance_of(failing, right)->text == "in far cells, with numbers of 1e+09 or more");
+  for (Features& f : right) f.cell = 5e9;
+  CHECK(circumstance_of(failing, right)->text != "in far cells, with numbers of 1e+09 or more");
+}
+
+TEST_CASE("Findings of one cause are one, the simplest case in front, the most frequent cause first",
           "[judge][findings]") {
   const Question plain = asked(0.25, {0.5, 0, 0}, {1, 0, 0}),
                  odd = asked(0.25, {0.4375, 0.0234375, 0}, {0.984375, 0.015625, 0});
   Findings findings;
-  const auto add = [&](const Question& question, const Answer& given) {
+  const auto add = [&](const Question& question, const Answer& given, const char* row) {
     const auto judgement = question.setting->judge().judge(question.query, question.exact, given);
-    findings.add({question, given, judgement, *diagnosis_of(question, given, judgement)});
+    findings.add({question, given, judgement, *diagnosis_of(question, given, judgement)}, row);
   };
-  add(odd, Answer::never());
-  add(odd, Answer::hit(disc(1, 0), *odd.exact.time + 1e-9));
-  add(plain, Answer::never());
-  add(odd, Answer::never());
-  const std::vector<Finding> all = findings.all();
-  REQUIRE(all.size() == 2);
-  CHECK(all[0].cause() == Cause::never_for_hit);
-  CHECK(all[0].count == 3);
-  CHECK(all[0].simplest.question.query.v[1] == 0);
-  CHECK(all[0].by_radii == Approx(1));
-  CHECK(all[1].cause() == Cause::wrong_time);
+  add(odd, Answer::never(), "many");
+  add(odd, Answer::hit(disc(1, 0), *odd.exact.time + 1e-9), "few");
+  add(plain, Answer::never(), "many");
+  add(odd, Answer::never(), "many");
+  add(odd, Answer::hit(disc(2, 0), *odd.exact.time + 1), "few");
+  add(odd, Answer::inside(disc(1, 0)), "many");
+  const std::vector<Finding> all = findings.all({{"many", {100, true}}, {"few", {20, false}}, {"none", {}}});
+  REQUIRE(all.size() == 4);
+  // One of twenty plain flights is more than three of a hundred hard ones; but no wrong time is.
+  CHECK(all[0].cause() == Cause::passed_over);
+  CHECK(all[0].share_of_plain == Approx(0.05));
+  CHECK(all[1].cause() == Cause::never_for_hit);
+  CHECK(all[1].share_of_hard == Approx(0.03));
+  CHECK(all[1].count == 3);
+  CHECK(all[1].simplest.question.query.v[1] == 0);
+  CHECK(all[1].by_radii == Approx(1));
+  CHECK(all[2].cause() == Cause::inside_not_so);
+  CHECK(all[3].cause() == Cause::wrong_time);
 }

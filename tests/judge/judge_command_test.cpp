@@ -1,6 +1,8 @@
 // lorentz judge as its users call it: the fault is named and can be made again from what is printed.
 #include <catch2/catch.hpp>
+#include <chrono>
 
+#include "report/page.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -58,7 +60,8 @@ TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_com
   CHECK(contains(run.out, R"("engine":"certified","verdict":"right","line":"right: no wrong answer in )"));
   CHECK(contains(run.out, R"("wrong":0,"ill_posed":0,"wrong_time":0,"undecided":0,)"));
   CHECK(contains(run.out, R"("difficulties":[{"name":"drawn square",)"));
-  CHECK(contains(run.out, R"("findings":[]})"));
+  CHECK(contains(run.out, R"("findings":[],"calls":[{"decade":-)"));
+  CHECK(contains(run.out, R"("free_paths":[{"scene":"square","engine":"certified","radius":0.1,)"));
   CHECK(lines(run.out) == 1);
 }
 
@@ -74,4 +77,83 @@ TEST_CASE("judge: an engine that breaks, bad usage, places that cannot be writte
   CHECK(folder.lorentz("judge").status == 2);
   CHECK(folder.lorentz("judge --engine reduction --time never").status == 2);
   CHECK(folder.lorentz("judge --engine reduction --html /nowhere/page.html").status == 3);
+  CHECK(folder.lorentz("judge --engine reduction --html ''").status == 2);
+}
+
+TEST_CASE("judge: a fault that comes with a count is told, and the command that is printed makes it again",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz(std::string("judge --quick --time 4 --engine 'cmd:") +
+                                 LORENTZ_TOLERANT_ENGINE + " dies 100'");
+  INFO(run.out << run.err);
+  CHECK(run.status == 3);
+  CHECK(contains(run.out, "\nbroken: "));
+  CHECK(contains(run.out, "asked again and again, this comes at the 100th time"));
+  const Run again = run_printed(folder, line_after(run.out, "\n   $ "));
+  INFO(again.out << again.err);
+  CHECK(again.status == 3);
+  CHECK(contains(again.err, "died (exit 3)"));
+}
+
+TEST_CASE("judge ends in its time, and at once when it is told to, whatever the engine does",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const std::string hangs = std::string("--engine 'cmd:exec ") + LORENTZ_TOLERANT_ENGINE + " hangs ";
+  const auto start = std::chrono::steady_clock::now();
+  // Each silence costs 2 s, of which there are 3.
+  const Run often = folder.lorentz("judge --quick --time 3 " + hangs + "9'");
+  INFO(often.out << often.err);
+  CHECK(often.status == 3);
+  CHECK(contains(often.out, "no-answer") == false);  // causes are for programs
+  CHECK(contains(often.out, "gives no answer: it dies, falls silent, or writes what is none"));
+  // Never an answer; then the signals, of which each must end it and all that it started.
+  const std::string page = folder.file("page.html"),
+                    judge = LORENTZ_PROGRAM " judge " + hangs + "1'" +
+                            (lorentz::report::has_page() ? " --html " + page : "");
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
+    const Run run = folder.run(std::string("timeout --preserve-status -s ") + signal + " 1 " + judge);
+    INFO(signal << run.out << run.err);
+    CHECK(contains(run.out, "broken: ") == (std::string(signal) == "INT"));
+    CHECK(folder.run("pgrep -f '" LORENTZ_TOLERANT_ENGINE " hangs 1$'").status == 1);
+  }
+  CHECK(folder.run("ls " + folder.file("") + " | grep page").status == 1);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));  // the timeout of one answer
+}
+
+TEST_CASE("judge: starting takes no part in the speed; free paths that are cut show where",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const std::string judge = std::string("judge --quick --time 3 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
+  const Run slow = folder.lorentz(judge + " starts 700'");
+  INFO(slow.out << slow.err);
+  CHECK(slow.status == 0);
+  CHECK(contains(slow.out, "\nStart: "));
+  CHECK_FALSE(contains(slow.out, "not asked: drawn square"));
+  const Run cut = folder.lorentz(judge + " cuts 20'");
+  INFO(cut.out << cut.err);
+  CHECK(contains(cut.out, "; P(free path > "));
+  CHECK(contains(cut.out, "wrong: "));
+  CHECK(contains(cut.out, "says never where an obstacle is hit"));
+}
+
+TEST_CASE("flights and survival make pages of their curves", "[judge][judge_command]") {
+  if (!lorentz::report::has_page()) return;
+  const Folder folder;
+  CHECK(
+      folder.lorentz("flights --radius 0.1,0.01 --from surface --count 2e4 --html " + folder.file("flights"))
+          .status == 0);
+  const std::string flights = folder.read("flights");
+  CHECK(contains(
+      flights, R"("kind":"flights","title":"Free paths: square, surface starts","line":"square, r = 0.1: )"));
+  CHECK(contains(flights,
+                 R"("free_paths":[{"scene":"square","engine":"batch","radius":0.1,"from":"surface",)"));
+  CHECK(contains(flights, R"("law":"Boca-Zaharescu, r -)"));
+  CHECK(contains(flights, R"({"scene":"square","engine":"batch","radius":0.01,)"));
+  CHECK(
+      folder.lorentz("survival --radius 0.1 --count 20 --bits 53 --html " + folder.file("survival")).status ==
+      0);
+  const std::string survival = folder.read("survival");
+  CHECK(contains(survival,
+                 R"("survival":[{"scene":"square","engine":"reduction, binary64","radius":0.1,"points":[)"));
+  CHECK(contains(survival, R"({"collisions":1,"share":1,"low":0.83)"));
 }

@@ -243,6 +243,24 @@ TEST_CASE("Texts of engines stay texts; no ids, no scripts, nothing from elsewhe
   CHECK(finding_drawing(scene, query, Answer::hit({0, 3, {}}, 1)).empty());
 }
 
+TEST_CASE("Cells with long numbers are named in full, and the picture gives way",
+          "[pictures][finding_drawing]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  ObstacleId far = cell(0, 0);
+  far.cell[0] = *Integer::from_decimal("58368498836375891149534003");
+  far.cell[1] = *Integer::from_decimal("-19456166278791963716511334");
+  const Answer exact = Answer::hit(cell(1, 0), 0.25);
+  const std::string plain = finding_drawing(scene, query, Answer::hit(cell(2, 0), 1.25), exact);
+  const std::string drawing = finding_drawing(scene, query, Answer::hit(far, 1.9456166278791964e+26), exact);
+  CHECK(contains(drawing, ">-19456166278791963716511334)<"));
+  CHECK(contains(plain, "viewBox=\"0 0 640 410\""));
+  CHECK(contains(plain, "<g transform=\"translate(0,0)\">"));
+  CHECK(contains(drawing, "viewBox=\"0 0 640 425\""));
+  CHECK(contains(drawing, "<g transform=\"translate(0,15)\">"));
+  CHECK(xml_flaw(drawing) == "");
+}
+
 TEST_CASE("In any unit of length the drawing is the same", "[pictures][finding_drawing]") {
   const int exponent = GENERATE(900, -900);
   const auto drawn = [](int e) {

@@ -83,6 +83,11 @@ const EXPECTED = {
     "free-paths": { dot: 48, line: 2 },
   }),
   judge: (r) => ({ closeness: { dot: r.findings.length }, difficulties: { dot: faults(r) } }),
+  timed: () => ({
+    calls: { rect: 14 }, // 12 bars, two of them in two colours
+    difficulties: { dot: 1 },
+    "free-paths": { dot: 9, line: 1 },
+  }),
   hostile: (r) => ({
     closeness: { dot: r.findings.length },
     difficulties: { dot: faults(r) },
@@ -180,6 +185,22 @@ test("The verdict is at the top, and the first finding tells what is wrong", asy
     assert.equal(
       new Set((await page.locator(".finding h3").allInnerTexts()).map((t) => t.split(" ").pop())).size,
       4,
+    );
+  });
+});
+
+test("Right obstacles at wrong times are no praise, rows that were not asked do not count, free paths are compared", async () => {
+  await open("timed", {}, async (page) => {
+    assert.match(
+      await page.locator("h1").innerText(),
+      /right\s+cmd:\.\/late_engine names the right obstacles, some of them at wrong times/,
+    );
+    const summary = (chart) => page.locator(`[data-chart=${chart}] .summary`).innerText();
+    assert.match(await summary("difficulties"), /^Of 2 kinds of query that it was asked 1 were answered/);
+    assert.match(await summary("calls"), /^3\u202f140 answers; wrong ones only .* less than 10⁻⁹ radii/);
+    assert.match(
+      await summary("free-paths"),
+      /farthest from them at t = 8 in cubic, r = 0.1: 19\.3\u202f% instead of 17\.3\u202f%/,
     );
   });
 });

@@ -1,5 +1,5 @@
 // Reports with everything that the page can show, made up; the same each time.
-//   node sample_reports.mjs FOLDER   writes judge.json, bench.json, hostile.json, big.json, small.json there
+//   node sample_reports.mjs FOLDER   writes judge.json, bench.json, timed.json, hostile.json, big.json, small.json there
 import { mkdirSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
@@ -334,6 +334,54 @@ function big() {
   return { ...judge(), title: "10 000 findings", findings };
 }
 
+// Right but for its times and its free paths; one row is beyond it.
+function timed() {
+  const report = judge();
+  const [plain, , grazing, , campaign] = report.difficulties;
+  const beyond = { ...campaign, name: "drawn ellipses", agree: 0, wrong: 0, unsupported: campaign.queries };
+  const late = {
+    ...grazing,
+    agree: grazing.queries - 70,
+    wrong: 0,
+    ill_posed: 0,
+    undecided: 0,
+    wrong_time: 70,
+  };
+  return {
+    ...report,
+    title: "late_engine, judged",
+    engine: "cmd:./late_engine",
+    verdict: "right",
+    line: "right: no wrong answer in 36000; wrong times 0.19 %, by up to 2.1e+06 ulps",
+    wrong: 0,
+    ill_posed: 0,
+    undecided: 0,
+    wrong_time: 70,
+    difficulties: [plain, late, beyond],
+    findings: [report.findings[9], { ...report.findings[9], where: "campaign" }],
+    calls: Array.from({ length: 12 }, (_, i) => ({
+      decade: i - 11,
+      right: 40 * (i + 1),
+      ill_posed: 0,
+      wrong: i < 2 ? 10 : 0,
+      undecided: 0,
+    })),
+    free_paths: [
+      {
+        scene: "cubic",
+        radius: 0.1,
+        engine: "cmd:./late_engine",
+        from: "surface",
+        law: "",
+        points: Array.from({ length: 9 }, (_, i) => {
+          const exact = 0.8 * 0.6 ** i;
+          return { t: 2 ** i, survival: i === 3 ? exact + 0.02 : exact, exact, theory: null };
+        }),
+      },
+    ],
+  };
+}
+
 // The least that the contract allows.
 const small = () => ({
   format: 1,
@@ -342,7 +390,7 @@ const small = () => ({
   findings: [finding(0, ...TOLERANCE, 1e-10)],
 });
 
-export const SAMPLES = { judge, bench, hostile, big, small };
+export const SAMPLES = { judge, bench, timed, hostile, big, small };
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? "").href) {
   mkdirSync(process.argv[2], { recursive: true });

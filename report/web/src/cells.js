@@ -3,6 +3,7 @@ import { h, section } from "./dom.js";
 import { choice } from "./controls.js";
 import { swatch } from "./engines.js";
 import { count, duration, isNumber, number, percent } from "./numbers.js";
+import { indexOf, onSelect } from "./selection.js";
 import { choosableTable } from "./table.js";
 
 export const ALL = "all";
@@ -35,6 +36,16 @@ export function groupChoices(cells, redraw, { radii = true, all = false } = {}) 
       for (const [key, c] of Object.entries(choices)) c.value = String(cell[key] ?? null);
     },
   };
+}
+
+/** A cell that is chosen elsewhere is shown: the choices follow it if they leave it out. */
+export function followCells(report, cells, groups, redraw) {
+  onSelect((key) => {
+    const cell = report.cells[indexOf(key, "cell")];
+    if (!cell || !cells.includes(cell) || inGroup(cell, groups)) return;
+    groups.show(cell);
+    redraw();
+  });
 }
 
 // The cell whose scene, difficulty and radius most engines share; of equals the one in the middle.

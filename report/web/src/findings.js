@@ -1,6 +1,7 @@
 // The findings: filtered, in pages, so that ten thousand open as fast as ten.
 import { h, section } from "./dom.js";
 import { choice, pager, searchField } from "./controls.js";
+import { calls } from "./charts/calls.js";
 import { closeness } from "./charts/closeness.js";
 import { findingCard } from "./finding.js";
 import { count } from "./numbers.js";
@@ -58,7 +59,7 @@ function kindsOfFault(findings, only) {
     "ol",
     { class: "kinds", "aria-label": "Kinds of fault" },
     kinds.slice(0, MOST_KINDS).map((its) => {
-      const { cause, verdict: name, explanation } = its[0],
+      const { cause, verdict: name, explanation, often } = its[0],
         verdict = verdictOf(name);
       const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
       return h(
@@ -76,7 +77,13 @@ function kindsOfFault(findings, only) {
           cause ?? "–",
         ),
         h("span", { class: "times" }, `${count(times)} ×`),
-        explanation && h("span", { class: "says" }, explanation),
+        explanation &&
+          h(
+            "span",
+            { class: "says" },
+            explanation,
+            its.length === 1 && often && h("span", { class: "often" }, ` – ${often}`),
+          ),
       );
     }),
     kinds.length > MOST_KINDS && h("li", {}, `and ${count(kinds.length - MOST_KINDS)} more`),
@@ -191,7 +198,7 @@ export function findingsSection(report) {
         ? null
         : "The kinds of fault first; below, cases of each: the flight, the obstacle that is in question, and what decides it.",
       few ? null : kindsOfFault(findings, only),
-      closeness(report),
+      calls(report) ?? closeness(report),
       few
         ? null
         : h(

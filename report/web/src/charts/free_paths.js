@@ -2,20 +2,25 @@
 import * as Plot from "@observablehq/plot";
 import { chart, logAxis, plot } from "../chart.js";
 import { looksOf } from "../engines.js";
-import { number, percent } from "../numbers.js";
+import { isNumber, number, percent } from "../numbers.js";
 
-const nameOf = (curve) => `${curve.scene}, r = ${number(curve.radius)}`;
+const nameOf = (curve) =>
+  isNumber(curve.radius) ? `${curve.scene}, r = ${number(curve.radius)}` : curve.scene;
 
 export function freePaths(report) {
   const curves = (report.free_paths ?? []).filter((c) => c.points?.length);
   if (!curves.length) return null;
   const looks = looksOf(curves.map(nameOf));
+  const laws = [...new Set(curves.map((c) => c.law).filter(Boolean))];
 
   function draw(width) {
     const points = curves.flatMap((c) =>
       c.points.filter((p) => p.t > 0 && p.survival > 0).map((p) => ({ ...p, name: nameOf(c) })),
     );
-    const theory = points.filter((p) => p.theory > 0);
+    // Theory goes on where there are no more flights to draw.
+    const least = Math.min(...points.map((p) => p.survival)) / 1.6;
+    const theory = points.filter((p) => p.theory > least),
+      exact = points.filter((p) => p.exact > least);
     if (!points.length) return null;
     const svg = plot({
       width,
@@ -31,6 +36,7 @@ export function freePaths(report) {
         7,
       ),
       marks: [
+        Plot.line(exact, { x: "t", y: "exact", z: "name", stroke: (p) => looks.get(p.name).colour }),
         Plot.line(theory, {
           x: "t",
           y: "theory",
@@ -57,16 +63,27 @@ export function freePaths(report) {
         lines: [
           p.name,
           `longer than ${number(p.t)}: ${percent(p.survival)}`,
+          ...(isNumber(p.exact) ? [`exact, of the same flights: ${percent(p.exact)}`] : []),
           ...(p.theory > 0 ? [`theory: ${percent(p.theory)}`] : []),
         ],
       })),
       legend: curves.map((c) => ({ name: nameOf(c), look: looks.get(nameOf(c)) })),
-      summary: `Share of free paths longer than t, in ${curves.map(nameOf).join("; ")}.${theory.length ? " Dashed: theory." : ""}`,
+      summary: `Share of free paths longer than t, in ${curves.map(nameOf).join("; ")}.${said(points, exact)}${theory.length ? ` Dashed: theory${laws.length ? ` (${laws.join("; ")})` : ""}.` : ""}`,
       numbers: {
-        columns: ["scene", "t", "share longer", "theory"],
-        rows: points.map((p) => [p.name, p.t, p.survival, p.theory]),
+        columns: ["scene", "t", "share longer", "exact", "theory"],
+        rows: points.map((p) => [p.name, p.t, p.survival, p.exact, p.theory]),
       },
     };
   }
   return chart({ name: "free-paths", title: "Free paths", draw }).element;
+}
+
+// How far the engine's are from the exact ones of the same flights.
+function said(points, exact) {
+  if (!exact.length) return "";
+  const apart = (p) => Math.abs(p.survival - p.exact);
+  const farthest = points.filter((p) => isNumber(p.exact)).reduce((a, b) => (apart(b) > apart(a) ? b : a));
+  return apart(farthest) === 0
+    ? " Line: the exact ones of the same flights, and the engine's are the same."
+    : ` Line: the exact ones of the same flights; the engine's are farthest from them at t = ${number(farthest.t)} in ${farthest.name}: ${percent(farthest.survival)} instead of ${percent(farthest.exact)}.`;
 }

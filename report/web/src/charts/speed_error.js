@@ -2,10 +2,9 @@
 import * as Plot from "@observablehq/plot";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { groupChoices, inGroup, nameOfCell } from "../cells.js";
+import { followCells, groupChoices, inGroup, nameOfCell } from "../cells.js";
 import { putLabels } from "../labels.js";
 import { duration, isNumber, number, percent } from "../numbers.js";
-import { indexOf, onSelect } from "../selection.js";
 import { paretoFront } from "../statistics.js";
 
 const share = (key, word) => ({
@@ -151,13 +150,7 @@ export function speedError(report, looks) {
     controls: [...groups.elements, kind.element],
     draw,
   });
-  onSelect((key) => {
-    const cell = report.cells[indexOf(key, "cell")];
-    if (cell && cells.includes(cell) && !inGroup(cell, groups)) {
-      groups.show(cell);
-      redraw();
-    }
-  });
+  followCells(report, cells, groups, redraw);
   return made.element;
 }
 

@@ -2,9 +2,10 @@
 import * as Plot from "@observablehq/plot";
 import { chart, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { number, percent } from "../numbers.js";
+import { isNumber, number, percent } from "../numbers.js";
 
-const nameOf = (curve) => `${curve.scene}, r = ${number(curve.radius)}`;
+const nameOf = (curve) =>
+  isNumber(curve.radius) ? `${curve.scene}, r = ${number(curve.radius)}` : curve.scene;
 
 export function survival(report, looks) {
   const curves = (report.survival ?? []).filter((c) => c.points?.length);

@@ -3,10 +3,9 @@ import * as Plot from "@observablehq/plot";
 import { h } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { groupChoices, inGroup, nameOfCell } from "../cells.js";
+import { followCells, groupChoices, inGroup, nameOfCell } from "../cells.js";
 import { swatch } from "../engines.js";
 import { duration, isNumber, number } from "../numbers.js";
-import { indexOf, onSelect } from "../selection.js";
 import { powerLaw } from "../statistics.js";
 
 const COSTS = [
@@ -146,13 +145,7 @@ export function timeRadius(report, looks) {
     draw,
     below: (drawn) => fitTable(drawn.fits, looks),
   });
-  onSelect((key) => {
-    const cell = report.cells[indexOf(key, "cell")];
-    if (cell && cells.includes(cell) && !inGroup(cell, groups)) {
-      groups.show(cell);
-      redraw();
-    }
-  });
+  followCells(report, cells, groups, redraw);
   return made.element;
 }
 

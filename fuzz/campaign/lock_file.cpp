@@ -1,0 +1,46 @@
+#include "fuzz/campaign/lock_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include <lorentz/errors.hpp>
+#include "src/problem/write_error.hpp"
+
+namespace lorentz::fuzz {
+
+LockFile::LockFile(const std::string& file, bool writes, const std::string& busy)
+    : path_(file + ".lock"), writes_(writes) {
+  do {
+    close();
+    lock_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
+    if (lock_ < 0 && !writes_) return;
+    if (lock_ < 0) throw write_error(path_, errno);
+    if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
+      close();
+      throw FileError(file + ": " + busy);
+    }
+  } while (!is_the_one_there());
+}
+
+LockFile::~LockFile() {
+  if (writes_) ::unlink(path_.c_str());
+  close();
+}
+
+// Not one that somebody took away between our opening and locking it.
+bool LockFile::is_the_one_there() const {
+  struct stat ours {
+  }, there{};
+  return ::fstat(lock_, &ours) == 0 && ::stat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino;
+}
+
+void LockFile::close() {
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = -1;
+}
+
+}  // namespace lorentz::fuzz

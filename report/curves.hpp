@@ -1,0 +1,51 @@
+// The curves of a report: free paths, and how long trajectories stay right.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/share.hpp"
+
+namespace lorentz::report {
+
+/// P(free path > t) in one scene.
+struct FreePathCurve {
+  struct Point {
+    double t = 0;
+    double survival = 0;           ///< as it was flown
+    std::optional<double> exact;   ///< of the same flights
+    std::optional<double> theory;  ///< of the law
+  };
+  std::string scene, engine;
+  std::optional<double> radius;  ///< none: the scene's own sizes
+  std::string from;              ///< "surface" or "uniform": where flights start
+  std::string law;               ///< that `theory` is of, and when it holds; empty: none is known
+  std::vector<Point> points;
+};
+
+/// The share of trajectories with so many right collisions, or more.
+struct SurvivalCurve {
+  struct Point {
+    std::size_t collisions = 0;
+    double share = 0;
+    Share bounds = {};
+  };
+  std::string scene, engine;
+  std::optional<double> radius;
+  std::vector<Point> points;
+};
+
+/// Appends the object, its keys as the members are called; `low` and `high` stand for `bounds`.
+void append_curve(std::string& out, const FreePathCurve& curve);
+void append_curve(std::string& out, const SurvivalCurve& curve);
+
+/// Appends ,"NAME":[..] with all of them.
+template <class Curve>
+void append_curves(std::string& out, const char* name, const std::vector<Curve>& curves) {
+  out += std::string(",\"") + name + "\":[";
+  for (const Curve& curve : curves) append_curve(out += &curve == &curves.front() ? "" : ",", curve);
+  out += ']';
+}
+
+}  // namespace lorentz::report

@@ -1,0 +1,67 @@
+// What an engine's free paths are compared with, and how close its calls were.
+#include "judge/free_paths.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "judge/calls.hpp"
+
+using namespace lorentz;
+using namespace lorentz::judge;
+
+namespace {
+
+// A flight of exactly this length.
+Question flight(double path) {
+  return {nullptr, {}, Answer::hit({}, path), "here", ""};
+}
+
+}  // namespace
+
+TEST_CASE("Free paths that are cut short are seen, with the place where it shows most",
+          "[judge][free_paths]") {
+  FreePaths right, cut;
+  for (int i = 1; i <= 1000; ++i) {
+    const double path = 1000.0 / i;  // P(path > t) = 1 / t
+    right.add(flight(path), Answer::hit({}, path * (1 + 0x1p-50)));
+    cut.add(flight(path), path > 100 ? Answer::never() : Answer::hit({}, std::min(path, 30.0)));
+  }
+  CHECK(right.flights() == 1000);
+  CHECK_FALSE(right.farthest_apart());
+  CHECK(right.mean() == Approx(right.exact_mean()));
+  REQUIRE(cut.farthest_apart());
+  CHECK(cut.farthest_apart()->t == Approx(32));
+  CHECK(cut.farthest_apart()->survival == Approx(0.009));
+  CHECK(cut.farthest_apart()->exact == Approx(0.031));
+  CHECK(cut.mean() < cut.exact_mean());
+  // From where some have ended to the longest.
+  CHECK(right.points().front().t == Approx(std::sqrt(2)));
+  CHECK(right.points().back().t == Approx(std::exp2(9.5)));
+}
+
+TEST_CASE("What an engine does not decide is in neither distribution", "[judge][free_paths]") {
+  FreePaths paths;
+  paths.add(flight(1), Answer::undecided());
+  paths.add(flight(1), Answer::error("cmd died"));
+  CHECK(paths.flights() == 0);
+  CHECK(paths.points().empty());
+  paths.add(flight(3), Answer::hit({}, 3));
+  CHECK(paths.mean() == 3);
+}
+
+TEST_CASE("Calls are counted by decade and verdict", "[judge][calls]") {
+  using oracle::Verdict;
+  Calls calls, more;
+  calls.add(3e-10, Verdict::wrong);
+  calls.add(-2e-10, Verdict::agree);
+  calls.add(1e-3, Verdict::undecided);
+  more.add(9.9e-10, Verdict::ill_posed);
+  for (const auto& [radii, verdict] :
+       {std::pair{std::optional<double>(), Verdict::wrong}, {0.0, Verdict::wrong}, {0.5, Verdict::error}})
+    calls.add(radii, verdict);
+  calls.add(more);
+  REQUIRE(calls.by_decade().size() == 2);
+  const Call& close = calls.by_decade().at(-10);
+  CHECK(close.wrong + close.right * 10 + close.ill_posed * 100 + close.undecided * 1000 == 111);
+  CHECK(calls.by_decade().at(-3).undecided == 1);
+}

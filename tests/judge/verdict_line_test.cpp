@@ -1,0 +1,103 @@
+// The verdict in one line: which fault comes first, and how numbers are written.
+#include <catch2/catch.hpp>
+
+#include "cli/judge_report.hpp"
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::cli;
+using lorentz::test::contains;
+
+namespace {
+
+judge::Row row(bool hard, std::size_t queries) {
+  judge::Row row{hard ? "hard" : "plain", "", hard};
+  row.tally.name = row.name;
+  row.tally.queries = row.tally.agree = queries;
+  return row;
+}
+
+// So many of what agreed are something else.
+void turn(judge::Row& row, std::size_t compare::Tally::*verdict, std::size_t number) {
+  row.tally.agree -= number;
+  row.tally.*verdict += number;
+}
+
+JudgeReport report_of(std::vector<judge::Row> rows) {
+  JudgeReport report;
+  report.engine = "cmd:it";
+  report.rows = std::move(rows);
+  return report;
+}
+
+judge::Finding finding(const judge::Question& question, judge::Cause cause, judge::Severity severity) {
+  return {{question, Answer::never(), {}, {cause, severity, 0.5}}, "here", 1, 0.5};
+}
+
+}  // namespace
+
+TEST_CASE("The verdict line: two digits of shares and speed, all before the point of what is larger",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 300)});
+  CHECK(report.line() == "right: no wrong answer in 1300");
+  turn(report.rows[0], &compare::Tally::undecided, 1);
+  turn(report.rows[1], &compare::Tally::undecided, 47);
+  report.ns_per_query = 1812.4;
+  report.ns_of_reduction = 300.0;
+  CHECK(
+      report.line() ==
+      "right: no wrong answer in 1252; undecided 0.1 % of drawn flights, 16 % of hard ones; 1812 ns a query, "
+      "6 x reduction");
+  report.ns_per_query = 2.5e7;
+  CHECK(contains(report.line(), "; 2.5e+07 ns a query, 83333 x reduction"));
+  turn(report.rows[1], &compare::Tally::ill_posed, 1);
+  CHECK(
+      report.line().starts_with("ill-posed: no wrong answer in 1252; 1 that rounding of the inputs explains; "
+                                "ill-posed 0 % of drawn flights, "
+                                "0.33 % of hard ones; undecided 0.1 %"));
+  turn(report.rows[1], &compare::Tally::undecided, 250);
+  turn(report.rows[0], &compare::Tally::undecided, 900);
+  CHECK(report.line().starts_with("undecided: it decided 102 of 1300 queries, none of them wrong; "));
+}
+
+TEST_CASE("The verdict line: wrong times are told with the share of answers, and condemn if they are to",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 0)});
+  report.rows[0].tally.timed_hits = 900;
+  report.rows[0].tally.max_ulp = 3.14159;
+  CHECK(report.line() ==
+        "right: no wrong answer in 1000; times within 3.1 ulps on drawn flights, no wrong time");
+  report.rows[0].tally.wrong_time = 2;
+  report.rows[0].tally.wrong_ulps = {12, 1234567};
+  CHECK(report.line() == "right: no wrong answer in 1000; wrong times 0.2 %, by up to 1.2e+06 ulps");
+  CHECK(report.verdict() == "right");
+  report.times = true;
+  CHECK(report.verdict() == "wrong");
+}
+
+TEST_CASE("The verdict line names the first fault that condemns, and counts the others",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 300)});
+  turn(report.rows[0], &compare::Tally::wrong, 5);
+  const auto setting = std::make_shared<judge::Setting>(unit_scene(2, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const judge::Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
+  const auto add = [&](judge::Cause cause, judge::Severity severity) {
+    report.findings.push_back(finding(question, cause, severity));
+  };
+  add(judge::Cause::never_for_hit, judge::Severity::wrong);
+  const std::string main = "says never where an obstacle is hit (entered by up to 0.5 of its radii)";
+  CHECK(report.line() == "wrong: " + main);
+  add(judge::Cause::no_answer, judge::Severity::error);
+  add(judge::Cause::wrong_time, judge::Severity::wrong_time);
+  add(judge::Cause::passed_over, judge::Severity::ill_posed);
+  CHECK(report.line() == "wrong: " + main);
+  report.times = true;
+  CHECK(report.line() == "wrong: 2 kinds of fault, above all: " + main);
+  report.failed = true;
+  turn(report.rows[1], &compare::Tally::error, 3);
+  CHECK(report.line() ==
+        "broken: 3 of 1300 queries without an answer that could be read; wrong: 2 kinds of fault, "
+        "above all: " +
+            main);
+}
