@@ -14,7 +14,7 @@ function(lorentz_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -fno-fast-math -ffp-contract=off -Wall -Wextra -Wpedantic
     # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651).
-    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict>)
+    "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict>")
   # Headers are named by their path from the root: "oracle/exact/quadratic.hpp"; public ones <lorentz/oracle.hpp>.
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()
