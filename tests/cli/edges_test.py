@@ -227,6 +227,9 @@ class Test:
         for option in self.edge.outputs:
             if option == "--html" and not HAS_PAGE:
                 continue
+            run = self.run(self.words + [option])
+            good = run.status == 2 and ": needs a value, FILE; lorentz" in run.err
+            self.check(good, f"{option} without a value", run)
             fresh = option == "--store" or self.name in ("golden make", "fuzz merge")  # must not be there
             self.folder.clear()
             if not fresh:
