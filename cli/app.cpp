@@ -59,6 +59,15 @@ std::string unknown_options(const CLI::App& app, const CLI::App& command) {
   return text;
 }
 
+// "--count: 1 required N missing" in words.
+std::string in_words(const std::string& error) {
+  const std::string required = ": 1 required ", missing = " missing";
+  const auto at = error.find(required);
+  if (at == std::string::npos || !error.ends_with(missing)) return error;
+  const auto value = error.substr(at + required.size());
+  return error.substr(0, at) + ": needs a value, " + value.substr(0, value.size() - missing.size());
+}
+
 void parse(CLI::App& app, int argc, char** argv) {
   const Called command = subcommand_of(app, "", argc, argv);
   try {
@@ -67,7 +76,7 @@ void parse(CLI::App& app, int argc, char** argv) {
     if (error.get_exit_code() == 0) throw;  // --help, --version
     const std::string options = unknown_options(app, command.app);
     throw InputError(fmt::format("{}; {} --help has all",
-                                 options.empty() ? error.what() : "no such option: " + options,
+                                 options.empty() ? in_words(error.what()) : "no such option: " + options,
                                  command.name));
   }
 }

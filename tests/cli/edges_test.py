@@ -37,10 +37,10 @@ class Edge:
 
 EDGES = {
     "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
-    "compare": Edge("--count 100", "--count 1e7 --disagreements OUT", ["--disagreements"],
+    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements"],
                     "--queries /no/such/file"),
-    "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html"], "-e cmd:/no/such/file --time 0.01",
-                  report=True),
+    "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html"],
+                  "-e cmd:/no/such/file --time 0.01", report=True),
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),
     "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
@@ -52,11 +52,13 @@ EDGES = {
     "scene show": Edge("square", missing="/no/such/file"),
     "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
     "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
-    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", missing="/no/such/file -e oracle"),
+    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256",
+                         missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
     "golden explain": Edge("9cbb135e", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
     "golden list": Edge(),
-    "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600", ["--store"], status=1),
+    "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600", ["--store"],
+                 status=1),
     "fuzz list": Edge("--store published.campaign", missing="--store /no/such/file"),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
                       room=1000, report=True),
@@ -151,7 +153,8 @@ class Test:
 
     def check(self, good, what, run):
         if not good:
-            self.failures.append(f"lorentz {self.name}: {what}\n    status {run.status}, {self.folder.new()}, {run.err!r}")
+            state = f"status {run.status}, {self.folder.new()}, {run.err!r}"
+            self.failures.append(f"lorentz {self.name}: {what}\n    {state}")
 
     def run(self, words, **how):
         self.folder.clear()
@@ -162,8 +165,8 @@ class Test:
         self.check(run.status == 0 and "Example" in run.out, "help has no example", run)
         self.examples(run.out)
         run = self.run([*self.words, "--no-such-option"])
-        self.check(run.status == 2 and f"no such option: --no-such-option; lorentz {self.name} --help has all" in run.err,
-                   "an unknown option is not named", run)
+        named = f"no such option: --no-such-option; lorentz {self.name} --help has all"
+        self.check(run.status == 2 and named in run.err, "an unknown option is not named", run)
         mistyped = self.words[-1][:-2] + self.words[-1][-1]
         run = self.run([*self.words[:-1], mistyped])
         if self.words[0] != "fuzz" or len(self.words) == 1:  # fuzz takes what follows for itself
@@ -174,7 +177,7 @@ class Test:
 
     def examples(self, text):
         """Each begins to work: what is still at it after a moment is ended."""
-        lines = text[text.index("Example"):].splitlines()
+        lines = text.partition("Example")[2].splitlines()
         lines = [line.strip() for line in lines if line.startswith("  ") and "lorentz" in line]
         environment = dict(os.environ, PATH=f"{Path(PROGRAM).parent}:{os.environ['PATH']}")
         for line in lines:
@@ -205,7 +208,8 @@ class Test:
         os.close(read)
         run = self.run(self.quick, stdout=write)
         os.close(write)
-        self.check(run.status == -signal.SIGPIPE and "standard output" not in run.err, "a closed pipe is not quiet", run)
+        quiet = run.status == -signal.SIGPIPE and "standard output" not in run.err
+        self.check(quiet, "a closed pipe is not quiet", run)
 
     def without(self, option):
         """The short work, and no such option."""
@@ -215,23 +219,29 @@ class Test:
         at = words.index(option)
         return words[:at] + words[at + 2:]
 
+    def is_small(self, name):
+        """OUT as it was, or as a store that holds nothing yet."""
+        return name == "OUT" and (self.folder.path / name).stat().st_size <= 20
+
     def output_files(self):
         for option in self.edge.outputs:
             if option == "--html" and not HAS_PAGE:
                 continue
+            run = self.run(self.words + [option])
+            good = run.status == 2 and ": needs a value, FILE; lorentz" in run.err
+            self.check(good, f"{option} without a value", run)
             fresh = option == "--store" or self.name in ("golden make", "fuzz merge")  # must not be there
             self.folder.clear()
             if not fresh:
                 (self.folder.path / "OUT").write_text("<svg old")
             run = lorentz(self.without(option) + [option, "OUT"], self.folder.path, bytes_a_file=self.edge.room)
-            self.check(run.status == 3 and "OUT" in run.err and ";" in run.err, f"{option} on a full disk: what, and what to do?",
-                       run)
+            self.check(run.status == 3 and "OUT" in run.err and ";" in run.err,
+                       f"{option} on a full disk: what, and what to do?", run)
             if not fresh:
                 self.check(self.folder.new() == ["OUT"] and (self.folder.path / "OUT").read_text() == "<svg old",
                            f"{option} on a full disk does not leave things as they were", run)
-            left = [name for name in self.folder.new() if name != "OUT" and ".part" not in name]
-            whole = [name for name in self.folder.new() if name == "OUT" and (self.folder.path / name).stat().st_size > 20]
-            self.check(not left and not whole, f"{option} on a full disk leaves {left + whole}", run)
+            left = [name for name in self.folder.new() if ".part" not in name and not self.is_small(name)]
+            self.check(not left, f"{option} on a full disk leaves {left}", run)
             run = self.run(self.without(option) + [option, "/no/such/folder/f"])
             self.check(run.status == 3 and "/no/such/folder/f" in run.err and "make its folder first" in run.err
                        and not run.out, f"{option} into a missing folder is said late, or not well", run)

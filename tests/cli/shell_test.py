@@ -66,9 +66,11 @@ def page_failures(page):
     for group in ("scene", "golden", "fuzz"):
         words = words.replace(f"{group}-", f"{group} ")
     text = plain(page.read_text())
-    help_text = subprocess.run([PROGRAM, *words.split(), "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    asked = subprocess.run([PROGRAM, *words.split(), "--help"], stdout=subprocess.PIPE, text=True, check=True)
+    help_text = asked.stdout
+    subcommands = help_text.partition("Subcommands:")[2].split("\n\n")[0]
     names = re.findall(r"^  (?:-\w,)?(--[\w-]+)", help_text, re.M)
-    names += [f"{page.stem}-{name}" for name in re.findall(r"^  ([\w-]+)", help_text.partition("Subcommands:")[2].split("\n\n")[0], re.M)]
+    names += [f"{page.stem}-{name}" for name in re.findall(r"^  ([\w-]+)", subcommands, re.M)]
     names += [line.strip() for line in help_text.splitlines() if line.startswith("  lorentz ")]
     failures = [f"{page.name} has no {name}" for name in names if name not in text]
     for formatter in (["groff", "-man", "-ww", "-z"], ["mandoc", "-T", "lint", "-W", "warning"]):

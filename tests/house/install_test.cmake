@@ -30,6 +30,12 @@ prints("cell \\(27, 1\\) at 26.95085432627853")
 run(${SCRATCH}/consumer/all_headers)
 run(${prefix}/bin/lorentz scene list)
 prints("cubic")
+foreach(page man/man1/lorentz.1 man/man1/lorentz-scene-draw.1 bash-completion/completions/lorentz
+    zsh/vendor-completions/_lorentz)
+  if(NOT EXISTS ${prefix}/share/${page})
+    message(FATAL_ERROR "share/${page} was not installed")
+  endif()
+endforeach()
 
 # By pkg-config, the engine alone.
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
