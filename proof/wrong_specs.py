@@ -7,7 +7,7 @@ SANITY = ["Spec", "Time", "Rounding", "Number", "Sanity"]
 PROOF = ["Vectors", "Steps", "Search", "Space", "View", "Quadratic", "Windows", "Claims", "Reading", "Check", "Main"]
 
 WRONG = {
-    "entry at the far side": ("within o t' -> t <= t') /\\ (forall later, t < later -> exists t', within o t' /\\ t' < later)",
+    "entry at the far side": ("within o t' -> t <= t') /\\\n    (forall later, t < later -> exists t', within o t' /\\ t' < later)",
                               "within o t' -> t' <= t) /\\ (forall later, later < t -> exists t', within o t' /\\ later < t')"),
     "closed balls": ("norm (along q (-1) centre) < value r", "norm (along q (-1) centre) <= value r"),
     "closed ellipsoids": ("norm y < 1 /\\ q", "norm y <= 1 /\\ q"),
