@@ -1,5 +1,5 @@
-(* The whole check of a record, from what is written. What is said of the certificate alone need not be proved: only what
-   the claims need of it is. *)
+(* The whole check of a record, from what is written. What is said of the certificate alone need not be
+   proved: only what the claims need of it is. *)
 From Coq Require Import ZArith List Bool.
 From Lorentz Require Import Spec Time Rounding Vectors Number Steps Space View Windows Claims Reading.
 Import ListNotations.
@@ -12,7 +12,8 @@ Record prepared := Prepared { flat : bool; count : nat; solids : list placed; bi
 Definition is_empty {A} (l : list A) : bool := match l with [] => true | _ => false end.
 Definition place_atoms (planar : bool) (l : Z * lattice) : option (list placed) :=
   if is_empty (atoms (snd l)) then None
-  else all_some (fun a => option_map (Placed (fst l) (fst a)) (read_solid planar (snd l) (snd a))) (numbered 0 (atoms (snd l))).
+  else all_some (fun a => option_map (Placed (fst l) (fst a)) (read_solid planar (snd l) (snd a)))
+    (numbered 0 (atoms (snd l))).
 Definition prepare (sc : scene) : option prepared :=
   if ((dimension sc =? 2)%nat || (dimension sc =? 3)%nat) && negb (is_empty (lattices sc)) then
     let planar := (dimension sc =? 2)%nat in
@@ -28,7 +29,8 @@ Definition prepare (sc : scene) : option prepared :=
 (* ---- Certificates, as they are written. An end in hexadecimal is not rounded to a binary64. *)
 Inductive window_end := AtNumber (n : numeral) | Exactly (m e : Z).  (* m 2^e *)
 Record written_piece := WrittenPiece
-  { of_lattice_written : Z; of_atom_written : Z; from_end : window_end; to_end : window_end; basis : list (list Z) }.
+  { of_lattice_written : Z; of_atom_written : Z; from_end : window_end; to_end : window_end;
+    basis : list (list Z) }.
 Inductive certificate := Windows (l : list written_piece) | Rows (l : list written_piece).
 
 Definition largest_exponent : Z := 2 ^ 16.
@@ -48,21 +50,25 @@ Definition read_basis (planar : bool) (rows : list (list Z)) : option (zv * zv *
 Definition read_piece (planar : bool) (w : Z * written_piece) : option piece :=
   let (i, w) := w in
   match read_end (from_end w), read_end (to_end w), read_basis planar (basis w) with
-  | Some b, Some e, Some (r1, r2, r3) => Some (Piece i (of_lattice_written w) (of_atom_written w) b e r1 r2 r3)
+  | Some b, Some e, Some (r1, r2, r3) => Some (Piece i (of_lattice_written w) (of_atom_written w) b e r1
+    r2 r3)
   | _, _, _ => None
   end.
 
 (* Powers of two that numbers have in common go: of those of a question, and of those of the windows' ends. *)
 Definition twos (bits : Z) : Z := if bits =? 0 then 0 else Z.log2 (Z.land bits (- bits)).
 Definition shrink_ends (k : Z) (w : piece) : piece :=
-  Piece (number_of w) (piece_lattice w) (piece_atom w) (Z.shiftr (begin_at w) k) (Z.shiftr (end_at w) k) (r1 w) (r2 w) (r3 w).
+  Piece (number_of w) (piece_lattice w) (piece_atom w) (Z.shiftr (begin_at w) k) (Z.shiftr (end_at w) k)
+    (r1 w) (r2 w) (r3 w).
 
 (* ---- The question. *)
 Definition same_atom (o : obstacle) (l a : Z) : bool := (of_lattice o =? l) && (of_atom o =? a).
 Definition is_obstacle (p : prepared) (o : obstacle) : bool :=
-  existsb (fun s => same_atom o (lattice_index s) (atom_index s)) (solids p) && (length (cell o) =? count p)%nat.
+  existsb (fun s => same_atom o (lattice_index s) (atom_index s)) (solids p) &&
+    (length (cell o) =? count p)%nat.
 Definition see_all (p : prepared) (k : Z) (x v : zv) : list sight :=
-  map (fun s => Sight (lattice_index s) (atom_index s) (see (shrink k x) (shrink k v) (shrink_solid (flat p) k (its_solid s))))
+  map (fun s => Sight (lattice_index s) (atom_index s) (see (shrink k x) (shrink k v)
+    (shrink_solid (flat p) k (its_solid s))))
     (solids p).
 Definition visible (p : prepared) (k : Z) (v : zv) : bool :=
   forallb (fun s => divisible k (all_numbers (flat p) (its_solid s)) &&
@@ -94,7 +100,8 @@ Definition check_times (t : time) (time : option numeral) (m k : Z) : check :=
   require (Z.abs k <=? largest_exponent) NoNumber ;;
   require (if ts t * ts t =? td t then m =? 0 else rounds40 t m k) WrongDigits.
 
-Definition check_answer (planar : bool) (E : Z) (sights : list sight) (from : option obstacle) (ws : list piece)
+Definition check_answer (planar : bool) (E : Z) (sights : list sight) (from : option obstacle)
+  (ws : list piece)
     (a : answer) (windows : bool) : check :=
   match a with
   | Hit X time m k =>
@@ -108,7 +115,8 @@ Definition check_answer (planar : bool) (E : Z) (sights : list sight) (from : op
   end.
 
 Definition check_record (p : prepared) (q : query) (a : answer) (c : certificate) : check :=
-  let? x := read_vector (flat p) (start q) else BadQuery in let? v := read_vector (flat p) (velocity q) else BadQuery in
+  let? x := read_vector (flat p) (start q) else BadQuery in
+  let? v := read_vector (flat p) (velocity q) else BadQuery in
   let bits := fold_right Z.lor (bits p) (numbers_of x ++ numbers_of v) in let k := twos bits in
   require (match from q with None => true | Some o => is_obstacle p o end) BadQuery ;;
   require (0 <? dot v v) BadQuery ;;
@@ -116,7 +124,8 @@ Definition check_record (p : prepared) (q : query) (a : answer) (c : certificate
   let (windows, written) := match c with Windows l => (true, l) | Rows l => (false, l) end in
   let? ws := all_some (read_piece (flat p)) (numbered 0 written) else NoVector in
   let sights := see_all p k x v in
-  each_in ws (fun w => require (existsb (fun s => mine s w) sights) (NoAtom (piece_lattice w) (piece_atom w))) ;;
+  each_in ws (fun w => require (existsb (fun s => mine s w) sights)
+    (NoAtom (piece_lattice w) (piece_atom w))) ;;
   let e := Z.min 1074 (twos (fold_right (fun w b => Z.lor (begin_at w) (Z.lor (end_at w) b)) 0 ws)) in
   require (e <=? 1074) NoNumber ;;
   check_answer (flat p) (2 ^ (1074 - e)) sights (from q) (map (shrink_ends e) ws) a windows.

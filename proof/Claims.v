@@ -13,16 +13,19 @@ Fixpoint compare_numbers (a b : list Z) : comparison :=
   end.
 Definition compare (o o' : obstacle) : comparison := compare_numbers (name o) (name o').
 
-Lemma compare_numbers_ok a : forall b, match compare_numbers a b with Lt => less a b | Eq => a = b | Gt => True end.
+Lemma compare_numbers_ok a : forall b, match compare_numbers a b with
+  Lt => less a b | Eq => a = b | Gt => True end.
 Proof.
   induction a as [|i a IH]; intros [|j b]; cbn [compare_numbers less]; auto.
-  destruct (Z.compare_spec i j); auto. subst j. specialize (IH b). destruct (compare_numbers a b); auto. congruence.
+  destruct (Z.compare_spec i j); auto. subst j. specialize (IH b). destruct (compare_numbers a b); auto.
+  congruence.
 Qed.
 Lemma compare_refl o : compare o o = Eq.
 Proof. unfold compare. induction (name o) as [|i a IH]; cbn; [auto|]. rewrite Z.compare_refl. exact IH. Qed.
 Lemma compare_ok o o' : match compare o o' with Lt => less (name o) (name o') | Eq => o = o' | Gt => True end.
 Proof.
-  pose proof (compare_numbers_ok (name o) (name o')) as K. unfold compare. destruct (compare_numbers _ _); auto.
+  pose proof (compare_numbers_ok (name o) (name o')) as K. unfold compare.
+  destruct (compare_numbers _ _); auto.
   destruct o, o'. injection K. intros. subst. reflexivity.
 Qed.
 
@@ -34,7 +37,8 @@ Definition is_from (from : option obstacle) (o : obstacle) : bool :=
   match from with None => false | Some f => match compare f o with Eq => true | _ => false end end.
 Lemma is_from_yes from o : is_from from o = true -> from = Some o.
 Proof.
-  unfold is_from. destruct from as [f|]; [|discriminate]. pose proof (compare_ok f o). destruct compare; congruence.
+  unfold is_from. destruct from as [f|]; [|discriminate]. pose proof (compare_ok f o).
+  destruct compare; congruence.
 Qed.
 Lemma is_from_no from o : is_from from o = false -> from <> Some o.
 Proof. intros H ->. unfold is_from in H. rewrite compare_refl in H. discriminate. Qed.
@@ -46,14 +50,16 @@ Section Claims.
   Variables (planar : bool) (E : Z) (sights : list sight) (from : option obstacle) (ws : list piece).
   Hypothesis E_pos : 0 < E.
 
-  Definition obstacle_at (a : sight) (n : zv) : obstacle := Obstacle (its_lattice a) (its_atom a) (coordinates planar n).
+  Definition obstacle_at (a : sight) (n : zv) : obstacle := Obstacle (its_lattice a) (its_atom a)
+    (coordinates planar n).
   Definition time_of (y : seen) (n : zv) : time := let W := at_cell y n in Time (sS y W) (sD y W) (sQ y).
-  Definition mine (a : sight) (w : piece) : bool := (piece_lattice w =? its_lattice a) && (piece_atom w =? its_atom a).
+  Definition mine (a : sight) (w : piece) : bool := (piece_lattice w =? its_lattice a) &&
+    (piece_atom w =? its_atom a).
   Definition pieces_of (a : sight) : list piece := filter (mine a) ws.
   Definition gap_after (a : sight) : flaw := GapAfter (its_lattice a) (its_atom a).
 
-  (* "every other obstacle but `from` that the ray enters is entered later, or at the same t with a larger name;
-     and no obstacle but `from` contains x." *)
+  (* "every other obstacle but `from` that the ray enters is entered later, or at the same t with a larger
+     name; and no obstacle but `from` contains x." *)
   Definition judge_hit (X : obstacle) (t : time) (a : sight) (n : zv) (u : time) : check :=
     let o := obstacle_at a n in
     if is_from from o then done
@@ -63,11 +69,14 @@ Section Claims.
   Definition check_hit (a : sight) (n : zv) : check :=
     let X := obstacle_at a n in let t := time_of (its_view a) n in
     require (negb (is_from from X) && (0 <? td t) && (0 <? ts t) && (td t <=? ts t * ts t)) NotTheOutcome ;;
-    each_in sights (fun b => check_windows planar E (its_view b) (pieces_of b) (Some t) (gap_after b) (judge_hit X t b)).
+    each_in sights (fun b => check_windows planar E (its_view b) (pieces_of b) (Some t) (gap_after b)
+      (judge_hit X t b)).
 
-  (* "X contains x, X is not `from`, and no smaller obstacle does, but `from`. It suffices to look at the atoms up to X's." *)
+  (* "X contains x, X is not `from`, and no smaller obstacle does, but `from`. It suffices to look at the
+     atoms up to X's." *)
   Definition up_to (a b : sight) : bool :=
-    match compare_numbers [its_lattice b; its_atom b] [its_lattice a; its_atom a] with Gt => false | _ => true end.
+    match compare_numbers [its_lattice b; its_atom b] [its_lattice a; its_atom a] with
+    | Gt => false | _ => true end.
   Definition judge_inside (X : obstacle) (a : sight) (n : zv) (u : time) : check :=
     let o := obstacle_at a n in
     if is_from from o then done else require (negb (ts u * ts u <? td u) || comes_after X o) (ComesFirst o).
@@ -86,17 +95,22 @@ Section Claims.
       | _ => fail (NoRows (its_lattice a) (its_atom a))
       end).
 
-  (* ---- What makes these lists of integers the question: the obstacles are those of the sights, and their chords these. *)
+  (* ---- What makes these lists of integers the question: the obstacles are those of the sights, and their
+     chords these. *)
   Variable within : obstacle -> R -> Prop.
   Hypothesis regular_sights : forall a, In a sights -> 0 < sQ (its_view a) /\ 0 <= sr (its_view a).
-  Hypothesis seen_all : forall o t, within o t -> exists a n, In a sights /\ level planar n /\ o = obstacle_at a n.
+  Hypothesis seen_all : forall o t, within o t -> exists a n, In a sights /\ level planar n /\
+    o = obstacle_at a n.
   Hypothesis chords : forall a n t, In a sights -> level planar n ->
     let y := its_view a in let W := at_cell y n in
-    within (obstacle_at a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) < IZR (sD y W))%R.
+    within (obstacle_at a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) <
+      IZR (sD y W))%R.
 
-  Lemma enters_seen o t : enters within o t -> exists a n, In a sights /\ level planar n /\ o = obstacle_at a n.
+  Lemma enters_seen o t : enters within o t -> exists a n, In a sights /\ level planar n /\
+    o = obstacle_at a n.
   Proof. intros (_ & _ & K). destruct (K (t + 1)%R ltac:(lra)) as (t' & Ht & _). exact (seen_all _ _ Ht). Qed.
-  Lemma time_of_regular a n : In a sights -> 0 < td (time_of (its_view a) n) -> regular (time_of (its_view a) n).
+  Lemma time_of_regular a n : In a sights -> 0 < td (time_of (its_view a) n) ->
+    regular (time_of (its_view a) n).
   Proof. intros Ha Hd. split; [lia|]. apply regular_sights, Ha. Qed.
 
   Lemma entered a n t : In a sights -> level planar n -> let u := time_of (its_view a) n in
@@ -107,13 +121,15 @@ Section Claims.
   Lemma contained a n : In a sights -> level planar n -> let u := time_of (its_view a) n in
     within (obstacle_at a n) 0 <-> ts u * ts u < td u.
   Proof.
-    intros Ha Hn u. apply (contains_iff (within (obstacle_at a n)) _ _ (sQ (its_view a))). intros t'. apply chords; auto.
+    intros Ha Hn u. apply (contains_iff (within (obstacle_at a n)) _ _ (sQ (its_view a))). intros t'.
+    apply chords; auto.
   Qed.
 
   Theorem check_hit_ok a n : In a sights -> level planar n -> passes (check_hit a n) ->
     first_hit within from (obstacle_at a n) (time_value (time_of (its_view a) n)).
   Proof.
-    intros Ha Hn H. unfold check_hit in H. set (X := obstacle_at a n) in *. set (t := time_of (its_view a) n) in *.
+    intros Ha Hn H. unfold check_hit in H. set (X := obstacle_at a n) in *.
+    set (t := time_of (its_view a) n) in *.
     apply passes_both in H. destruct H as [H Hall]. apply passes_require in H.
     rewrite !andb_true_iff, negb_true_iff, !Z.ltb_lt, Z.leb_le in H. destruct H as [[[Hf HD] Hs] HDs].
     assert (EX : enters within X (time_value t)) by (apply entered; auto).
@@ -121,23 +137,30 @@ Section Claims.
     assert (V0 : (0 <= time_value t)%R) by apply EX.
     (* Every obstacle that matters has been judged. *)
     assert (J : forall b m, In b sights -> level planar m -> let u := time_of (its_view b) m in
-      from <> Some (obstacle_at b m) -> 0 < td u -> 0 < ts u \/ ts u * ts u < td u -> (time_value u <= time_value t)%R ->
+      from <> Some (obstacle_at b m) -> 0 < td u -> 0 < ts u \/ ts u * ts u < td u ->
+        (time_value u <= time_value t)%R ->
       td u <= ts u * ts u /\ (0 < ts u -> time_value t = time_value u /\ not_after X (obstacle_at b m))).
     { intros b m Hb Hm u Ho HDu Hsu HV. pose proof (each_in_ok _ _ Hall _ Hb) as K. cbv beta in K.
-      apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ Ht) with (n := m) in K; auto.
-      fold u in K. unfold judge_hit in K. cbn [ts td] in K. change (sS (its_view b) (at_cell (its_view b) m)) with (ts u) in K.
-      change (sD (its_view b) (at_cell (its_view b) m)) with (td u) in K. change (Time (ts u) (td u) (sQ (its_view b))) with u in K.
+      apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ Ht)
+        with (n := m) in K; auto.
+      fold u in K. unfold judge_hit in K. cbn [ts td] in K.
+      change (sS (its_view b) (at_cell (its_view b) m)) with (ts u) in K.
+      change (sD (its_view b) (at_cell (its_view b) m)) with (td u) in K.
+      change (Time (ts u) (td u) (sQ (its_view b))) with u in K.
       destruct (is_from from (obstacle_at b m)) eqn:EF; [apply is_from_yes in EF; contradiction|].
-      destruct (Z.ltb_spec (ts u * ts u) (td u)); [apply passes_fail in K; tauto|]. split; [auto|]. intros Hs0.
+      destruct (Z.ltb_spec (ts u * ts u) (td u)); [apply passes_fail in K; tauto|]. split; [auto|].
+      intros Hs0.
       destruct (Z.leb_spec (ts u) 0); [lia|]. apply passes_require in K.
       pose proof (order_ok u t (time_of_regular b m Hb HDu) Ht) as O.
       destruct (order u t); simpl in O; [|discriminate|lra]. split; [auto|apply comes_after_ok; auto]. }
     split; [apply is_from_no; auto|]. split; [exact EX|]. split.
-    - intros o Ho C. destruct (seen_all _ _ C) as (b & m & Hb & Hm & ->). apply contained in C; auto. cbv zeta in C.
+    - intros o Ho C. destruct (seen_all _ _ C) as (b & m & Hb & Hm & ->). apply contained in C; auto.
+      cbv zeta in C.
       set (u := time_of (its_view b) m) in *. assert (Dp : 0 < td u) by nia.
       destruct (J b m Hb Hm Ho Dp (or_intror C)) as [K _]; [|fold u in K; lia].
       apply Rle_trans with 0%R; [|exact V0]. apply begins_nonpos; [apply regular_sights, Hb|exact C].
-    - intros o t' Ho En. destruct (enters_seen _ _ En) as (b & m & Hb & Hm & ->). apply entered in En; auto. cbv zeta in En.
+    - intros o t' Ho En. destruct (enters_seen _ _ En) as (b & m & Hb & Hm & ->). apply entered in En; auto.
+      cbv zeta in En.
       set (u := time_of (its_view b) m) in *. destruct En as (Dp & -> & Sp & Ds).
       destruct (Rlt_le_dec (time_value t) (time_value u)) as [L|L]; [left; auto|right]. apply (J b m); auto.
   Qed.
@@ -146,25 +169,30 @@ Section Claims.
   Proof using.
     unfold up_to, not_after, name, obstacle_at. cbn. intros H. right.
     destruct (Z.compare_spec (its_lattice b) (its_lattice a)); [|discriminate|left; lia].
-    destruct (Z.compare_spec (its_atom b) (its_atom a)); [discriminate|discriminate|]. right. split; [auto|left; lia].
+    destruct (Z.compare_spec (its_atom b) (its_atom a)); [discriminate|discriminate|]. right.
+    split; [auto|left; lia].
   Qed.
 
   Theorem check_inside_ok a n : In a sights -> level planar n -> passes (check_inside a n) ->
     first_inside within from (obstacle_at a n).
   Proof.
-    intros Ha Hn H. unfold check_inside in H. set (X := obstacle_at a n) in *. set (t := time_of (its_view a) n) in *.
+    intros Ha Hn H. unfold check_inside in H. set (X := obstacle_at a n) in *.
+    set (t := time_of (its_view a) n) in *.
     apply passes_both in H. destruct H as [H Hall]. apply passes_require in H.
     rewrite !andb_true_iff, negb_true_iff, Z.ltb_lt in H. destruct H as [Hf HC].
     split; [apply is_from_no; auto|]. split; [apply contained; auto|].
     intros o Ho C. destruct (seen_all _ _ C) as (b & m & Hb & Hm & ->).
     destruct (up_to a b) eqn:U; [|apply up_to_no; auto].
-    apply contained in C; auto. cbv zeta in C. set (u := time_of (its_view b) m) in *. assert (Dp : 0 < td u) by nia.
+    apply contained in C; auto. cbv zeta in C. set (u := time_of (its_view b) m) in *.
+    assert (Dp : 0 < td u) by nia.
     pose proof (each_in_ok _ _ Hall _ Hb) as K. cbv beta in K. rewrite U in K.
     assert (R1 : regular (Time 0 0 1)) by (split; cbn; lia).
     assert (V1 : time_value (Time 0 0 1) = 0%R) by (unfold time_value; cbn [ts td tq]; rewrite sqrt_0; field).
-    apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ R1) with (n := m) in K; auto.
+    apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ R1)
+      with (n := m) in K; auto.
     - unfold judge_inside in K. cbn [ts td] in K.
-      destruct (is_from from (obstacle_at b m)) eqn:EF; [apply is_from_yes in EF; contradiction|]. apply passes_require in K.
+      destruct (is_from from (obstacle_at b m)) eqn:EF; [apply is_from_yes in EF; contradiction|].
+      apply passes_require in K.
       change (sS (its_view b) (at_cell (its_view b) m)) with (ts u) in K.
       change (sD (its_view b) (at_cell (its_view b) m)) with (td u) in K.
       rewrite (proj2 (Z.ltb_lt _ _) C) in K. apply comes_after_ok. exact K.
@@ -174,12 +202,14 @@ Section Claims.
   Theorem check_never_ok : passes check_never -> nothing within from.
   Proof.
     intros Hall. assert (N : forall o t, ~ within o t).
-    { intros o t C. destruct (seen_all _ _ C) as (a & n & Ha & Hn & ->). apply chords in C; auto. cbv zeta in C.
+    { intros o t C. destruct (seen_all _ _ C) as (a & n & Ha & Hn & ->). apply chords in C; auto.
+      cbv zeta in C.
       set (y := its_view a) in *. set (W := at_cell y n) in *.
       pose proof (each_in_ok _ _ Hall _ Ha) as K. cbv beta in K.
       destruct (pieces_of a) as [|w [|w' rest]]; try (apply passes_fail in K; tauto).
       apply (check_row_ok planar y w _ K n Hn). apply lt_IZR.
       pose proof (Rle_0_sqr (IZR (sQ y) * t - IZR (sS y W))) as S0. unfold Rsqr in S0. fold W. lra. }
-    intros o _. split; [apply N|]. intros t (_ & _ & K). destruct (K (t + 1)%R ltac:(lra)) as (t' & Ht & _). exact (N _ _ Ht).
+    intros o _. split; [apply N|]. intros t (_ & _ & K). destruct (K (t + 1)%R ltac:(lra)) as (t' & Ht & _).
+    exact (N _ _ Ht).
   Qed.
 End Claims.

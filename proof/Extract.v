@@ -1,5 +1,6 @@
-(* The check as a program. Coq's integers become Zarith's: trusted are Coq's own table, ExtrOcamlZBigInt, and these lines,
-   which give functions that are not in it the same values, also where the second operand is negative. *)
+(* The check as a program. Coq's integers become Zarith's: trusted are Coq's own table, ExtrOcamlZBigInt, and
+   these lines, which give functions that are not in it the same values, also where the second operand is
+   negative. *)
 From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
 From Lorentz Require Import Number Check.
 Extract Constant Z.ltb => "Big_int_Z.lt_big_int".

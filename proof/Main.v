@@ -1,7 +1,8 @@
 (* The theorem: what the check accepts is a valid question with the right answer. *)
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Flocq Require Import Core.
-From Lorentz Require Import Spec Time Rounding Vectors Number Steps Space View Quadratic Windows Claims Reading Check.
+From Lorentz Require Import Spec Time Rounding Vectors Number Steps Space View Quadratic Windows Claims
+  Reading Check.
 Import ListNotations.
 Local Open Scope Z_scope.
 
@@ -32,11 +33,13 @@ Proof.
   apply andb_true_iff in G. destruct G as [Gd Gl].
   destruct (all_some (place_atoms planar) (numbered 0 (lattices sc))) as [pls|] eqn:E; [|discriminate].
   intros I; injection I as <-. cbn [flat solids count].
-  assert (Hd : (dimension sc = 2 \/ dimension sc = 3)%nat) by (unfold planar in Gd; rewrite orb_true_iff, !Nat.eqb_eq in Gd; exact Gd).
+  assert (Hd : (dimension sc = 2 \/ dimension sc = 3)%nat)
+    by (unfold planar in Gd; rewrite orb_true_iff, !Nat.eqb_eq in Gd; exact Gd).
   assert (Hs : dimension sc = size planar) by (unfold planar, size; destruct Hd as [-> | ->]; reflexivity).
   destruct (all_some_ok _ _ _ E) as [A1 A2].
   assert (Atoms : forall l ps, place_atoms planar l = Some ps -> atoms (snd l) <> [] /\
-    (forall j A, item (atoms (snd l)) j = Some A -> exists S, In (Placed (fst l) j S) ps /\ read_solid planar (snd l) A = Some S) /\
+    (forall j A, item (atoms (snd l)) j = Some A -> exists S, In (Placed (fst l) j S) ps /\
+      read_solid planar (snd l) A = Some S) /\
     (forall s, In s ps -> lattice_index s = fst l /\ exists A, item (atoms (snd l)) (atom_index s) = Some A /\
       read_solid planar (snd l) A = Some (its_solid s))).
   { intros l ps. unfold place_atoms. destruct (is_empty (atoms (snd l))) eqn:Em; [discriminate|]. intros Ep.
@@ -44,13 +47,17 @@ Proof.
     - intros j A HA. apply numbered_0 in HA. destruct (B1 _ HA) as (s & Hin & Es). cbn [fst snd] in Es.
       destruct (read_solid planar (snd l) A) as [S|]; [|discriminate]. injection Es as <-. eauto.
     - intros s Hin. destruct (B2 _ Hin) as ([j A] & HA & Es). cbn [fst snd] in Es. apply numbered_0 in HA.
-      destruct (read_solid planar (snd l) A) as [S|] eqn:ES; [|discriminate]. injection Es as <-. cbn. eauto. }
+      destruct (read_solid planar (snd l) A) as [S|] eqn:ES; [|discriminate]. injection Es as <-.
+      cbn. eauto. }
   split; [split; [exact Hd|split]|].
   - intros K. rewrite K in Gl. discriminate.
-  - rewrite Forall_forall. intros L HL. destruct (in_numbered _ _ HL) as [l Hl]. destruct (A1 _ Hl) as (ps & _ & Ep).
+  - rewrite Forall_forall. intros L HL. destruct (in_numbered _ _ HL) as [l Hl].
+    destruct (A1 _ Hl) as (ps & _ & Ep).
     destruct (Atoms _ _ Ep) as (N & B1 & _). cbn [fst snd] in *. rewrite Hs.
-    assert (All : forall A, In A (atoms L) -> independent (size planar) (vectors L) /\ valid_atom (size planar) A).
-    { intros A HA. destruct (in_numbered _ _ HA) as [j Hj]. apply numbered_0 in Hj. destruct (B1 _ _ Hj) as (S & _ & ES).
+    assert (All : forall A, In A (atoms L) -> independent (size planar) (vectors L) /\
+      valid_atom (size planar) A).
+    { intros A HA. destruct (in_numbered _ _ HA) as [j Hj]. apply numbered_0 in Hj.
+      destruct (B1 _ _ Hj) as (S & _ & ES).
       apply read_solid_ok in ES. tauto. }
     split; [|split; [exact N|rewrite Forall_forall; intros A HA; apply All, HA]].
     destruct (atoms L) as [|A rest]; [contradiction|]. apply (All A). left. reflexivity.
@@ -58,7 +65,8 @@ Proof.
     + intros o L A (HL & HA & _). apply numbered_0 in HL. destruct (A1 _ HL) as (ps & Hin & Ep).
       destruct (Atoms _ _ Ep) as (_ & B1 & _). destruct (B1 _ _ HA) as (S & HS & ES). exists S. split; auto.
       apply in_concat. eauto.
-    + intros s Hin. apply in_concat in Hin. destruct Hin as (ps & Hps & Hin). destruct (A2 _ Hps) as ([l L] & HL & Ep).
+    + intros s Hin. apply in_concat in Hin. destruct Hin as (ps & Hps & Hin).
+      destruct (A2 _ Hps) as ([l L] & HL & Ep).
       destruct (Atoms _ _ Ep) as (_ & _ & B2). destruct (B2 _ Hin) as (El & A & HA & ES). cbn [fst snd] in *.
       apply numbered_0 in HL. exists L, A. rewrite El. auto.
 Qed.
@@ -92,13 +100,15 @@ Section Record.
 
   (* A sight, its solid and its atom. *)
   Definition sees (a : sight) (L : lattice) (A : atom) (S : solid) : Prop :=
-    item (lattices sc) (its_lattice a) = Some L /\ item (atoms L) (its_atom a) = Some A /\ depicts planar (unit k) L A S /\
+    item (lattices sc) (its_lattice a) = Some L /\ item (atoms L) (its_atom a) = Some A /\
+      depicts planar (unit k) L A S /\
     its_view a = see (shrink k x) (shrink k v) S /\ radius (adjugate (shaped S)) <> 0 /\ 0 < sQ (its_view a).
   Lemma visible_in s : In s (solids p) -> divisible k (all_numbers planar (its_solid s)) = true /\
     radius (adjugate (shaped (shrink_solid planar k (its_solid s)))) <> 0 /\
     0 < sQ (see (shrink k x) (shrink k v) (shrink_solid planar k (its_solid s))).
   Proof.
-    intros Hs. pose proof all_visible as V. unfold visible in V. rewrite forallb_forall in V. specialize (V _ Hs). cbv zeta in V.
+    intros Hs. pose proof all_visible as V. unfold visible in V. rewrite forallb_forall in V.
+    specialize (V _ Hs). cbv zeta in V.
     rewrite !andb_true_iff, negb_true_iff, Z.eqb_neq, Z.ltb_lt in V. exact V.
   Qed.
   Lemma sights_ok a : In a sights -> exists L A S, sees a L A S.
@@ -106,7 +116,8 @@ Section Record.
     intros Ha. apply in_map_iff in Ha. destruct Ha as (s & <- & Hs).
     destruct depicted as (_ & _ & _ & _ & B). destruct (B _ Hs) as (L & A & ES & HL & HA).
     destruct (visible_in s Hs) as (V1 & V2 & V3). exists L, A, (shrink_solid planar k (its_solid s)).
-    split; [exact HL|split; [exact HA|split; [|auto]]]. apply shrink_depicts; auto. apply (read_solid_ok _ _ _ _ ES).
+    split; [exact HL|split; [exact HA|split; [|auto]]]. apply shrink_depicts; auto.
+    apply (read_solid_ok _ _ _ _ ES).
   Qed.
 
   Lemma regular_sights a : In a sights -> 0 < sQ (its_view a) /\ 0 <= sr (its_view a).
@@ -124,17 +135,21 @@ Section Record.
     - unfold obstacle_at. cbn. destruct o. cbn in *. subst. reflexivity.
   Qed.
   Lemma chords a n t : In a sights -> level planar n -> let y := its_view a in let W := at_cell y n in
-    within (obstacle_at planar a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) < IZR (sD y W))%R.
+    within (obstacle_at planar a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) <
+      IZR (sD y W))%R.
   Proof.
-    intros Ha Ln y W. destruct (sights_ok a Ha) as (L & A & S & HL & HA & HS & Ey & HR & HQ). unfold within. rewrite the_line.
+    intros Ha Ln y W. destruct (sights_ok a Ha) as (L & A & S & HL & HA & HS & Ey & HR & HQ). unfold within.
+    rewrite the_line.
     destruct depicted as (_ & Hs & _).
     assert (AO : atom_of sc (obstacle_at planar a n) L A).
     { split; [exact HL|split; [exact HA|]]. rewrite Hs. apply coordinates_length. }
-    rewrite (depicted_occupied planar (unit k) (unit_pos k) sc (obstacle_at planar a n) L A S n _ Hs AO HS eq_refl Ln (line_level t)).
+    rewrite (depicted_occupied planar (unit k) (unit_pos k) sc (obstacle_at planar a n) L A S n _ Hs AO HS
+      eq_refl Ln (line_level t)).
     unfold W, y. rewrite Ey in *. apply chord_view; auto.
   Qed.
 
-  Lemma find_sight_ok o a : find_sight sights o = Some a -> In a sights /\ of_lattice o = its_lattice a /\ of_atom o = its_atom a.
+  Lemma find_sight_ok o a : find_sight sights o = Some a -> In a sights /\ of_lattice o = its_lattice a /\
+    of_atom o = its_atom a.
   Proof.
     intros E. apply find_some in E. destruct E as [Hin E]. unfold same_atom in E.
     rewrite andb_true_iff, !Z.eqb_eq in E. tauto.
@@ -142,53 +157,64 @@ Section Record.
   Lemma read_cell_ok l n : read_cell planar l = Some n -> level planar n /\ l = coordinates planar n.
   Proof.
     unfold read_cell, read_row, level, coordinates, three. intros E.
-    destruct planar; destruct l as [|a [|b [|c [|d l]]]]; try discriminate; injection E as <-; cbn; split; auto; discriminate.
+    destruct planar; destruct l as [|a [|b [|c [|d l]]]]; try discriminate; injection E as <-; cbn; split;
+      auto; discriminate.
   Qed.
   Lemma named o a n : find_sight sights o = Some a -> read_cell planar (cell o) = Some n ->
     In a sights /\ level planar n /\ o = obstacle_at planar a n.
   Proof.
-    intros E1 E2. destruct (find_sight_ok _ _ E1) as (Ha & El & Ea). destruct (read_cell_ok _ _ E2) as [Ln En].
+    intros E1 E2. destruct (find_sight_ok _ _ E1) as (Ha & El & Ea).
+    destruct (read_cell_ok _ _ E2) as [Ln En].
     split; [auto|split; [auto|]]. unfold obstacle_at. destruct o. cbn in *. subst. reflexivity.
   Qed.
 
   (* ---- Times. *)
-  Lemma check_times_ok t time m e : regular t -> (0 <= time_value t)%R -> 0 <= ts t -> passes (check_times t time m e) ->
+  Lemma check_times_ok t time m e : regular t -> (0 <= time_value t)%R -> 0 <= ts t ->
+    passes (check_times t time m e) ->
     (IZR m * bpow radix10 e = nearest40 (time_value t))%R /\
     match time with
     | Some n => finite n /\ value n = nearest64 (time_value t)
     | None => (bpow radix2 1024 <= nearest64 (time_value t))%R
     end.
   Proof.
-    intros Ht H0 Hs H. unfold check_times in H. apply passes_both in H. destruct H as [H1 H]. apply passes_both in H.
+    intros Ht H0 Hs H. unfold check_times in H. apply passes_both in H. destruct H as [H1 H].
+    apply passes_both in H.
     destruct H as [_ H2]. apply passes_require in H2. split.
     - destruct (Z.eqb_spec (ts t * ts t) (td t)) as [E|_]; [|symmetry; apply rounds40_ok; auto].
       apply Z.eqb_eq in H2. subst m. assert (V : time_value t = 0%R).
       { unfold time_value. rewrite <- E, mult_IZR, sqrt_square by (apply IZR_le; auto). unfold Rdiv. ring. }
       rewrite V. unfold nearest40. rewrite round_0 by apply valid_rnd_N. ring.
     - destruct time as [n|]; [|apply passes_require in H1; apply beyond_ok; auto].
-      destruct (number n) as [N|] eqn:EN; [|apply passes_fail in H1; tauto]. destruct (number_ok n N EN) as [V F].
+      destruct (number n) as [N|] eqn:EN; [|apply passes_fail in H1; tauto].
+      destruct (number_ok n N EN) as [V F].
       split; [exact F|]. cbv zeta in H1. set (c := Z.max 0 (Z.log2 N - 52)) in *.
       apply passes_both in H1. destruct H1 as [Hx Hr]. apply passes_require in Hx, Hr. apply Z.eqb_eq in Hx.
       rewrite (rounds64_ok t _ _ Ht H0 Hr), V. rewrite <- Hx at 1. rewrite Z.shiftl_mul_pow2, mult_IZR by lia.
-      change 2 with (radix_val radix2). rewrite IZR_power by lia. rewrite Rmult_assoc. f_equal. unfold smallest.
+      change 2 with (radix_val radix2). rewrite IZR_power by lia. rewrite Rmult_assoc. f_equal.
+      unfold smallest.
       rewrite <- bpow_plus. reflexivity.
   Qed.
 
-  Lemma check_answer_ok E ws a windows : 0 < E -> passes (check_answer planar E sights (from q) ws a windows) -> correct sc q a.
+  Lemma check_answer_ok E ws a windows : 0 < E ->
+    passes (check_answer planar E sights (from q) ws a windows) -> correct sc q a.
   Proof.
     intros HE H. unfold correct, check_answer in *. fold within. destruct a as [X time m e|X|].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
       apply passes_both in H. destruct H as [_ H]. apply passes_both in H. destruct H as [H Ht].
       destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
-      pose proof (check_hit_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs Ln H) as F.
-      exists (time_value (time_of (its_view s) n)). rewrite EX at 1. split; [exact F|]. destruct F as (_ & En & _).
-      pose proof (proj1 (entered planar sights within regular_sights chords s n _ Hs Ln) En) as (Hd & _ & Hp & _).
+      pose proof (check_hit_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs Ln
+        H) as F.
+      exists (time_value (time_of (its_view s) n)). rewrite EX at 1. split; [exact F|].
+      destruct F as (_ & En & _).
+      pose proof (proj1 (entered planar sights within regular_sights chords s n _ Hs Ln) En)
+        as (Hd & _ & Hp & _).
       apply check_times_ok; [apply (time_of_regular sights regular_sights); auto|apply En|lia|exact Ht].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
       apply passes_both in H. destruct H as [_ H]. destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
-      exact (check_inside_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs Ln H).
+      exact (check_inside_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs
+        Ln H).
     - apply passes_both in H. destruct H as [_ H].
       exact (check_never_ok planar sights (from q) ws within seen_all chords H).
   Qed.
@@ -199,21 +225,26 @@ Theorem check_sound sc p q a c : prepare sc = Some p -> passes (check_record p q
 Proof.
   intros Hp H. destruct (prepare_ok sc p Hp) as [Vs D]. split; [exact Vs|]. unfold check_record in H.
   destruct (read_vector (flat p) (start q)) as [x|] eqn:Ex; [|apply passes_fail in H; tauto].
-  destruct (read_vector (flat p) (velocity q)) as [v|] eqn:Ev; [|apply passes_fail in H; tauto]. cbv zeta in H.
+  destruct (read_vector (flat p) (velocity q)) as [v|] eqn:Ev; [|apply passes_fail in H; tauto].
+  cbv zeta in H.
   set (k := twos _) in *. clearbody k.
   apply passes_both in H. destruct H as [Hf H]. apply passes_both in H. destruct H as [Hv H].
   apply passes_both in H. destruct H as [Hk H]. apply passes_require in Hf, Hv, Hk.
   rewrite !andb_true_iff, Z.leb_le in Hk. destruct Hk as [[Hk Hdiv] Hvis]. apply Z.ltb_lt in Hv. split.
-  - destruct D as (_ & Ds & Dc & _ & DB). unfold valid_query. rewrite Ds. split; [apply (read_vector_ok _ _ _ Ex)|].
+  - destruct D as (_ & Ds & Dc & _ & DB). unfold valid_query. rewrite Ds.
+    split; [apply (read_vector_ok _ _ _ Ex)|].
     destruct (read_vector_ok _ _ _ Ev) as (Pv & Lv & Sv). split; [exact Sv|]. split.
     + intros Z0. rewrite Pv in Z0. assert (V : v = V 0 0 0); [|rewrite V in Hv; discriminate].
       pose proof smallest_pos as Sp. unfold lift, zero, size, real in Z0. unfold level in Lv.
       assert (K : forall c, (smallest * IZR c = 0)%R -> c = 0%Z)
         by (intros i Hi; apply Rmult_integral in Hi; destruct Hi as [Hi|Hi]; [lra|apply eq_IZR, Hi]).
       destruct (flat p); injection Z0; intros; apply zv_eq; cbn; auto.
-    + intros o Eo. rewrite Eo in Hf. unfold is_obstacle in Hf. apply andb_true_iff in Hf. destruct Hf as [Hf Hc].
-      apply existsb_exists in Hf. destruct Hf as (s & Hs & Es). unfold same_atom in Es. rewrite andb_true_iff, !Z.eqb_eq in Es.
-      destruct (DB _ Hs) as (L & A & _ & HL & HA). destruct Es as [El Ea]. exists L, A. apply Nat.eqb_eq in Hc.
+    + intros o Eo. rewrite Eo in Hf. unfold is_obstacle in Hf. apply andb_true_iff in Hf.
+      destruct Hf as [Hf Hc].
+      apply existsb_exists in Hf. destruct Hf as (s & Hs & Es). unfold same_atom in Es.
+      rewrite andb_true_iff, !Z.eqb_eq in Es.
+      destruct (DB _ Hs) as (L & A & _ & HL & HA). destruct Es as [El Ea]. exists L, A.
+      apply Nat.eqb_eq in Hc.
       unfold atom_of. rewrite El, Ea, Hc. auto.
   - destruct (match c with Windows l => _ | Rows l => _ end) as [windows written].
     destruct (all_some (read_piece (flat p)) (numbered 0 written)) as [ws|]; [|apply passes_fail in H; tauto].

@@ -1,5 +1,6 @@
-(* docs/certificates.md, "What is claimed", of one obstacle: "met iff |h|^2 < r^2 v^2; the ray enters it iff s > 0 and
-   |w| >= r; contains x iff |w| < r", for the line is in it when (Q t - s)^2 < D = r^2 v^2 - |h|^2, and s^2 + h^2 = Q w^2. *)
+(* docs/certificates.md, "What is claimed", of one obstacle: "met iff |h|^2 < r^2 v^2; the ray enters it iff s
+   > 0 and |w| >= r; contains x iff |w| < r", for the line is in it when (Q t - s)^2 < D = r^2 v^2 - |h|^2,
+   and s^2 + h^2 = Q w^2. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 From Lorentz Require Import Spec Time.
 Local Open Scope R_scope.
@@ -15,7 +16,8 @@ Section Quadratic.
   Proof using HQ quadratic.
     rewrite quadratic. unfold time_value; cbn [ts td tq]. apply IZR_lt in HQ. set (q := IZR Q) in *.
     assert (A : forall y, (y / q < t <-> y < q * t) /\ (t < y / q <-> q * t < y)).
-    { intros y. assert (y = q * (y / q)) as Ey by (field; lra). set (z := y / q) in *. rewrite Ey. split; split; intros; nra. }
+    { intros y. assert (y = q * (y / q)) as Ey by (field; lra). set (z := y / q) in *. rewrite Ey.
+      split; split; intros; nra. }
     destruct (A (IZR s - sqrt (IZR D))) as [-> _]. destruct (A (IZR s + sqrt (IZR D))) as [_ ->].
     set (z := q * t) in *. pose proof (sqrt_pos (IZR D)). split.
     - intros K. assert (Dp : 0 < IZR D) by (pose proof (Rle_0_sqr (z - IZR s)); unfold Rsqr in *; lra).
@@ -36,22 +38,26 @@ Section Quadratic.
   Proof using HQ.
     intros Dp. pose proof HQ as HQ'. apply IZR_lt in HQ', Dp.
     pose proof (sqrt_lt_R0 _ Dp) as Sp. pose proof (sqrt_sqrt (IZR D) ltac:(lra)) as S2.
-    unfold time_value; cbn [ts td tq]. set (r := sqrt (IZR D)) in *. pose proof (Rinv_0_lt_compat _ HQ') as Ip. unfold Rdiv.
+    unfold time_value; cbn [ts td tq]. set (r := sqrt (IZR D)) in *.
+    pose proof (Rinv_0_lt_compat _ HQ') as Ip. unfold Rdiv.
     set (i := / IZR Q) in *. split; [nra|]. split.
     - intros K. assert (r <= IZR s) by nra. split; [apply lt_IZR; lra|apply le_IZR; rewrite mult_IZR; nra].
-    - intros [K1 K2]. apply IZR_lt in K1. apply IZR_le in K2. rewrite mult_IZR in K2. assert (r <= IZR s) by nra. nra.
+    - intros [K1 K2]. apply IZR_lt in K1. apply IZR_le in K2. rewrite mult_IZR in K2.
+      assert (r <= IZR s) by nra. nra.
   Qed.
 
   (* A point of the chord between its beginning and what is later. *)
   Lemma soon_inside later : (0 < D)%Z -> begins < later -> exists t, inside t /\ t < later.
   Proof using HQ quadratic.
-    intros Dp K. destruct (begins_facts Dp) as [G _]. exists (Rmin ((begins + ends) / 2) ((begins + later) / 2)). split.
+    intros Dp K. destruct (begins_facts Dp) as [G _].
+    exists (Rmin ((begins + ends) / 2) ((begins + later) / 2)). split.
     - apply chord_interval. unfold Rmin. destruct Rle_dec; repeat split; auto; lra.
     - unfold Rmin. destruct Rle_dec; lra.
   Qed.
 
   Lemma enters_iff t :
-    (0 <= t /\ (forall t', inside t' -> t <= t') /\ (forall later, t < later -> exists t', inside t' /\ t' < later)) <->
+    (0 <= t /\ (forall t', inside t' -> t <= t') /\ (forall later, t < later -> exists t', inside t' /\
+      t' < later)) <->
     (0 < D)%Z /\ t = begins /\ (0 < s)%Z /\ (D <= s * s)%Z.
   Proof using HQ quadratic.
     split.

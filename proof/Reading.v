@@ -1,5 +1,5 @@
-(* From the numbers of a scene and a query, as they are written, to integers in one unit: first 2^-1074, then the largest
-   power of two that all of them have in common. *)
+(* From the numbers of a scene and a query, as they are written, to integers in one unit: first 2^-1074, then
+   the largest power of two that all of them have in common. *)
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Vectors Rounding Number Space.
@@ -13,11 +13,13 @@ Fixpoint all_some {A B} (f : A -> option B) (l : list A) : option (list B) :=
   | a :: l => match f a, all_some f l with Some b, Some bs => Some (b :: bs) | _, _ => None end
   end.
 Lemma all_some_ok {A B} (f : A -> option B) l : forall bs, all_some f l = Some bs ->
-  (forall a, In a l -> exists b, In b bs /\ f a = Some b) /\ (forall b, In b bs -> exists a, In a l /\ f a = Some b).
+  (forall a, In a l -> exists b, In b bs /\ f a = Some b) /\ (forall b, In b bs -> exists a, In a l /\
+    f a = Some b).
 Proof.
   induction l as [|a l IH]; cbn; intros bs E.
   - injection E as <-. split; intros ? [].
-  - destruct (f a) as [b|] eqn:Ea; [|discriminate]. destruct (all_some f l) as [bs'|]; [|discriminate]. injection E as <-.
+  - destruct (f a) as [b|] eqn:Ea; [|discriminate]. destruct (all_some f l) as [bs'|]; [|discriminate].
+    injection E as <-.
     destruct (IH _ eq_refl) as [I1 I2]. split; intros c [<-|Hc].
     + exists b. cbn. auto.
     + destruct (I1 c Hc) as (b' & Hb & Eb). exists b'. cbn. auto.
@@ -27,10 +29,12 @@ Qed.
 
 Fixpoint numbered {A} (i : Z) (l : list A) : list (Z * A) :=
   match l with [] => [] | a :: l => (i, a) :: numbered (i + 1) l end.
-Lemma numbered_ok {A} (l : list A) : forall i j a, In (j, a) (numbered i l) <-> i <= j /\ item l (j - i) = Some a.
+Lemma numbered_ok {A} (l : list A) : forall i j a, In (j, a) (numbered i l) <->
+  i <= j /\ item l (j - i) = Some a.
 Proof.
   unfold item. induction l as [|b l IH]; cbn [numbered In]; intros i j a.
-  - split; [tauto|]. intros [H E]. destruct (Z.ltb_spec (j - i) 0); [lia|]. destruct (Z.to_nat (j - i)); discriminate.
+  - split; [tauto|]. intros [H E]. destruct (Z.ltb_spec (j - i) 0); [lia|].
+    destruct (Z.to_nat (j - i)); discriminate.
   - rewrite IH. clear IH. split.
     + intros [E|[H E]].
       * injection E as -> ->. split; [lia|]. rewrite Z.sub_diag. reflexivity.
@@ -68,34 +72,44 @@ Section Dimension.
   Proof.
     induction l as [|x l IH]; cbn [all_some]; intros ns E.
     - injection E as <-. auto.
-    - destruct (number x) as [n|] eqn:En; [|discriminate]. destruct (all_some number l) as [ms|]; [|discriminate].
+    - destruct (number x) as [n|] eqn:En; [|discriminate].
+      destruct (all_some number l) as [ms|]; [|discriminate].
       injection E as <-. destruct (IH _ eq_refl) as (I1 & I2 & I3). destruct (number_ok x n En) as [N1 N2].
       unfold point in *. cbn [map length]. rewrite N1, I1, I3. auto.
   Qed.
-  Lemma read_vector_ok l a : read_vector l = Some a -> point l = lift smallest (real a) /\ level a /\ sized size l.
+  Lemma read_vector_ok l a : read_vector l = Some a -> point l = lift smallest (real a) /\ level a /\
+    sized size l.
   Proof.
-    unfold read_vector. intros E. destruct (all_some number l) as [ns|] eqn:En; [|destruct planar; discriminate].
+    unfold read_vector. intros E. destruct (all_some number l) as [ns|] eqn:En;
+      [|destruct planar; discriminate].
     destruct (all_some_numbers l ns En) as (N1 & N2 & N3). unfold Space.lift, Space.level, Space.size, sized.
-    destruct planar; destruct ns as [|n1 [|n2 [|n3 [|n4 ns]]]]; try discriminate; injection E as <-; rewrite N1, N3; cbn;
+    destruct planar; destruct ns as [|n1 [|n2 [|n3 [|n4 ns]]]]; try discriminate; injection E as <-;
+      rewrite N1, N3; cbn;
       (split; [repeat (apply (f_equal2 (@cons R)); [ring|]); reflexivity|split; [auto; discriminate|auto]]).
   Qed.
   Lemma all_some_vectors l : forall bs, all_some read_vector l = Some bs ->
-    map point l = map (fun a => lift smallest (real a)) bs /\ Forall level bs /\ Forall (sized size) l /\ length l = length bs.
+    map point l = map (fun a => lift smallest (real a)) bs /\ Forall level bs /\ Forall (sized size) l /\
+      length l = length bs.
   Proof.
     induction l as [|x l IH]; cbn [all_some]; intros bs E.
     - injection E as <-. auto.
-    - destruct (read_vector x) as [b|] eqn:Eb; [|discriminate]. destruct (all_some read_vector l) as [cs|]; [|discriminate].
-      injection E as <-. destruct (IH _ eq_refl) as (I1 & I2 & I3 & I4). destruct (read_vector_ok x b Eb) as (B1 & B2 & B3).
+    - destruct (read_vector x) as [b|] eqn:Eb; [|discriminate].
+      destruct (all_some read_vector l) as [cs|]; [|discriminate].
+      injection E as <-. destruct (IH _ eq_refl) as (I1 & I2 & I3 & I4).
+      destruct (read_vector_ok x b Eb) as (B1 & B2 & B3).
       cbn [map length]. rewrite B1, I1, I4. auto.
   Qed.
   Lemma read_vectors_ok third l a b c : read_vectors third l = Some (a, b, c) ->
     map point l = lifts smallest a b c /\ level a /\ level b /\ Forall (sized size) l /\ length l = size /\
     (planar = true -> c = third).
   Proof.
-    unfold read_vectors. intros E. destruct (all_some read_vector l) as [bs|] eqn:Eb; [|destruct planar; discriminate].
+    unfold read_vectors. intros E. destruct (all_some read_vector l) as [bs|] eqn:Eb;
+      [|destruct planar; discriminate].
     destruct (all_some_vectors l bs Eb) as (B1 & B2 & B3 & B4). unfold Space.lifts, three, Space.size.
-    destruct planar eqn:Ep; destruct bs as [|b1 [|b2 [|b3 [|b4 bs]]]]; try discriminate; injection E as <- <- <-;
-      inversion_clear B2 as [|? ? L1 L']; inversion_clear L' as [|? ? L2 L'']; rewrite B1, B4; cbn; repeat split; auto; discriminate.
+    destruct planar eqn:Ep; destruct bs as [|b1 [|b2 [|b3 [|b4 bs]]]]; try discriminate;
+      injection E as <- <- <-;
+      inversion_clear B2 as [|? ? L1 L']; inversion_clear L' as [|? ? L2 L'']; rewrite B1, B4; cbn;
+        repeat split; auto; discriminate.
   Qed.
 
   (* ---- Atoms. The layers of a planar scene are so far apart that the line meets none but its own. *)
@@ -121,9 +135,11 @@ Section Dimension.
 
   Lemma smallest_pos : (0 < smallest)%R.
   Proof. apply bpow_gt_0. Qed.
-  Lemma read_vectors_independent t l a b c : read_vectors t l = Some (a, b, c) -> det a b c <> 0 -> independent size l.
+  Lemma read_vectors_independent t l a b c : read_vectors t l = Some (a, b, c) -> det a b c <> 0 ->
+    independent size l.
   Proof.
-    intros E D. destruct (read_vectors_ok _ _ _ _ _ E) as (H1 & H2 & H3 & H4 & H5 & _). split; [auto|split; [auto|]].
+    intros E D. destruct (read_vectors_ok _ _ _ _ _ E) as (H1 & H2 & H3 & H4 & H5 & _).
+    split; [auto|split; [auto|]].
     rewrite H1. apply lifts_independent; auto. apply smallest_pos.
   Qed.
   Lemma read_body_ok s b : read_body s = Some b -> depicts_shape planar smallest s b /\
@@ -131,7 +147,8 @@ Section Dimension.
   Proof.
     unfold read_body. destruct s as [r|a].
     - destruct (number r) as [k|] eqn:En; [|discriminate]. destruct (Z.ltb_spec 0 k) as [K|]; [|discriminate].
-      intros E; injection E as <-. destruct (number_ok r k En) as [N1 N2]. cbn. rewrite N1. pose proof smallest_pos.
+      intros E; injection E as <-. destruct (number_ok r k En) as [N1 N2]. cbn. rewrite N1.
+      pose proof smallest_pos.
       split; [split; [ring|auto]|split; [auto|]]. apply Rmult_lt_0_compat; [apply IZR_lt|]; auto.
     - destruct (read_vectors (V 0 0 1) a) as [[[a1 a2] a3]|] eqn:E; [|discriminate].
       destruct (Z.eqb_spec (det a1 a2 a3) 0) as [|D]; [discriminate|]. intros I; injection I as <-.
@@ -161,13 +178,15 @@ Section Dimension.
     end.
   Definition shrink_solid (k : Z) (S : solid) : solid :=
     let b := shrink_body k (shaped S) in
-    Solid (shrink k (middle S)) (shrink k (g1 S)) (shrink k (g2 S)) (if planar then third b else shrink k (g3 S)) b.
+    Solid (shrink k (middle S)) (shrink k (g1 S)) (shrink k (g2 S)) (if planar then third b
+      else shrink k (g3 S)) b.
 
   Definition numbers_of (a : zv) : list Z := [vx a; vy a; vz a].
   Definition third_numbers (a : zv) : list Z := if planar then [] else numbers_of a.
   Definition all_numbers (S : solid) : list Z :=
     numbers_of (middle S) ++ numbers_of (g1 S) ++ numbers_of (g2 S) ++ third_numbers (g3 S) ++
-    match shaped S with Ball r => [r] | Ellipsoid a1 a2 a3 => numbers_of a1 ++ numbers_of a2 ++ third_numbers a3 end.
+    match shaped S with
+    | Ball r => [r] | Ellipsoid a1 a2 a3 => numbers_of a1 ++ numbers_of a2 ++ third_numbers a3 end.
   Definition divisible (k : Z) (l : list Z) : bool := forallb (fun c => Z.shiftl (Z.shiftr c k) k =? c) l.
 
   Section Shrink.
@@ -176,14 +195,20 @@ Section Dimension.
 
     Lemma unit_pos : (0 < unit k)%R.
     Proof. apply bpow_gt_0. Qed.
-    Lemma shrink_number c : Z.shiftl (Z.shiftr c k) k = c -> (smallest * IZR c = unit k * IZR (Z.shiftr c k))%R.
+    Lemma shrink_number c : Z.shiftl (Z.shiftr c k) k = c ->
+      (smallest * IZR c = unit k * IZR (Z.shiftr c k))%R.
     Proof.
-      intros E. rewrite <- E at 1. rewrite Z.shiftl_mul_pow2, mult_IZR by auto. change 2 with (radix_val radix2).
-      rewrite IZR_power by auto. unfold unit, smallest. replace (k - 1074) with (-1074 + k) by lia. rewrite bpow_plus. ring.
+      intros E. rewrite <- E at 1. rewrite Z.shiftl_mul_pow2, mult_IZR by auto.
+      change 2 with (radix_val radix2).
+      rewrite IZR_power by auto. unfold unit, smallest. replace (k - 1074) with (-1074 + k) by lia.
+      rewrite bpow_plus. ring.
     Qed.
-    Lemma divisible_in l c : divisible k l = true -> In c l -> (smallest * IZR c = unit k * IZR (Z.shiftr c k))%R.
-    Proof. intros H Hc. unfold divisible in H. rewrite forallb_forall in H. apply shrink_number, Z.eqb_eq, H, Hc. Qed.
-    Lemma shrink_lift a : divisible k (numbers_of a) = true -> lift smallest (real a) = lift (unit k) (real (shrink k a)).
+    Lemma divisible_in l c : divisible k l = true -> In c l ->
+      (smallest * IZR c = unit k * IZR (Z.shiftr c k))%R.
+    Proof. intros H Hc. unfold divisible in H. rewrite forallb_forall in H.
+    apply shrink_number, Z.eqb_eq, H, Hc. Qed.
+    Lemma shrink_lift a : divisible k (numbers_of a) = true -> lift smallest (real a) =
+      lift (unit k) (real (shrink k a)).
     Proof.
       intros H. unfold Space.lift, real, shrink; cbn.
       rewrite !(divisible_in _ _ H) by (cbn; auto). reflexivity.
@@ -210,10 +235,13 @@ Section Dimension.
       unfold depicts, shrink_solid; cbn [middle g1 g2 g3 shaped].
       split; [rewrite H1; apply shrink_lift; auto|]. split.
       { rewrite H2. apply shrink_lifts; auto. intros ->. reflexivity. }
-      split; [apply shrink_level; auto|]. split; [apply shrink_level; auto|]. split; [apply shrink_level; auto|].
-      unfold depicts_shape in *. destruct (shape_of A) as [r|a], (shaped S) as [c|a1 a2 a3]; try tauto; cbn [shrink_body].
+      split; [apply shrink_level; auto|]. split; [apply shrink_level; auto|].
+      split; [apply shrink_level; auto|].
+      unfold depicts_shape in *. destruct (shape_of A) as [r|a], (shaped S) as [c|a1 a2 a3]; try tauto;
+        cbn [shrink_body].
       - destruct H6 as [H6 Hc]. pose proof (divisible_in _ c Db ltac:(cbn; auto)) as E. split; [lra|].
-        assert (0 < unit k * IZR (Z.shiftr c k))%R by (rewrite <- E; apply Rmult_lt_0_compat; [apply smallest_pos|apply IZR_lt; auto]).
+        assert (0 < unit k * IZR (Z.shiftr c k))%R by (rewrite <- E; apply Rmult_lt_0_compat;
+          [apply smallest_pos|apply IZR_lt; auto]).
         apply lt_IZR. apply Rmult_lt_reg_l with (unit k); [apply unit_pos|]. rewrite Rmult_0_r. auto.
       - destruct H6 as (H6 & La & Lb & Hc). apply divisible_app in Db; destruct Db as [Da1 Db].
         apply divisible_app in Db; destruct Db as [Da2 Da3]. split.

@@ -23,10 +23,13 @@ Definition square : scene :=
     [Atom [Decimal 0 0; Decimal 0 0] (Radius (Decimal 1 (-1)))]].
 Definition flight : query := Query [Decimal 0 0; Decimal 445 (-3)] [Decimal 1 0; Decimal 175 (-4)] None.
 Definition hit : answer :=
-  Hit (Obstacle 0 0 [26; 1]) (Some (Decimal 25999999999999996 (-15))) 2599999999999999682793421535957075817597 (-38).
+  Hit (Obstacle 0 0 [26; 1]) (Some (Decimal 25999999999999996 (-15))) 2599999999999999682793421535957075817597
+    (-38).
 Definition windows (last : Z) : certificate := Windows
-  [WrittenPiece 0 0 (AtNumber (Decimal (-999846910161925) (-16))) (AtNumber (Decimal 34203543907686442 (-16))) [[1; 0]; [5; 1]];
-   WrittenPiece 0 0 (AtNumber (Decimal 3420354390768644 (-15))) (AtNumber (Decimal last (-15))) [[1; 0]; [46; 1]]].
+  [WrittenPiece 0 0 (AtNumber (Decimal (-999846910161925) (-16))) (AtNumber (Decimal 34203543907686442 (-16)))
+    [[1; 0]; [5; 1]];
+   WrittenPiece 0 0 (AtNumber (Decimal 3420354390768644 (-15))) (AtNumber (Decimal last (-15))) [[1; 0];
+     [46; 1]]].
 
 Example flight_hits : correct square flight hit.
 Proof. apply (accepts_ok _ _ _ (windows 26099984691016193) 1000). vm_compute. reflexivity. Qed.

@@ -1,5 +1,6 @@
-(* docs/certificates.md: "`time` is t_X correctly rounded". One test serves binary64 and 40 decimal digits: t lies between
-   the midpoints to the neighbours of n base^k, or at one if n is even. Rounding itself is Flocq's. *)
+(* docs/certificates.md: "`time` is t_X correctly rounded". One test serves binary64 and 40 decimal digits: t
+   lies between the midpoints to the neighbours of n base^k, or at one if n is even. Rounding itself is
+   Flocq's. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Time.
@@ -39,7 +40,8 @@ Section Rounding.
   Lemma fraction_value c k : time_value (fraction c k) = (IZR c / (2 * IZR b) * bpow base k)%R.
   Proof.
     unfold time_value, fraction; cbn [ts td tq]. rewrite sqrt_0, !mult_IZR, !IZR_power by lia.
-    assert (E : bpow base (Z.max k 0) = (bpow base k * bpow base (Z.max (- k) 0))%R) by (rewrite <- bpow_plus; f_equal; lia).
+    assert (E : bpow base (Z.max k 0) = (bpow base k * bpow base (Z.max (- k) 0))%R) by (rewrite <- bpow_plus;
+      f_equal; lia).
     assert (B : (2 <= IZR b)%R) by apply IZR_le, base_ge_2.
     rewrite E. pose proof (bpow_gt_0 base (Z.max (- k) 0)). field. lra.
   Qed.
@@ -74,20 +76,24 @@ Section Rounding.
         rewrite <- IZR_power by lia. apply IZR_lt; auto. }
       destruct full as [Hf| ->]; [|lia].
       assert (digits <= mag base (IZR n)); [|lia].
-      apply mag_ge_bpow. rewrite <- abs_IZR, Z.abs_eq by auto. rewrite <- IZR_power by lia. apply IZR_le; auto.
+      apply mag_ge_bpow. rewrite <- abs_IZR, Z.abs_eq by auto. rewrite <- IZR_power by lia.
+      apply IZR_le; auto.
     Qed.
     Lemma zero_or_not : f = 0%R \/ n <> 0.
     Proof. destruct (Z.eq_dec n 0) as [E|]; auto. left. rewrite f_eq, E. lra. Qed.
     Lemma format_f : format f.
-    Proof. destruct zero_or_not as [->|]; [apply generic_format_0|apply generic_format_canonical, canonical_f; auto]. Qed.
+    Proof. destruct zero_or_not as [->|]; [apply generic_format_0|apply generic_format_canonical, canonical_f;
+      auto]. Qed.
 
     Lemma above_f g : format g -> (f < g)%R -> (f + u <= g)%R.
     Proof.
       intros Fg Lt. pose proof (succ_le_lt base fexp f g format_f Fg Lt) as S. pose proof f_nonneg as F0.
       rewrite succ_eq_pos in S by auto. pose proof u_pos.
       destruct (Req_dec f 0) as [Z0|Z0].
-      - assert (k = lowest) as Ek. { destruct full as [Hf|]; auto. rewrite f_eq in Z0. apply Rmult_integral in Z0.
-          destruct Z0 as [Z0|Z0]; [apply eq_IZR in Z0; pose proof (power_pos (digits - 1) ltac:(lia)); lia|lra]. }
+      - assert (k = lowest) as Ek. { destruct full as [Hf|]; auto. rewrite f_eq in Z0.
+        apply Rmult_integral in Z0.
+          destruct Z0 as [Z0|Z0]; [apply eq_IZR in Z0; pose proof (power_pos (digits - 1) ltac:(lia));
+            lia|lra]. }
         rewrite Z0, (ulp_FLT_0 base lowest digits) in S. rewrite Z0. unfold u. rewrite Ek. auto.
       - assert (N0 : n <> 0) by (destruct zero_or_not; [contradiction|auto]).
         unfold f at 2 in S. rewrite ulp_canonical in S by auto using canonical_f. auto.
@@ -96,7 +102,8 @@ Section Rounding.
     Lemma mag_f : k <> lowest -> mag base f = (k + digits)%Z :> Z.
     Proof.
       intros Nk. destruct full as [Hf|]; [|contradiction]. pose proof u_pos as U.
-      apply mag_unique_pos. replace (k + digits - 1) with (digits - 1 + k) by lia. rewrite (Z.add_comm k), !bpow_plus.
+      apply mag_unique_pos. replace (k + digits - 1) with (digits - 1 + k) by lia.
+      rewrite (Z.add_comm k), !bpow_plus.
       rewrite <- (IZR_power (digits - 1)), <- (IZR_power digits) by lia. rewrite f_eq. fold u. split.
       - apply Rmult_le_compat_r; [lra|]. apply IZR_le; auto.
       - apply Rmult_lt_compat_r; [lra|]. apply IZR_lt; auto.
@@ -104,19 +111,22 @@ Section Rounding.
 
     Lemma below_f g : format g -> (g < f)%R -> (0 < f)%R -> (g <= f - sd / B * u)%R.
     Proof.
-      intros Fg Lt F0. pose proof (pred_ge_gt base fexp g f Fg format_f Lt) as S. pose proof u_pos as U. pose proof B_ge_2 as B2.
+      intros Fg Lt F0. pose proof (pred_ge_gt base fexp g f Fg format_f Lt) as S. pose proof u_pos as U.
+      pose proof B_ge_2 as B2.
       apply Rle_trans with (1 := S). rewrite pred_eq_pos by lra. unfold pred_pos.
       assert (N0 : n <> 0) by (intros E; rewrite f_eq, E in F0; lra).
       assert (Uf : ulp base fexp f = u) by (apply ulp_canonical; auto using canonical_f).
       assert (S1 : (sd / B <= 1)%R).
-      { pose proof sd_range. apply Rmult_le_reg_r with B; [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
+      { pose proof sd_range. apply Rmult_le_reg_r with B; [lra|]. unfold Rdiv.
+        rewrite Rmult_assoc, Rinv_l; lra. }
       destruct (Z.eq_dec k lowest) as [Ek|Nk].
       - case Req_bool; [|rewrite Uf; nra].
         assert (u <= bpow base (fexp (mag base f - 1)))%R; [|nra].
         unfold u. rewrite Ek. apply bpow_le. unfold FLT_exp. lia.
       - rewrite mag_f by auto. replace (fexp (k + digits - 1)) with (k - 1) by (unfold FLT_exp; lia).
         unfold sd, side. rewrite (proj2 (Z.eqb_neq _ _) Nk).
-        replace (k + digits - 1) with (digits - 1 + k) by lia. rewrite bpow_plus, <- (IZR_power (digits - 1)) by lia.
+        replace (k + digits - 1) with (digits - 1 + k) by lia.
+        rewrite bpow_plus, <- (IZR_power (digits - 1)) by lia.
         fold u.
         destruct (Z.eqb_spec n (b ^ (digits - 1))) as [E|N]; cbn [andb negb].
         + rewrite Req_bool_true by (rewrite f_eq, E; reflexivity).
@@ -137,29 +147,33 @@ Section Rounding.
     Proof.
       intros Fg Ng. pose proof u_pos as U. pose proof B_ge_2 as B2. pose proof sd_range as S.
       assert (P : (0 < sd / B * u)%R) by (apply Rmult_lt_0_compat; [apply Rdiv_lt_0_compat; lra|lra]).
-      assert (E : (sd / (2 * B) * u = (sd / B * u) / 2)%R) by (field; lra). 
+      assert (E : (sd / (2 * B) * u = (sd / B * u) / 2)%R) by (field; lra).
       destruct (Rdichotomy _ _ Ng) as [Lt|Gt].
       - destruct (Req_dec f 0) as [F0|F0].
         + rewrite F0 in *. rewrite !Rabs_left1 by lra. split; [lra|intros; exfalso; lra].
         + pose proof (below_f g Fg Lt ltac:(pose proof f_nonneg; lra)) as D. rewrite E in x_above. clear E.
           set (y := (sd / B * u)%R) in *.
-          unfold Rabs; destruct (Rcase_abs (f - x)), (Rcase_abs (g - x)); destruct x_above as [L|[L Ev]]; split; intros;
+          unfold Rabs; destruct (Rcase_abs (f - x)), (Rcase_abs (g - x)); destruct x_above as [L|[L Ev]];
+            split; intros;
             auto; try lra; exfalso; lra.
       - pose proof (above_f g Fg Gt) as D.
-        unfold Rabs; destruct (Rcase_abs (f - x)), (Rcase_abs (g - x)); destruct x_below as [L|[L Ev]]; split; intros;
+        unfold Rabs; destruct (Rcase_abs (f - x)), (Rcase_abs (g - x)); destruct x_below as [L|[L Ev]]; split;
+          intros;
           auto; try lra; exfalso; lra.
     Qed.
 
     Lemma rounds_to_f : round base fexp ZnearestE x = f.
     Proof.
       assert (N : Rnd_N_pt format x f).
-      { split; [apply format_f|]. intros g Fg. destruct (Req_dec g f) as [->|Ng]; [lra|]. apply nearest; auto. }
+      { split; [apply format_f|]. intros g Fg. destruct (Req_dec g f) as [->|Ng]; [lra|].
+        apply nearest; auto. }
       apply (round_unique (Rnd_NE_pt base fexp)) with x.
       - apply Rnd_NE_pt_monotone; [apply FLT_exp_valid, positive_digits|apply exists_NE_FLT; right; lia].
       - apply round_NE_pt; [apply FLT_exp_valid, positive_digits|apply exists_NE_FLT; right; lia].
       - split; auto. case_eq (Z.even n); intros Ev.
         + left. destruct zero_or_not as [F0|]; [|exists (Float base n k); auto using canonical_f].
-          exists (Float base 0 (fexp (mag base 0))). rewrite F0, F2R_0. split; [auto|split; [apply canonical_0|auto]].
+          exists (Float base 0 (fexp (mag base 0))). rewrite F0, F2R_0.
+          split; [auto|split; [apply canonical_0|auto]].
         + right. intros g [Fg Hg]. destruct (Req_dec g f) as [|Ng]; auto. specialize (Hg f format_f).
           destruct (nearest g Fg Ng) as [K1 K2]. specialize (K2 ltac:(lra)). congruence.
     Qed.
@@ -168,7 +182,8 @@ Section Rounding.
   Theorem rounds_ok t n k : regular t -> (0 <= time_value t)%R -> rounds t n k = true ->
     round base fexp ZnearestE (time_value t) = F2R (Float base n k).
   Proof.
-    intros Ht Hx H. unfold rounds in H. rewrite !andb_true_iff, orb_true_iff, !Z.leb_le, Z.ltb_lt, Z.eqb_eq in H.
+    intros Ht Hx H. unfold rounds in H. rewrite !andb_true_iff, orb_true_iff, !Z.leb_le, Z.ltb_lt, Z.eqb_eq
+      in H.
     destruct H as [[[[[Hn Hn'] Hk] Hc] Hlo] Hup].
     pose proof (order_ok t _ Ht (fraction_regular (2 * b * n - side n k) k)) as O1.
     pose proof (order_ok t _ Ht (fraction_regular (2 * b * n + b) k)) as O2.
@@ -179,8 +194,10 @@ Section Rounding.
     assert (V2 : time_value (fraction (2 * b * n + b) k) = (F2R (Float base n k) + bpow base k / 2)%R)
       by (rewrite fraction_value, plus_IZR, !mult_IZR; unfold F2R; cbn [Fnum Fexp]; field; lra).
     rewrite V1 in O1. rewrite V2 in O2. apply rounds_to_f; auto.
-    - destruct (order t (fraction (2 * b * n - side n k) k)); try discriminate; simpl in O1; [right; split; auto|left]; lra.
-    - destruct (order t (fraction (2 * b * n + b) k)); try discriminate; simpl in O2; [right; split; auto|left]; lra.
+    - destruct (order t (fraction (2 * b * n - side n k) k)); try discriminate; simpl in O1;
+        [right; split; auto|left]; lra.
+    - destruct (order t (fraction (2 * b * n + b) k)); try discriminate; simpl in O2;
+        [right; split; auto|left]; lra.
   Qed.
 End Rounding.
 
@@ -194,7 +211,8 @@ Definition beyond (t : time) : bool :=
   match order t (fraction radix2 (4 * 2 ^ 52 - 1) 972) with Lt => false | _ => true end.
 Lemma beyond_ok t : regular t -> beyond t = true -> (bpow radix2 1024 <= nearest64 (time_value t))%R.
 Proof.
-  intros Ht H. set (t0 := fraction radix2 (4 * 2 ^ 52 - 1) 972). pose proof (fraction_regular radix2 (4 * 2 ^ 52 - 1) 972) as R0.
+  intros Ht H. set (t0 := fraction radix2 (4 * 2 ^ 52 - 1) 972).
+  pose proof (fraction_regular radix2 (4 * 2 ^ 52 - 1) 972) as R0.
   assert (E : nearest64 (time_value t0) = bpow radix2 1024).
   { rewrite rounds64_ok with (n := 2 ^ 52) (k := 972); auto.
     - change (2 ^ 52) with (radix_val radix2 ^ 52). rewrite IZR_power, <- bpow_plus by lia. reflexivity.
@@ -215,7 +233,8 @@ Proof.
   set (least := bpow radix10 (k - 2 + 40 - 1)).
   assert (F : (least < F2R (Float radix10 n k))%R).
   { apply Rlt_le_trans with (bpow radix10 (39 + k)); [apply bpow_lt; lia|].
-    rewrite bpow_plus, <- IZR_power by lia. apply Rmult_le_compat_r; [apply bpow_ge_0|apply IZR_le; exact Hn]. }
+    rewrite bpow_plus, <- IZR_power by lia. apply Rmult_le_compat_r; [apply bpow_ge_0|apply IZR_le;
+      exact Hn]. }
   unfold nearest40. rewrite <- (round_FLT_FLX radix10 (k - 2) 40); [exact E|].
   rewrite Rabs_pos_eq by auto. apply Rnot_lt_le. fold least. intros L.
   assert (R : (round radix10 (FLT_exp (k - 2) 40) ZnearestE x <= least)%R); [|rewrite E in R; lra].

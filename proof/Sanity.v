@@ -1,5 +1,6 @@
-(* That Spec.v says what is meant: examples, and facts that small wrong specifications contradict. `wrong_specs` plants such
-   and sees this file, or the proof, fail. Of Spec.v alone, but for the values of numbers. *)
+(* That Spec.v says what is meant: examples, and facts that small wrong specifications contradict.
+   `wrong_specs` plants such and sees this file, or the proof, fail. Of Spec.v alone, but for the values of
+   numbers. *)
 From Coq Require Import ZArith Reals Lra Lia List.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Rounding Number.
@@ -7,7 +8,8 @@ Import ListNotations.
 Local Open Scope R_scope.
 
 (* ---- Numbers: 5/2, 0.1, a tie to even, the smallest one, a hexadecimal one. *)
-Lemma value_is x n k : number x = Some (n * 2 ^ k)%Z -> (0 <= k)%Z -> value x = IZR n * bpow radix2 (k - 1074).
+Lemma value_is x n k : number x = Some (n * 2 ^ k)%Z -> (0 <= k)%Z ->
+  value x = IZR n * bpow radix2 (k - 1074).
 Proof.
   intros E Hk. destruct (number_ok x _ E) as [V _]. rewrite V, mult_IZR. change 2%Z with (radix_val radix2).
   rewrite IZR_power by auto. unfold smallest. rewrite Rmult_assoc, <- bpow_plus. do 2 f_equal; lia.
@@ -32,14 +34,16 @@ Proof. rewrite (value_is _ 3 1073) by (lia || vm_compute; reflexivity). simpl. l
 Lemma norm_less a r : 0 < r -> norm a < r <-> fold_right (fun c sum => c * c + sum) 0 a < r * r.
 Proof.
   intros Hr. unfold norm. set (s := fold_right _ 0 a).
-  assert (0 <= s) by (subst s; induction a as [|c a IH]; cbn; [lra|]; pose proof (Rle_0_sqr c); unfold Rsqr in *; lra).
+  assert (0 <= s) by (subst s; induction a as [|c a IH]; cbn; [lra|]; pose proof (Rle_0_sqr c);
+    unfold Rsqr in *; lra).
   assert (E : sqrt (r * r) = r) by (apply sqrt_square; lra). split; intros K.
   - rewrite <- E in K. apply sqrt_lt_0_alt in K. exact K.
   - rewrite <- E. apply sqrt_lt_1_alt. lra.
 Qed.
 
 Definition plane_of (s : shape) : scene :=  (* position (1, 0), vectors (2, 1) and (0, 2) *)
-  Scene 2 [Lattice [[Decimal 2 0; Decimal 1 0]; [Decimal 0 0; Decimal 2 0]] [Atom [Decimal 1 0; Decimal 0 0] s]].
+  Scene 2 [Lattice [[Decimal 2 0; Decimal 1 0]; [Decimal 0 0; Decimal 2 0]]
+    [Atom [Decimal 1 0; Decimal 0 0] s]].
 Lemma plane_of_only s l a n q : occupied (plane_of s) (Obstacle l a n) q -> l = 0%Z /\ a = 0%Z.
 Proof.
   intros (L & A & (HL & HA & _) & _). unfold item in *. cbn [of_lattice of_atom lattices plane_of] in *.
@@ -53,18 +57,22 @@ Lemma disc_is x y : occupied (plane_of (Radius (Decimal 2 0))) (Obstacle 0 0 [1;
   (x - 3) * (x - 3) + (y - 3) * (y - 3) < 4.
 Proof.
   split.
-  - intros (L & A & (HL & HA & _) & K). cbn in HL, HA. injection HL as <-. injection HA as <-. cbn [shape_of] in K.
-    rewrite value_2 in K. apply norm_less in K; [|lra]. cbn in K. rewrite ?value_0, ?value_1, ?value_2 in K. lra.
+  - intros (L & A & (HL & HA & _) & K). cbn in HL, HA. injection HL as <-. injection HA as <-.
+    cbn [shape_of] in K.
+    rewrite value_2 in K. apply norm_less in K; [|lra]. cbn in K.
+    rewrite ?value_0, ?value_1, ?value_2 in K. lra.
   - intros K. do 2 eexists. split; [split; [reflexivity|split; reflexivity]|]. cbn [shape_of].
     rewrite value_2. apply norm_less; [lra|]. cbn. rewrite ?value_0, ?value_1, ?value_2. lra.
 Qed.
 (* The open ellipse of semiaxes (2, 1) and (0, 1) around (1, 0). *)
 Lemma ellipse_is x y :
-  occupied (plane_of (Semiaxes [[Decimal 2 0; Decimal 1 0]; [Decimal 0 0; Decimal 1 0]])) (Obstacle 0 0 [0; 0]%Z) [x; y] <->
+  occupied (plane_of (Semiaxes [[Decimal 2 0; Decimal 1 0]; [Decimal 0 0; Decimal 1 0]]))
+    (Obstacle 0 0 [0; 0]%Z) [x; y] <->
   (x - 1) / 2 * ((x - 1) / 2) + (y - (x - 1) / 2) * (y - (x - 1) / 2) < 1.
 Proof.
   split.
-  - intros (L & A & (HL & HA & _) & K). cbn in HL, HA. injection HL as <-. injection HA as <-. cbn [shape_of] in K.
+  - intros (L & A & (HL & HA & _) & K). cbn in HL, HA. injection HL as <-. injection HA as <-.
+    cbn [shape_of] in K.
     destruct K as (k & Hk & Nk & E). destruct k as [|a [|b [|c k]]]; try discriminate. cbn in E.
     rewrite ?value_0, ?value_1, ?value_2 in E. injection E as Ex Ey. apply norm_less in Nk; [|lra]. cbn in Nk.
     assert (a = (x - 1) / 2) as <- by lra. assert (b = y - a) as <- by lra. lra.
@@ -80,17 +88,21 @@ Proof. intros (L & A & (_ & _ & H) & _). discriminate. Qed.
 Definition a := Obstacle 0 1 [5; 5]%Z.
 Definition b := Obstacle 1 0 [0; 0]%Z.
 Definition c := Obstacle 1 0 [0; 1]%Z.
-Definition chord_of (o : obstacle) (first last : R) : obstacle -> R -> Prop := fun o' t => o' = o /\ first < t < last.
+Definition chord_of (o : obstacle) (first last : R) : obstacle -> R -> Prop :=
+  fun o' t => o' = o /\ first < t < last.
 
-Lemma enters_chord o first last t : first < last -> enters (chord_of o first last) o t <-> 0 <= t /\ t = first.
+Lemma enters_chord o first last t : first < last ->
+  enters (chord_of o first last) o t <-> 0 <= t /\ t = first.
 Proof.
   intros H. split.
   - intros (T0 & Low & Near). split; [auto|]. apply Rle_antisym.
-    + apply Rnot_lt_le. intros K. set (m := Rmin t last). assert (first < m) by (unfold m, Rmin; destruct Rle_dec; lra).
+    + apply Rnot_lt_le. intros K. set (m := Rmin t last).
+      assert (first < m) by (unfold m, Rmin; destruct Rle_dec; lra).
       assert (t <= (first + m) / 2); [|unfold m, Rmin in *; destruct Rle_dec; lra].
       apply Low. split; [auto|]. unfold m, Rmin in *; destruct Rle_dec; lra.
     + apply Rnot_lt_le. intros K. destruct (Near first K) as (t' & (_ & I) & L). lra.
-  - intros (T0 & ->). split; [auto|]. split; [intros t' (_ & K); lra|]. intros later K. set (m := Rmin later last).
+  - intros (T0 & ->). split; [auto|]. split; [intros t' (_ & K); lra|]. intros later K.
+    set (m := Rmin later last).
     assert (first < m /\ m <= later /\ m <= last) as (? & ? & ?) by (unfold m, Rmin; destruct Rle_dec; lra).
     exists ((first + m) / 2). split; [split; [auto|]; lra|lra].
 Qed.
@@ -98,8 +110,10 @@ Qed.
 Example ahead : first_hit (chord_of a 1 2) None a 1.
 Proof.
   split; [discriminate|]. split; [apply enters_chord; lra|]. split; [intros o _ (_ & K); lra|].
-  intros o' t' _ En. right. destruct En as (T0 & Low & Near). destruct (Near (t' + 1) ltac:(lra)) as (t'' & (-> & _) & _).
-  assert (enters (chord_of a 1 2) a t') as En by (split; [auto|split; auto]). apply enters_chord in En; [|lra].
+  intros o' t' _ En. right. destruct En as (T0 & Low & Near).
+  destruct (Near (t' + 1) ltac:(lra)) as (t'' & (-> & _) & _).
+  assert (enters (chord_of a 1 2) a t') as En by (split; [auto|split; auto]).
+  apply enters_chord in En; [|lra].
   split; [lra|left; reflexivity].
 Qed.
 Example not_at_the_far_side t : first_hit (chord_of a 1 2) None a t -> t = 1.
@@ -109,7 +123,8 @@ Proof. apply enters_chord; lra. Qed.
 Example on_the_surface_outwards : nothing (chord_of a (-1) 0) None.
 Proof.
   intros o _. split; [intros (_ & K); lra|]. intros t (T0 & Low & Near).
-  destruct (Near (t + 1) ltac:(lra)) as (t' & (-> & _) & _). specialize (Low (-1 / 2) ltac:(split; [reflexivity|lra])). lra.
+  destruct (Near (t + 1) ltac:(lra)) as (t' & (-> & _) & _).
+  specialize (Low (-1 / 2) ltac:(split; [reflexivity|lra])). lra.
 Qed.
 Example behind t : ~ first_hit (chord_of a (-2) (-1)) None a t.
 Proof. intros (_ & En & _). apply enters_chord in En; lra. Qed.
@@ -122,7 +137,8 @@ Proof. intros N. apply (proj1 (N a ltac:(discriminate))). split; [reflexivity|lr
 Example inside_first o t : ~ first_hit (fun o t => chord_of a (-1) 1 o t \/ chord_of b 2 3 o t) None o t.
 Proof. intros (_ & _ & N & _). apply (N a ltac:(discriminate)). left. split; [reflexivity|lra]. Qed.
 Example inside_is : first_inside (chord_of a (-1) 1) None a.
-Proof. split; [discriminate|]. split; [split; [reflexivity|lra]|]. intros o _ (-> & _). left. reflexivity. Qed.
+Proof. split; [discriminate|]. split; [split; [reflexivity|lra]|]. intros o _ (-> & _). left.
+reflexivity. Qed.
 Example inside_from o : ~ first_inside (chord_of a (-1) 1) (Some a) o.
 Proof. intros (N & (-> & _) & _). contradiction. Qed.
 Example nothing_but_from : nothing (chord_of a (-1) 1) (Some a).
@@ -136,8 +152,10 @@ Proof. intros (N & _). contradiction. Qed.
 (* Two are entered at once, or contain x: the smaller name, number by number, the lattice first. *)
 Example ties_b : not_after a b. Proof. right. left. reflexivity. Qed.
 Example ties_c : not_after b c.
-Proof. right. right. split; [reflexivity|]. right. split; [reflexivity|]. right. split; [reflexivity|]. left. reflexivity. Qed.
-Example no_tie_back : ~ not_after b a. Proof. intros [E|[L|[E _]]]; [discriminate|cbn in L; lia|discriminate]. Qed.
+Proof. right. right. split; [reflexivity|]. right. split; [reflexivity|]. right. split; [reflexivity|]. left.
+reflexivity. Qed.
+Example no_tie_back : ~ not_after b a. Proof. intros [E|[L|[E _]]];
+  [discriminate|cbn in L; lia|discriminate]. Qed.
 Example no_tie_back_c : ~ not_after c b.
 Proof. intros [E|[L|[_ [L|[_ [L|[_ [L|[E _]]]]]]]]]; cbn in *; try discriminate; lia. Qed.
 Example tie_is_for_the_smaller t :
@@ -150,19 +168,23 @@ Proof.
     assert (t <= (1 + m) / 2) by (apply Low; left; split; [reflexivity|lra]). lra. }
   assert (Ea : enters (fun o t => chord_of b 1 2 o t \/ chord_of a 1 3 o t) a 1).
   { split; [lra|]. split; [intros t' [(E & _)|(_ & K)]; [discriminate|lra]|]. intros later K.
-    destruct (proj2 (enters_chord a 1 3 1 ltac:(lra)) ltac:(lra)) as (_ & _ & Near). destruct (Near later K) as (t' & I & L).
+    destruct (proj2 (enters_chord a 1 3 1 ltac:(lra)) ltac:(lra)) as (_ & _ & Near).
+    destruct (Near later K) as (t' & I & L).
     exists t'. auto. }
   assert (T2 : 1 <= t).
-  { destruct En as (_ & _ & Near). apply Rnot_lt_le. intros K. destruct (Near 1 K) as (t' & [(_ & I)|(E & _)] & L); [lra|discriminate]. }
+  { destruct En as (_ & _ & Near). apply Rnot_lt_le. intros K.
+    destruct (Near 1 K) as (t' & [(_ & I)|(E & _)] & L); [lra|discriminate]. }
   destruct (Least a 1 ltac:(discriminate) Ea) as [L|[_ L]]; [lra|]. exact (no_tie_back L).
 Qed.
 
 (* ---- Answers exclude each other, and are unique: of the definitions alone. *)
 Lemma less_asymmetric l : forall m, less l m -> ~ less m l.
 Proof.
-  induction l as [|i l IH]; intros [|j m]; cbn; try tauto. intros [H|[E H]] [K|[E' K]]; try lia. apply (IH m H K).
+  induction l as [|i l IH]; intros [|j m]; cbn; try tauto. intros [H|[E H]] [K|[E' K]]; try lia.
+  apply (IH m H K).
 Qed.
-Theorem hit_unique within from o t o' t' : first_hit within from o t -> first_hit within from o' t' -> o = o' /\ t = t'.
+Theorem hit_unique within from o t o' t' : first_hit within from o t -> first_hit within from o' t' ->
+  o = o' /\ t = t'.
 Proof.
   intros (F & En & _ & A) (F' & En' & _ & A'). specialize (A _ _ F' En'). specialize (A' _ _ F En).
   destruct A as [A|[A1 A2]], A' as [A'|[A1' A2']]; try lra. split; auto.
@@ -171,5 +193,6 @@ Qed.
 Theorem hit_excludes within from o t : first_hit within from o t ->
   ~ nothing within from /\ forall o', ~ first_inside within from o'.
 Proof.
-  intros (F & En & N & _). split; [intros K; exact (proj2 (K o F) t En)|]. intros o' (F' & C & _). exact (N o' F' C).
+  intros (F & En & N & _). split; [intros K; exact (proj2 (K o F) t En)|]. intros o' (F' & C & _).
+  exact (N o' F' C).
 Qed.

@@ -1,4 +1,5 @@
-(* docs/certificates.md, "Bounding the k": all obstacles of a window that the line meets are among those looked at. *)
+(* docs/certificates.md, "Bounding the k": all obstacles of a window that the line meets are among those
+   looked at. *)
 From Coq Require Import ZArith Lia List Psatz.
 From Lorentz Require Import Vectors Steps.
 Import ListNotations.
@@ -40,7 +41,8 @@ Lemma common_ok bounds k : Forall (fun b => satisfies b k) bounds ->
 Proof.
   induction 1 as [|b rest Hb _ IH]; simpl; intros r E; [discriminate|].
   destruct (range b) as [[f1 l1]|] eqn:R1; [|auto].
-  pose proof (range_ok _ _ _ Hb R1) as K. destruct (common rest) as [[f2 l2]|]; inversion E; subst; [|exact K].
+  pose proof (range_ok _ _ _ Hb R1) as K. destruct (common rest) as [[f2 l2]|]; inversion E; subst;
+    [|exact K].
   specialize (IH _ eq_refl). cbn [fst snd] in *. lia.
 Qed.
 
@@ -95,7 +97,8 @@ Lemma e_across v N : dot (cross v N) v = 0.
 Proof. vectors. ring. Qed.
 (* a = b_1 x (v x e) = (e.b_1) v - s_1 e, "by Cramer's rule". *)
 Lemma cramer v b1 e w : dot e v = 0 ->
-  dot v v * dot (cross b1 (cross v e)) w - dot v w * dot (cross b1 (cross v e)) v = - dot v v * dot v b1 * dot e w.
+  dot v v * dot (cross b1 (cross v e)) w - dot v w * dot (cross b1 (cross v e)) v =
+    - dot v v * dot v b1 * dot e w.
 Proof.
   intros E. assert (forall y, dot (cross b1 (cross v e)) y = dot e b1 * dot v y - dot v b1 * dot e y) as F
     by (intros; clear; vectors; ring).
@@ -114,7 +117,8 @@ Section Search.
   (* Of v^2 a.(w' + k b), where (v^2 a.w - s a.v)^2 <= room and s is in the window. *)
   Definition functional (a w' b : zv) (room : Z) : bound :=
     let av := dot a v in let r := Z.sqrt room in
-    Bound (Z.min (lo * av) (hi * av) - r) (Z.max (lo * av) (hi * av) + r) (dot v v * dot a w') (dot v v * dot a b).
+    Bound (Z.min (lo * av) (hi * av) - r) (Z.max (lo * av) (hi * av) + r)
+      (dot v v * dot a w') (dot v v * dot a b).
 
   Lemma functional_ok a w' b room W k : dot a W = dot a w' + k * dot a b -> lo <= dot v W <= hi ->
     (dot v v * dot a W - dot v W * dot a v) * (dot v v * dot a W - dot v W * dot a v) <= room ->
@@ -132,7 +136,8 @@ Section Search.
     let N := cross b1 b2 in let Nv := dot N v in let Nw := dot v v * dot N w3 in
     Z.max 0 (Z.max (Z.min (lo * Nv) (hi * Nv) - Nw) (Nw - Z.max (lo * Nv) (hi * Nv))).
   Definition rows (w3 : zv) : list bound :=
-    let N := cross b1 b2 in let e := cross v N in let s1 := dot v b1 in let h1 := cross v b1 in let Q := dot v v in
+    let N := cross b1 b2 in let e := cross v N in let s1 := dot v b1 in let h1 := cross v b1 in
+    let Q := dot v v in
     [functional (cross b1 (cross v e)) w3 b2 (s1 * s1 * Q * (dot e e * H - off w3 * off w3));
      functional h1 w3 b2 (Q * dot h1 h1 * H)].
   Definition obstacles (w2 : zv) : list bound :=
@@ -162,7 +167,8 @@ Section Search.
     Qed.
 
     Lemma off_ok : off w3 * off w3 <=
-      (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W) * (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W).
+      (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W) *
+        (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W).
     Proof.
       assert (E : dot (cross b1 b2) W = dot (cross b1 b2) w3) by apply dot_normal. rewrite E.
       pose proof (between lo hi (dot v W) (dot (cross b1 b2) v) in_window) as B. unfold off. cbv zeta.
@@ -173,7 +179,8 @@ Section Search.
 
     Lemma rows_ok : Forall (fun b => satisfies b (vy n)) (rows w3).
     Proof.
-      pose proof off_ok as Hoff. pose proof (plane (cross b1 b2) v W) as PL. pose proof (e_across v (cross b1 b2)) as ev.
+      pose proof off_ok as Hoff. pose proof (plane (cross b1 b2) v W) as PL.
+      pose proof (e_across v (cross b1 b2)) as ev.
       unfold rows. cbv zeta. set (e := cross v (cross b1 b2)) in *.
       constructor; [|constructor; [|constructor]]; apply functional_ok with W; auto.
       - apply dot_left.
@@ -204,7 +211,8 @@ Section Search.
   Theorem search_ok judge : passes (search judge) ->
     forall n, let W := place w n b1 b2 b3 in lo <= dot v W <= hi -> h2 v W <= H -> passes (judge n W).
   Proof.
-    intros Hp n W Hs HH. unfold search in Hp. subst W. destruct n as [k1 k2 k3]. unfold place in *; cbn [vx vy vz] in *.
+    intros Hp n W Hs HH. unfold search in Hp. subst W. destruct n as [k1 k2 k3].
+    unfold place in *; cbn [vx vy vz] in *.
     pose proof (planes_ok (V k1 k2 k3) Hs HH) as P3. pose proof (rows_ok (V k1 k2 k3) Hs HH) as P2.
     pose proof (obstacles_ok (V k1 k2 k3) Hs HH) as P1. cbn [vx vy vz] in *.
     destruct (common planes) as [r3|] eqn:C3; [|apply passes_fail in Hp; tauto].

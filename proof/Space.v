@@ -1,5 +1,6 @@
-(* Scenes of integers in space. All lengths are integers in a unit u; a planar scene is the layer z = 0 of a spatial one,
-   its discs the equators of balls, its ellipses those of ellipsoids with the third semiaxis (0, 0, 1). *)
+(* Scenes of integers in space. All lengths are integers in a unit u; a planar scene is the layer z = 0 of a
+   spatial one, its discs the equators of balls, its ellipses those of ellipsoids with the third semiaxis (0,
+   0, 1). *)
 From Coq Require Import ZArith Reals Lra Lia List.
 From Lorentz Require Import Spec Vectors.
 Import ListNotations.
@@ -21,7 +22,8 @@ Ltac lists := cbn; repeat (apply (f_equal2 (@cons R)); [ring|]); reflexivity.
 (* ---- Atoms. *)
 Inductive body := Ball (r : Z) | Ellipsoid (a1 a2 a3 : zv).
 Record solid := Solid { middle : zv; g1 : zv; g2 : zv; g3 : zv; shaped : body }.
-Definition middle_of (S : solid) (n : zv) : rv := rplace (real (middle S)) (real n) (real (g1 S)) (real (g2 S)) (real (g3 S)).
+Definition middle_of (S : solid) (n : zv) : rv := rplace (real (middle S)) (real n) (real (g1 S))
+  (real (g2 S)) (real (g3 S)).
 Definition in_body (b : body) (c q : rv) : Prop :=
   match b with
   | Ball r => norm2 (radd q (-1) c) < IZR r * IZR r
@@ -55,7 +57,8 @@ Section Unit.
   Lemma lift_along a t b : along (lift a) t (lift b) = lift (radd a t b).
   Proof. unfold lift, along. destruct planar; lists. Qed.
   Lemma lift_combination c k1 k2 k3 a1 a2 a3 : (planar = true -> k3 = 0) ->
-    combination (lift c) (three k1 k2 k3) (lifts a1 a2 a3) = lift (rplace c (P k1 k2 k3) (real a1) (real a2) (real a3)).
+    combination (lift c) (three k1 k2 k3) (lifts a1 a2 a3) =
+      lift (rplace c (P k1 k2 k3) (real a1) (real a2) (real a3)).
   Proof.
     intros Hk. unfold lifts, three, rplace, lift, along, radd. destruct planar; [rewrite Hk by auto|]; lists.
   Qed.
@@ -68,7 +71,8 @@ Section Unit.
   Proof.
     intros Hz Hr. assert (N : norm (lift a) = sqrt (u * u * norm2 a)).
     { unfold norm, lift, norm2. destruct planar; cbn; [rewrite Hz by auto|]; f_equal; ring. }
-    rewrite N. assert (0 < u * u) by (apply Rmult_lt_0_compat; auto). assert (0 < u * r) by (apply Rmult_lt_0_compat; auto).
+    rewrite N. assert (0 < u * u) by (apply Rmult_lt_0_compat; auto).
+    assert (0 < u * r) by (apply Rmult_lt_0_compat; auto).
     assert (Pn : 0 <= norm2 a) by (unfold norm2; pose proof (Rle_0_sqr (px a)); pose proof (Rle_0_sqr (py a));
       pose proof (Rle_0_sqr (pz a)); unfold Rsqr in *; lra).
     assert (E : u * r = sqrt (u * u * (r * r))).
@@ -80,18 +84,21 @@ Section Unit.
   Lemma norm_lt_1 y : norm y < 1 <-> fold_right (fun c sum => c * c + sum) 0 y < 1.
   Proof.
     unfold norm. set (s := fold_right _ 0 y).
-    assert (0 <= s) by (subst s; induction y as [|c y IH]; cbn; [lra|]; pose proof (Rle_0_sqr c); unfold Rsqr in *; lra).
+    assert (0 <= s) by (subst s; induction y as [|c y IH]; cbn; [lra|]; pose proof (Rle_0_sqr c);
+      unfold Rsqr in *; lra).
     rewrite <- sqrt_1 at 1. split; intros K; [apply sqrt_lt_0_alt in K; lra|apply sqrt_lt_1_alt; lra].
   Qed.
 
-  Lemma three_length {A} (l : list A) : length l = size -> forall d, exists a b c, l = three a b c /\ (planar = true -> c = d).
+  Lemma three_length {A} (l : list A) : length l = size -> forall d, exists a b c, l = three a b c /\
+    (planar = true -> c = d).
   Proof.
     unfold size, three. intros H d. destruct planar; destruct l as [|a [|b [|c [|e l]]]]; try discriminate.
     - exists a, b, d. auto.
     - exists a, b, c. split; [auto|discriminate].
   Qed.
   Lemma coordinates_of (c : list Z) : length c = size -> exists n, c = coordinates n /\ level n.
-  Proof. intros H. destruct (three_length c H 0%Z) as (n1 & n2 & n3 & -> & K). exists (V n1 n2 n3). split; auto. Qed.
+  Proof. intros H. destruct (three_length c H 0%Z) as (n1 & n2 & n3 & -> & K). exists (V n1 n2 n3).
+  split; auto. Qed.
   Lemma coordinates_inj n m : level n -> level m -> coordinates n = coordinates m -> n = m.
   Proof.
     unfold level, coordinates, three. intros Hn Hm E. destruct planar; injection E; intros; apply zv_eq; auto.
@@ -111,16 +118,20 @@ Section Unit.
   Proof.
     intros Hd HA (Hm & Hv & Lm & L1 & L2 & Hs) Hc Hn Hq.
     assert (Zn : planar = true -> IZR (vz n) = 0) by (intros E; rewrite (Hn E); reflexivity).
-    assert (EC : combination (point (position A)) (map IZR (cell o)) (map point (vectors L)) = lift (middle_of S n)).
-    { rewrite Hm, Hv, Hc. replace (map IZR (coordinates n)) with (three (IZR (vx n)) (IZR (vy n)) (IZR (vz n)))
+    assert (EC : combination (point (position A)) (map IZR (cell o)) (map point (vectors L)) =
+      lift (middle_of S n)).
+    { rewrite Hm, Hv, Hc. replace (map IZR (coordinates n))
+        with (three (IZR (vx n)) (IZR (vy n)) (IZR (vz n)))
         by (unfold coordinates, three; destruct planar; reflexivity).
       apply lift_combination. auto. }
     assert (ZC : planar = true -> pz (middle_of S n) = 0).
-    { intros E. unfold middle_of. rewrite rplace_level; cbn; rewrite ?Lm, ?L1, ?L2, ?(Hn E) by auto; auto; ring. }
+    { intros E. unfold middle_of. rewrite rplace_level; cbn; rewrite ?Lm, ?L1, ?L2, ?(Hn E) by auto; auto;
+        ring. }
     generalize dependent (middle_of S n). intros c EC ZC.
     assert (Only : occupied sc o (lift q) <-> match shape_of A with
       | Radius r => norm (along (lift q) (-1) (lift c)) < value r
-      | Semiaxes a => exists y, length y = size /\ norm y < 1 /\ lift q = combination (lift c) y (map point a) end).
+      | Semiaxes a => exists y, length y = size /\ norm y < 1 /\
+        lift q = combination (lift c) y (map point a) end).
     { unfold occupied. rewrite <- Hd, <- EC. split; [|intros K; exists L, A; split; auto].
       intros (L' & A' & (HL' & HA' & _) & K). destruct HA as (HL & HA & _).
       rewrite HL in HL'. injection HL' as <-. rewrite HA in HA'. injection HA' as <-. exact K. }
@@ -131,7 +142,8 @@ Section Unit.
     - destruct Hs as (-> & H1 & H2 & H3). split.
       + intros (y & Hy & Ny & E). destruct (three_length y Hy 0) as (y1 & y2 & y3 & -> & Hy3).
         exists (P y1 y2 y3). split.
-        * rewrite norm_lt_1 in Ny. unfold norm2, three in *; cbn. destruct planar; cbn in Ny; [rewrite Hy3 by auto|]; lra.
+        * rewrite norm_lt_1 in Ny. unfold norm2, three in *; cbn.
+          destruct planar; cbn in Ny; [rewrite Hy3 by auto|]; lra.
         * rewrite lift_combination in E by auto. apply lift_eq in E; auto.
           intros Ep. rewrite rplace_level; cbn; auto. rewrite Hq, Hy3 by auto. ring.
       + intros ([y1 y2 y3] & Ny & E). exists (three y1 y2 y3).
@@ -139,7 +151,8 @@ Section Unit.
         { intros Ep. apply (f_equal pz) in E. rewrite rplace_level in E; auto. cbn in E.
           rewrite Hq, (H3 Ep) in E by auto. cbn in E. lra. }
         split; [unfold three, size; destruct planar; reflexivity|]. split.
-        * rewrite norm_lt_1. unfold norm2, three in *; cbn in Ny. destruct planar; cbn; [rewrite Hy3 in Ny by auto|]; lra.
+        * rewrite norm_lt_1. unfold norm2, three in *; cbn in Ny.
+          destruct planar; cbn; [rewrite Hy3 in Ny by auto|]; lra.
         * rewrite lift_combination by auto. rewrite <- E. reflexivity.
   Qed.
 
@@ -160,17 +173,21 @@ Section Unit.
     { split; [|split].
       - transitivity ((0 + k1 * IZR ax + k2 * IZR bx + k3 * IZR cx) * (IZR b2 * IZR cz - IZR bz * IZR cy)
           + (0 + k1 * IZR ay + k2 * IZR b2 + k3 * IZR cy) * (IZR bz * IZR cx - IZR bx * IZR cz)
-          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR bx * IZR cy - IZR b2 * IZR cx)); [unfold D; ring|].
+          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR bx * IZR cy - IZR b2 * IZR cx)); [unfold D;
+              ring|].
         rewrite E1, E2, E3. ring.
       - transitivity ((0 + k1 * IZR ax + k2 * IZR bx + k3 * IZR cx) * (IZR cy * IZR az - IZR cz * IZR ay)
           + (0 + k1 * IZR ay + k2 * IZR b2 + k3 * IZR cy) * (IZR cz * IZR ax - IZR cx * IZR az)
-          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR cx * IZR ay - IZR cy * IZR ax)); [unfold D; ring|].
+          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR cx * IZR ay - IZR cy * IZR ax)); [unfold D;
+              ring|].
         rewrite E1, E2, E3. ring.
       - transitivity ((0 + k1 * IZR ax + k2 * IZR bx + k3 * IZR cx) * (IZR ay * IZR bz - IZR az * IZR b2)
           + (0 + k1 * IZR ay + k2 * IZR b2 + k3 * IZR cy) * (IZR az * IZR bx - IZR ax * IZR bz)
-          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR ax * IZR b2 - IZR ay * IZR bx)); [unfold D; ring|].
+          + (0 + k1 * IZR az + k2 * IZR bz + k3 * IZR cz) * (IZR ax * IZR b2 - IZR ay * IZR bx)); [unfold D;
+              ring|].
         rewrite E1, E2, E3. ring. }
-    assert (K0 : forall y, y * D = 0 -> y = 0) by (intros y Hy; apply Rmult_integral in Hy; destruct Hy; [auto|contradiction]).
+    assert (K0 : forall y, y * D = 0 -> y = 0) by (intros y Hy; apply Rmult_integral in Hy; destruct Hy;
+      [auto|contradiction]).
     destruct K as (K1 & K2 & K3). rewrite (K0 _ K1), (K0 _ K2), (K0 _ K3).
     unfold three, lift. destruct planar; lists.
   Qed.

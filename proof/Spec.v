@@ -1,11 +1,11 @@
 (* What a golden record claims, over the real numbers: docs/formats.md, "Scenes", "Queries" and "Answers".
-   This file and the statement of `check_sound` (Main.v) are all that has to be read to know what is proved. *)
+   Who has read this file and the statement of `check_sound` (Main.v) knows what is proved. *)
 From Coq Require Import ZArith Reals List.
 From Flocq Require Import Core.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(* ---- Numbers: m 10^e in decimal, m 2^e in hexadecimal, and each means the binary64 nearest to it, ties to even. *)
+(* ---- Numbers: decimal m 10^e, hexadecimal m 2^e; each means the nearest binary64, ties to even. *)
 Inductive numeral := Decimal (m e : Z) | Hexadecimal (m e : Z).
 Definition radix10 : radix := Build_radix 10 eq_refl.
 Definition written (n : numeral) : R :=
@@ -18,7 +18,8 @@ Definition finite (n : numeral) : Prop := Rabs (value n) < bpow radix2 1024.
 Definition vec := list R.
 Definition point (p : list numeral) : vec := map value p.
 Definition norm (a : vec) : R := sqrt (fold_right (fun c sum => c * c + sum) 0 a).
-Definition along (p : vec) (c : R) (b : vec) : vec := map (fun q => fst q + c * snd q) (combine p b).  (* p + c b *)
+Definition along (p : vec) (c : R) (b : vec) : vec :=  (* p + c b *)
+  map (fun q => fst q + c * snd q) (combine p b).
 Fixpoint combination (p : vec) (k : list R) (b : list vec) : vec :=  (* p + k_1 b_1 + .. + k_d b_d *)
   match k, b with c :: k, e :: b => combination (along p c e) k b | _, _ => p end.
 
@@ -44,13 +45,14 @@ Definition occupied (sc : scene) (o : obstacle) (q : vec) : Prop :=
   | Semiaxes a => exists y, length y = dimension sc /\ norm y < 1 /\ q = combination centre y (map point a)
   end.
 
-(* ---- What is first. `within o t`: at the time t the line is in o; on this alone all that follows depends. *)
+(* ---- What is first. `within o t`: at time t the line is in o; all that follows depends on this alone. *)
 Section Line.
   Variables (within : obstacle -> R -> Prop) (from : option obstacle).
 
   (* The chord of o is not empty and begins at t, its infimum; and t >= 0. *)
   Definition enters (o : obstacle) (t : R) : Prop :=
-    0 <= t /\ (forall t', within o t' -> t <= t') /\ (forall later, t < later -> exists t', within o t' /\ t' < later).
+    0 <= t /\ (forall t', within o t' -> t <= t') /\
+    (forall later, t < later -> exists t', within o t' /\ t' < later).
 
   (* Compared number by number: lattice, atom, cell. *)
   Fixpoint less (a b : list Z) : Prop :=
@@ -67,14 +69,15 @@ Section Line.
   Definition nothing : Prop := forall o, from <> Some o -> ~ within o 0 /\ forall t, ~ enters o t.
 End Line.
 
-(* ---- Answers. The time is a number or `None`, beyond the largest binary64; and m 10^k, to 40 significant digits. *)
+(* ---- Answers. The time: a number, `None` beyond the largest binary64; m 10^k has 40 significant digits. *)
 Inductive answer := Hit (o : obstacle) (time : option numeral) (m k : Z) | Inside (o : obstacle) | Never.
 Definition nearest40 (x : R) : R := round radix10 (FLX_exp 40) ZnearestE x.
 Definition correct (sc : scene) (q : query) (a : answer) : Prop :=
   let within o t := occupied sc o (along (point (start q)) t (point (velocity q))) in
   match a with
   | Hit o time m k => exists t, first_hit within (from q) o t /\ IZR m * bpow radix10 k = nearest40 t /\
-      match time with Some n => finite n /\ value n = nearest64 t | None => bpow radix2 1024 <= nearest64 t end
+      match time with Some n => finite n /\ value n = nearest64 t
+      | None => bpow radix2 1024 <= nearest64 t end
   | Inside o => first_inside within (from q) o
   | Never => nothing within (from q)
   end.
@@ -92,5 +95,6 @@ Definition valid_scene (sc : scene) : Prop :=
   Forall (fun L => independent (dimension sc) (vectors L) /\ atoms L <> [] /\
     Forall (valid_atom (dimension sc)) (atoms L)) (lattices sc).
 Definition valid_query (sc : scene) (q : query) : Prop :=
-  sized (dimension sc) (start q) /\ sized (dimension sc) (velocity q) /\ point (velocity q) <> zero (dimension sc) /\
+  sized (dimension sc) (start q) /\ sized (dimension sc) (velocity q) /\
+  point (velocity q) <> zero (dimension sc) /\
   forall o, from q = Some o -> exists L A, atom_of sc o L A.

@@ -31,7 +31,8 @@ Definition fail (f : flaw) : check := fun _ => inr f.
 Definition require (b : bool) (f : flaw) : check := if b then done else fail f.
 Definition spend (steps : Z) : check := fun n => if steps <=? n then inl (n - steps) else inr TooMany.
 (* c, and then d. A notation, so that the program does not work out d before c has passed. *)
-Notation "c ;; d" := (fun n => match c n with inl m => d m | inr f => inr f end) (at level 80, right associativity).
+Notation "c ;; d" := (fun n => match c n with inl m => d m | inr f => inr f end) (at level 80,
+  right associativity).
 (* `let? a := o else f in c`: c, of what is in o; the flaw f, if nothing is. *)
 Notation "'let?' a := o 'else' f 'in' c" := (match o with Some a => c | None => fail f end)
   (at level 80, a pattern, o at level 60, f at level 60, c at level 80, right associativity).
@@ -80,5 +81,6 @@ Fixpoint each_in {A} (l : list A) (c : A -> check) (left : Z) : Z + flaw :=
   match l with [] => inl left | a :: l => (c a ;; each_in l c) left end.
 Lemma each_in_ok {A} (l : list A) c : passes (each_in l c) -> forall a, In a l -> passes (c a).
 Proof.
-  induction l as [|b l IH]; cbn [each_in In]; [tauto|]. intros H a [->|Ha]; apply passes_both in H; destruct H; auto.
+  induction l as [|b l IH]; cbn [each_in In]; [tauto|].
+  intros H a [->|Ha]; apply passes_both in H; destruct H; auto.
 Qed.

@@ -1,5 +1,5 @@
-(* docs/certificates.md, "What is claimed": "entered at t = (s - sqrt(r^2 v^2 - |h|^2)) / v^2". Two such times are
-   compared without a square root. *)
+(* docs/certificates.md, "What is claimed": "entered at t = (s - sqrt(r^2 v^2 - |h|^2)) / v^2". Two such times
+   are compared without a square root. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 Local Open Scope Z_scope.
 
@@ -23,7 +23,8 @@ Lemma agrees_opp c a b : agrees c a b -> agrees (CompOpp c) b a.
 Proof. destruct c; simpl; intros; lra. Qed.
 
 (* Two numbers of which one is not negative compare as their squares do. *)
-Lemma agrees_squares (x y : R) (m n : Z) : (0 <= x)%R -> (0 <= y)%R -> (x * x = IZR m)%R -> (y * y = IZR n)%R ->
+Lemma agrees_squares (x y : R) (m n : Z) : (0 <= x)%R -> (0 <= y)%R -> (x * x = IZR m)%R ->
+  (y * y = IZR n)%R ->
   agrees (m ?= n) x y.
 Proof.
   intros Hx Hy Hm Hn. destruct (Z.compare_spec m n) as [E|L|G]; simpl.
@@ -36,7 +37,8 @@ Lemma sign_nonneg_ok a b c : 0 <= a -> 0 <= b -> 0 <= c ->
   agrees (sign_nonneg a b c) (IZR a + sqrt (IZR b)) (sqrt (IZR c)).
 Proof.
   intros Ha Hb Hc. unfold sign_nonneg. cbv zeta. set (z := c - a * a - b).
-  assert (Ez : IZR z = (IZR c - IZR a * IZR a - IZR b)%R) by (unfold z; rewrite !minus_IZR, mult_IZR; reflexivity).
+  assert (Ez : IZR z = (IZR c - IZR a * IZR a - IZR b)%R) by (unfold z; rewrite !minus_IZR, mult_IZR;
+    reflexivity).
   apply IZR_le in Ha, Hb, Hc.
   pose proof (sqrt_pos (IZR b)) as HB. pose proof (sqrt_pos (IZR c)) as HC.
   pose proof (sqrt_sqrt _ Hb) as HB2. pose proof (sqrt_sqrt _ Hc) as HC2.
@@ -45,7 +47,8 @@ Proof.
   destruct (Z.ltb_spec z 0) as [Hz|Hz].
   - apply IZR_lt in Hz. simpl. nra.
   - apply IZR_le in Hz.
-    assert (S : (2 * IZR a * B * (2 * IZR a * B) = IZR (4 * a * a * b))%R) by (rewrite !mult_IZR, <- HB2; ring).
+    assert (S : (2 * IZR a * B * (2 * IZR a * B) = IZR (4 * a * a * b))%R) by (rewrite !mult_IZR, <- HB2;
+      ring).
     assert (K : agrees (4 * a * a * b ?= z * z) (2 * IZR a * B) (IZR z))
       by (apply agrees_squares; [lra|lra|exact S|rewrite mult_IZR; reflexivity]).
     rewrite Ez in K. clear S Ez Hz. destruct (4 * a * a * b ?= z * z); simpl in *.
@@ -78,7 +81,8 @@ Proof.
   assert (F : ((IZR s - S) / IZR q - (IZR s' - S') / IZR q' =
     (IZR s * IZR q' - IZR s' * IZR q + S' * IZR q - S * IZR q') * (/ IZR q * / IZR q'))%R) by (field; lra).
   assert (G : (0 < / IZR q * / IZR q')%R) by (apply Rmult_lt_0_compat; apply Rinv_0_lt_compat; lra).
-  set (g := (/ IZR q * / IZR q')%R) in *. set (x := (IZR s * IZR q' - IZR s' * IZR q + S' * IZR q - S * IZR q')%R) in *.
+  set (g := (/ IZR q * / IZR q')%R) in *. set (x := (IZR s * IZR q' - IZR s' * IZR q + S' * IZR q - S *
+    IZR q')%R) in *.
   destruct (sign _ _ _); simpl in *.
   - assert (x = 0)%R as Z0 by (unfold x; lra). rewrite Z0 in F. lra.
   - assert (x < 0)%R as Z0 by (unfold x; lra). nra.

@@ -8,7 +8,8 @@ Definition cross (a b : zv) :=
   V (vy a * vz b - vz a * vy b) (vz a * vx b - vx a * vz b) (vx a * vy b - vy a * vx b).
 Definition det (a b c : zv) := dot a (cross b c).
 Definition add (w : zv) (k : Z) (b : zv) := V (vx w + k * vx b) (vy w + k * vy b) (vz w + k * vz b).
-Definition place (w n a b c : zv) := add (add (add w (vz n) c) (vy n) b) (vx n) a.  (* w + n_1 a + n_2 b + n_3 c *)
+Definition place (w n a b c : zv) := add (add (add w (vz n) c) (vy n) b) (vx n) a.  (* w + n_1 a + n_2 b +
+  n_3 c *)
 Definition origin := V 0 0 0.
 
 Ltac vectors := repeat match goal with a : zv |- _ => destruct a end;
@@ -29,7 +30,8 @@ Qed.
 Lemma dot_add a w k b : dot a (add w k b) = dot a w + k * dot a b.
 Proof. vectors. ring. Qed.
 
-(* docs/certificates.md, 2.: "the determinant of each basis is +1 or -1, so every obstacle is w = w_0 + k_1 b_1 + .." *)
+(* docs/certificates.md, 2.: "the determinant of each basis is +1 or -1, so every obstacle is w = w_0 + k_1
+   b_1 + .." *)
 Lemma unimodular n a b c : Z.abs (det a b c) = 1 -> exists k, n = place origin k a b c.
 Proof.
   intros D.
@@ -46,5 +48,6 @@ Lemma place_place w g1 g2 g3 k a b c : place w (place origin k a b c) g1 g2 g3 =
 Proof. vectors. f_equal; ring. Qed.
 
 (* A step b along the lattice. *)
-Lemma place_step w n m b g1 g2 g3 : place w (add n m b) g1 g2 g3 = add (place w n g1 g2 g3) m (place origin b g1 g2 g3).
+Lemma place_step w n m b g1 g2 g3 : place w (add n m b) g1 g2 g3 =
+  add (place w n g1 g2 g3) m (place origin b g1 g2 g3).
 Proof. vectors. f_equal; ring. Qed.

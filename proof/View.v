@@ -1,5 +1,6 @@
-(* docs/certificates.md, "What is claimed": "Of an ellipsoid { p + A y : |y| < 1 }: first apply A^-1 to everything, so it
-   is a ball; lines stay lines and t stays t." Here by adj A = det A A^-1, which is of integers: a ball of radius det A. *)
+(* docs/certificates.md, "What is claimed": "Of an ellipsoid { p + A y : |y| < 1 }: first apply A^-1 to
+   everything, so it is a ball; lines stay lines and t stays t." Here by adj A = det A A^-1, which is of
+   integers: a ball of radius det A. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 From Lorentz Require Import Vectors Search Space.
 Local Open Scope R_scope.
@@ -13,9 +14,11 @@ Definition adjugate (b : body) : matrix :=
 Definition apply_to (M : matrix) (w : zv) : zv := V (dot (m1 M) w) (dot (m2 M) w) (dot (m3 M) w).
 
 Definition rdot (a b : rv) := px a * px b + py a * py b + pz a * pz b.
-Definition rapply (M : matrix) (q : rv) : rv := P (rdot (real (m1 M)) q) (rdot (real (m2 M)) q) (rdot (real (m3 M)) q).
+Definition rapply (M : matrix) (q : rv) : rv := P (rdot (real (m1 M)) q) (rdot (real (m2 M)) q)
+  (rdot (real (m3 M)) q).
 
-Lemma ball_view r c q : in_body (Ball r) c q <-> norm2 (rapply (adjugate (Ball r)) (radd q (-1) c)) < IZR r * IZR r.
+Lemma ball_view r c q : in_body (Ball r) c q <-> norm2 (rapply (adjugate (Ball r)) (radd q (-1) c)) < IZR r *
+  IZR r.
 Proof.
   cbn [in_body]. replace (norm2 (rapply _ _)) with (norm2 (radd q (-1) c)); [tauto|].
   unfold norm2, rapply, rdot, radd; cbn. ring.
@@ -26,12 +29,16 @@ Lemma ellipsoid_view a1 a2 a3 c q : det a1 a2 a3 <> 0%Z ->
   in_body (Ellipsoid a1 a2 a3) c q <->
   norm2 (rapply (adjugate (Ellipsoid a1 a2 a3)) (radd q (-1) c)) < IZR (det a1 a2 a3) * IZR (det a1 a2 a3).
 Proof.
-  intros Hr. apply not_0_IZR in Hr. destruct a1 as [a b e], a2 as [d f g], a3 as [h i j], c as [c1 c2 c3], q as [q1 q2 q3].
+  intros Hr. apply not_0_IZR in Hr. destruct a1 as [a b e], a2 as [d f g], a3 as [h i j], c as [c1 c2 c3],
+    q as [q1 q2 q3].
   unfold in_body, adjugate, rapply, rdot, norm2, rplace, radd, det, dot, cross, real in *; cbn in *.
   repeat rewrite ?plus_IZR, ?minus_IZR, ?mult_IZR in *.
-  generalize dependent (IZR a); intros A; generalize dependent (IZR b); intros B; generalize dependent (IZR e); intros C;
-  generalize dependent (IZR d); intros D; generalize dependent (IZR f); intros E; generalize dependent (IZR g); intros F;
-  generalize dependent (IZR h); intros G; generalize dependent (IZR i); intros H; generalize dependent (IZR j); intros I Hr.
+  generalize dependent (IZR a); intros A; generalize dependent (IZR b); intros B;
+    generalize dependent (IZR e); intros C;
+  generalize dependent (IZR d); intros D; generalize dependent (IZR f); intros E;
+    generalize dependent (IZR g); intros F;
+  generalize dependent (IZR h); intros G; generalize dependent (IZR i); intros H;
+    generalize dependent (IZR j); intros I Hr.
   set (dd := A * (E * I - F * H) + B * (F * G - D * I) + C * (D * H - E * G)) in *.
   set (p1 := q1 + -1 * c1). set (p2 := q2 + -1 * c2). set (p3 := q3 + -1 * c3).
   set (M1 := (E * I - F * H) * p1 + (F * G - D * I) * p2 + (D * H - E * G) * p3).
@@ -47,14 +54,16 @@ Proof.
     + replace (M1 / dd * (M1 / dd) + M2 / dd * (M2 / dd) + M3 / dd * (M3 / dd))
         with ((M1 * M1 + M2 * M2 + M3 * M3) / (dd * dd)) by (field; auto).
       apply Rmult_lt_reg_r with (dd * dd); auto. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra.
-    + assert (S : forall c u1 u2 u3, c + M1 / dd * u1 + M2 / dd * u2 + M3 / dd * u3 = c + (M1 * u1 + M2 * u2 + M3 * u3) / dd)
+    + assert (S : forall c u1 u2 u3, c + M1 / dd * u1 + M2 / dd * u2 + M3 / dd * u3 = c +
+        (M1 * u1 + M2 * u2 + M3 * u3) / dd)
         by (intros; field; auto).
       assert (T : forall q c z, z = dd * (q + -1 * c) -> q = c + z / dd) by (intros; subst; field; auto).
       rewrite !S. apply rv_eq; cbn; apply T; subst M1 M2 M3 p1 p2 p3 dd; clear; ring.
 Qed.
 
 Lemma body_view b c q : radius (adjugate b) <> 0%Z ->
-  in_body b c q <-> norm2 (rapply (adjugate b) (radd q (-1) c)) < IZR (radius (adjugate b)) * IZR (radius (adjugate b)).
+  in_body b c q <-> norm2 (rapply (adjugate b) (radd q (-1) c)) < IZR (radius (adjugate b)) *
+    IZR (radius (adjugate b)).
 Proof. destruct b; intros H; [apply ball_view|apply ellipsoid_view, H]. Qed.
 
 (* ---- An atom as the ray sees it: as balls. *)
@@ -69,13 +78,17 @@ Definition sS (y : seen) (w : zv) : Z := dot (sv y) w.
 Definition sD (y : seen) (w : zv) : Z := (sr y - h2 (sv y) w)%Z.
 
 Lemma rapply_line M x v S n t : rapply M (radd (radd (real x) t (real v)) (-1) (middle_of S n)) =
-  P (t * IZR (dot (m1 M) v) - IZR (dot (m1 M) (add (middle S) (-1) x) + vz n * dot (m1 M) (g3 S) + vy n * dot (m1 M) (g2 S) + vx n * dot (m1 M) (g1 S)))
-    (t * IZR (dot (m2 M) v) - IZR (dot (m2 M) (add (middle S) (-1) x) + vz n * dot (m2 M) (g3 S) + vy n * dot (m2 M) (g2 S) + vx n * dot (m2 M) (g1 S)))
-    (t * IZR (dot (m3 M) v) - IZR (dot (m3 M) (add (middle S) (-1) x) + vz n * dot (m3 M) (g3 S) + vy n * dot (m3 M) (g2 S) + vx n * dot (m3 M) (g1 S))).
+  P (t * IZR (dot (m1 M) v) - IZR (dot (m1 M) (add (middle S) (-1) x) + vz n * dot (m1 M) (g3 S) + vy n *
+    dot (m1 M) (g2 S) + vx n * dot (m1 M) (g1 S)))
+    (t * IZR (dot (m2 M) v) - IZR (dot (m2 M) (add (middle S) (-1) x) + vz n * dot (m2 M) (g3 S) + vy n *
+      dot (m2 M) (g2 S) + vx n * dot (m2 M) (g1 S)))
+    (t * IZR (dot (m3 M) v) - IZR (dot (m3 M) (add (middle S) (-1) x) + vz n * dot (m3 M) (g3 S) + vy n *
+      dot (m3 M) (g2 S) + vx n * dot (m3 M) (g1 S))).
 Proof.
   unfold rapply. generalize (m1 M), (m2 M), (m3 M). intros k1 k2 k3.
   assert (Q : forall k, rdot (real k) (radd (radd (real x) t (real v)) (-1) (middle_of S n)) =
-    t * IZR (dot k v) - IZR (dot k (add (middle S) (-1) x) + vz n * dot k (g3 S) + vy n * dot k (g2 S) + vx n * dot k (g1 S))).
+    t * IZR (dot k v) - IZR (dot k (add (middle S) (-1) x) + vz n * dot k (g3 S) + vy n * dot k (g2 S) +
+      vx n * dot k (g1 S))).
   { intros. unfold middle_of, rplace, add, dot, rdot, radd, real; cbn [vx vy vz px py pz].
     repeat rewrite ?plus_IZR, ?mult_IZR. ring. }
   rewrite !Q. reflexivity.
@@ -88,18 +101,23 @@ Theorem chord_view x v S n t : radius (adjugate (shaped S)) <> 0%Z -> let y := s
 Proof.
   intros Hr y Hq w. rewrite body_view by auto. rewrite rapply_line. set (M := adjugate (shaped S)) in *.
   assert (HR : sr y = (radius M * radius M * sQ y)%Z) by reflexivity.
-  assert (Ew : vx w = (dot (m1 M) (add (middle S) (-1) x) + vz n * dot (m1 M) (g3 S) + vy n * dot (m1 M) (g2 S) + vx n * dot (m1 M) (g1 S))%Z
-    /\ vy w = (dot (m2 M) (add (middle S) (-1) x) + vz n * dot (m2 M) (g3 S) + vy n * dot (m2 M) (g2 S) + vx n * dot (m2 M) (g1 S))%Z
-    /\ vz w = (dot (m3 M) (add (middle S) (-1) x) + vz n * dot (m3 M) (g3 S) + vy n * dot (m3 M) (g2 S) + vx n * dot (m3 M) (g1 S))%Z)
+  assert (Ew : vx w = (dot (m1 M) (add (middle S) (-1) x) + vz n * dot (m1 M) (g3 S) + vy n *
+    dot (m1 M) (g2 S) + vx n * dot (m1 M) (g1 S))%Z
+    /\ vy w = (dot (m2 M) (add (middle S) (-1) x) + vz n * dot (m2 M) (g3 S) + vy n * dot (m2 M) (g2 S) +
+      vx n * dot (m2 M) (g1 S))%Z
+    /\ vz w = (dot (m3 M) (add (middle S) (-1) x) + vz n * dot (m3 M) (g3 S) + vy n * dot (m3 M) (g2 S) +
+      vx n * dot (m3 M) (g1 S))%Z)
     by (repeat split; reflexivity).
   destruct Ew as (<- & <- & <-).
   assert (Ev : sv y = V (dot (m1 M) v) (dot (m2 M) v) (dot (m3 M) v)) by reflexivity.
   unfold sD, h2. fold (sQ y). fold (sS y w). rewrite HR. clear HR.
-  assert (E : norm2 (P (t * IZR (dot (m1 M) v) - IZR (vx w)) (t * IZR (dot (m2 M) v) - IZR (vy w)) (t * IZR (dot (m3 M) v) - IZR (vz w)))
+  assert (E : norm2 (P (t * IZR (dot (m1 M) v) - IZR (vx w)) (t * IZR (dot (m2 M) v) - IZR (vy w)) (t *
+    IZR (dot (m3 M) v) - IZR (vz w)))
     = t * t * IZR (sQ y) - 2 * t * IZR (sS y w) + IZR (dot w w)).
   { unfold sQ, sS. rewrite Ev. generalize w. clear. intros w. unfold norm2, dot; cbn [vx vy vz px py pz].
     repeat rewrite ?plus_IZR, ?mult_IZR. ring. }
-  rewrite E. clear E Ev. rewrite !minus_IZR, !mult_IZR. apply IZR_lt in Hq. set (qq := IZR (sQ y)) in *. set (ss := IZR (sS y w)).
+  rewrite E. clear E Ev. rewrite !minus_IZR, !mult_IZR. apply IZR_lt in Hq. set (qq := IZR (sQ y)) in *.
+  set (ss := IZR (sS y w)).
   set (W := IZR (dot w w)). set (rr := IZR (radius M)). split; intros K; nra.
 Qed.
 

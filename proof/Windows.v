@@ -1,11 +1,14 @@
-(* docs/certificates.md, "hit and inside: windows", 1. to 3., of one atom; and the window of "never: rows along v". *)
+(* docs/certificates.md, "hit and inside: windows", 1. to 3., of one atom; and the window of "never: rows
+   along v". *)
 From Coq Require Import ZArith Reals Lra Lia Psatz List Bool.
 From Lorentz Require Import Spec Time Vectors Steps Search Space View Quadratic.
 Import ListNotations.
 Local Open Scope Z_scope.
 
-(* A piece of a certificate: from `begin_at` / E to `end_at` / E, the rows of the basis. Of `never` the ends mean nothing. *)
-Record piece := Piece { number_of : Z; piece_lattice : Z; piece_atom : Z; begin_at : Z; end_at : Z; r1 : zv; r2 : zv; r3 : zv }.
+(* A piece of a certificate: from `begin_at` / E to `end_at` / E, the rows of the basis. Of `never` the ends
+   mean nothing. *)
+Record piece := Piece { number_of : Z; piece_lattice : Z; piece_atom : Z; begin_at : Z; end_at : Z; r1 : zv;
+  r2 : zv; r3 : zv }.
 
 Section Atom.
   Variables (planar : bool) (E : Z) (y : seen).
@@ -27,23 +30,29 @@ Section Atom.
     forall n, level planar n -> let W := at_cell y n in
     0 < sD y W -> lo <= sS y W <= hi -> passes (judge n (Time (sS y W) (sD y W) Q)).
   Proof.
-    intros H n Hn W HD Hs. apply passes_both in H. destruct H as [H1 H2]. apply passes_require, Z.eqb_eq in H1.
+    intros H n Hn W HD Hs. apply passes_both in H. destruct H as [H1 H2].
+    apply passes_require, Z.eqb_eq in H1.
     destruct (unimodular n _ _ _ H1) as [k Ek].
     pose proof (search_ok _ _ _ _ _ _ _ _ _ H2 k) as K. cbv beta zeta in K.
-    assert (EW : place (sw y) k (place origin (r1 w) (s1 y) (s2 y) (s3 y)) (place origin (r2 w) (s1 y) (s2 y) (s3 y))
-      (place origin (r3 w) (s1 y) (s2 y) (s3 y)) = W) by (unfold W, at_cell; rewrite Ek; symmetry; apply place_place).
-    rewrite EW in K. specialize (K Hs). assert (HH : h2 (sv y) W <= sr y - 1) by (unfold sD in HD; lia). specialize (K HH).
+    assert (EW : place (sw y) k (place origin (r1 w) (s1 y) (s2 y) (s3 y)) (place origin (r2 w) (s1 y) (s2 y)
+      (s3 y))
+      (place origin (r3 w) (s1 y) (s2 y) (s3 y)) = W) by (unfold W, at_cell; rewrite Ek; symmetry;
+        apply place_place).
+    rewrite EW in K. specialize (K Hs). assert (HH : h2 (sv y) W <= sr y - 1) by (unfold sD in HD; lia).
+    specialize (K HH).
     destruct (Z.leb_spec (sD y W) 0); [lia|]. rewrite <- Ek in K.
     assert (planar && negb (vz n =? 0) = false)%bool as Ep.
     { destruct planar; auto. cbn. rewrite Hn by auto. reflexivity. }
     rewrite Ep in K. exact K.
   Qed.
 
-  (* ---- 1. "its windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T iff e Q < s E. *)
+  (* ---- 1. "its windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T iff e
+     Q < s E. *)
   Fixpoint chain (e : Z) (ws : list piece) : Z + flaw :=
     match ws with
     | [] => inl e
-    | w :: ws => if begin_at w <=? Z.min e (end_at w) then chain (Z.max e (end_at w)) ws else inr (GapBefore (number_of w))
+    | w :: ws => if begin_at w <=? Z.min e (end_at w) then chain (Z.max e (end_at w)) ws else
+      inr (GapBefore (number_of w))
     end.
   Lemma chain_ok ws s : forall e e', chain e ws = inl e' -> e * Q < s -> s <= e' * Q ->
     exists w, In w ws /\ begin_at w * Q <= s <= end_at w * Q.
@@ -67,7 +76,8 @@ Section Atom.
     pose proof (Z.sqrt_nonneg (X / (Q * Q))) as M0. set (m := Z.sqrt (X / (Q * Q))) in *.
     pose proof (Z.mul_succ_div_gt X (Q * Q) QQ) as G. clearbody X.
     assert (B : X < (Z.succ m * Q) * (Z.succ m * Q)).
-    { apply Z.lt_le_trans with (1 := G). replace (Z.succ m * Q * (Z.succ m * Q)) with (Q * Q * (Z.succ m * Z.succ m)) by ring.
+    { apply Z.lt_le_trans with (1 := G). replace (Z.succ m * Q * (Z.succ m * Q))
+        with (Q * Q * (Z.succ m * Z.succ m)) by ring.
       apply Z.mul_le_mono_nonneg_l; lia. }
     destruct (Z_lt_le_dec (- (Z.succ m * Q)) (s * E)) as [L|L]; [lia|exfalso].
     assert (0 <= Z.succ m * Q) by nia. assert (Z.succ m * Q <= - (s * E)) by lia.
@@ -87,28 +97,35 @@ Section Atom.
     specialize (O Rg Hu). unfold reaches in K.
     assert (V : (time_value (Time s D Q) <= time_value (Time (e * Q) (sr y * (E * E)) (Q * E)))%R).
     { destruct (order _ until); try discriminate; simpl in O; lra. }
-    clear O K HV Rg. unfold time_value in V; cbn [ts td tq] in V. rewrite sqrt_scale in V by lia. rewrite !mult_IZR in V.
+    clear O K HV Rg. unfold time_value in V; cbn [ts td tq] in V. rewrite sqrt_scale in V by lia.
+    rewrite !mult_IZR in V.
     apply le_IZR. rewrite !mult_IZR.
     assert (QP : (0 < IZR Q)%R) by (apply IZR_lt; auto). assert (EP : (0 < IZR E)%R) by (apply IZR_lt; auto).
     assert (RP : (sqrt (IZR D) <= sqrt (IZR (sr y)))%R) by (apply sqrt_le_1_alt, IZR_le; lia).
-    set (q := IZR Q) in *. set (ee := IZR E) in *. set (sd := sqrt (IZR D)) in *. set (sq := sqrt (IZR (sr y))) in *.
+    set (q := IZR Q) in *. set (ee := IZR E) in *. set (sd := sqrt (IZR D)) in *.
+    set (sq := sqrt (IZR (sr y))) in *.
     replace ((IZR e * q - sq * ee) / (q * ee))%R with ((IZR e * q / ee - sq) / q)%R in V by (field; lra).
     apply Rmult_le_reg_r in V; [|apply Rinv_0_lt_compat; auto].
     assert (W : (IZR s <= IZR e * q / ee)%R) by lra.
-    apply Rmult_le_compat_r with (r := ee) in W; [|lra]. unfold Rdiv in W. rewrite Rmult_assoc, Rinv_l in W; lra.
+    apply Rmult_le_compat_r with (r := ee) in W; [|lra]. unfold Rdiv in W.
+    rewrite Rmult_assoc, Rinv_l in W; lra.
   Qed.
 
-  (* ---- All obstacles of the atom that contain x or are entered no later than `until`; any, if there is no `until`. *)
-  Definition check_windows (ws : list piece) (until : option time) (gap : flaw) (judge : zv -> time -> check) : check :=
+  (* ---- All obstacles of the atom that contain x or are entered no later than `until`; any, if there is no
+     `until`. *)
+  Definition check_windows (ws : list piece) (until : option time) (gap : flaw) (judge : zv -> time ->
+    check) : check :=
     match chain beginning ws with
     | inr f => fail f
     | inl e =>
       each_in ws (fun w => check_window judge w (- ((- (begin_at w * Q)) / E)) ((end_at w * Q) / E)) ;;
       require (match until with None => true | Some t => reaches e t end) gap
     end.
-  Lemma check_windows_ok ws until gap judge : regular until -> passes (check_windows ws (Some until) gap judge) ->
+  Lemma check_windows_ok ws until gap judge : regular until ->
+    passes (check_windows ws (Some until) gap judge) ->
     forall n, level planar n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
-    0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D Q) <= time_value until)%R -> passes (judge n (Time s D Q)).
+    0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D Q) <= time_value until)%R ->
+      passes (judge n (Time s D Q)).
   Proof.
     intros Hu H n Hn W s D HD Hs HV. unfold check_windows in H.
     destruct (chain beginning ws) as [e|f] eqn:EC; [|apply passes_fail in H; tauto].
@@ -117,23 +134,28 @@ Section Atom.
     assert (exists w, In w ws /\ begin_at w * Q <= s * E <= end_at w * Q) as (w & Hw & Hb).
     { apply (chain_ok ws (s * E) _ _ EC).
       - destruct Hs as [Hs|Hs]; [|apply beginning_ok; lia].
-        assert (beginning * Q < 0 * E) by (apply beginning_ok; lia). assert (0 < s * E) by (apply Z.mul_pos_pos; auto). lia.
+        assert (beginning * Q < 0 * E) by (apply beginning_ok; lia).
+        assert (0 < s * E) by (apply Z.mul_pos_pos; auto). lia.
       - apply (reaches_ok e until s D); auto. lia. }
     pose proof (each_in_ok _ _ H1 _ Hw) as K. apply (check_window_ok _ _ _ _ K); auto. fold W. fold s. split.
     - apply Z.opp_le_mono. rewrite Z.opp_involutive. apply Z.div_le_lower_bound; auto. lia.
     - apply Z.div_le_lower_bound; auto. lia.
   Qed.
 
-  (* ---- never: "b_1 is parallel to v, so all obstacles of a row have the same h". One of each row has 0 <= s <= |s_1|. *)
+  (* ---- never: "b_1 is parallel to v, so all obstacles of a row have the same h". One of each row has 0 <= s
+     <= |s_1|. *)
   Definition check_row (w : piece) (met : zv -> flaw) : check :=
     let b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y) in let s1 := sS y b1 in let c := cross (sv y) b1 in
-    require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0) && negb (planar && negb (vz (r1 w) =? 0))) NotAlong ;;
+    require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0) &&
+      negb (planar && negb (vz (r1 w) =? 0))) NotAlong ;;
     check_window (fun n _ => fail (met n)) w 0 (Z.abs s1).
   Lemma check_row_ok w met : passes (check_row w met) -> forall n, level planar n -> ~ 0 < sD y (at_cell y n).
   Proof.
     intros H n Hn Dp. apply passes_both in H. destruct H as [H Hw]. apply passes_require in H.
-    rewrite !Bool.andb_true_iff, !Bool.negb_true_iff, !Z.eqb_eq, Z.eqb_neq in H. destruct H as [[[[Hx Hy] Hz] Hs1] Hpl].
-    set (b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y)) in *. set (step := sS y b1) in *. set (W := at_cell y n) in *.
+    rewrite !Bool.andb_true_iff, !Bool.negb_true_iff, !Z.eqb_eq, Z.eqb_neq in H.
+    destruct H as [[[[Hx Hy] Hz] Hs1] Hpl].
+    set (b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y)) in *. set (step := sS y b1) in *.
+    set (W := at_cell y n) in *.
     assert (B0 : cross (sv y) b1 = V 0 0 0) by (apply zv_eq; auto).
     assert (exists m, 0 <= sS y W + m * step <= Z.abs step) as [m Hm].
     { set (s := sS y W). destruct (Z_lt_le_dec 0 step) as [P|N].
@@ -146,7 +168,8 @@ Section Atom.
     { unfold sD. rewrite h2_add, B0, lagrange. unfold dot; cbn [vx vy vz]. ring. }
     pose proof (check_window_ok _ _ _ _ Hw (add n m (r1 w))) as K. cbv zeta in K. rewrite EW, Sm, Dm in K.
     apply (passes_fail (met (add n m (r1 w)))), K; auto.
-    intros Ep. cbn [add vz]. rewrite (Hn Ep). rewrite Ep in Hpl. cbn in Hpl. apply Bool.negb_false_iff, Z.eqb_eq in Hpl.
+    intros Ep. cbn [add vz]. rewrite (Hn Ep). rewrite Ep in Hpl. cbn in Hpl.
+    apply Bool.negb_false_iff, Z.eqb_eq in Hpl.
     rewrite Hpl. ring.
   Qed.
 End Atom.

@@ -1,5 +1,7 @@
-"""proof/check accepts and refuses, with the status and the words of data/check.py, all that the tests of that one hold: each
-way to tamper with a record or a proof, and each form of a text. python3 proof/checker_test.py"""
+"""proof/check accepts and refuses, with the status and the words of data/check.py, all that the tests of that
+one hold: each way to tamper with a record or a proof, and each form of a text.
+
+python3 proof/checker_test.py"""
 import hashlib, importlib.util, pathlib, subprocess, sys, tempfile, unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -18,7 +20,8 @@ def verdict(text):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "set.ndjson"
         path.write_bytes(text)
-        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=60)  # of which it needs seconds
+        # Of a minute it needs seconds.
+        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=60)
         return done.returncode, done.stdout + done.stderr
 
 kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode())
@@ -27,8 +30,9 @@ kinds.CHECK = CHECKER  # in test_the_program
 class Accepts(kinds.Accepts):
     def test_the_program(self):
         lines = "\n".join(kinds.golden(*kinds.CASES.values()))
-        for arguments, text, status in ((["-"], lines, 0), (["-"], lines.rsplit("\n", 1)[0], 1), (["-"], lines + "\n{", 2),
-                                        (["no such file"], "", 2), ([], "", 2)):
+        for arguments, text, status in (
+                (["-"], lines, 0), (["-"], lines.rsplit("\n", 1)[0], 1), (["-"], lines + "\n{", 2),
+                (["no such file"], "", 2), ([], "", 2)):
             done = subprocess.run([CHECKER, *arguments], input=text, text=True, capture_output=True)
             self.assertEqual(done.returncode, status, done)
 
@@ -41,18 +45,22 @@ class Ties(unittest.TestCase):
         case = kinds.CASES["exact"]
         header, scene, line = kinds.golden(case)
         question = line[line.index('"x"'):line.index(',"expect"')]
-        for n, status in ((2**54 + 2, 0), (2**54 + 6, 1), (2**54 - 1, 0), (2**54 + 3, 1), (2**54 - 2, 1)):  # n 2^-56 for 1/4
+        # n 2^-56 for 1/4
+        for n, status in ((2**54 + 2, 0), (2**54 + 6, 1), (2**54 - 1, 0), (2**54 + 3, 1), (2**54 - 2, 1)):
             tie = scene.replace("0.25", "0." + str(n * 5**56).zfill(56))
             identity = hashlib.sha256(f"{tie}\n{question}".encode()).hexdigest()[:16]
-            self.assertEqual(verdict("\n".join((header, tie, kinds.record(case, identity))).encode())[0], status, tie)
+            lines = "\n".join((header, tie, kinds.record(case, identity)))
+            self.assertEqual(verdict(lines.encode())[0], status, tie)
 
     def test_times(self):
         for time, status in ((2.0**53, 0), (2.0**53 + 2, 1)):
-            case = {"scene": {"dimension": 2, "lattices": [{"vectors": [[2.0**60, 0], [0, 2.0**60]], "atoms": [{"position": [0, 0], "radius": 1}]}]},
+            lattice = {"vectors": [[2.0**60, 0], [0, 2.0**60]], "atoms": [{"position": [0, 0], "radius": 1}]}
+            window = {"lattice": 0, "atom": 0, "from": -2, "to": 1e16, "basis": [[1, 0], [0, 1]]}
+            case = {"scene": {"dimension": 2, "lattices": [lattice]},
                     "query": {"x": [-2.0**53 - 2, 0], "v": [1, 0]},
                     "expect": {"outcome": "hit", "lattice": 0, "atom": 0, "cell": [0, 0], "time": time},
                     "time_decimal": "9007199254740993." + 24 * "0",
-                    "certificate": {"windows": [{"lattice": 0, "atom": 0, "from": -2, "to": 1e16, "basis": [[1, 0], [0, 1]]}]}}
+                    "certificate": {"windows": [window]}}
             self.assertEqual(kinds.run(kinds.golden(case))[0], status)
 
 class Hostile(unittest.TestCase):
@@ -68,11 +76,13 @@ class Hostile(unittest.TestCase):
         for name in "plane", "space":
             self.refused(name, "too many", lambda w: w[-1].update(to="0x1p65536"))
             self.refused(name, "too many", lambda w: w[0].update({"from": "-0x1p65536"}))
-        self.refused("exact", "too many", lambda w: w.extend([{**w[0], "to": 3e4}] * 2000))  # one budget for all
+        # One budget for all.
+        self.refused("exact", "too many", lambda w: w.extend([{**w[0], "to": 3e4}] * 2000))
         self.refused("plane", "exponent", lambda w: w[0].update({"from": "-0x1p65537"}))
 
     def test_exponents(self):
-        for number, why in (("1e99999999999999999999", "no number"), ("1e-99999999999999999999", "gap"), ("1" + "0" * 99999 + "e-100001", "gap")):
+        for number, why in (("1e99999999999999999999", "no number"), ("1e-99999999999999999999", "gap"),
+                            ("1" + "0" * 99999 + "e-100001", "gap")):
             header, scene, line = kinds.golden(kinds.CASES["exact"])
             status, said = kinds.run([header, scene, line.replace('"from":-0.25', '"from":-' + number)])
             self.assertEqual(status, 1, said)

@@ -1,15 +1,19 @@
-"""Holds three checkers of certificates against each other on records that were tampered with: proof/check, data/check.py, and
-`lorentz golden verify`. Each tampered record has the id of its question, so all of them get as far as its proof.
+"""Holds three checkers of certificates against each other on records that were tampered with: proof/check,
+data/check.py, and `lorentz golden verify`. Each tampered record has the id of its question, so all of them
+get as far as its proof.
 
-python3 proof/differential.py PROGRAM COUNT [SEED]    exit status: 0 they agree, 1 they don't (the records are printed)"""
-import collections, contextlib, hashlib, importlib.util, io, json, math, pathlib, random, re, signal, subprocess, sys, tempfile
+python3 proof/differential.py PROGRAM COUNT [SEED]
+exit status: 0 they agree, 1 they don't (the records are printed)"""
+import collections, contextlib, hashlib, importlib.util, io, json, math, pathlib, random, re, signal
+import subprocess, sys, tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SPEC = importlib.util.spec_from_file_location("check", ROOT / "data" / "check.py")
 check = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(check)
 BATCH, FILE = 2000, 20  # records of a batch; of a file, for `golden verify` says no more of one
-BUDGET, SECONDS = 2000, 0.2  # what takes more steps, or check.py longer, is left out: hostile proofs are for other tests
+# What takes more steps, or check.py longer, is left out: hostile proofs are for other tests.
+BUDGET, SECONDS = 2000, 0.2
 
 def compact(value):
     return json.dumps(value, separators=(",", ":"), allow_nan=False)  # ValueError: no way to tamper
@@ -25,7 +29,8 @@ def committed():
 
 # ---- Ways to tamper. Each changes the record in place, or raises where it can't.
 def nudge(x, rng):
-    return math.nextafter(x, rng.choice((math.inf, -math.inf))) if rng.random() < .3 else x * (1 + rng.choice((-1, 1)) * 2.0**-rng.randrange(1, 50))
+    if rng.random() < .3: return math.nextafter(x, rng.choice((math.inf, -math.inf)))
+    return x * (1 + rng.choice((-1, 1)) * 2.0**-rng.randrange(1, 50))
 def nudge_end(end, rng):
     if type(end) is not str: return nudge(float(end), rng)
     mantissa, power = end.split("p")
@@ -43,8 +48,11 @@ def atom_beside(box, rng, scene):  # one that exists: of others `golden verify` 
     if (l, a) == (box["lattice"], box["atom"]) or a >= len(lattices[l]["atoms"]): raise KeyError
     box.update(lattice=l, atom=a)
 def claimed_atom(record, rng, scene): atom_beside(record["expect"], rng, scene)
-def start(record, rng): i = rng.randrange(len(record["x"])); record["x"][i] += rng.choice((-1, 1)) * 2.0**rng.randrange(-50, 1)
-def start_ulp(record, rng): i = rng.randrange(len(record["x"])); record["x"][i] = math.nextafter(record["x"][i], rng.choice((9e99, -9e99)))
+def start(record, rng):
+    record["x"][rng.randrange(len(record["x"]))] += rng.choice((-1, 1)) * 2.0**rng.randrange(-50, 1)
+def start_ulp(record, rng):
+    i = rng.randrange(len(record["x"]))
+    record["x"][i] = math.nextafter(record["x"][i], rng.choice((9e99, -9e99)))
 def velocity(record, rng): i = rng.randrange(len(record["v"])); record["v"][i] = nudge(record["v"][i], rng)
 def other_way(record, rng): record["v"] = [-c for c in record["v"]]
 def scaled(record, rng): f = 2.0**rng.randrange(-40, 40); record["v"] = [c * f for c in record["v"]]
@@ -54,15 +62,21 @@ def basis_sheared(record, rng):
     rows = rng.choice(pieces(record))["basis"]
     (i, j), k = rng.sample(range(len(rows)), 2), rng.choice((-3, -1, 1, 2))
     rows[i] = [int(a) + k * int(b) for a, b in zip(rows[i], rows[j])]
-def window_end(record, rng): w = rng.choice(pieces(record)); key = rng.choice(("from", "to")); w[key] = nudge_end(w[key], rng)
+def window_end(record, rng):
+    window, key = rng.choice(pieces(record)), rng.choice(("from", "to"))
+    window[key] = nudge_end(window[key], rng)
 def window_gone(record, rng): l = pieces(record); l.pop(rng.randrange(len(l)))
 def window_twice(record, rng): l = pieces(record); l.insert(rng.randrange(len(l) + 1), dict(rng.choice(l)))
 def window_order(record, rng): rng.shuffle(pieces(record))
 def window_atom(record, rng, scene): atom_beside(rng.choice(pieces(record)), rng, scene)
 def toggled_from(record, rng):
     if record.pop("from", None) is None: raise KeyError
-def from_claimed(record, rng): record["from"] = {key: record["expect"][key] for key in ("lattice", "atom", "cell")}
-def from_beside(record, rng): from_claimed(record, rng); record["from"]["cell"] = list(record["from"]["cell"]); shift(record["from"]["cell"], rng)
+def from_claimed(record, rng):
+    record["from"] = {key: record["expect"][key] for key in ("lattice", "atom", "cell")}
+def from_beside(record, rng):
+    from_claimed(record, rng)
+    record["from"]["cell"] = list(record["from"]["cell"])
+    shift(record["from"]["cell"], rng)
 def time_ulp(record, rng):
     t = record["expect"]["time"]
     t = 1.7976931348623157e308 if t == "inf" else math.nextafter(t, rng.choice((math.inf, -math.inf)))
@@ -71,12 +85,15 @@ def digit(record, rng):
     text = record["time_decimal"]
     i = rng.choice([i for i, c in enumerate(text) if c.isdigit()])
     record["time_decimal"] = text[:i] + str((int(text[i]) + rng.choice((1, 9))) % 10) + text[i + 1:]
-def to_inside(record, rng): record["expect"].pop("time"), record.pop("time_decimal"), record["expect"].update(outcome="inside")
+def to_inside(record, rng):
+    record["expect"].pop("time"), record.pop("time_decimal")
+    record["expect"].update(outcome="inside")
 def to_hit(record, rng):
     if record["expect"]["outcome"] != "inside": raise KeyError
     record["expect"].update(outcome="hit", time=0.0); record["time_decimal"] = "0"
-WAYS = [claimed_cell, claimed_atom, start, start_ulp, velocity, other_way, scaled, basis_number, basis_rows, basis_sheared, window_end,
-        window_gone, window_twice, window_order, window_atom, toggled_from, from_claimed, from_beside, time_ulp, digit, to_inside, to_hit]
+WAYS = [claimed_cell, claimed_atom, start, start_ulp, velocity, other_way, scaled, basis_number, basis_rows,
+        basis_sheared, window_end, window_gone, window_twice, window_order, window_atom, toggled_from,
+        from_claimed, from_beside, time_ulp, digit, to_inside, to_hit]
 
 def line_of(scene, record):
     question = compact({key: record[key] for key in ("x", "v", "from") if key in record})[1:-1]
@@ -114,14 +131,19 @@ def by_proof(paths, *options):
     assert done.returncode in (0, 1), (done.returncode, done.stdout[-300:], done.stderr[-300:])
     return refused_lines(done.stdout)
 def by_program(program, paths):
-    """`margin` and `condition` are no longer those of a record that was changed: the proof has passed by then."""
+    """`margin` and `condition` of a record that was changed are others now: its proof has passed by then."""
     done = subprocess.run([program, "golden", "verify", *paths], capture_output=True, text=True)
     assert done.returncode in (0, 1), (done.returncode, done.stdout[-300:], done.stderr[-300:])
     refused = refused_lines(done.stderr)
-    return {at: why for at, why in refused.items() if not re.search("its (margin|condition) is another one", why)}
+    other = re.compile("its (margin|condition) is another one")
+    return {at: why for at, why in refused.items() if not other.search(why)}
 
 # docs/certificates.md lets a checker refuse a basis whose first two vectors are at right angles to v.
 ALLOWED = "b_1 and b_2 are both at right angles to v"
+
+def header(count):
+    return compact({"golden": {"format": 1, "name": "n", "description": "d", "generator": "g", "version": "v",
+                               "count": count, "tags": {"t": ""}}})
 
 def write(folder, records):
     """Files of few records; the place of each."""
@@ -129,7 +151,7 @@ def write(folder, records):
     for first in range(0, len(records), FILE):
         part = records[first:first + FILE]
         path = str(folder / f"{first}.ndjson")
-        lines = [compact({"golden": {"format": 1, "name": "n", "description": "d", "generator": "g", "version": "v", "count": len(part), "tags": {"t": ""}}})]
+        lines = [header(len(part))]
         for scene, _, line in part:
             lines += [scene, line]
             places.append((path, len(lines)))
@@ -142,7 +164,7 @@ def batch(program, records):
     with tempfile.TemporaryDirectory() as name:
         places = write(pathlib.Path(name), records)
         refused = by_proof(list(dict.fromkeys(path for path, _ in places)), "--budget", str(BUDGET))
-        records = [record for record, place in zip(records, places) if "too many" not in refused.get(place, "")]
+        records = [record for record, at in zip(records, places) if "too many" not in refused.get(at, "")]
     with tempfile.TemporaryDirectory() as name:
         places = write(pathlib.Path(name), records)
         paths = list(dict.fromkeys(path for path, _ in places))
@@ -154,7 +176,9 @@ def batch(program, records):
                 continue
             verdicts = tuple(place not in refused for refused in says)
             tally[way, verdicts] += 1
-            if len({*verdicts}) > 1: differ.append((way, verdicts, [refused.get(place, "accepted")[:200] for refused in says], scene, line))
+            if len({*verdicts}) == 1: continue
+            why = [refused.get(place, "accepted")[:200] for refused in says]
+            differ.append((way, verdicts, why, scene, line))
     return tally, differ
 
 def unique(records):
@@ -162,7 +186,8 @@ def unique(records):
     return list({line[7:23]: (scene, way, line) for scene, way, line in records}.values())
 
 def main(program, count, seed=1):
-    rng, cases, tally, differ, done = random.Random(int(seed)), list(committed()), collections.Counter(), [], 0
+    rng, cases = random.Random(int(seed)), list(committed())
+    tally, differ, done = collections.Counter(), [], 0
     while done < int(count):
         records = unique(tampered(cases, rng) for _ in range(min(BATCH, int(count) - done)))
         of_batch, more = batch(program, records)
