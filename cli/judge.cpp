@@ -228,6 +228,7 @@ void race(JudgeReport& report, const std::vector<Place>& places, const Terms& te
   const std::size_t count = affordable(report, kRounds, seconds);
   const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
   compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
+  options.start_timeout = terms.answerer.start_timeout;
   options.enough = [&] { return Interrupt::came() || until.left() == 0; };
   const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
                                                                {}, {report.engine, "reduction"}, {}, options);
@@ -311,7 +312,8 @@ std::vector<Place> examine(Examination& examination, const Terms& terms, const P
   report.rows = examination.rows();
   report.findings = examination.findings();
   report.calls = examination.calls();
-  if (!examination.is_over()) simplify(report.findings, examination, terms, plan.simplest);
+  examination.limit(plan.simplest + plan.speed);  // also if the questions took longer than they should
+  if (!Interrupt::came()) simplify(report.findings, examination, terms, plan.simplest);
   return places;
 }
 
@@ -323,6 +325,7 @@ JudgeReport judged(const Options& options, const Plan& plan) {
   report.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
   const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
   const Terms terms = terms_of(options, plan);
+  report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
   examination->on_progress(clock_of(plan));
   examination->limit(plan.seconds());

@@ -64,7 +64,9 @@ std::string lines_of_question(const Finding& finding) {
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
   if (finding.repetitions == 0) return {report.command};  // the question alone does not show it
-  const std::string lines = lines_of_question(finding), engine = shell_quoted(report.engine);
+  const std::string lines = lines_of_question(finding);
+  std::string engine = shell_quoted(report.engine);
+  if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.timeout);
   if (finding.simplest.question.is_query())
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}", lines, engine,
                         option_for(finding.severity())),
@@ -256,15 +258,22 @@ std::string faults_text(const JudgeReport& report) {
                     : fmt::format("{} kinds of fault, above all: {}", kinds, main->summary());
 }
 
+std::size_t unread_answers(const JudgeReport& report) {
+  std::size_t number = 0;
+  for (const Finding& finding : report.findings)
+    if (finding.cause() == Cause::no_answer) number += finding.count;
+  return number;
+}
+
 std::string heading(const JudgeReport& report) {
   const compare::Tally total = report.total();
   const std::string verdict = report.verdict(), faults = faults_text(report);
   if (verdict == "broken") {
-    std::string text = "broken: ";
-    text += total.error + total.missing > 0
-                ? fmt::format("{} of {} {} without an answer that could be read", total.error + total.missing,
-                              total.queries, total.queries == 1 ? "query" : "queries")
-                : "it died, fell silent, or wrote what is no answer";
+    const std::size_t unread = unread_answers(report);
+    const std::string text =
+        unread > 0 ? fmt::format("broken: {} of {} {} without an answer that could be read", unread,
+                                 total.queries, total.queries == 1 ? "query" : "queries")
+                   : "broken: it died, fell silent, or wrote what is no answer";
     return text + (faults.empty() ? "" : "; wrong: " + faults);
   }
   if (verdict == "wrong") return "wrong: " + faults;

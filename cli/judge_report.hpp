@@ -18,7 +18,8 @@ struct JudgeReport {
   std::vector<judge::Finding> findings;
   judge::Calls calls;
   std::vector<FlownScene> flown;
-  double start_up = 0;                                  ///< seconds that another program took to start
+  double timeout = 0;   ///< seconds of silence that are a failure of another program
+  double start_up = 0;  ///< seconds that another program took to start
   std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
   std::string speed_of;                                 ///< which flights these were
   bool failed = false;                                  ///< another program broke

@@ -425,8 +425,9 @@ void CommandEngine::learn_from_run() {
   if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
   if (!run.told_for_silence || manner_ != Manner::unknown || !run.first_answer) return;
   // Perhaps it only takes its time to begin. It gets that time once; then its silence means something.
-  first_patience_ = std::max(first_patience_, std::min(1.5 * Seconds(*run.first_answer - run.started),
-                                                       Seconds(options_.timeout / 2)));
+  const double longest = std::max(options_.timeout, options_.start_timeout);
+  first_patience_ = std::max(first_patience_,
+                             std::min(1.5 * Seconds(*run.first_answer - run.started), Seconds(longest / 2)));
   if (++silent_runs_ < 2) return;
   manner_ = run.answers_before_end > 0 ? Manner::in_blocks : Manner::at_end;
 }

@@ -187,8 +187,9 @@ struct Entrant {
       : count(std::min(most, set.cases.size())) {
     tally.name = name;
     if (is_command(name) || traits_of(name).in_bulk)
-      program =
-          make_answerer(name, {{}, options.timeout, options.listener, options.strict, 1, 0, options.enough});
+      program = make_answerer(
+          name,
+          {{}, options.timeout, options.listener, options.strict, 1, options.start_timeout, options.enough});
     else
       for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
   }

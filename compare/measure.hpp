@@ -71,6 +71,7 @@ struct MeasureOptions {
   Listener listener = {};
   bool strict = false;  ///< of another program: AnswererOptions::strict
   OnJudged on_judged = {};
+  double start_timeout = 0;           ///< AnswererOptions::start_timeout
   std::function<bool()> enough = {};  ///< AnswererOptions::enough; what has no answer by then is not counted
   std::vector<std::size_t> counts = {};  ///< of each name, how many of the cases, from the first; none: all
 };

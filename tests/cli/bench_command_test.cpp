@@ -118,8 +118,9 @@ TEST_CASE("bench: one process at a time writes a store; no page without a name; 
   // The first waits for a program that says nothing, until it is told to end, and leaves nothing behind.
   const std::string script = folder.write(
       "two.sh", bench + store + " --csv " + folder.file("csv") +
-                    " --engine 'cmd:exec sleep 60' &\nfirst=$!\n" + "until [ -e " +
-                    folder.file("cells.lock") + " ]; do sleep 0.05; done\n" + bench + store +
+                    " --engine 'cmd:exec sleep 60' &\nfirst=$!\n" + "n=0\nuntil [ -e " +
+                    folder.file("cells.lock") + " ] || [ $n = 200 ]; do n=$((n + 1)); sleep 0.05; done\n" +
+                    bench + store +
                     " --engine reduction\nstatus=$?\nsleep 0.5\nkill $first\nwait $first\nexit $status\n");
   const Run two = folder.run("sh " + script);
   INFO(two.out << two.err);

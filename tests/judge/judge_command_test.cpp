@@ -124,7 +124,7 @@ TEST_CASE("judge: starting takes no part in the speed; free paths that are cut s
           "[judge][judge_command]") {
   const Folder folder;
   const std::string judge = std::string("judge --quick --time 3 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
-  const Run slow = folder.lorentz(judge + " starts 700'");
+  const Run slow = folder.lorentz(judge + " starts 700' --timeout 0.6");
   INFO(slow.out << slow.err);
   CHECK(slow.status == 0);
   CHECK(contains(slow.out, "\nStart: "));
