@@ -47,6 +47,7 @@ Answer exact_of(const Example& example) {
 std::vector<std::string> commands_of(const Finding& finding, const std::string& engine) {
   const std::string lines = printed(finding.simplest.question.setting->scene(), members_of(finding.simplest));
   std::vector<std::string> commands;
+  if (compare::is_guest(engine)) return commands;
   if (finding.simplest.question.is_query())
     commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
                                    shell_quoted(engine),
