@@ -3,7 +3,7 @@ import lorentz
 
 
 def engine(scene, x, v, start_from):
-    if scene != lorentz.unit_scene(2, 0.1):
+    if scene != lorentz.unit_scene(2, 0.1) or not 1e-9 < abs(v).max() < 1e9:
         return lorentz.unsupported("discs of radius 0.1 on the square lattice only")
     for step in range(20_000):
         t = step / 1000 / abs(v).max()
@@ -14,5 +14,5 @@ def engine(scene, x, v, start_from):
 
 
 if __name__ == "__main__":
-    report = lorentz.judge(engine, time=10, html="mine.html")
+    report = lorentz.judge(engine, time=10)
     print(report["text"])

@@ -82,7 +82,9 @@ PyCertificate from_dict(const py::dict& dict, int dimension) {
 }  // namespace
 
 void bind_certificates(py::module_& module) {
-  py::class_<PyCertificate>(module, "Certificate")
+  py::class_<PyCertificate>(
+      module, "Certificate",
+      "A proof of an exact answer; its dict has the form that golden sets have it in (docs/certificates.md).")
       .def_static("from_dict", from_dict, py::arg("certificate"), py::arg("dimension"))
       .def("to_dict", to_dict);
 }

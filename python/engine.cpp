@@ -107,9 +107,13 @@ PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<
       together_(kRowsTogether * static_cast<std::size_t>(threads)),
       engine_(name_, scene.scene(), max_time, threads) {}
 
-std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse) {
+std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse,
+                                                std::shared_ptr<AnswerRows> out) {
   queries.check(dimension_);
-  auto answers = std::make_shared<AnswerRows>();
+  if (out && (out->count != queries.count() || out->dimension != dimension_))
+    throw InputError("out: is of " + std::to_string(out->count) + " queries in " +
+                     std::to_string(out->dimension) + " dimensions");
+  const auto answers = out ? std::move(out) : std::make_shared<AnswerRows>();
   const py::gil_scoped_release release;
   const std::lock_guard lock(in_use_);
   answers->resize(queries.count(), dimension_);

@@ -44,7 +44,9 @@ class PyEngine {
 
   /// All answers. Lets other threads of Python run, and looks for Ctrl-C now and then. Throws InputError,
   /// naming the row, for the first that is no query, if `refuse`; else such rows are errors.
-  std::shared_ptr<AnswerRows> first_hit(const QueryArrays& queries, bool refuse);
+  /// `out`, if given, is written and returned: as many rows, so that what looks at its memory still may.
+  std::shared_ptr<AnswerRows> first_hit(const QueryArrays& queries, bool refuse,
+                                        std::shared_ptr<AnswerRows> out);
 
   const std::string& name() const { return name_; }
 

@@ -69,7 +69,9 @@ void bind_first_hit(py::module_& module) {
       return column((self.cast<const AnswerRows&>().*member).data(), self);
     };
   };
-  py::class_<AnswerRows, Answers>(module, "Answers")
+  py::class_<AnswerRows, Answers>(module, "Answers",
+                                  "First hits in columns: read-only views of what the engine wrote, without "
+                                  "a copy. lorentz.first_hit says what they are.")
       .def("__len__", [](const AnswerRows& answers) { return answers.count; })
       .def_readonly("dimension", &AnswerRows::dimension)
       .def_property_readonly("outcome", outcome)
@@ -93,11 +95,12 @@ void bind_first_hit(py::module_& module) {
       .def(
           "first_hit",
           [](PyEngine& engine, Numbers x, Numbers v, std::optional<Numbers> max_time, const py::object& from,
-             bool refuse) {
+             bool refuse, Answers out) {
             return engine.first_hit(QueryArrays::of(std::move(x), std::move(v), std::move(max_time), from),
-                                    refuse);
+                                    refuse, std::move(out));
           },
-          py::arg("x"), py::arg("v"), py::arg("max_time"), py::arg("start_from"), py::arg("refuse"));
+          py::arg("x"), py::arg("v"), py::arg("max_time"), py::arg("start_from"), py::arg("refuse"),
+          py::arg("out"));
   module.def("engines", compare::answerer_names);
 }
 

@@ -120,17 +120,8 @@ class FunctionAnswerer final : public compare::Answerer {
   std::vector<Query> queries_;
 };
 
-// Of what the caller asks for, with None for a built-in engine or a command.
-cli::JudgeReport report_of(const cli::JudgeOrder& order, const py::object& function) {
-  Run run;
-  py::function ask;
-  std::optional<compare::GuestEngine> guest;
-  if (!function.is_none()) {
-    ask = function.cast<py::function>();
-    guest.emplace(order.engine, [&](const compare::AnswererOptions&) {
-      return std::make_unique<FunctionAnswerer>(ask, run);
-    });
-  }
+// Without the interpreter's lock, so that a function's answerers can take it in any thread.
+cli::JudgeReport report_of(const cli::JudgeOrder& order, const Run& run) {
   cli::JudgeReport report;
   {
     const py::gil_scoped_release release;
@@ -156,7 +147,16 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
   if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
   if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
-  const cli::JudgeReport report = report_of(order, function);
+  Run run;
+  py::function ask;
+  std::optional<compare::GuestEngine> guest;  // until the report is written, which knows it for one
+  if (!function.is_none()) {
+    ask = function.cast<py::function>();
+    guest.emplace(order.engine, [&](const compare::AnswererOptions&) {
+      return std::make_unique<FunctionAnswerer>(ask, run);
+    });
+  }
+  const cli::JudgeReport report = report_of(order, run);
   if (html) write_page(*html, report.json());
   return py::make_tuple(report.json(), report.text());
 }

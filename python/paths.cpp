@@ -211,7 +211,9 @@ auto array_of(std::vector<Number> Paths::*member, Shape shape) {
 }  // namespace
 
 void bind_paths(py::module_& module) {
-  py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths")
+  py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths",
+                                            "Collisions of N particles, C of each: read-only views, without "
+                                            "a copy. lorentz.trajectories says what they are.")
       .def("__len__", [](const Paths& paths) { return paths.particles; })
       .def_readonly("dimension", &Paths::dimension)
       .def_property_readonly("count", array_of(&Paths::count, Shape::particles))

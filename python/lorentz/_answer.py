@@ -7,10 +7,12 @@ import math
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, Callable, TypeVar
 
 from ._lorentz import Error
 from ._numbers import Obstacle
+
+Rounded = TypeVar("Rounded")
 
 
 @dataclass(frozen=True)
@@ -40,13 +42,13 @@ class ExactTime:
         context = Context(prec=digits, rounding=ROUND_HALF_EVEN)
         return self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
 
-    def _where_ends_agree(self, rounded: Any) -> Any:
+    def _where_ends_agree(self, rounded: Callable[[Fraction], Rounded]) -> Rounded:
         exact = self.fraction()
         if exact is not None:
             return rounded(exact)
         bits = 128
         while True:  # ends: an irrational number is midway between no two rounded ones
-            low, high = map(rounded, self.bounds(bits))
+            low, high = (rounded(end) for end in self.bounds(bits))
             if low == high:
                 return low
             bits *= 2

@@ -49,15 +49,20 @@ class Engine:
         self._engine = _lorentz.Engine(self._scene, name, None, threads)
 
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
-                  start_from: StartFrom = None, on_error: str = "raise") -> Answers:
-        """As `lorentz.first_hit`, in this engine's scene."""
+                  start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
+        """As `lorentz.first_hit`, in this engine's scene.
+
+        Args:
+            out: Answers of as many queries, which are written over and returned, with what looks at them: new
+                memory costs as much as some of the flights.
+        """
         if on_error not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is none; there are "raise" and "mark"')
         positions, velocities = _vectors(x, "x"), _vectors(v, "v")
         count = len(positions)
         limits = None if max_time is None else np.broadcast_to(np.asarray(max_time, np.float64), (count,))
         return self._engine.first_hit(positions, velocities, limits,
-                                      _columns(start_from, count, self._scene.dimension), on_error == "raise")
+                                      _columns(start_from, count, self._scene.dimension), on_error == "raise", out)
 
 
 def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: float | None = None, *,
@@ -124,6 +129,8 @@ def _columns(start_from: StartFrom, count: int, dimension: int) -> tuple[Any, An
 
 def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:
     array = np.asarray(numbers)
+    if array.dtype.kind == "O":
+        raise TypeError("there are integers beyond 64 bits, or other objects")
     if array.dtype.kind not in "iu":
         raise TypeError(f"{array.dtype} is no type of integers")
     return array.astype(kind, casting="same_kind", copy=False)

@@ -63,7 +63,8 @@ class GoldenSet:
                 seen = fields["scene"], wrapped(fields["scene"])
             decimal = fields.pop("time_decimal")
             answer = replace(Answer.from_line(fields["answer"]), time_decimal=decimal)
-            yield GoldenRecord(**{**fields, "scene": seen[1], "answer": answer})
+            fields |= {"scene": seen[1], "answer": answer}
+            yield GoldenRecord(**fields)
 
     def __repr__(self) -> str:
         return f"GoldenSet({self.path!r})"

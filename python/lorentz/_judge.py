@@ -6,11 +6,10 @@ import json
 import os
 from typing import Any, Callable, Iterable, Union
 
-import numpy as np
-
 from . import _lorentz
 from ._answer import Answer
 from ._first_hit import Outcome
+from ._lorentz import Answers
 from ._numbers import Obstacle
 from ._scene import Scene, wrapped
 
@@ -29,8 +28,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
             `inside`, `undecided`, `unsupported`. An exception is an error of the engine, and so counted.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
-            or a dict of columns: ``outcome`` (codes of `Outcome`), ``lattice``, ``atom``, ``cell`` (N, d),
-            ``time``.
+            or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
+            ``cell`` (N, d), ``time``, and ``lattice``, ``atom`` where these are not all 0.
         name: what the report calls it; else the function's own name.
         quick: 20 seconds instead of two minutes.
         time: about so many seconds instead.
@@ -48,15 +47,14 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     Raises:
         Error: an unknown engine. FileError: the page cannot be written, or the package has none (docs/page.md).
     """
-    function = None
-    if callable(engine):
-        function = _Asked(engine, vectorized)
-        engine = name or getattr(engine, "__name__", type(engine).__name__)
-        command = f"lorentz.judge({engine})"
+    if isinstance(engine, str):
+        function, called, command = None, engine, f"lorentz.judge({engine!r})"
     else:
-        command = f"lorentz.judge({engine!r})"
+        function = _Asked(engine, vectorized)
+        called = name or str(getattr(engine, "__name__", type(engine).__name__))
+        command = f"lorentz.judge({called})"
     page = None if html is None else os.fspath(html)
-    report, text = _lorentz.judge(function, engine, command, quick, time, seed, threads, ulps, times, page)
+    report, text = _lorentz.judge(function, called, command, quick, time, seed, threads, ulps, times, page)
     result: dict[str, Any] = json.loads(report)
     return result | {"text": text}
 
@@ -101,19 +99,23 @@ def _line(function: FirstHitFunction, scene: Scene, x: Any, v: Any, start_from: 
 
 
 def _answers(given: Any) -> Iterable[Answer]:
-    if not isinstance(given, dict):
-        return list(given)
-    outcomes = np.asarray(given["outcome"])
-    columns = {key: np.asarray(given.get(key, np.zeros(len(outcomes), int))) for key in ("lattice", "atom")}
-    return [_answer(given, columns, i, Outcome(int(code))) for i, code in enumerate(outcomes)]
+    if isinstance(given, Answers):
+        columns = {name: getattr(given, name) for name in ("outcome", "lattice", "atom", "time")}
+        large = given.large_cells
+        return _answers(columns | {"cell": [large.get(i, cell) for i, cell in enumerate(given.cell.tolist())]})
+    if isinstance(given, dict):
+        return [_answer(given, i, Outcome(int(code))) for i, code in enumerate(given["outcome"])]
+    return list(given)
 
 
-def _answer(given: dict[str, Any], columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
+def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
+    if outcome is Outcome.ERROR:
+        return Answer("error", message="")
     if outcome not in (Outcome.HIT, Outcome.INSIDE):
         return Answer(outcome.name.lower())
-    cell = tuple(int(n) for n in given["cell"][i])
-    time = float(given["time"][i]) if outcome is Outcome.HIT else None
-    return Answer(outcome.name.lower(), int(columns["lattice"][i]), int(columns["atom"][i]), cell, time)
+    lattice, atom = (int(columns[name][i]) if name in columns else 0 for name in ("lattice", "atom"))
+    cell = tuple(int(n) for n in columns["cell"][i])
+    return Answer(outcome.name.lower(), lattice, atom, cell, float(columns["time"][i]) if outcome is Outcome.HIT else None)
 
 
 def _message(error: Exception) -> str:

@@ -62,7 +62,13 @@ class Engine:
     @property
     def name(self) -> str: ...
     def first_hit(
-        self, x: Floats, v: Floats, max_time: Floats | None, start_from: tuple[Any, Any, Any] | None, refuse: bool
+        self,
+        x: Floats,
+        v: Floats,
+        max_time: Floats | None,
+        start_from: tuple[Any, Any, Any] | None,
+        refuse: bool,
+        out: Answers | None,
     ) -> Answers: ...
 
 class Certificate:

@@ -107,7 +107,8 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     until = plain(time)
     limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number
     path = _lorentz.itinerary(native(scene), text(start), collisions, limit, digits, states, most_bits)
-    return Itinerary(**{**path, "collisions": [CertifiedCollision(**one) for one in path["collisions"]]})
+    path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
+    return Itinerary(**path)
 
 
 class Starts(NamedTuple):

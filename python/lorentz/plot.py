@@ -32,14 +32,16 @@ Box = tuple[float, float, float, float]
 
 
 def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
-    """The obstacles of a 2D scene in ``box`` = (x low, x high, y low, y high); else around some cells."""
+    """The obstacles of a 2D scene in ``box`` = (x low, x high, y low, y high), else around some cells; each at
+    least a dot."""
     place = _flat(of)
     limits = _around_cells(place) if box is None else box
     ax = _axes(ax)
     for number, lattice in enumerate(place.nearest().to_dict()["lattices"]):
         patches = list(_obstacles(lattice, limits))
         colour = OBSTACLES[number % len(OBSTACLES)]
-        ax.add_collection(PatchCollection(patches, facecolor=colour, edgecolor="none", zorder=1))
+        ax.add_collection(PatchCollection(patches, facecolor=colour, edgecolor="face", linewidth=0.5,
+                                         zorder=1))
     ax.set_xlim(limits[0], limits[1])
     ax.set_ylim(limits[2], limits[3])
     ax.set_aspect("equal")
@@ -147,7 +149,7 @@ def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
 def _cells(vectors: npt.NDArray[np.float64], position: npt.NDArray[np.float64], box: Box,
            reach: float) -> npt.NDArray[np.int64]:
     """Cells (K, 2) whose obstacle's centre is at most ``reach`` outside of the box."""
-    corners = np.array([(a, b) for a in box[:2] for b in box[2:]])
+    corners = np.array([(a, b) for a in box[:2] for b in box[2:]], float)
     corners += reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
     coordinates = (corners - position) @ np.linalg.inv(vectors)
     low, high = np.floor(coordinates.min(axis=0)), np.ceil(coordinates.max(axis=0))

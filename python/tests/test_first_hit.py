@@ -68,6 +68,18 @@ def test_columns_outlive_their_answers():
     assert np.array_equal(times, kept)
 
 
+def test_memory_is_used_again():
+    engine = lorentz.Engine("square")
+    x, v, _ = lorentz.draw_starts("square", 5000, seed=SEED)
+    first = engine.first_hit(x, v)
+    times, addresses = first.time, first._addresses
+    again = engine.first_hit(x[::-1], v[::-1], out=first)
+    assert again is first and again._addresses == addresses and np.array_equal(times, again.time)
+    assert same(again, engine.first_hit(x[::-1], v[::-1]))
+    with pytest.raises(lorentz.Error, match="out: is of 5000 queries in 2"):
+        engine.first_hit(x[1:], v[1:], out=first)
+
+
 def test_any_layout_and_type_of_input():
     x, v, _ = lorentz.draw_starts("cubic", 9000, seed=SEED)
     x, v = x.astype(np.float32).astype(float), v.astype(np.float32).astype(float)
@@ -102,13 +114,14 @@ def test_limits_of_all_and_of_each():
 def test_what_is_left_is_ignored():
     scene = lorentz.unit_scene(2, 0.25)
     x, v = np.array([[0.25, 0.0], [0.25, 0.0]]), np.array([[-1.0, 0.0], [1.0, 0.0]])
-    assert lorentz.first_hit(scene, x, v).cell.tolist() == [[0, 0], [1, 0]]
-    left = lorentz.first_hit(scene, x, v, start_from=(0, 0, [0, 0]))
+    engine = lorentz.Engine(scene, "certified-batch")
+    assert engine.first_hit(x, v).cell.tolist() == [[0, 0], [1, 0]]
+    left = engine.first_hit(x, v, start_from=(0, 0, [0, 0]))
     assert left.cell.tolist() == [[-1, 0], [1, 0]]
-    some = lorentz.first_hit(scene, x, v, start_from=([-1, 0], [0, 0], [[0, 0], [0, 0]]))
+    some = engine.first_hit(x, v, start_from=([-1, 0], [0, 0], [[0, 0], [0, 0]]))
     assert some.cell.tolist() == [[0, 0], [1, 0]]
-    then = lorentz.first_hit(scene, x, -v, start_from=left)  # the row's own obstacle, where that was hit
-    assert then.cell.tolist() == [[1, 0], [0, 0]]
+    then = engine.first_hit(x + v, v, start_from=left)  # each row's own: from within the obstacles just hit
+    assert then.outcome.tolist() == [Outcome.HIT] * 2 and then.cell.tolist() == [[-2, 0], [2, 0]]
 
 
 @pytest.mark.parametrize("engine", ["batch", "certified-batch", "oracle"])
@@ -128,7 +141,7 @@ def test_a_bad_row_is_named(engine):
 
 
 def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
-    answers = lorentz.first_hit("overlapping", [[0.5, 0.5]], [[1, 0.1]], engine="published")
+    answers = lorentz.first_hit(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0.1]])
     assert answers.outcome.tolist() == [Outcome.ERROR] and answers.reasons[0][1]
 
 

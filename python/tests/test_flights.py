@@ -22,11 +22,11 @@ def test_survival_follows_the_law():
     expected = laws["Boca-Zaharescu"]
     error = np.sqrt(np.maximum(expected * (1 - expected), 1e-12) / paths.count)
     seen = (expected > 1e-3) & (expected < 0.999)
-    assert seen.sum() > 40 and np.abs(measured - expected)[seen].max() < (5 * error[seen]).max()
+    assert seen.sum() > 100 and (np.abs(measured - expected)[seen] < 5 * error[seen]).all()
     assert (np.diff(measured) <= 0).all()
     inside = paths.counts[1:-1].sum() + paths.counts[0] + paths.counts[-1]
     assert inside == paths.report["hits"]
-    assert (paths.density() * np.diff(paths.edges)).sum() <= 1
+    assert (paths.density() * np.diff(paths.edges)).sum() <= 1 + 1e-12
 
 
 def test_threads_and_seeds():

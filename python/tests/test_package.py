@@ -3,7 +3,6 @@
 import ast
 import inspect
 import resource
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -58,9 +57,8 @@ def test_the_stub_has_what_the_module_has():
 
 
 def test_types(tmp_path):
-    if shutil.which("mypy") is None:
-        pytest.skip("mypy is not installed")
+    pytest.importorskip("mypy")
     assert (FOLDER / "py.typed").exists()
-    result = subprocess.run(["mypy", "--config-file", Path(__file__).parents[2] / "pyproject.toml", "--cache-dir",
+    result = subprocess.run([sys.executable, "-m", "mypy", "--config-file", Path(__file__).parents[2] / "pyproject.toml", "--cache-dir",
                              tmp_path, "-p", "lorentz"], cwd=FOLDER.parent, capture_output=True, text=True)
     assert result.returncode == 0, result.stdout + result.stderr

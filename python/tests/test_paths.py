@@ -54,8 +54,11 @@ def test_together_as_one_by_one(precision):
 
 def test_paths_that_end():
     scene = lorentz.unit_scene(2, 0.25)
-    paths = lorentz.trajectories(scene, [[0.5, 0], [0, 0.5], [0, 0]], [[1, 0], [1, 0], [1, 0]], 3, until=1.0)
-    assert [lorentz.STOPS[code] for code in paths.stop_code] == ["time", "never", "inside"]
+    starts = dict(x=[[0.5, 0], [0, 0.5], [0, 0]], v=[[1, 0], [1, 0], [1, 0]], collisions=3)
+    free = lorentz.trajectories(scene, **starts)
+    assert [lorentz.STOPS[code] for code in free.stop_code] == ["collisions", "never", "inside"]
+    paths = lorentz.trajectories(scene, **starts, until=1.0)
+    assert [lorentz.STOPS[code] for code in paths.stop_code] == ["time", "time", "inside"]
     assert paths.count.tolist() == [2, 0, 0]
     assert paths.time[0, :2].tolist() == [0.25, 0.75] and np.isnan(paths.time[0, 2])
     assert np.isnan(paths.place[1:]).all() and paths.place[0, 0].tolist() == [0.75, 0.0]
@@ -79,5 +82,5 @@ def test_bad_starts():
         lorentz.itinerary("square", [0.5, 0.5], [1, 0])
     with pytest.raises(lorentz.Error, match="time"):
         lorentz.itinerary("square", [0.5, 0.5], [1, 0], time="soon")
-    with pytest.raises(lorentz.Error, match="beyond|overlap|batch"):
-        lorentz.trajectories("overlapping", [[0.5, 0.5]], [[1, 0]], 3)
+    with pytest.raises(lorentz.Error, match="the engine batch does radii up to half"):
+        lorentz.trajectories(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0]], 3)
