@@ -33,7 +33,7 @@ def test_flights_end_where_they_hit(tmp_path):
     x, v, _ = lorentz.draw_starts(scene, 10, seed=SEED)
     x[0], v[0] = [0.0, 0.5], [1.0, 0.0]  # for ever
     answers = lorentz.first_hit(scene, x, v)
-    ax = lorentz.plot.flights(scene, x, v, answers, longest=1000)
+    ax = lorentz.plot.flights(scene, x, v, answers, ax=lorentz.plot.scene(scene), longest=1000)
     solid, dashed = (c.get_segments() for c in ax.collections
                      if isinstance(c, matplotlib.collections.LineCollection))
     assert (len(solid), len(dashed)) == (9, 1)
