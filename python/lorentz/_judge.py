@@ -115,7 +115,8 @@ def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
         return Answer(outcome.name.lower())
     lattice, atom = (int(columns[name][i]) if name in columns else 0 for name in ("lattice", "atom"))
     cell = tuple(int(n) for n in columns["cell"][i])
-    return Answer(outcome.name.lower(), lattice, atom, cell, float(columns["time"][i]) if outcome is Outcome.HIT else None)
+    time = float(columns["time"][i]) if outcome is Outcome.HIT else None
+    return Answer(outcome.name.lower(), lattice, atom, cell, time)
 
 
 def _message(error: Exception) -> str:

@@ -46,8 +46,9 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     if not 0 <= collisions < 2**31:
         raise Error("collisions: needs a number, 0 or above")
     place, positions = native(scene), _vectors(x, "x")
-    return _lorentz.follow(place, positions, _vectors(v, "v"), _columns(start_from, len(positions), place.dimension),
-                           collisions, until, engine, precision == "double-double")
+    left = _columns(start_from, len(positions), place.dimension)
+    return _lorentz.follow(place, positions, _vectors(v, "v"), left, collisions, until, engine,
+                           precision == "double-double")
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,8 @@ class Starts(NamedTuple):
     start_from: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], npt.NDArray[np.int64]] | None
 
 
-def draw_starts(scene: SceneLike, count: int, kind: str = "uniform", *, seed: int = 20161115, first: int = 0) -> Starts:
+def draw_starts(scene: SceneLike, count: int, kind: str = "uniform", *, seed: int = 20161115,
+                first: int = 0) -> Starts:
     """Starts in no obstacle, decided exactly; start n depends on scene, kind, seed and n alone.
 
     Args:

@@ -48,7 +48,9 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     if not (place.is_binary64 and _floats_only(query)):
         return _first_hit_of_rationals(place, x, v, start_from, digits, detail, max_time)
     answer = Answer.from_line(_oracle(place).first_hit(text(query), digits, detail, max_time))
-    return replace(answer, exact_time=entry_time(place, x, v, answer.obstacle)) if answer.outcome == "hit" else answer
+    if answer.outcome != "hit":
+        return answer
+    return replace(answer, exact_time=entry_time(place, x, v, answer.obstacle))
 
 
 def is_free(scene: SceneLike, x: Vector) -> bool:

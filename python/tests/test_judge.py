@@ -3,6 +3,7 @@
 import json
 import signal
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import lorentz
@@ -48,7 +49,7 @@ def test_a_vectorized_function_is_the_same():
 def test_a_wrong_function_is_found_out():
     def late(scene, x, v, start_from):
         answer = one_by_one(scene, x, v, start_from)
-        return lorentz.hit(answer.time + 1, answer.cell, answer.lattice, answer.atom) if answer.outcome == "hit" else answer
+        return replace(answer, time=answer.time + 1) if answer.outcome == "hit" else answer
 
     report = lorentz.judge(late, time=SHORT, name="too late")
     assert report["verdict"] == "wrong" and report["engine"] == "too late"
@@ -75,6 +76,20 @@ def test_an_exception_is_an_error_of_that_query(vectorized):
     assert refused and "ZeroDivisionError: no third dimension" in refused[0]["given"]["message"]
     assert all(row["error"] == 0 for row in report["difficulties"] if row["name"] == "drawn square")
     assert all(row["error"] == row["queries"] for row in report["difficulties"] if row["name"] == "drawn cubic")
+
+
+def test_of_many_only_the_guilty_queries_fail():
+    certified = Certified()
+
+    def fragile(scene, x, v, start_from):
+        if (v[:, 0] < 0).any():
+            raise ValueError("backwards")
+        return certified(scene, x, v, start_from)
+
+    report = lorentz.judge(fragile, vectorized=True, time=SHORT)
+    drawn = [row for row in report["difficulties"] if row["name"].startswith("drawn")]
+    errors, queries = (sum(row[key] for row in drawn) for key in ("error", "queries"))
+    assert queries > 100 and 0.3 < errors / queries < 0.7  # half of all directions
 
 
 def test_what_is_no_answer():

@@ -26,7 +26,7 @@ def test_import_takes_less_than_three_tenths_of_a_second():
 
 
 def test_import_does_not_import_matplotlib():
-    code = "import sys, lorentz; assert 'matplotlib' not in sys.modules; lorentz.plot; assert 'matplotlib' in sys.modules"
+    code = "import sys, lorentz; seen = lambda: 'matplotlib' in sys.modules; assert not seen(); lorentz.plot; assert seen()"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
@@ -59,6 +59,7 @@ def test_the_stub_has_what_the_module_has():
 def test_types(tmp_path):
     pytest.importorskip("mypy")
     assert (FOLDER / "py.typed").exists()
-    result = subprocess.run([sys.executable, "-m", "mypy", "--config-file", Path(__file__).parents[2] / "pyproject.toml", "--cache-dir",
-                             tmp_path, "-p", "lorentz"], cwd=FOLDER.parent, capture_output=True, text=True)
+    config = Path(__file__).parents[2] / "pyproject.toml"
+    mypy = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", tmp_path, "-p", "lorentz"]
+    result = subprocess.run(mypy, cwd=FOLDER.parent, capture_output=True, text=True)
     assert result.returncode == 0, result.stdout + result.stderr
