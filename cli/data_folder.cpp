@@ -14,6 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<fs::path>& added_folders() {
+  static std::vector<fs::path> added;
+  return added;
+}
+
 std::vector<fs::path> data_folders() {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -32,10 +37,15 @@ std::vector<fs::path> data_folders() {
     folders.push_back(program.parent_path() / "../data");
     folders.push_back(program.parent_path() / "../../data");
   }
+  folders.insert(folders.end(), added_folders().begin(), added_folders().end());
   return folders;
 }
 
 }  // namespace
+
+void add_data_folder(const std::string& path) {
+  added_folders().emplace_back(path);
+}
 
 std::vector<std::string> data_files(const std::string& folder, const std::string& extension) {
   std::vector<std::string> files;

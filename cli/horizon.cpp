@@ -206,7 +206,9 @@ std::string json_cylinders(const oracle::Horizon& h) {
                      families);
 }
 
-std::string json_text(const oracle::Horizon& h, const std::string& scene, bool limited) {
+}  // namespace
+
+std::string json_of(const oracle::Horizon& h, const std::string& scene, bool limited) {
   const int d = h.dimension;
   std::string out = fmt::format("{{\"scene\":{},\"dimension\":{},\"horizon\":\"{}\",\"directions\":{}",
                                 json_quoted(scene), d,
@@ -224,6 +226,8 @@ std::string json_text(const oracle::Horizon& h, const std::string& scene, bool l
   return out + "}\n";
 }
 
+namespace {
+
 int act(const Options& options) {
   if (options.name && options.scene)
     throw InputError("--scene: the scene is given twice, as " + *options.name + " and " + *options.scene);
@@ -236,7 +240,7 @@ int act(const Options& options) {
   try {
     const oracle::Horizon horizon =
         oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders, search_progress());
-    print(options.json ? json_text(horizon, name, min_width.has_value())
+    print(options.json ? json_of(horizon, name, min_width.has_value())
                        : human_text(horizon, limit, min_width.has_value()));
   } catch (const oracle::TooManyChannels& error) {
     throw InputError(fmt::format("{}: {}; --min-width W restricts the search to channels {}", name,

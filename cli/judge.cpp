@@ -1,32 +1,19 @@
 // lorentz judge: all that this program can say of one engine, and a verdict.
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <future>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/judge_paths.hpp"
-#include "cli/judge_report.hpp"
+#include "cli/judging.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/measure.hpp"
-#include "judge/questions.hpp"
-#include "judge/repetition.hpp"
-#include "judge/simplest.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::cli {
-
-using compare::Difficulty;
-using judge::Examination;
-using judge::Place;
 
 namespace {
 
@@ -35,213 +22,6 @@ struct Options {
   std::optional<std::string> ulps, timeout, seconds, html;
   bool quick = false, json = false, times = false, strict = false;
 };
-
-// How long each part takes at the most, in seconds, and how many flights are drawn.
-struct Plan {
-  double drawn, hard, paths, golden, campaign, speed, simplest;
-  std::size_t count;
-  double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
-  /// The same in another time.
-  Plan lasting(double other) const {
-    const double k = other / seconds();
-    return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
-  }
-};
-constexpr Plan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
-
-// The catalogue's scenes that are flown in, and their radii; without any at their own size.
-struct Scenery {
-  const char* scene;
-  std::vector<const char*> radii;
-};
-const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001", "1e-06"}},
-                                      {"cubic", {"0.3", "0.1", "0.01", "0.001"}},
-                                      {"triangular", {"0.1", "0.001"}},
-                                      {"oblique", {}},
-                                      {"honeycomb", {}},
-                                      {"fcc", {}},
-                                      {"hcp", {}},
-                                      {"diamond", {}},
-                                      {"superposition-pi-5", {}},
-                                      {"overlapping", {}},
-                                      {"ellipse", {}},
-                                      {"ellipsoid", {}}};
-
-std::vector<Place> places_of(const Scenery& scenery) {
-  const auto place = [&](const std::optional<std::string>& radius) {
-    const std::string name =
-        radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
-    return Place{name, std::make_shared<judge::Setting>(
-                           read_scene(scenery.scene, positive_number(radius, "--radius")))};
-  };
-  std::vector<Place> places;
-  for (const char* radius : scenery.radii) places.push_back(place(radius));
-  if (places.empty()) places.push_back(place(std::nullopt));
-  return places;
-}
-
-using Clock = std::chrono::steady_clock;
-
-// A stretch of time.
-class Countdown {
- public:
-  explicit Countdown(double seconds)
-      : end_(Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
-  double left() const { return std::max(std::chrono::duration<double>(end_ - Clock::now()).count(), 0.0); }
-
- private:
-  Clock::time_point end_;
-};
-
-// Parts of one stretch of time: what one leaves over is the others'.
-class Shares {
- public:
-  Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
-  double next() { return all_.left() / static_cast<double>(std::max<std::size_t>(parts_--, 1)); }
-
- private:
-  Countdown all_;
-  std::size_t parts_;
-};
-
-// Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
-std::vector<Place> fly_drawn(Examination& examination, const Plan& plan, std::uint64_t seed) {
-  std::vector<Place> all;
-  Shares drawn(plan.drawn, kSceneries.size());
-  for (const Scenery& scenery : kSceneries) {
-    const std::vector<Place> places = places_of(scenery);
-    examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
-                    judge::drawn(places, Difficulty::drawn, seed, plan.count), drawn.next());
-    all.insert(all.end(), places.begin(), places.end());
-  }
-  Shares hard(plan.hard, 2);
-  examination.run({"near-rational", "directions a few ulps from small integers, in these scenes"},
-                  judge::drawn(all, Difficulty::near_rational, seed, 2 * plan.count), hard.next());
-  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-50 of its edge"},
-                  judge::drawn(all, Difficulty::grazing, seed, 2 * plan.count), hard.next());
-  return all;
-}
-
-void check_golden_sets(Examination& examination, double seconds) {
-  const std::vector<std::string> files = committed_sets();
-  Shares shares(seconds, files.size());
-  for (const std::string& file : files)
-    examination.run(
-        {"golden " + std::filesystem::path(file).stem().string(), "a committed set of hard cases"},
-        judge::golden_set(file), shares.next());
-}
-
-// In a thread for each examination, each with scenes of its own.
-void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
-                  const fuzz::Scope& scope, std::uint64_t seed, double seconds) {
-  const auto parts = static_cast<unsigned>(1 + others.size());
-  const auto run = [&](Examination& one, unsigned part) {
-    one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
-            judge::campaign(seed, scope, part, parts), seconds);
-  };
-  std::vector<std::future<void>> threads;
-  for (unsigned part = 1; part < parts; ++part)
-    threads.push_back(std::async(std::launch::async, run, std::ref(*others[part - 1]), part));
-  run(first, 0);
-  for (std::future<void>& thread : threads) thread.get();
-  for (const auto& other : others) {
-    other->finish();
-    first.take_over(*other);
-  }
-}
-
-// Who is examined, and on which terms.
-struct Terms {
-  std::string engine;
-  double ulps = 0;
-  compare::AnswererOptions answerer;
-
-  std::unique_ptr<Examination> examination() const {
-    return std::make_unique<Examination>(engine, answerer, ulps, Interrupt::came());
-  }
-  /// That tells nobody what it meets.
-  std::unique_ptr<Examination> silent_examination() const {
-    Terms silent = *this;
-    silent.answerer.listener = {};
-    return silent.examination();
-  }
-};
-
-// The simplest case of each; and of another program, whether that case goes wrong by itself.
-void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
-              double seconds) {
-  const bool by_itself = compare::is_command(terms.engine);
-  Shares shares(seconds, (by_itself ? 2 : 1) * findings.size());
-  for (judge::Finding& finding : findings) {
-    finding.simplest = judge::simplest(finding, examination, shares.next());
-    if (!by_itself) continue;
-    const double share = shares.next();
-    if (finding.severity() == judge::Severity::ill_posed) continue;
-    finding.repetitions = judge::repetitions_to_fail(
-                              finding, [&] { return terms.silent_examination(); }, share)
-                              .value_or(0);
-  }
-}
-
-// ---- Speed
-
-// Of the places where the engine answered: the square and cubic lattice at r = 0.1, if these are among them.
-std::vector<const Place*> places_to_race_in(const std::vector<Place>& places) {
-  std::vector<const Place*> chosen;
-  for (const Place& place : places)
-    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") &&
-        place.setting->was_answered() && !place.setting->is_beyond_engine())
-      chosen.push_back(&place);
-  for (const Place& place : places)
-    if (chosen.empty() && place.setting->was_answered() && !place.setting->is_beyond_engine())
-      chosen.push_back(&place);
-  return chosen;
-}
-
-// As many of each place as can be afforded.
-compare::CaseSet cases_to_race_in(const std::vector<const Place*>& places, std::uint64_t seed,
-                                  std::size_t count) {
-  compare::CaseSet set;
-  for (const Place* place : places) {
-    const Scene& scene = place->setting->scene();
-    for (const Query& query : compare::draw_queries(scene, place->setting->oracle(), seed, count))
-      set.cases.push_back({std::to_string(set.cases.size()), set.scenes.size(), query});
-    set.scenes.push_back(scene);
-  }
-  return set;
-}
-
-std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
-  constexpr double kFewest = 32, kMost = 2000;
-  double slowest = 1;
-  for (const judge::Row& row : report.rows)
-    if (!row.is_hard) slowest = std::max(slowest, row.tally.ns_per_query);
-  return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
-}
-
-void race(JudgeReport& report, const std::vector<Place>& places, const Terms& terms, double seconds) {
-  constexpr int kRounds = 5;
-  constexpr double kTooLong = 2;  // times as long as it should take
-  const std::vector<const Place*> chosen = places_to_race_in(places);
-  if (chosen.empty()) return;
-  const std::size_t count = affordable(report, kRounds, seconds);
-  const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
-  compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
-  options.start_timeout = terms.answerer.start_timeout;
-  options.enough = [&] { return Interrupt::came() || until.left() == 0; };
-  const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
-                                                               {}, {report.engine, "reduction"}, {}, options);
-  report.failed |= tallies[0].failed;
-  const bool is_cut = compare::is_command(report.engine) && options.enough();
-  if (tallies[0].failed || is_cut) return;
-  report.ns_per_query = tallies[0].ns_per_query;
-  report.ns_of_reduction = tallies[1].ns_per_query;
-  std::vector<std::string> names;
-  for (const Place* place : chosen) names.push_back(place->name);
-  report.speed_of =
-      fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
-}
 
 int exit_status(const JudgeReport& report, const Options& options) {
   const compare::Tally t = report.total();
@@ -253,21 +33,15 @@ int exit_status(const JudgeReport& report, const Options& options) {
 }
 
 // Tells how much of the time that all is to take has passed.
-std::function<void(const std::string&)> clock_of(const Plan& plan) {
+std::function<void(const std::string&)> clock_of(double seconds) {
   constexpr double kTicks = 10;  // a second
   const auto bar = std::make_shared<Progress>("judging (tenths of a second)",
-                                              static_cast<std::size_t>(kTicks * plan.seconds()), 1);
+                                              static_cast<std::size_t>(kTicks * seconds), 1);
   const auto start = std::chrono::steady_clock::now();
   return [=](const std::string& row) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     bar->at(static_cast<std::size_t>(kTicks * passed.count()), [&] { return row; });
   };
-}
-
-Plan plan_of(const Options& options) {
-  const Plan& plan = options.quick ? kQuick : kWhole;
-  const auto seconds = positive_number(options.seconds, "--time");
-  return seconds ? plan.lasting(*seconds) : plan;
 }
 
 // The options as a shell takes them; not where the report goes.
@@ -283,71 +57,31 @@ std::string command_of(const Options& o) {
   return command;
 }
 
-// Without --timeout: much more than any answer should take here, and little of the time there is. A program's
-// first answer may take as long as elsewhere.
-Terms terms_of(const Options& options, const Plan& plan) {
-  constexpr double kShortest = 2, kPart = 0.1;
-  Terms terms{options.engine, tolerance(options.ulps), {}};
-  const double most = compare::AnswererOptions::kDefaultTimeout;
-  const double own = std::clamp(kPart * plan.seconds(), kShortest, most);
-  terms.answerer.timeout = positive_number(options.timeout, "--timeout").value_or(own);
-  terms.answerer.start_timeout = most;
-  terms.answerer.listener = terminal();
-  return terms;
-}
-
-// All that it is asked in turn; returns where.
-std::vector<Place> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
-                           JudgeReport& report) {
-  const Countdown all(plan.seconds());
-  std::vector<Place> places = fly_drawn(examination, plan, report.seed);
-  report.flown = fly_free_paths(examination, report.seed, plan.paths);
-  check_golden_sets(examination, plan.golden);
-  std::vector<std::unique_ptr<Examination>> others;
-  for (unsigned i = 1; i < jobs; ++i) {
-    others.push_back(terms.examination());
-    others.back()->limit(all.left());
-  }
-  run_campaign(examination, others, judge::scope_of(places), report.seed, plan.campaign);
-  report.rows = examination.rows();
-  report.findings = examination.findings();
-  report.calls = examination.calls();
-  examination.limit(plan.simplest + plan.speed);  // also if the questions took longer than they should
-  if (!Interrupt::came()) simplify(report.findings, examination, terms, plan.simplest);
-  return places;
-}
-
-JudgeReport judged(const Options& options, const Plan& plan) {
-  JudgeReport report;
-  report.engine = options.engine;
-  report.command = command_of(options);
-  report.times = options.times;
-  report.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
-  const Terms terms = terms_of(options, plan);
-  report.timeout = terms.answerer.timeout;
-  const std::unique_ptr<Examination> examination = terms.examination();
-  examination->on_progress(clock_of(plan));
-  examination->limit(plan.seconds());
-  report.start_up = examination->warm_up();
-  if (!examination->is_over()) examination->limit(plan.seconds());
-  const std::vector<Place> places = examine(*examination, terms, plan, jobs, report);
-  report.failed = examination->failed();
-  const bool is_over = examination->is_over();
-  examination->on_progress({});
-  examination->finish();
-  if (!is_over) race(report, places, terms, plan.speed);
-  return report;
+JudgeOrder order_of(const Options& options) {
+  JudgeOrder order;
+  order.engine = options.engine;
+  order.command = command_of(options);
+  order.quick = options.quick;
+  order.time = positive_number(options.seconds, "--time");
+  order.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  order.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  order.ulps = tolerance(options.ulps);
+  order.timeout = positive_number(options.timeout, "--timeout");
+  order.times = options.times;
+  order.listener = terminal();
+  return order;
 }
 
 int act(const Options& options) {
   compare::check_name(options.engine);
-  const Plan plan = plan_of(options);
+  JudgeOrder order = order_of(options);
   check_apart({{"--html", options.html}});
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
   const Interrupt interrupt;
-  const JudgeReport report = judged(options, plan);
+  order.on_progress = clock_of(order.seconds());
+  const JudgeReport report = judged(order, Interrupt::came());
+  order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
   if (Interrupt::came()) {
     say("interrupted: this is what was found so far{}", options.html ? "; no page is written of it" : "");

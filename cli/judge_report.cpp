@@ -63,6 +63,7 @@ std::string lines_of_question(const Finding& finding) {
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
+  if (compare::is_guest(report.engine)) return {};        // a function in somebody's program has no command
   if (finding.repetitions == 0) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine);

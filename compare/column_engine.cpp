@@ -41,18 +41,19 @@ double ColumnEngine::limit(std::size_t i) const {
   return limits_.empty() ? kNoLimit : limits_[i];
 }
 
-void ColumnEngine::fly(const QueryRows& queries, AnswerRows& answers) {
+void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
   QueryColumns asked;
   asked.count = queries.count;
   FlightColumns told;
-  stages_.resize(answers.outcome.size());
-  told.outcome = answers.outcome.data(), told.stage = stages_.data();
-  told.time_is_rounded = answers.time_is_rounded.get();
-  told.lattice = answers.lattice.data(), told.atom = answers.atom.data(), told.time = answers.time.data();
+  stages_.resize(std::max(stages_.size(), queries.count));
+  told.outcome = answers.outcome.data() + first, told.stage = stages_.data();
+  told.time_is_rounded = answers.time_is_rounded.get() + first;
+  told.lattice = answers.lattice.data() + first, told.atom = answers.atom.data() + first;
+  told.time = answers.time.data() + first;
   for (int k = 0; k < scene_.dimension; ++k) {
     asked.x[k] = queries.x[k].data(), asked.v[k] = queries.v[k].data();
     if (!queries.from_lattice.empty()) asked.from_cell[k] = queries.from_cell[k].data();
-    told.cell[k] = answers.cell[k].data();
+    told.cell[k] = answers.cell[k] + first;
   }
   if (!limits_.empty()) asked.max_time = limits_.data();
   if (!queries.from_lattice.empty())
@@ -60,50 +61,57 @@ void ColumnEngine::fly(const QueryRows& queries, AnswerRows& answers) {
   if (batch_) batch_->fly(asked, told, Batch::Time::close, jobs_);
   if (certified_batch_) certified_batch_->first_hits(asked, told, uncertain_, jobs_);
   std::transform(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(queries.count),
-                 answers.stage.begin(), [](Stage stage) { return static_cast<std::uint8_t>(stage); });
+                 answers.stage.begin() + static_cast<std::ptrdiff_t>(first),
+                 [](Stage stage) { return static_cast<std::uint8_t>(stage); });
 }
 
 // What a flight leaves open: the limit, and columns that mean nothing with its outcome.
-void ColumnEngine::finish(const QueryRows& queries, std::size_t i, AnswerRows& answers) {
-  const bool hit = answers.outcome[i] == Outcome::hit;
-  if (answers.outcome[i] == Outcome::error) return ask(queries, i, AnswerRows::kNoStage, answers);
-  if (hit && answers.time[i] < limit(i)) return;
+void ColumnEngine::finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers) {
+  const std::size_t row = first + i;
+  const bool hit = answers.outcome[row] == Outcome::hit;
+  if (answers.outcome[row] == Outcome::error) return ask(first, queries, i, AnswerRows::kNoStage, answers);
+  if (hit && answers.time[row] < limit(i)) return;
   const bool is_limited = std::isfinite(limit(i));
-  if (is_limited && batch_ && (hit || answers.outcome[i] == Outcome::never))
-    answers.set_plain(i, Outcome::later);
-  else if (!hit && answers.outcome[i] != Outcome::inside)
-    answers.set_plain(i, answers.outcome[i]);
+  if (is_limited && batch_ && (hit || answers.outcome[row] == Outcome::never))
+    answers.set_plain(row, Outcome::later);
+  else if (!hit && answers.outcome[row] != Outcome::inside)
+    answers.set_plain(row, answers.outcome[row]);
   else if (!hit)
-    answers.time[i] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[i] = false;
+    answers.time[row] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[row] = false;
 }
 
-void ColumnEngine::ask(const QueryRows& queries, std::size_t i, std::uint8_t stage, AnswerRows& answers) {
+void ColumnEngine::ask(std::size_t first, const QueryRows& queries, std::size_t i, std::uint8_t stage,
+                       AnswerRows& answers) {
   oracle::Request request;
   if (std::isfinite(limit(i))) request.max_time = limit(i);
   single_(queries.query(i, scene_.dimension), request, answer_);
-  answers.set(i, answer_, stage, traits_.is_exact);
+  answers.set(first + i, answer_, stage, traits_.is_exact);
 }
 
 void ColumnEngine::answer(const QueryRows& queries, AnswerRows& answers) {
   answers.resize(queries.count, scene_.dimension);
+  answer_from(0, queries, answers);
+}
+
+void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
   set_limits(queries);
   uncertain_.clear();
   const bool together = batch_ || certified_batch_;
-  if (together) fly(queries, answers);
+  if (together) fly(first, queries, answers);
   std::size_t uncertain = 0, flaw = 0;
   for (std::size_t i = 0; i < queries.count; ++i) {
     const bool asked = uncertain < uncertain_.size() && uncertain_[uncertain] == i;
     uncertain += asked;
     if (flaw < queries.flaws.size() && queries.flaws[flaw].row == i)
-      answers.set_error(i, queries.flaws[flaw++].message, false);
+      answers.set_error(first + i, queries.flaws[flaw++].message, false);
     else if (!(limit(i) > 0))
-      answers.set_error(i, "max_time must be above zero", false);
+      answers.set_error(first + i, "max_time must be above zero", false);
     else if (asked)
-      ask(queries, i, AnswerRows::kExactStage, answers);
+      ask(first, queries, i, AnswerRows::kExactStage, answers);
     else if (together)
-      finish(queries, i, answers);
+      finish(first, queries, i, answers);
     else
-      ask(queries, i, usual_stage(traits_), answers);
+      ask(first, queries, i, usual_stage(traits_), answers);
   }
 }
 

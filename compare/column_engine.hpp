@@ -19,12 +19,16 @@ class ColumnEngine {
   /// The same answers as of an Answerer of that name; rows with a flaw are errors.
   void answer(const QueryRows& queries, AnswerRows& answers);
 
+  /// The same into the rows from `first` on, which must be there: of answers that are filled part by part.
+  void answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers);
+
  private:
   void set_limits(const QueryRows& queries);
   double limit(std::size_t i) const;
-  void fly(const QueryRows& queries, AnswerRows& answers);
-  void finish(const QueryRows& queries, std::size_t i, AnswerRows& answers);
-  void ask(const QueryRows& queries, std::size_t i, std::uint8_t stage, AnswerRows& answers);
+  void fly(std::size_t first, const QueryRows& queries, AnswerRows& answers);
+  void finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers);
+  void ask(std::size_t first, const QueryRows& queries, std::size_t i, std::uint8_t stage,
+           AnswerRows& answers);
 
   const Scene scene_;
   const Traits traits_;

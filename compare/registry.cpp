@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 
 #include <lorentz/certified.hpp>
@@ -99,6 +101,19 @@ constexpr Entry kAnswerers[] = {
     {"published-256", {}, ask_precision},
 };
 
+// The caller's own engines.
+std::mutex guests_mutex;
+std::map<std::string, MakeAnswerer>& guests() {
+  static std::map<std::string, MakeAnswerer> all;
+  return all;
+}
+
+MakeAnswerer guest_named(const std::string& name) {
+  const std::lock_guard lock(guests_mutex);
+  const auto guest = guests().find(name);
+  return guest == guests().end() ? MakeAnswerer{} : guest->second;
+}
+
 const Entry* entry_of(std::string_view name) {
   for (const Entry& entry : kAnswerers)
     if (entry.name == name) return &entry;
@@ -107,9 +122,25 @@ const Entry* entry_of(std::string_view name) {
 
 }  // namespace
 
+GuestEngine::GuestEngine(std::string name, MakeAnswerer make) : name_(std::move(name)) {
+  const std::lock_guard lock(guests_mutex);
+  if (is_command(name_) || entry_of(name_) || !guests().emplace(name_, std::move(make)).second)
+    throw InputError("an engine called " + json_quoted(name_) + " is there already");
+}
+
+GuestEngine::~GuestEngine() {
+  const std::lock_guard lock(guests_mutex);
+  guests().erase(name_);
+}
+
+bool is_guest(const std::string& name) {
+  return static_cast<bool>(guest_named(name));
+}
+
 Traits traits_of(std::string_view name) {
   const Entry* entry = entry_of(name);
-  return entry ? entry->traits : Traits{};
+  if (entry) return entry->traits;
+  return {.in_bulk = is_guest(std::string(name))};
 }
 
 std::vector<std::string> answerer_names() {
@@ -133,7 +164,7 @@ void check_name(const std::string& name) {
       throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
     return;
   }
-  if (entry_of(name)) return;
+  if (entry_of(name) || is_guest(name)) return;
   const std::vector<std::string> names = answerer_names();
   throw InputError(fmt::format("no engine is called {}{}; there are {}, and cmd:COMMAND for another program",
                                json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
@@ -153,7 +184,7 @@ std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
 
 FirstHit make_first_hit(const std::string& name, const Scene& scene) {
   check_name(name);
-  if (is_command(name)) throw std::logic_error(name + ": answers in bulk only");
+  if (is_command(name) || is_guest(name)) throw std::logic_error(name + ": answers in bulk only");
   return entry_of(name)->ask(name, scene);
 }
 
@@ -182,6 +213,7 @@ class EngineAnswerer final : public Answerer {
 std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererOptions& options) {
   check_name(name);
   if (is_command(name)) return std::make_unique<CommandEngine>(name.substr(kCommand.size()), options);
+  if (const MakeAnswerer make = guest_named(name)) return make(options);
   if (traits_of(name).in_bulk) return std::make_unique<BatchAnswerer>(traits_of(name).is_exact, options);
   return std::make_unique<EngineAnswerer>(name, options.request);
 }

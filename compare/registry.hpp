@@ -17,6 +17,24 @@ namespace lorentz::compare {
 /// detail that binary64 cannot compute is left out.
 using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
 
+/// Makes an answerer.
+using MakeAnswerer = std::function<std::unique_ptr<Answerer>(const AnswererOptions&)>;
+
+/// An engine of the caller's own, by a name of its own while this lives: wherever engines are named that are
+/// asked many at a time (make_answerer) it is one, too; who calls this program as a library judges a function
+/// so. Any number of threads may make answerers of it, each for one thread.
+class GuestEngine {
+ public:
+  /// Throws InputError if an engine of this name is there already.
+  GuestEngine(std::string name, MakeAnswerer make);
+  ~GuestEngine();
+  GuestEngine(const GuestEngine&) = delete;
+  GuestEngine& operator=(const GuestEngine&) = delete;
+
+ private:
+  std::string name_;
+};
+
 /// What an answerer is like, for those who treat its answers accordingly.
 struct Traits {
   bool is_exact = false;          ///< its answers rest on exact arithmetic
@@ -34,6 +52,9 @@ std::vector<std::string> answerer_names();
 
 /// All names and `cmd:COMMAND`, for help texts.
 std::string names_for_help();
+
+/// True of the name of a GuestEngine.
+bool is_guest(const std::string& name);
 
 /// True for `cmd:COMMAND`: another program, which reads a query stream and writes an answer stream.
 bool is_command(const std::string& name);

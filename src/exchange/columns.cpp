@@ -23,9 +23,9 @@ Query QueryRows::query(std::size_t i, int dimension) const {
 void AnswerRows::resize(std::size_t rows, int dimensions) {
   if (rows > outcome.size()) {
     outcome.resize(rows), stage.resize(rows), lattice.resize(rows), atom.resize(rows), time.resize(rows);
-    for (auto& column : cell) column.resize(rows);
     time_is_rounded = std::make_unique<bool[]>(rows);
   }
+  cell.resize(outcome.size(), dimensions);
   count = rows, dimension = dimensions;
   large_cells.clear(), reasons.clear();
 }
@@ -34,7 +34,7 @@ void AnswerRows::set_plain(std::size_t i, Outcome plain) {
   outcome[i] = plain;
   time_is_rounded[i] = false;
   lattice[i] = atom[i] = 0;
-  for (auto& column : cell) column[i] = 0;
+  for (int k = 0; k < dimension; ++k) cell[k][i] = 0;
   time[i] = std::numeric_limits<double>::quiet_NaN();
 }
 

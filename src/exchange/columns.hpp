@@ -42,6 +42,22 @@ struct QueryRows {
   Query query(std::size_t i, int dimension) const;
 };
 
+/// The cells of answers: a column each coordinate, one behind the other, as an array in the order of Fortran.
+class CellColumns {
+ public:
+  void resize(std::size_t rows, int dimension) {
+    rows_ = rows;
+    all_.resize(rows * static_cast<std::size_t>(dimension));
+  }
+  std::int64_t* operator[](int k) { return all_.data() + static_cast<std::size_t>(k) * rows_; }
+  const std::int64_t* operator[](int k) const { return all_.data() + static_cast<std::size_t>(k) * rows_; }
+  std::size_t rows() const { return rows_; }  ///< from column to column
+
+ private:
+  std::size_t rows_ = 0;
+  std::vector<std::int64_t> all_;
+};
+
 /// Answers in columns, as long as the queries'. What an outcome does not have is 0, the time NaN.
 struct AnswerRows {
   /// Why a row is an `error`.
@@ -59,7 +75,7 @@ struct AnswerRows {
   std::vector<std::uint8_t> stage;
   std::unique_ptr<bool[]> time_is_rounded;
   std::vector<std::int32_t> lattice, atom;
-  std::array<std::vector<std::int64_t>, 3> cell;
+  CellColumns cell;  ///< as many columns as dimensions
   std::vector<double> time;
 
   std::vector<std::pair<std::size_t, Cell>> large_cells;  ///< those that 64 bits do not hold, by row

@@ -161,6 +161,13 @@ const std::vector<Room> kHouse{
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "signal.h signals.cpp", "unistd.h fuzz_store.cpp",
       "unistd.h output.cpp", "unistd.h progress.hpp", "unistd.h query_stream.cpp", "unistd.h signals.cpp",
       "unistd.h whole_file.cpp"}},
+    // What the program's commands arrange, for Python.
+    {"python",
+     {"src/problem", "src/exchange", "src/trajectory", "src/trajectory/batch", "oracle", "oracle/exact",
+      "oracle/contacts", "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/certificate",
+      "oracle/certificate/check"},
+     {"compare", "golden", "flights", "flights/sample", "judge", "report", "cli"},
+     {"pybind11/"}},
     {"bench",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "src/trajectory/batch", "oracle", "oracle/certified", "oracle/certified_batch"},
@@ -293,7 +300,7 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     CHECK(above.insert(room.folder).second);
   }
   for (const char* floor : {"src", "oracle", "cases", "flights", "chaos", "compare", "golden", "fuzz",
-                            "judge", "pictures", "report", "fitness", "cli", "bench"})
+                            "judge", "pictures", "report", "fitness", "cli", "python", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());

@@ -1,0 +1,302 @@
+#include "cli/judging.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <future>
+
+#include <fmt/format.h>
+
+#include "cli/golden.hpp"
+#include "cli/judge_paths.hpp"
+#include "cli/numbers.hpp"
+#include "cli/scene_option.hpp"
+#include "compare/measure.hpp"
+#include "judge/questions.hpp"
+#include "judge/repetition.hpp"
+#include "judge/simplest.hpp"
+
+namespace lorentz::cli {
+
+using compare::Difficulty;
+using judge::Examination;
+using judge::Place;
+
+namespace {
+
+// How long each part takes at the most, in seconds, and how many flights are drawn.
+struct Plan {
+  double drawn, hard, paths, golden, campaign, speed, simplest;
+  std::size_t count;
+  double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
+  /// The same in another time.
+  Plan lasting(double other) const {
+    const double k = other / seconds();
+    return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
+  }
+};
+constexpr Plan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
+
+// The catalogue's scenes that are flown in, and their radii; without any at their own size.
+struct Scenery {
+  const char* scene;
+  std::vector<const char*> radii;
+};
+const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001", "1e-06"}},
+                                      {"cubic", {"0.3", "0.1", "0.01", "0.001"}},
+                                      {"triangular", {"0.1", "0.001"}},
+                                      {"oblique", {}},
+                                      {"honeycomb", {}},
+                                      {"fcc", {}},
+                                      {"hcp", {}},
+                                      {"diamond", {}},
+                                      {"superposition-pi-5", {}},
+                                      {"overlapping", {}},
+                                      {"ellipse", {}},
+                                      {"ellipsoid", {}}};
+
+std::vector<Place> places_of(const Scenery& scenery) {
+  const auto place = [&](const std::optional<std::string>& radius) {
+    const std::string name =
+        radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
+    return Place{name, std::make_shared<judge::Setting>(
+                           read_scene(scenery.scene, positive_number(radius, "--radius")))};
+  };
+  std::vector<Place> places;
+  for (const char* radius : scenery.radii) places.push_back(place(radius));
+  if (places.empty()) places.push_back(place(std::nullopt));
+  return places;
+}
+
+using Clock = std::chrono::steady_clock;
+
+// A stretch of time.
+class Countdown {
+ public:
+  explicit Countdown(double seconds)
+      : end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+  double left() const { return std::max(std::chrono::duration<double>(end_ - Clock::now()).count(), 0.0); }
+
+ private:
+  Clock::time_point end_;
+};
+
+// Parts of one stretch of time: what one leaves over is the others'.
+class Shares {
+ public:
+  Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
+  double next() { return all_.left() / static_cast<double>(std::max<std::size_t>(parts_--, 1)); }
+
+ private:
+  Countdown all_;
+  std::size_t parts_;
+};
+
+// Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
+std::vector<Place> fly_drawn(Examination& examination, const Plan& plan, std::uint64_t seed) {
+  std::vector<Place> all;
+  Shares drawn(plan.drawn, kSceneries.size());
+  for (const Scenery& scenery : kSceneries) {
+    const std::vector<Place> places = places_of(scenery);
+    examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
+                    judge::drawn(places, Difficulty::drawn, seed, plan.count), drawn.next());
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  Shares hard(plan.hard, 2);
+  examination.run({"near-rational", "directions a few ulps from small integers, in these scenes"},
+                  judge::drawn(all, Difficulty::near_rational, seed, 2 * plan.count), hard.next());
+  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-50 of its edge"},
+                  judge::drawn(all, Difficulty::grazing, seed, 2 * plan.count), hard.next());
+  return all;
+}
+
+void check_golden_sets(Examination& examination, double seconds) {
+  const std::vector<std::string> files = committed_sets();
+  Shares shares(seconds, files.size());
+  for (const std::string& file : files)
+    examination.run(
+        {"golden " + std::filesystem::path(file).stem().string(), "a committed set of hard cases"},
+        judge::golden_set(file), shares.next());
+}
+
+// In a thread for each examination, each with scenes of its own.
+void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
+                  const fuzz::Scope& scope, std::uint64_t seed, double seconds) {
+  const auto parts = static_cast<unsigned>(1 + others.size());
+  const auto run = [&](Examination& one, unsigned part) {
+    one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
+            judge::campaign(seed, scope, part, parts), seconds);
+  };
+  std::vector<std::future<void>> threads;
+  for (unsigned part = 1; part < parts; ++part)
+    threads.push_back(std::async(std::launch::async, run, std::ref(*others[part - 1]), part));
+  run(first, 0);
+  for (std::future<void>& thread : threads) thread.get();
+  for (const auto& other : others) {
+    other->finish();
+    first.take_over(*other);
+  }
+}
+
+// Who is examined, and on which terms.
+struct Terms {
+  std::string engine;
+  double ulps;
+  compare::AnswererOptions answerer;
+  const std::atomic<bool>& stop;
+
+  std::unique_ptr<Examination> examination() const {
+    return std::make_unique<Examination>(engine, answerer, ulps, stop);
+  }
+  /// That tells nobody what it meets.
+  std::unique_ptr<Examination> silent_examination() const {
+    Terms silent = *this;
+    silent.answerer.listener = {};
+    return silent.examination();
+  }
+};
+
+// The simplest case of each; and of another program, whether that case goes wrong by itself.
+void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
+              double seconds) {
+  const bool by_itself = compare::is_command(terms.engine);
+  Shares shares(seconds, (by_itself ? 2 : 1) * findings.size());
+  for (judge::Finding& finding : findings) {
+    finding.simplest = judge::simplest(finding, examination, shares.next());
+    if (!by_itself) continue;
+    const double share = shares.next();
+    if (finding.severity() == judge::Severity::ill_posed) continue;
+    finding.repetitions = judge::repetitions_to_fail(
+                              finding, [&] { return terms.silent_examination(); }, share)
+                              .value_or(0);
+  }
+}
+
+// ---- Speed
+
+// Of the places where the engine answered: the square and cubic lattice at r = 0.1, if these are among them.
+std::vector<const Place*> places_to_race_in(const std::vector<Place>& places) {
+  std::vector<const Place*> chosen;
+  for (const Place& place : places)
+    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") &&
+        place.setting->was_answered() && !place.setting->is_beyond_engine())
+      chosen.push_back(&place);
+  for (const Place& place : places)
+    if (chosen.empty() && place.setting->was_answered() && !place.setting->is_beyond_engine())
+      chosen.push_back(&place);
+  return chosen;
+}
+
+// As many of each place as can be afforded.
+compare::CaseSet cases_to_race_in(const std::vector<const Place*>& places, std::uint64_t seed,
+                                  std::size_t count) {
+  compare::CaseSet set;
+  for (const Place* place : places) {
+    const Scene& scene = place->setting->scene();
+    for (const Query& query : compare::draw_queries(scene, place->setting->oracle(), seed, count))
+      set.cases.push_back({std::to_string(set.cases.size()), set.scenes.size(), query});
+    set.scenes.push_back(scene);
+  }
+  return set;
+}
+
+std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
+  constexpr double kFewest = 32, kMost = 2000;
+  double slowest = 1;
+  for (const judge::Row& row : report.rows)
+    if (!row.is_hard) slowest = std::max(slowest, row.tally.ns_per_query);
+  return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
+}
+
+void race(JudgeReport& report, const std::vector<Place>& places, const Terms& terms, double seconds) {
+  constexpr int kRounds = 5;
+  constexpr double kTooLong = 2;  // times as long as it should take
+  const std::vector<const Place*> chosen = places_to_race_in(places);
+  if (chosen.empty()) return;
+  const std::size_t count = affordable(report, kRounds, seconds);
+  const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
+  compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
+  options.start_timeout = terms.answerer.start_timeout;
+  options.enough = [&] { return terms.stop || until.left() == 0; };
+  const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
+                                                               {}, {report.engine, "reduction"}, {}, options);
+  report.failed |= tallies[0].failed;
+  const bool is_cut = compare::is_command(report.engine) && options.enough();
+  if (tallies[0].failed || is_cut) return;
+  report.ns_per_query = tallies[0].ns_per_query;
+  report.ns_of_reduction = tallies[1].ns_per_query;
+  std::vector<std::string> names;
+  for (const Place* place : chosen) names.push_back(place->name);
+  report.speed_of =
+      fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
+}
+
+// Without an order: much more than any answer should take here, and little of the time there is. A program's
+// first answer may take as long as elsewhere.
+Terms terms_of(const JudgeOrder& order, const Plan& plan, const std::atomic<bool>& stop) {
+  constexpr double kShortest = 2, kPart = 0.1;
+  Terms terms{order.engine, order.ulps, {}, stop};
+  const double most = compare::AnswererOptions::kDefaultTimeout;
+  terms.answerer.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
+  terms.answerer.start_timeout = most;
+  terms.answerer.listener = order.listener;
+  return terms;
+}
+
+// All that it is asked in turn; returns where.
+std::vector<Place> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
+                           JudgeReport& report) {
+  const Countdown all(plan.seconds());
+  std::vector<Place> places = fly_drawn(examination, plan, report.seed);
+  report.flown = fly_free_paths(examination, report.seed, plan.paths);
+  check_golden_sets(examination, plan.golden);
+  std::vector<std::unique_ptr<Examination>> others;
+  for (unsigned i = 1; i < jobs; ++i) {
+    others.push_back(terms.examination());
+    others.back()->limit(all.left());
+  }
+  run_campaign(examination, others, judge::scope_of(places), report.seed, plan.campaign);
+  report.rows = examination.rows();
+  report.findings = examination.findings();
+  report.calls = examination.calls();
+  examination.limit(plan.simplest + plan.speed);  // also if the questions took longer than they should
+  if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest);
+  return places;
+}
+
+Plan plan_of(const JudgeOrder& order) {
+  const Plan& plan = order.quick ? kQuick : kWhole;
+  return order.time ? plan.lasting(*order.time) : plan;
+}
+
+}  // namespace
+
+double JudgeOrder::seconds() const {
+  return plan_of(*this).seconds();
+}
+
+JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
+  const Plan plan = plan_of(order);
+  const Terms terms = terms_of(order, plan, stop);
+  JudgeReport report;
+  report.engine = order.engine;
+  report.command = order.command;
+  report.times = order.times;
+  report.seed = order.seed;
+  report.timeout = terms.answerer.timeout;
+  const std::unique_ptr<Examination> examination = terms.examination();
+  examination->on_progress(order.on_progress);
+  examination->limit(plan.seconds());
+  report.start_up = examination->warm_up();
+  if (!examination->is_over()) examination->limit(plan.seconds());
+  const std::vector<Place> places = examine(*examination, terms, plan, order.jobs, report);
+  report.failed = examination->failed();
+  const bool is_over = examination->is_over();
+  examination->on_progress({});
+  examination->finish();
+  if (!is_over) race(report, places, terms, plan.speed);
+  return report;
+}
+
+}  // namespace lorentz::cli

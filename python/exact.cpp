@@ -1,0 +1,149 @@
+// The oracle and all that judges by it, one question at a time.
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/continued_fraction.hpp>
+#include <lorentz/prover.hpp>
+#include "judge/diagnosis.hpp"
+#include "python/certificates.hpp"
+#include "python/lines.hpp"
+#include "python/scene.hpp"
+
+namespace lorentz::python {
+namespace {
+
+using oracle::DecisionKind;
+using oracle::Verdict;
+
+const char* name_of(DecisionKind kind) {
+  switch (kind) {
+    case DecisionKind::containing:
+      return "containing";
+    case DecisionKind::meeting:
+      return "meeting";
+    case DecisionKind::order:
+      break;
+  }
+  return "order";
+}
+
+const char* name_of(Verdict verdict) {
+  constexpr const char* kNames[] = {"agree",       "ill-posed", "wrong",  "undecided",
+                                    "unsupported", "error",     "missing"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+// A scene with all who judge in it; each is made when it is first needed, under the interpreter's lock.
+class PyOracle {
+ public:
+  explicit PyOracle(const PyScene& scene)
+      : setting_(std::make_shared<judge::Setting>(scene.scene())), scene_(setting_->scene()) {}
+
+  std::string first_hit(const std::string& query, int digits, bool detail,
+                        std::optional<double> max_time) const {
+    return answer_text(setting_->oracle().first_hit(read_query(query, scene_), {digits, detail, max_time}),
+                       scene_.dimension);
+  }
+
+  bool is_free(const std::string& query) const {
+    return setting_->oracle().is_free(read_query(query, scene_).x);
+  }
+
+  py::dict margin(const std::string& text) const {
+    const auto [query, exact] = question(text);
+    py::dict dict;
+    dict["condition"] = py::none();
+    dict["margin"] = py::none();
+    if (exact.outcome == Outcome::hit) dict["condition"] = setting_->margins().condition(query, exact);
+    const auto hardest = setting_->margins().hardest_decision(query, exact);
+    if (!hardest) return dict;
+    dict["margin"] = hardest->margin;
+    if (hardest->margin >= oracle::kLargestMargin) return dict;
+    dict["decision"] = name_of(hardest->kind);
+    dict["decided"] = hardest->yes;
+    dict["obstacle"] = obstacle_tuple(hardest->obstacle);
+    return dict;
+  }
+
+  py::list passed(const std::string& text, std::size_t most) const {
+    const auto [query, exact] = question(text);
+    py::list list;
+    if (exact.outcome != Outcome::hit) return list;
+    for (const oracle::PassedObstacle& p : setting_->margins().passed(query, exact, most))
+      list.append(py::dict(py::arg("obstacle") = obstacle_tuple(p.obstacle), py::arg("time") = p.time,
+                           py::arg("gap") = p.gap, py::arg("margin") = p.margin));
+    return list;
+  }
+
+  py::dict judge(const std::string& text, const std::string& given_text, double ulps) const {
+    const auto [query, exact] = question(text);
+    const Answer given = read_answer(given_text, scene_.dimension);
+    const oracle::Judgement judgement = setting_->judge().judge(query, exact, given, ulps);
+    const auto diagnosis = judge::diagnosis_of({setting_, query, exact, {}, {}}, given, judgement);
+    py::dict dict;
+    dict["verdict"] = name_of(judgement.verdict);
+    dict["wrong_time"] = judgement.wrong_time;
+    dict["ulps"] = judgement.ulps;
+    dict["departs"] = judgement.departs;
+    dict["cause"] = py::none();
+    dict["sentence"] = py::none();
+    if (!diagnosis) return dict;
+    dict["cause"] = std::string(judge::name_of(diagnosis->cause));
+    dict["sentence"] = judge::sentence_of(diagnosis->cause, diagnosis->by_radii);
+    return dict;
+  }
+
+  PyCertificate prove(const std::string& text) const {
+    const auto [query, exact] = question(text);
+    if (!prover_) prover_.emplace(scene_);
+    return {prover_->prove(query, exact), scene_.dimension};
+  }
+
+  std::optional<std::string> refutation(const std::string& text, const std::string& answer,
+                                        const PyCertificate& certificate) const {
+    if (!check_) check_.emplace(scene_);
+    return check_->refutation(read_query(text, scene_), read_answer(answer, scene_.dimension),
+                              certificate.proof);
+  }
+
+ private:
+  std::pair<Query, Answer> question(const std::string& text) const {
+    Query query = read_query(text, scene_);
+    Answer exact = setting_->oracle().first_hit(query);
+    return {std::move(query), std::move(exact)};
+  }
+
+  py::tuple obstacle_tuple(const ObstacleId& obstacle) const {
+    return py::make_tuple(obstacle.lattice, obstacle.atom, to_python(obstacle.cell, scene_.dimension));
+  }
+
+  std::shared_ptr<judge::Setting> setting_;
+  const Scene& scene_;
+  mutable std::optional<oracle::Prover> prover_;
+  mutable std::optional<oracle::CertificateCheck> check_;
+};
+
+py::list convergents(double rise, double run, std::size_t limit) {
+  if (run == 0) throw InputError("run: is 0, which gives no slope");
+  const py::object fraction = py::module_::import("fractions").attr("Fraction");
+  py::list list;
+  for (const oracle::Convergent& c : oracle::convergents(rise, run, limit))
+    list.append(py::make_tuple(to_python(c.a), to_python(c.p), to_python(c.q), fraction(c.remainder_exact)));
+  return list;
+}
+
+}  // namespace
+
+void bind_exact(py::module_& module) {
+  py::class_<PyOracle>(module, "Oracle")
+      .def(py::init<const PyScene&>(), py::arg("scene"))
+      .def("first_hit", &PyOracle::first_hit, py::arg("query"), py::arg("digits"), py::arg("detail"),
+           py::arg("max_time"))
+      .def("is_free", &PyOracle::is_free, py::arg("query"))
+      .def("margin", &PyOracle::margin, py::arg("query"))
+      .def("passed", &PyOracle::passed, py::arg("query"), py::arg("most"))
+      .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"))
+      .def("prove", &PyOracle::prove, py::arg("query"))
+      .def("refutation", &PyOracle::refutation, py::arg("query"), py::arg("answer"), py::arg("certificate"));
+  module.def("convergents", convergents, py::arg("rise"), py::arg("run"), py::arg("limit"));
+}
+
+}  // namespace lorentz::python

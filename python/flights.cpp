@@ -1,0 +1,77 @@
+// Very many free flights, counted; and the laws that theory has of them.
+#include <algorithm>
+#include <atomic>
+
+#include <lorentz/exchange.hpp>
+#include "cli/flights_findings.hpp"
+#include "flights/run.hpp"
+#include "python/engine.hpp"
+
+namespace lorentz::python {
+namespace {
+
+flights::Ensemble ensemble_of(const std::string& name) {
+  if (name == "uniform") return flights::Ensemble::uniform;
+  if (name == "surface") return flights::Ensemble::surface;
+  throw InputError("start: " + json_quoted(name) + " is no kind of start; there are uniform and surface");
+}
+
+template <class Number>
+py::array_t<Number> array_of(const std::vector<Number>& numbers) {
+  return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+// Flies while other threads of Python run; Ctrl-C ends it.
+void fly(const flights::Plan& plan, unsigned threads, flights::Account& account) {
+  std::atomic<bool> stop = false;
+  flights::Bounds bounds;
+  bounds.jobs = threads, bounds.stop = &stop;
+  {
+    const py::gil_scoped_release release;
+    flights::run(plan, bounds, account, [&](const flights::Account&) {
+      const py::gil_scoped_acquire gil;
+      if (!stop && PyErr_CheckSignals() != 0) stop = true;
+    });
+  }
+  if (PyErr_Occurred()) throw py::error_already_set();
+}
+
+// What `lorentz flights --json` says, and its counts: bins, and paths beyond each edge.
+py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::string& start, std::uint64_t seed,
+                     const std::string& engine, unsigned threads) {
+  check_own_engine(engine);
+  if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
+  if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
+  cli::FlightsReport report;
+  report.plan.scene = scene.scene(), report.plan.engine = engine, report.plan.from = ensemble_of(start);
+  report.plan.seed = seed, report.plan.count = count;
+  report.account.plan = report.plan.text();
+  report.account.tally = flights::Tally(flights::unit_exponent(report.plan.scene));
+  fly(report.plan, threads, report.account);
+  const cli::FlightsFindings found(report);
+  return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));
+}
+
+// Each law by its name, when it holds, and its survival at these times.
+py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
+  py::list list;
+  for (const flights::Law& law : flights::laws_of(scene.scene(), ensemble_of(start)).laws)
+    list.append(py::make_tuple(law.name, law.when, py::vectorize(law.survival)(times)));
+  return list;
+}
+
+std::pair<std::optional<double>, std::string> mean_free_path(const PyScene& scene) {
+  const flights::MeanFreePath mean = flights::mean_free_path_of(scene.scene());
+  return {mean.value, mean.how};
+}
+
+}  // namespace
+
+void bind_flights(py::module_& module) {
+  module.def("flights", flights_of, py::arg("scene"), py::arg("count"), py::arg("start"), py::arg("seed"),
+             py::arg("engine"), py::arg("threads"));
+  module.def("laws", laws_of, py::arg("scene"), py::arg("start"), py::arg("times"));
+  module.def("mean_free_path", mean_free_path, py::arg("scene"));
+}
+
+}  // namespace lorentz::python

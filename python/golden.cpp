@@ -1,0 +1,69 @@
+// Golden sets, record by record.
+#include "cli/golden.hpp"
+#include "golden/reader.hpp"
+#include "python/certificates.hpp"
+#include "python/lines.hpp"
+#include "python/scene.hpp"
+
+namespace lorentz::python {
+namespace {
+
+class PyGoldenSet {
+ public:
+  explicit PyGoldenSet(const std::string& name_or_file) : reader_(cli::find_set(name_or_file)) {}
+
+  const golden::Header& header() const { return reader_.header(); }
+  const std::string& path() const { return reader_.path(); }
+
+  // Throws StopIteration at the end.
+  py::dict next() {
+    golden::ReadRecord read;
+    if (!reader_.next(read)) throw py::stop_iteration();
+    if (reader_.scene_number() != scene_number_) {
+      scene_ = py::cast(PyScene(reader_.scene()));
+      scene_number_ = reader_.scene_number();
+    }
+    return dict_of(read);
+  }
+
+ private:
+  py::dict dict_of(const golden::ReadRecord& read) const {
+    const int d = reader_.scene().dimension;
+    const golden::Record& record = read.record;
+    py::dict dict(py::arg("id") = record.id, py::arg("tags") = record.tags, py::arg("scene") = scene_,
+                  py::arg("question") = record.question, py::arg("flaw") = py::none(),
+                  py::arg("x") = py::none(), py::arg("v") = py::none(), py::arg("start_from") = py::none(),
+                  py::arg("answer") = answer_text(record.expect, d), py::arg("time_decimal") = py::none(),
+                  py::arg("margin") = record.margin, py::arg("condition") = record.condition,
+                  py::arg("certificate") = py::none());
+    if (!record.expect.time_decimal.empty()) dict["time_decimal"] = record.expect.time_decimal;
+    if (record.certificate) dict["certificate"] = PyCertificate{*record.certificate, d};
+    if (!read.query) {
+      dict["flaw"] = read.flaw;
+      return dict;
+    }
+    dict["x"] = to_python(read.query->x, d), dict["v"] = to_python(read.query->v, d);
+    if (const auto& from = read.query->from)
+      dict["start_from"] = py::make_tuple(from->lattice, from->atom, to_python(from->cell, d));
+    return dict;
+  }
+
+  golden::Reader reader_;
+  py::object scene_;  // of the records that follow
+  std::size_t scene_number_ = 0;
+};
+
+}  // namespace
+
+void bind_golden(py::module_& module) {
+  py::class_<PyGoldenSet>(module, "GoldenReader")
+      .def(py::init<const std::string&>(), py::arg("name_or_file"))
+      .def_property_readonly("path", &PyGoldenSet::path)
+      .def_property_readonly("name", [](const PyGoldenSet& set) { return set.header().name; })
+      .def_property_readonly("description", [](const PyGoldenSet& set) { return set.header().description; })
+      .def_property_readonly("count", [](const PyGoldenSet& set) { return set.header().count; })
+      .def("__next__", &PyGoldenSet::next);
+  module.def("golden_sets", cli::committed_sets);
+}
+
+}  // namespace lorentz::python

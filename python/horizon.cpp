@@ -1,0 +1,27 @@
+// The infinite channels that a scene leaves open.
+#include <lorentz/errors.hpp>
+#include <lorentz/horizon.hpp>
+#include "cli/horizon_verdict.hpp"
+#include "python/scene.hpp"
+
+namespace lorentz::python {
+namespace {
+
+// What `lorentz horizon --json` says, and its verdict.
+std::pair<std::string, std::string> horizon(const PyScene& scene, double min_width, bool cylinders) {
+  const py::gil_scoped_release release;
+  try {
+    const oracle::Horizon found = oracle::horizon_of(scene.scene(), min_width, cylinders);
+    return {cli::json_of(found, "", min_width > 0), cli::verdict_of(found, min_width > 0)};
+  } catch (const oracle::TooManyChannels& error) {
+    throw InputError(std::string(error.what()) + "; min_width restricts the search to wide channels");
+  }
+}
+
+}  // namespace
+
+void bind_horizon(py::module_& module) {
+  module.def("horizon", horizon, py::arg("scene"), py::arg("min_width"), py::arg("cylinders"));
+}
+
+}  // namespace lorentz::python

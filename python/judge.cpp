@@ -1,0 +1,173 @@
+// Judges a function of Python, on the judge's own machinery: to it the function is an engine with a name.
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+
+#include "cli/judging.hpp"
+#include "cli/whole_file.hpp"
+#include "python/lines.hpp"
+#include "python/scene.hpp"
+#include "report/page.hpp"
+
+namespace lorentz::python {
+namespace {
+
+// A run of the judge, which Ctrl-C in Python, or an exception that is none of the engine's, ends.
+struct Run {
+  std::atomic<bool> stop = false;
+
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex);
+    if (!first) first = std::move(failure);
+    stop = true;
+  }
+  void rethrow() const {
+    if (first) std::rethrow_exception(first);
+  }
+
+ private:
+  std::mutex mutex;
+  std::exception_ptr first;
+};
+
+constexpr std::size_t kGathered = 8192;
+
+// Gathers queries of one scene, and asks `ask(scene, x, v, start_from)`, which returns as many answers as
+// lines of JSON. The interpreter's lock is held for each such call, and no longer.
+class FunctionAnswerer final : public compare::Answerer {
+ public:
+  FunctionAnswerer(const py::function& ask, Run& run) : ask_(&ask), run_(run) {}
+  ~FunctionAnswerer() override {
+    const py::gil_scoped_acquire gil;
+    scene_ = py::object();
+  }
+
+  void set_scene(const Scene& scene) override {
+    drain();
+    dimension_ = scene.dimension;
+    const py::gil_scoped_acquire gil;
+    scene_ = py::cast(PyScene(scene));
+  }
+  void ask(const Id&, const Query& query) override {
+    queries_.push_back(query);
+    if (queries_.size() == kGathered) drain();
+  }
+  void ask_text(const Id& id, const std::string& text) override {
+    drain();
+    Answerer::ask_text(id, text);
+  }
+  void drain() override {
+    if (queries_.empty()) return;
+    std::vector<Answer> answers = run_.stop ? std::vector<Answer>() : answered();
+    answers.resize(queries_.size(), Answer::error("not asked"));
+    queries_.clear();
+    for (Answer& answer : answers) deliver(answer);
+  }
+  void finish() override { drain(); }
+
+ private:
+  std::vector<Answer> answered() {
+    std::vector<Answer> answers;
+    const py::gil_scoped_acquire gil;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      const auto texts =
+          (*ask_)(scene_, vectors(&Query::x), vectors(&Query::v), starts()).cast<std::vector<std::string>>();
+      for (const std::string& text : texts) answers.push_back(answer_of(text));
+    } catch (const py::error_already_set&) {
+      run_.fail(std::current_exception());
+    } catch (const py::cast_error&) {
+      run_.fail(std::current_exception());
+    }
+    return answers;
+  }
+
+  // What is no answer is an error of the engine.
+  Answer answer_of(const std::string& text) const {
+    try {
+      return read_answer(text, dimension_);
+    } catch (const InputError& error) {
+      return Answer::error(std::string("no answer: ") + error.what());
+    }
+  }
+
+  py::array_t<double> vectors(Vec Query::*member) const {
+    py::array_t<double> array({static_cast<py::ssize_t>(queries_.size()), py::ssize_t{dimension_}});
+    auto numbers = array.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
+      for (py::ssize_t k = 0; k < dimension_; ++k)
+        numbers(i, k) = (queries_[static_cast<std::size_t>(i)].*member)[static_cast<std::size_t>(k)];
+    return array;
+  }
+
+  // Of each query None, or the obstacle that it leaves.
+  py::list starts() const {
+    py::list list;
+    for (const Query& query : queries_)
+      if (query.from)
+        list.append(
+            py::make_tuple(query.from->lattice, query.from->atom, to_python(query.from->cell, dimension_)));
+      else
+        list.append(py::none());
+    return list;
+  }
+
+  const py::function* ask_;  // outlives this
+  Run& run_;
+  int dimension_ = 0;
+  py::object scene_;
+  std::vector<Query> queries_;
+};
+
+// Without the interpreter's lock, so that a function's answerers can take it in any thread.
+cli::JudgeReport report_of(const cli::JudgeOrder& order, const Run& run) {
+  cli::JudgeReport report;
+  {
+    const py::gil_scoped_release release;
+    report = cli::judged(order, run.stop);
+  }
+  run.rethrow();
+  return report;
+}
+
+void write_page(const std::string& path, const std::string& json) {
+  cli::WholeFile file(path);
+  file.write(report::page(json));
+  file.commit();
+}
+
+py::tuple judge(const py::object& function, const std::string& engine, const std::string& command, bool quick,
+                std::optional<double> time, std::uint64_t seed, unsigned threads, double ulps, bool times,
+                const std::optional<std::string>& html) {
+  cli::JudgeOrder order;
+  order.engine = engine, order.command = command, order.quick = quick, order.time = time;
+  order.seed = seed, order.jobs = threads, order.ulps = ulps, order.times = times;
+  if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
+  if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
+  if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
+  if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
+  Run run;
+  py::function ask;
+  std::optional<compare::GuestEngine> guest;  // until the report is written, which knows it for one
+  if (!function.is_none()) {
+    ask = function.cast<py::function>();
+    guest.emplace(order.engine, [&](const compare::AnswererOptions&) {
+      return std::make_unique<FunctionAnswerer>(ask, run);
+    });
+  }
+  const cli::JudgeReport report = report_of(order, run);
+  if (html) write_page(*html, report.json());
+  return py::make_tuple(report.json(), report.text());
+}
+
+}  // namespace
+
+void bind_judge(py::module_& module) {
+  module.def("judge", judge, py::arg("function"), py::arg("engine"), py::arg("command"), py::arg("quick"),
+             py::arg("time"), py::arg("seed"), py::arg("threads"), py::arg("ulps"), py::arg("times"),
+             py::arg("html"));
+  module.attr("HAS_PAGE") = report::has_page();
+}
+
+}  // namespace lorentz::python

@@ -1,0 +1,91 @@
+#include "python/lines.hpp"
+
+namespace lorentz::python {
+namespace {
+
+// A line as the readers want it, with room behind it.
+class PaddedLine {
+ public:
+  explicit PaddedLine(const std::string& text) : bytes_(text + std::string(LineReader::kPadding, ' ')) {
+    line_.text = std::string_view(bytes_).substr(0, text.size());
+    line_.number = 1;
+  }
+  const LineReader::Line& line() const { return line_; }
+
+ private:
+  std::string bytes_;
+  LineReader::Line line_;
+};
+
+struct StrictReader : ExchangeReader {
+  StrictReader() { on_unknown_key(refuse_key); }
+};
+
+void expect(StreamItem::Kind wanted, StreamItem::Kind kind, const std::string& message) {
+  if (kind == wanted) return;
+  throw InputError(kind == StreamItem::Kind::bad       ? message
+                   : wanted == StreamItem::Kind::scene ? "is no scene"
+                                                       : "is no query");
+}
+
+StreamItem query_line(const std::string& text, const Scene* scene) {
+  StreamItem item;
+  StrictReader().read_query_line(PaddedLine(text).line(), scene, item);
+  return item;
+}
+
+StartItem start_line(const std::string& text, const RationalScene* scene) {
+  StartItem item;
+  StrictReader().read_start_line(PaddedLine(text).line(), scene, item);
+  return item;
+}
+
+}  // namespace
+
+void refuse_key(const std::string& key) {
+  throw InputError("the key " + json_quoted(key) + " is not known");
+}
+
+Scene read_scene(const std::string& text) {
+  StreamItem item = query_line(text, nullptr);
+  expect(StreamItem::Kind::scene, item.kind, item.message);
+  return std::move(item.scene);
+}
+
+RationalScene read_rational_scene(const std::string& text) {
+  StartItem item = start_line(text, nullptr);
+  expect(StreamItem::Kind::scene, item.kind, item.message);
+  return std::move(item.scene);
+}
+
+Query read_query(const std::string& text, const Scene& scene) {
+  StreamItem item = query_line(text, &scene);
+  expect(StreamItem::Kind::query, item.kind, item.message);
+  return std::move(item.query);
+}
+
+Start read_start(const std::string& text, const RationalScene& scene) {
+  StartItem item = start_line(text, &scene);
+  expect(StreamItem::Kind::query, item.kind, item.message);
+  return std::move(item.start);
+}
+
+Answer read_answer(const std::string& text, int dimension) {
+  Answer answer;
+  Id id;
+  std::size_t components = 0;
+  if (!StrictReader().read_answer_line(PaddedLine(text).line(), id, answer, components))
+    throw InputError("is no answer");
+  if (components != 0 && components != static_cast<std::size_t>(dimension))
+    throw InputError("cell: has " + std::to_string(components) + " coordinates, the scene has dimension " +
+                     std::to_string(dimension));
+  return answer;
+}
+
+std::string answer_text(const Answer& answer, int dimension) {
+  std::string line;
+  append_answer_line(line, "null", answer, dimension);
+  return line;
+}
+
+}  // namespace lorentz::python

@@ -1,0 +1,28 @@
+// Python speaks the project's own format where speed does not matter: a scene, a query, an answer as a line
+// of JSON, read and checked by the one reader that knows the format. Private to python/.
+#pragma once
+
+#include <string>
+
+#include <lorentz/exchange.hpp>
+
+namespace lorentz::python {
+
+/// Of `{"scene": {..}}`; a key that scenes do not have is an error. Throws InputError.
+Scene read_scene(const std::string& text);
+RationalScene read_rational_scene(const std::string& text);
+
+/// Of `{"x": [..], "v": [..], "from": {..}}`. Throws InputError.
+Query read_query(const std::string& text, const Scene& scene);
+Start read_start(const std::string& text, const RationalScene& scene);
+
+/// Of `{"outcome": "hit", ..}`; a key that answers do not have is an error. Throws InputError.
+Answer read_answer(const std::string& text, int dimension);
+
+/// An answer as such a line.
+std::string answer_text(const Answer& answer, int dimension);
+
+/// Throws InputError: what readers are to do with keys that they do not know.
+void refuse_key(const std::string& key);
+
+}  // namespace lorentz::python

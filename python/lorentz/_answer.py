@@ -1,0 +1,151 @@
+"""One query's answer."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from decimal import ROUND_HALF_EVEN, Context, Decimal
+from fractions import Fraction
+from typing import Any, Callable, TypeVar
+
+from ._lorentz import Error
+from ._numbers import Obstacle
+
+Rounded = TypeVar("Rounded")
+
+
+@dataclass(frozen=True)
+class ExactTime:
+    """The time ``rational - sqrt(root)``, exactly: when a line enters an obstacle."""
+
+    rational: Fraction
+    root: Fraction
+
+    def fraction(self) -> Fraction | None:
+        """The same as one rational number; None if it is irrational."""
+        numerator, denominator = self.root.numerator, self.root.denominator
+        n, d = math.isqrt(numerator), math.isqrt(denominator)
+        return self.rational - Fraction(n, d) if (n * n, d * d) == (numerator, denominator) else None
+
+    def bounds(self, bits: int) -> tuple[Fraction, Fraction]:
+        """Rational numbers not above and not below it, at most 2**-bits apart."""
+        below = math.isqrt((self.root.numerator << 2 * bits) // self.root.denominator)
+        return (self.rational - Fraction(below + 1, 1 << bits), self.rational - Fraction(below, 1 << bits))
+
+    def __float__(self) -> float:
+        """Correctly rounded, ties to even."""
+        return self._where_ends_agree(float)
+
+    def decimal(self, digits: int) -> Decimal:
+        """To so many significant digits, correctly rounded, ties to even."""
+        context = Context(prec=digits, rounding=ROUND_HALF_EVEN)
+        return self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
+
+    def _where_ends_agree(self, rounded: Callable[[Fraction], Rounded]) -> Rounded:
+        exact = self.fraction()
+        if exact is not None:
+            return rounded(exact)
+        bits = 128
+        while True:  # ends: an irrational number is midway between no two rounded ones
+            low, high = (rounded(end) for end in self.bounds(bits))
+            if low == high:
+                return low
+            bits *= 2
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a query came to.
+
+    ``outcome`` is "hit", "never", "inside", "later", "undecided" or "error". ``lattice``, ``atom`` and
+    ``cell`` (ints of any size) are of "hit" and "inside", ``time`` is of "hit": in units in which x + t v is
+    the place, perhaps infinite. The oracle's also has ``exact_time``; ``time_decimal`` if digits were asked
+    for; point of the collision, unit outward ``normal`` and ``impact_parameter`` if detail was. Of "error"
+    there are ``message``, and ``unsupported``: the query is good, but not for this engine.
+    """
+
+    outcome: str
+    lattice: int | None = None
+    atom: int | None = None
+    cell: tuple[int, ...] | None = None
+    time: float | None = None
+    exact_time: ExactTime | None = None
+    time_decimal: str | None = None
+    point: tuple[float, ...] | None = None
+    normal: tuple[float, ...] | None = None
+    impact_parameter: float | None = None
+    message: str | None = None
+    unsupported: bool = False
+
+    @property
+    def obstacle(self) -> Obstacle | None:
+        """(lattice, atom, cell): what a query that goes on from here takes as start_from."""
+        if self.lattice is None or self.atom is None or self.cell is None:
+            return None
+        return self.lattice, self.atom, self.cell
+
+    def to_line(self) -> str:
+        """The answer in the form of docs/formats.md, as far as that has it."""
+        line: dict[str, Any] = {"id": None, "outcome": self.outcome}
+        if self.cell is not None:
+            line |= {"lattice": self.lattice, "atom": self.atom, "cell": [str(int(n)) for n in self.cell]}
+        if self.time is not None:
+            line["time"] = "inf" if self.time == math.inf else self.time
+        if self.time_decimal is not None:
+            line["time_decimal"] = self.time_decimal
+        if self.outcome == "error":
+            line["message"] = self.message or ""
+            line |= {"reason": "unsupported"} if self.unsupported else {}
+        try:
+            return json.dumps(line, allow_nan=False, default=_number)
+        except (TypeError, ValueError) as error:
+            raise Error(f"answer: {error}") from None
+
+    @staticmethod
+    def from_line(line: str) -> Answer:
+        """Of a line in that form."""
+        fields = json.loads(line)
+        time = fields.get("time")
+        return Answer(
+            outcome=fields["outcome"], lattice=fields.get("lattice"), atom=fields.get("atom"),
+            cell=tuple(int(n) for n in fields["cell"]) if "cell" in fields else None,
+            time=None if time is None else float(time), time_decimal=fields.get("time_decimal"),
+            point=_tuple(fields.get("point")), normal=_tuple(fields.get("normal")),
+            impact_parameter=fields.get("impact_parameter"), message=fields.get("message"),
+            unsupported=fields.get("reason") == "unsupported")
+
+
+def hit(time: float, cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
+    """What an engine answers that found a first hit: when, and which obstacle."""
+    return Answer("hit", int(lattice), int(atom), tuple(int(n) for n in cell), float(time))
+
+
+def inside(cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
+    """What an engine answers if the start lies in an obstacle."""
+    return Answer("inside", int(lattice), int(atom), tuple(int(n) for n in cell))
+
+
+def never() -> Answer:
+    """What an engine answers if nothing is ever hit."""
+    return Answer("never")
+
+
+def undecided() -> Answer:
+    """What an engine answers that does not know, and says so."""
+    return Answer("undecided")
+
+
+def unsupported(message: str) -> Answer:
+    """What an engine answers to a good query that it does not do."""
+    return Answer("error", message=message, unsupported=True)
+
+
+def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:
+    return None if numbers is None else tuple(float(n) for n in numbers)
+
+
+def _number(value: Any) -> Any:
+    if hasattr(value, "item"):  # a scalar of NumPy
+        return value.item()
+    raise TypeError(f"{type(value).__name__} is no number")

@@ -1,0 +1,107 @@
+"""Very many free flights, counted, with theory beside them; and the ways that are free for ever."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _lorentz
+from ._first_hit import Floats
+from ._numbers import Number
+from ._scene import Scene, SceneLike, native
+
+
+@dataclass(frozen=True)
+class FreePaths:
+    """What many free flights came to. Lengths are in the scene's unit, the speed is 1.
+
+    ``edges`` (K,): of logarithmic bins, eight an octave; ``counts`` (K + 1,): flights below the first edge, in
+    each bin, beyond the last; ``beyond`` (K,): flights longer than each edge. ``report`` is what
+    `lorentz flights --json` says: mean, its error, the exact mean, laws and how they fit, tails.
+    """
+
+    scene: Scene
+    start: str
+    edges: Floats
+    counts: npt.NDArray[np.uint64]
+    beyond: npt.NDArray[np.uint64]
+    report: dict[str, Any]
+
+    @property
+    def count(self) -> int:
+        """Flights that were flown."""
+        return int(self.report["count"])
+
+    @property
+    def mean(self) -> float:
+        """Of the flights that end."""
+        return float(self.report["mean"])
+
+    @property
+    def mean_error(self) -> float:
+        """One standard error of it, by chance alone."""
+        return float(self.report["mean_error"])
+
+    def survival(self) -> Floats:
+        """P(path > t) at ``edges``, shape (K,)."""
+        return self.beyond / max(self.count - int(self.report["undecided"]), 1)
+
+    def density(self) -> Floats:
+        """Of the path, in each bin between two edges, shape (K - 1,)."""
+        return self.counts[1:-1] / (self.count * np.diff(self.edges))
+
+    def laws(self) -> dict[str, Floats]:
+        """P(path > t) at ``edges`` by each law that theory has of the scene, by name."""
+        return laws(self.scene, self.edges, start=self.start)
+
+
+def flights(scene: SceneLike, count: int = 1_000_000, radius: Number | None = None, *, start: str = "uniform",
+            seed: int = 20161115, engine: str = "batch", threads: int = 1) -> FreePaths:
+    """Flies drawn starts, and counts their free paths; constant memory, 10^7 flights a second and thread in 2D.
+
+    Args:
+        start: ``uniform`` (anywhere, in any direction), or ``surface`` (off an obstacle by the cosine law:
+            paths from collision to collision).
+        seed: start n depends on scene, start, seed and n alone, and the counts on no number of threads.
+
+    Source: docs/free_paths.md. Raises Error where the scene leaves nothing free, or the engine cannot fly it.
+    """
+    place = Scene(scene, radius)
+    report, edges, counts, beyond = _lorentz.flights(native(place), count, start, seed, engine, threads)
+    return FreePaths(place, start, edges, counts, beyond, json.loads(report))
+
+
+def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
+    """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; often none is."""
+    t = np.asarray(times, np.float64)
+    return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), start, t)}
+
+
+def mean_free_path(scene: SceneLike, radius: Number | None = None) -> float | None:
+    """From collision to collision, exact up to rounding; None where no formula is known."""
+    return _lorentz.mean_free_path(native(Scene(scene, radius)))[0]
+
+
+def horizon(scene: SceneLike, radius: Number | None = None, *, min_width: float = 0.0,
+            cylinders: bool = True) -> dict[str, Any]:
+    """The infinite channels that a scene leaves open, decided exactly (docs/horizon.md).
+
+    Returns what `lorentz horizon --json` says: ``horizon`` ("finite", "infinite" or "undecided"), ``channels``
+    with their widths, ``cylinders`` in 3D, ``tail_constant`` C of P(path > t) ~ C / t; and ``verdict``, all of
+    it in words.
+
+    Args:
+        min_width: only corridors and planar channels at least that wide.
+        cylinders: search for cylindrical channels, too (3D; among small obstacles the longer search).
+
+    Raises:
+        Error: the obstacles are so small that there are too many channels to list.
+    """
+    place = Scene(scene, radius)
+    text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
+    found: dict[str, Any] = json.loads(text)
+    return {key: value for key, value in found.items() if key != "scene"} | {"verdict": verdict}

@@ -1,0 +1,80 @@
+"""Golden sets: hard queries with their exact answers, and the proofs of these."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from typing import Iterator
+
+from . import _lorentz
+from ._answer import Answer
+from ._lorentz import Certificate
+from ._numbers import Obstacle
+from ._scene import Scene, wrapped
+
+
+@dataclass(frozen=True)
+class GoldenRecord:
+    """A record of a golden set (docs/formats.md). Of a question that is none x, v and start_from are None,
+    ``flaw`` says why it is none, and the answer is "error"; ``question`` is its text."""
+
+    id: str
+    tags: list[str]
+    scene: Scene
+    question: str
+    flaw: str | None
+    x: tuple[float, ...] | None
+    v: tuple[float, ...] | None
+    start_from: Obstacle | None
+    answer: Answer
+    margin: float | None
+    condition: float | None
+    certificate: Certificate | None
+
+
+class GoldenSet:
+    """An iterable of the records of a set, read from its file one by one, anew each time.
+
+    Args:
+        name_or_file: one of `golden_sets`, or a file.
+
+    Raises:
+        FileError: there is neither; Error, naming the line, where it is no golden set.
+    """
+
+    def __init__(self, name_or_file: str | os.PathLike[str]) -> None:
+        reader = _lorentz.GoldenReader(os.fspath(name_or_file))
+        self.path, self.name, self.description = reader.path, reader.name, reader.description
+        self._count = reader.count
+
+    def __len__(self) -> int:
+        """As many as the header promises."""
+        return self._count
+
+    def __iter__(self) -> Iterator[GoldenRecord]:
+        reader = _lorentz.GoldenReader(self.path)
+        seen: tuple[_lorentz.Scene, Scene] | None = None
+        while True:
+            try:
+                fields = next(reader)
+            except StopIteration:
+                return
+            if seen is None or seen[0] is not fields["scene"]:
+                seen = fields["scene"], wrapped(fields["scene"])
+            decimal = fields.pop("time_decimal")
+            answer = replace(Answer.from_line(fields["answer"]), time_decimal=decimal)
+            fields |= {"scene": seen[1], "answer": answer}
+            yield GoldenRecord(**fields)
+
+    def __repr__(self) -> str:
+        return f"GoldenSet({self.path!r})"
+
+
+def golden(name_or_file: str | os.PathLike[str]) -> GoldenSet:
+    """The golden set of that name or file: ``for record in lorentz.golden("near-rational"): ..``"""
+    return GoldenSet(name_or_file)
+
+
+def golden_sets() -> list[str]:
+    """The names of the sets that come with the package."""
+    return [os.path.splitext(os.path.basename(path))[0] for path in _lorentz.golden_sets()]

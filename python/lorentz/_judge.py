@@ -1,0 +1,127 @@
+"""Judging engines: those of the package, other programs, and functions of Python."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Callable, Iterable, Union
+
+from . import _lorentz
+from ._answer import Answer
+from ._first_hit import Outcome
+from ._lorentz import Answers
+from ._numbers import Obstacle
+from ._scene import Scene, wrapped
+
+#: ``engine(scene, x, v, start_from)``: the answer to one query, or to N (docs/python.md).
+FirstHitFunction = Callable[..., Any]
+
+
+def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
+          quick: bool = True, time: float | None = None, seed: int = 20161115, threads: int = 1, ulps: float = 4,
+          times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
+    """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
+
+    Args:
+        engine: the name of an engine, ``"cmd:COMMAND"`` for another program, or a function
+            ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
+            (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
+            `inside`, `undecided`, `unsupported`. An exception is an error of the engine, and so counted.
+        vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
+            or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
+            ``cell`` (N, d), ``time``, and ``lattice``, ``atom`` where these are not all 0.
+        name: what the report calls it; else the function's own name.
+        quick: 20 seconds instead of two minutes.
+        time: about so many seconds instead.
+        seed: of all that is drawn.
+        threads: of the campaign; a function of Python runs one at a time all the same.
+        ulps: the tolerance of the verdicts; 0 forgives nothing.
+        times: wrong times count in the verdict.
+        html: a file to write the report to as a page, whole or not at all.
+
+    Returns:
+        The report of `lorentz judge --json`: ``verdict``, ``line`` (the verdict in a line), ``difficulties``
+        (rows: what was asked, and what came of it), ``findings`` (what went wrong, each with its simplest
+        case); and ``text``, what `lorentz judge` prints.
+
+    Raises:
+        Error: an unknown engine. FileError: the page cannot be written, or the package has none (docs/page.md).
+    """
+    if isinstance(engine, str):
+        function, called, command = None, engine, f"lorentz.judge({engine!r})"
+    else:
+        function = _Asked(engine, vectorized)
+        called = name or str(getattr(engine, "__name__", type(engine).__name__))
+        command = f"lorentz.judge({called})"
+    page = None if html is None else os.fspath(html)
+    report, text = _lorentz.judge(function, called, command, quick, time, seed, threads, ulps, times, page)
+    result: dict[str, Any] = json.loads(report)
+    return result | {"text": text}
+
+
+class _Asked:
+    """Asks a function what the judge wants to know, and puts its answers into lines."""
+
+    def __init__(self, function: FirstHitFunction, vectorized: bool) -> None:
+        self.function, self.vectorized = function, vectorized
+        self.seen: tuple[_lorentz.Scene, Scene] | None = None
+
+    def __call__(self, scene: _lorentz.Scene, x: Any, v: Any, start_from: list[Obstacle | None]) -> list[str]:
+        place = self._scene(scene)
+        if not self.vectorized:
+            return [_line(self.function, place, *query) for query in zip(x, v, start_from)]
+        try:
+            lines = [answer.to_line() for answer in _answers(self.function(place, x, v, start_from))]
+            if len(lines) == len(x):
+                return lines
+            message = f"{len(lines)} answers to {len(x)} queries"
+        except Exception as error:
+            message = _message(error)
+        if len(x) == 1:
+            return [_error(message)]
+        # Which of them is at fault? One by one only those fail that have to.
+        return [line for i in range(len(x)) for line in self(scene, x[i:i + 1], v[i:i + 1], start_from[i:i + 1])]
+
+    def _scene(self, scene: _lorentz.Scene) -> Scene:
+        if self.seen is None or self.seen[0] is not scene:
+            self.seen = scene, wrapped(scene)
+        return self.seen[1]
+
+
+def _line(function: FirstHitFunction, scene: Scene, x: Any, v: Any, start_from: Obstacle | None) -> str:
+    try:
+        answer = function(scene, x, v, start_from)
+        if not isinstance(answer, Answer):
+            return _error(f"{type(answer).__name__} is no Answer")
+        return answer.to_line()
+    except Exception as error:
+        return _error(_message(error))
+
+
+def _answers(given: Any) -> Iterable[Answer]:
+    if isinstance(given, Answers):
+        columns = {name: getattr(given, name) for name in ("outcome", "lattice", "atom", "time")}
+        large = given.large_cells
+        return _answers(columns | {"cell": [large.get(i, cell) for i, cell in enumerate(given.cell.tolist())]})
+    if isinstance(given, dict):
+        return [_answer(given, i, Outcome(int(code))) for i, code in enumerate(given["outcome"])]
+    return list(given)
+
+
+def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
+    if outcome is Outcome.ERROR:
+        return Answer("error", message="")
+    if outcome not in (Outcome.HIT, Outcome.INSIDE):
+        return Answer(outcome.name.lower())
+    lattice, atom = (int(columns[name][i]) if name in columns else 0 for name in ("lattice", "atom"))
+    cell = tuple(int(n) for n in columns["cell"][i])
+    time = float(columns["time"][i]) if outcome is Outcome.HIT else None
+    return Answer(outcome.name.lower(), lattice, atom, cell, time)
+
+
+def _message(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+def _error(message: str) -> str:
+    return Answer("error", message=message).to_line()

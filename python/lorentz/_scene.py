@@ -1,0 +1,111 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, Union
+
+from . import _lorentz
+from ._lorentz import Error
+from ._numbers import Number, text
+
+SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
+
+
+class Scene:
+    """Obstacles on lattices, in 2 or 3 dimensions: balls, or ellipsoids, in motifs that repeat.
+
+    Args:
+        source: a dict in the form of docs/formats.md (``{"dimension": 2, "lattices": [{"vectors": [[1, 0],
+            [0, 1]], "atoms": [{"position": [0, 0], "radius": 0.1}]}]}``); a TOML or JSON file; the name of a
+            scene of the catalogue (`catalogue`); or another Scene.
+        radius: every ball gets this radius, in the scene's unit of length.
+
+    A number is a float, an int, a ``fractions.Fraction``, or a text: ``"1/3"``, ``"0.1"`` (the tenth, not the
+    float near it). Floats mean exactly the rational numbers that they are.
+
+    Raises:
+        Error: it is no scene; the text names the place, as ``lattices[0].atoms[1].radius``.
+        FileError: there is no such file, and no such name in the catalogue.
+    """
+
+    __slots__ = ("_scene", "_oracle")
+    _scene: _lorentz.Scene
+    _oracle: _lorentz.Oracle | None  # made when it is first asked
+
+    def __init__(self, source: SceneLike, radius: Number | None = None) -> None:
+        self._oracle = None
+        self._scene = _read(source)
+        if radius is not None:
+            self._scene = _read(_with_radius(self.to_dict(), radius))
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self._scene.dimension
+
+    @property
+    def is_binary64(self) -> bool:
+        """True if every number is a float; else only certified itineraries and the oracle's first hits take it."""
+        return self._scene.is_binary64
+
+    def nearest(self) -> Scene:
+        """The scene with every number rounded to the nearest float."""
+        return wrapped(self._scene.nearest())
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene in the form that the constructor takes; numbers are floats, or Fractions that are none."""
+        return self._scene.to_dict()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self.to_dict() == other.to_dict()
+
+    def __hash__(self) -> int:
+        return hash(str(self.to_dict()))
+
+    def __repr__(self) -> str:
+        return f"Scene({self.to_dict()!r})"
+
+    def __reduce__(self) -> Any:
+        return Scene, (self.to_dict(),)
+
+
+def unit_scene(dimension: int, radius: Number) -> Scene:
+    """The unit square (2) or cubic (3) lattice with a ball of this radius at each of its points."""
+    vectors = [[int(i == k) for k in range(dimension)] for i in range(dimension)]
+    atom = {"position": [0] * dimension, "radius": radius}
+    return Scene({"dimension": dimension, "lattices": [{"vectors": vectors, "atoms": [atom]}]})
+
+
+def catalogue() -> list[str]:
+    """The names of the scenes that come with the package (data/scenes)."""
+    return _lorentz.catalogue()
+
+
+def native(scene: SceneLike) -> _lorentz.Scene:
+    """What the extension module knows of a scene, however it was given."""
+    return scene._scene if isinstance(scene, Scene) else Scene(scene)._scene
+
+
+def wrapped(native_scene: _lorentz.Scene) -> Scene:
+    """The other way round."""
+    scene = Scene.__new__(Scene)
+    scene._scene, scene._oracle = native_scene, None
+    return scene
+
+
+def _read(source: SceneLike) -> _lorentz.Scene:
+    if isinstance(source, Scene):
+        return source._scene
+    if isinstance(source, Mapping):
+        return _lorentz.Scene.from_json(text({"scene": dict(source)}))
+    return _lorentz.Scene.load(os.fspath(source))
+
+
+def _with_radius(scene: dict[str, Any], radius: Number) -> dict[str, Any]:
+    for lattice in scene["lattices"]:
+        for atom in lattice["atoms"]:
+            if "semiaxes" in atom:
+                raise Error("radius: the scene has ellipsoids, which have no radius to override")
+            atom["radius"] = radius
+    return scene

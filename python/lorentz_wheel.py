@@ -1,0 +1,88 @@
+"""Builds the package's wheel, as pip asks for it (PEP 517): CMake builds and installs, a wheel is a zip of that.
+
+No tool for builds is needed besides, so that `pip install .` works where no index of packages can be reached.
+"""
+
+import base64
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build-python"
+TEXT = (ROOT / "CMakeLists.txt").read_text()
+VERSION = re.search(r"project\(lorentz VERSION ([0-9.]+)", TEXT).group(1)
+INFO = f"lorentz-{VERSION}.dist-info"
+TAG = "-".join([f"cp{sys.version_info[0]}{sys.version_info[1]}"] * 2 +
+               [re.sub(r"[-.]", "_", sysconfig.get_platform())])
+METADATA = f"""Metadata-Version: 2.1
+Name: lorentz
+Version: {VERSION}
+Summary: The periodic Lorentz gas, exactly: which obstacle is hit first?
+License: MIT
+Requires-Python: >=3.9
+Requires-Dist: numpy
+Provides-Extra: plot
+Requires-Dist: matplotlib; extra == 'plot'
+"""
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    write_info(Path(metadata_directory))
+    return INFO
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    name = f"lorentz-{VERSION}-{TAG}.whl"
+    with tempfile.TemporaryDirectory() as folder:
+        install(Path(folder))
+        write_info(Path(folder))
+        pack(Path(folder), Path(wheel_directory) / name)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("the repository itself is the distribution of the sources")
+
+
+def install(folder):
+    """The package, with the scenes and golden sets that it finds there."""
+    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+    for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DLORENTZ_PYTHON_DIR=.",
+                     f"-DPython3_EXECUTABLE={sys.executable}"],
+                    ["cmake", "--build", BUILD, "--target", "lorentz_python", "-j", jobs],
+                    ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):
+        subprocess.run(command, cwd=ROOT, check=True)
+    for data in ("scenes", "golden"):
+        shutil.copytree(ROOT / "data" / data, folder / "lorentz" / "data" / data)
+
+
+def write_info(folder):
+    info = folder / INFO
+    info.mkdir()
+    (info / "METADATA").write_text(METADATA)
+    (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: lorentz\nRoot-Is-Purelib: false\nTag: {TAG}\n")
+    shutil.copy(ROOT / "LICENSE", info)
+
+
+def pack(folder, wheel):
+    """All files below the folder, and RECORD: each with its sum and size."""
+    record = []
+    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in sorted(path for path in folder.rglob("*") if path.is_file()):
+            name = file.relative_to(folder).as_posix()
+            archive.write(file, name)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
+            record.append(f"{name},sha256={digest},{file.stat().st_size}\n")
+        archive.writestr(f"{INFO}/RECORD", "".join(record) + f"{INFO}/RECORD,,\n")

@@ -1,0 +1,53 @@
+// The extension module `lorentz._lorentz`: what the package's modules in Python are thin covers of.
+#include "python/module.hpp"
+
+#include <stdexcept>
+
+#include <lorentz/errors.hpp>
+#include "cli/data_folder.hpp"
+
+namespace lorentz::python {
+namespace {
+
+// One class for each way in which input goes wrong (include/lorentz/errors.hpp), both Error.
+void bind_errors(py::module_& module) {
+  static py::exception<InputError> error(module, "Error", PyExc_ValueError);
+  error.attr("__module__") = "lorentz";
+  error.attr("__doc__") = "Input that does not mean what it should. The text says where and why.";
+  static py::exception<FileError> file_error(
+      module, "FileError", py::make_tuple(error, py::reinterpret_borrow<py::object>(PyExc_OSError)));
+  file_error.attr("__module__") = "lorentz";
+  file_error.attr("__doc__") = "A file that cannot be opened, read or written.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const FileError& failure) {
+      file_error(failure.what());
+    } catch (const InputError& failure) {
+      error(failure.what());
+    } catch (const std::invalid_argument& failure) {
+      error(failure.what());
+    }
+  });
+}
+
+}  // namespace
+}  // namespace lorentz::python
+
+PYBIND11_MODULE(_lorentz, module) {
+  using namespace lorentz::python;
+  module.doc() = "What `lorentz` is made of; use the package.";
+  bind_errors(module);
+  module.attr("VERSION") = LORENTZ_VERSION;
+  module.def("add_data_folder", &lorentz::cli::add_data_folder, py::arg("path"),
+             "Another folder to look for scenes and golden sets in, after the usual ones.");
+  bind_scene(module);
+  bind_first_hit(module);
+  bind_certificates(module);
+  bind_exact(module);
+  bind_paths(module);
+  bind_flights(module);
+  bind_horizon(module);
+  bind_golden(module);
+  bind_judge(module);
+}

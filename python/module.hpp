@@ -1,0 +1,26 @@
+// What the parts of the extension module have in common. Private to python/.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace lorentz::python {
+
+namespace py = pybind11;
+
+/// Numbers in an array of any layout; nothing is copied if they are binary64 already.
+using Numbers = py::array_t<double, py::array::forcecast>;
+
+// Each part adds its classes and functions to the module.
+void bind_scene(py::module_& module);
+void bind_first_hit(py::module_& module);
+void bind_exact(py::module_& module);
+void bind_certificates(py::module_& module);
+void bind_paths(py::module_& module);
+void bind_flights(py::module_& module);
+void bind_horizon(py::module_& module);
+void bind_golden(py::module_& module);
+void bind_judge(py::module_& module);
+
+}  // namespace lorentz::python

@@ -1,0 +1,246 @@
+// Many particles from collision to collision as arrays, and certified itineraries.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <lorentz/itinerary.hpp>
+#include <lorentz/trajectory_batch.hpp>
+#include "compare/registry.hpp"
+#include "flights/sample/free_starts.hpp"
+#include "python/engine.hpp"
+#include "python/lines.hpp"
+
+namespace lorentz::python {
+namespace {
+
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
+// ---- Particles
+
+// Collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
+struct Paths {
+  Paths(std::size_t particles, std::size_t collisions, int dimension)
+      : particles(particles), collisions(collisions), dimension(dimension) {
+    const std::size_t all = particles * collisions, components = all * static_cast<std::size_t>(dimension);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    time.resize(all, none), place.resize(components, none), velocity.resize(components, none);
+    lattice.resize(all), atom.resize(all), cell.resize(components);
+    count.resize(particles), stop.resize(particles);
+  }
+
+  void set(std::size_t i, const Scene& scene, const Particle& particle) {
+    const std::size_t k = i * collisions + particle.collisions - 1;
+    time[k] = particle.time, lattice[k] = particle.lattice, atom[k] = particle.atom;
+    const Vec at = place_of(scene, particle);
+    for (int c = 0; c < dimension; ++c) {
+      const std::size_t n = k * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(c);
+      place[n] = at[c], velocity[n] = particle.velocity[c], cell[n] = particle.cell[c];
+    }
+    count[i] = static_cast<std::int64_t>(particle.collisions);
+  }
+
+  std::size_t particles, collisions;
+  int dimension;
+  std::vector<double> time, place, velocity;
+  std::vector<std::int32_t> lattice, atom;
+  std::vector<std::int64_t> cell, count;
+  std::vector<std::uint8_t> stop;  // codes of Stop
+};
+
+// The starts of particles, each as a query.
+std::vector<Query> starts_of(const QueryArrays& arrays, const Scene& scene) {
+  arrays.check(scene.dimension);
+  QueryRows rows;
+  arrays.copy(0, arrays.count(), rows);
+  std::vector<Query> starts;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    starts.push_back(rows.query(i, scene.dimension));
+    if (auto flaw = flaw_of(starts[i], scene)) throw InputError("row " + std::to_string(i) + ": " + *flaw);
+  }
+  return starts;
+}
+
+void follow_together(const Scene& scene, const std::vector<Query>& starts, double until, Precision precision,
+                     Paths& paths) {
+  if (const auto why_not = Reduction::beyond(scene)) throw InputError("the engine batch " + *why_not);
+  const Batch engine(scene);
+  Particles particles(engine, scene, precision);
+  for (const Query& start : starts) particles.add(start);
+  const auto visit = [&](std::size_t i, const Particle& particle, const Collision&) {
+    paths.set(i, scene, particle);
+    return true;
+  };
+  for (std::size_t k = 0; k < paths.collisions && particles.advance(until, visit) > 0; ++k)
+    look_for_signals();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Stop stop = particles.stop(i);
+    paths.stop[i] = static_cast<std::uint8_t>(stop == Stop::none ? Stop::collisions : stop);
+  }
+}
+
+AskFirstHit asked(const std::string& engine, const Scene& scene) {
+  return [first_hit = compare::make_first_hit(engine, scene)](const Query& query, double max_time,
+                                                              Answer& answer) {
+    oracle::Request request;
+    if (max_time < kForEver) request.max_time = max_time;
+    first_hit(query, request, answer);
+  };
+}
+
+void follow_one_by_one(const std::string& engine, const Scene& scene, const std::vector<Query>& starts,
+                       double until, Precision precision, Paths& paths) {
+  const AskFirstHit ask = asked(engine, scene);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    Trajectory trajectory(ask, scene, starts[i], precision);
+    const Stop stop = trajectory.run(paths.collisions, until, [&](const Trajectory& now) {
+      paths.set(i, scene, now.state());
+      return true;
+    });
+    paths.stop[i] = static_cast<std::uint8_t>(stop);
+    look_for_signals();
+  }
+}
+
+std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, std::size_t collisions,
+                              double until, const std::string& engine, bool double_double) {
+  check_own_engine(engine);
+  const std::vector<Query> starts = starts_of(arrays, scene.scene());
+  auto paths = std::make_shared<Paths>(starts.size(), collisions, scene.dimension());
+  const Precision precision = double_double ? Precision::double_double : Precision::binary64;
+  const py::gil_scoped_release release;
+  if (engine == "batch")
+    follow_together(scene.scene(), starts, until, precision, *paths);
+  else
+    follow_one_by_one(engine, scene.scene(), starts, until, precision, *paths);
+  return paths;
+}
+
+// ---- Itineraries
+
+py::list texts(const std::vector<std::string>& numbers) {
+  return py::cast(numbers);
+}
+
+py::dict itinerary(const PyScene& scene, const std::string& start, std::optional<std::uint64_t> collisions,
+                   const std::optional<std::string>& time, int digits, bool states, long most_bits) {
+  oracle::Journey journey;
+  journey.collisions = collisions, journey.digits = digits, journey.states = states;
+  journey.most_bits = most_bits;
+  if (time) journey.time = rational_from(*time);
+  if (time && !journey.time) throw InputError("time: " + json_quoted(*time) + " is no rational number");
+  const Start from = read_start(start, scene.exact());
+  std::vector<oracle::CertifiedCollision> met;
+  oracle::Arrival arrival;
+  {
+    const py::gil_scoped_release release;
+    arrival = oracle::Itinerary(scene.exact())
+                  .follow(from, journey, [&](const oracle::CertifiedCollision& collision) {
+                    met.push_back(collision);
+                    if (met.size() % 16 == 0) look_for_signals();
+                    return true;
+                  });
+  }
+  py::list list;
+  for (const oracle::CertifiedCollision& c : met)
+    list.append(py::dict(py::arg("lattice") = c.obstacle.lattice, py::arg("atom") = c.obstacle.atom,
+                         py::arg("cell") = to_python(c.obstacle.cell, scene.dimension()),
+                         py::arg("time") = c.time, py::arg("x") = texts(c.x), py::arg("v") = texts(c.v),
+                         py::arg("bits") = c.bits));
+  return py::dict(py::arg("collisions") = list, py::arg("end") = std::string(name_of(arrival.end)),
+                  py::arg("bits") = arrival.bits, py::arg("x") = texts(arrival.x),
+                  py::arg("v") = texts(arrival.v), py::arg("distance") = arrival.distance);
+}
+
+// ---- Starts
+
+py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
+              std::uint64_t first) {
+  const auto& names = flights::kind_names();
+  const auto found = std::find(names.begin(), names.end(), kind);
+  if (found == names.end()) {
+    std::string known;
+    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+    throw InputError("kind: " + json_quoted(kind) + " is none; there are " + known);
+  }
+  const int d = scene.dimension();
+  const auto n = static_cast<py::ssize_t>(count);
+  py::array_t<double> x({n, py::ssize_t{d}}), v({n, py::ssize_t{d}});
+  py::array_t<std::int32_t> lattice(n), atom(n);
+  py::array_t<std::int64_t> cell({n, py::ssize_t{d}});
+  const flights::FreeStarts starts(scene.scene(), static_cast<flights::Kind>(found - names.begin()), seed);
+  Query start;
+  for (py::ssize_t i = 0; i < n; ++i) {
+    starts.draw(first + static_cast<std::uint64_t>(i), start);
+    lattice.mutable_at(i) = start.from ? start.from->lattice : -1;
+    atom.mutable_at(i) = start.from ? start.from->atom : 0;
+    for (py::ssize_t k = 0; k < d; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      x.mutable_at(i, k) = start.x[c], v.mutable_at(i, k) = start.v[c];
+      cell.mutable_at(i, k) = start.from ? start.from->cell[c].int64() : 0;
+    }
+    if (i % 4096 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  py::dict drawn(py::arg("x") = x, py::arg("v") = v, py::arg("start_from") = py::none());
+  if (kind == "surface") drawn["start_from"] = py::make_tuple(lattice, atom, cell);
+  return drawn;
+}
+
+// ---- Arrays
+
+template <class Number>
+py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> shape, const py::object& owner) {
+  py::array array(py::dtype::of<Number>(), std::move(shape), numbers.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+// Of one number a collision (or particle, if `whole`), or of as many as there are dimensions.
+enum class Shape { particles, collisions, vectors };
+
+template <class Number>
+auto array_of(std::vector<Number> Paths::*member, Shape shape) {
+  return [=](const py::object& self) {
+    const auto& paths = self.cast<const Paths&>();
+    std::vector<std::size_t> lengths{paths.particles};
+    if (shape != Shape::particles) lengths.push_back(paths.collisions);
+    if (shape == Shape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
+    return shown(paths.*member, lengths, self);
+  };
+}
+
+}  // namespace
+
+void bind_paths(py::module_& module) {
+  py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths",
+                                            "Collisions of N particles, C of each: read-only views, without "
+                                            "a copy. lorentz.trajectories says what they are.")
+      .def("__len__", [](const Paths& paths) { return paths.particles; })
+      .def_readonly("dimension", &Paths::dimension)
+      .def_property_readonly("count", array_of(&Paths::count, Shape::particles))
+      .def_property_readonly("stop_code", array_of(&Paths::stop, Shape::particles))
+      .def_property_readonly("time", array_of(&Paths::time, Shape::collisions))
+      .def_property_readonly("lattice", array_of(&Paths::lattice, Shape::collisions))
+      .def_property_readonly("atom", array_of(&Paths::atom, Shape::collisions))
+      .def_property_readonly("cell", array_of(&Paths::cell, Shape::vectors))
+      .def_property_readonly("place", array_of(&Paths::place, Shape::vectors))
+      .def_property_readonly("velocity", array_of(&Paths::velocity, Shape::vectors));
+  module.def(
+      "follow",
+      [](const PyScene& scene, Numbers x, Numbers v, const py::object& from, std::size_t collisions,
+         double until, const std::string& engine, bool double_double) {
+        return follow(scene, QueryArrays::of(std::move(x), std::move(v), std::nullopt, from), collisions,
+                      until, engine, double_double);
+      },
+      py::arg("scene"), py::arg("x"), py::arg("v"), py::arg("start_from"), py::arg("collisions"),
+      py::arg("until"), py::arg("engine"), py::arg("double_double"));
+  module.def("itinerary", itinerary, py::arg("scene"), py::arg("start"), py::arg("collisions"),
+             py::arg("time"), py::arg("digits"), py::arg("states"), py::arg("most_bits"));
+  module.def("draw", draw, py::arg("scene"), py::arg("count"), py::arg("kind"), py::arg("seed"),
+             py::arg("first"));
+  py::list stops;
+  for (int code = 0; code <= static_cast<int>(Stop::error); ++code)
+    stops.append(name_of(static_cast<Stop>(code)));
+  module.attr("STOPS") = py::tuple(stops);
+}
+
+}  // namespace lorentz::python

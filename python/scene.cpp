@@ -1,0 +1,143 @@
+#include "python/scene.hpp"
+
+#include <lorentz/errors.hpp>
+#include <lorentz/itinerary.hpp>
+#include <lorentz/scene_check.hpp>
+#include "cli/scene_option.hpp"
+#include "python/lines.hpp"
+
+namespace lorentz::python {
+namespace {
+
+Scene checked(Scene scene) {
+  if (auto flaw = oracle::dependence_in(scene)) throw InputError(*flaw);
+  return scene;
+}
+
+py::object fraction_class() {
+  return py::module_::import("fractions").attr("Fraction");
+}
+
+py::tuple to_python(const RationalVec& a, int dimension) {
+  py::tuple tuple(dimension);
+  for (int i = 0; i < dimension; ++i) tuple[i] = python::to_python(a[i]);
+  return tuple;
+}
+
+py::dict atom_dict(const RationalAtom& atom, int dimension) {
+  py::dict dict;
+  dict["position"] = to_python(atom.position, dimension);
+  if (atom.is_ball()) {
+    dict["radius"] = python::to_python(atom.radius);
+  } else {
+    py::list semiaxes;
+    for (const RationalVec& axis : atom.semiaxes) semiaxes.append(to_python(axis, dimension));
+    dict["semiaxes"] = semiaxes;
+  }
+  return dict;
+}
+
+py::dict scene_dict(const PyScene& scene) {
+  py::list lattices;
+  for (const RationalLattice& lattice : scene.exact().lattices) {
+    py::list vectors, atoms;
+    for (int i = 0; i < scene.dimension(); ++i)
+      vectors.append(to_python(lattice.vectors[i], scene.dimension()));
+    for (const RationalAtom& atom : lattice.atoms) atoms.append(atom_dict(atom, scene.dimension()));
+    lattices.append(py::dict(py::arg("vectors") = vectors, py::arg("atoms") = atoms));
+  }
+  return py::dict(py::arg("dimension") = scene.dimension(), py::arg("lattices") = lattices);
+}
+
+py::list catalogue_names() {
+  py::list names;
+  for (const cli::CatalogueEntry& entry : cli::catalogue()) names.append(entry.name);
+  return names;
+}
+
+}  // namespace
+
+PyScene::PyScene(RationalScene scene)
+    : nearest_(oracle::nearest(scene)), exact_(std::move(scene)), is_binary64_(false) {
+  const oracle::Itinerary check(exact_);  // throws InputError
+}
+
+// In binary64; if it is not, in rational numbers. Of two complaints the first is the one that is told.
+template <class ReadBinary64, class ReadRational>
+PyScene PyScene::either(const ReadBinary64& binary64, const ReadRational& rational) {
+  std::optional<InputError> why_not;
+  try {
+    return PyScene(binary64());
+  } catch (const InputError& error) {
+    why_not = error;
+  }
+  try {
+    return PyScene(rational());
+  } catch (const InputError&) {
+    throw *why_not;
+  }
+}
+
+PyScene PyScene::from_json(const std::string& text) {
+  return either([&] { return checked(read_scene(text)); }, [&] { return read_rational_scene(text); });
+}
+
+PyScene PyScene::load(const std::string& name_or_file) {
+  const std::string file = cli::find_scene(name_or_file);
+  try {
+    return either([&] { return checked(read_scene_file(file, refuse_key)); },
+                  [&] { return read_rational_scene_file(file, refuse_key); });
+  } catch (const InputError& error) {
+    throw InputError(name_or_file + ": " + error.what());
+  }
+}
+
+const Scene& PyScene::scene() const {
+  if (!is_binary64_)
+    throw InputError(
+        "the scene has numbers that no binary64 is; scene.nearest() has them rounded, and certified "
+        "itineraries take them as they are");
+  return nearest_;
+}
+
+py::int_ to_python(const Integer& n) {
+  if (n.fits_int64()) return py::int_(n.int64());
+  return py::reinterpret_steal<py::int_>(PyLong_FromString(n.decimal().c_str(), nullptr, 10));
+}
+
+py::object to_python(const Rational& number) {
+  if (const double* value = std::get_if<double>(&number)) return py::float_(*value);
+  const Fraction& fraction = std::get<Fraction>(number);
+  return fraction_class()(to_python(fraction.numerator), to_python(fraction.denominator));
+}
+
+py::tuple to_python(const Vec& a, int dimension) {
+  py::tuple tuple(dimension);
+  for (int i = 0; i < dimension; ++i) tuple[i] = a[i];
+  return tuple;
+}
+
+py::tuple to_python(const Cell& cell, int dimension) {
+  py::tuple tuple(dimension);
+  for (int i = 0; i < dimension; ++i) tuple[i] = to_python(cell[i]);
+  return tuple;
+}
+
+Integer integer_from(const py::handle& n, const char* what) {
+  const auto value = Integer::from_decimal(std::string(py::str(n)));
+  if (!value) throw InputError(std::string(what) + ": needs an integer");
+  return *value;
+}
+
+void bind_scene(py::module_& module) {
+  py::class_<PyScene, std::shared_ptr<PyScene>>(module, "Scene")
+      .def_static("from_json", &PyScene::from_json)
+      .def_static("load", &PyScene::load)
+      .def_property_readonly("dimension", &PyScene::dimension)
+      .def_property_readonly("is_binary64", &PyScene::is_binary64)
+      .def("nearest", [](const PyScene& scene) { return PyScene(scene.nearest()); })
+      .def("to_dict", scene_dict);
+  module.def("catalogue", catalogue_names);
+}
+
+}  // namespace lorentz::python

@@ -1,0 +1,59 @@
+"""Free paths against theory, and horizons."""
+
+import lorentz
+import numpy as np
+import pytest
+
+SEED = 20161115
+
+
+def test_the_mean_is_the_exact_one():
+    paths = lorentz.flights("square", 300_000, 0.2, start="surface", seed=SEED)
+    exact = lorentz.mean_free_path("square", 0.2)
+    assert exact == pytest.approx((1 - np.pi * 0.04) / 0.4, rel=1e-14)
+    assert paths.count == 300_000 and abs(paths.mean - exact) < 5 * paths.mean_error
+    assert 0 < paths.mean_error < 0.01
+
+
+def test_survival_follows_the_law():
+    paths = lorentz.flights("square", 300_000, 1e-3, seed=SEED)
+    laws, measured = paths.laws(), paths.survival()
+    assert list(laws) == ["Boca-Zaharescu"]
+    expected = laws["Boca-Zaharescu"]
+    error = np.sqrt(np.maximum(expected * (1 - expected), 1e-12) / paths.count)
+    seen = (expected > 1e-3) & (expected < 0.999)
+    assert seen.sum() > 100 and (np.abs(measured - expected)[seen] < 5 * error[seen]).all()
+    assert (np.diff(measured) <= 0).all()
+    inside = paths.counts[1:-1].sum() + paths.counts[0] + paths.counts[-1]
+    assert inside == paths.report["hits"]
+    assert (paths.density() * np.diff(paths.edges)).sum() <= 1 + 1e-12
+
+
+def test_threads_and_seeds():
+    one = lorentz.flights("cubic", 200_000, 0.2, seed=1)
+    two = lorentz.flights("cubic", 200_000, 0.2, seed=1, threads=2)
+    other = lorentz.flights("cubic", 200_000, 0.2, seed=2)
+    assert np.array_equal(one.counts, two.counts) and one.mean == two.mean
+    assert not np.array_equal(one.counts, other.counts)
+
+
+def test_horizons():
+    square = lorentz.horizon("square", 0.4)
+    assert square["horizon"] == "infinite" and square["verdict"].startswith("infinite horizon")
+    assert {tuple(c["direction"]): c["width"] for c in square["channels"]} == {
+        (1, 0): pytest.approx(0.2), (0, 1): pytest.approx(0.2)}
+    assert lorentz.horizon("triangular", 0.45)["horizon"] == "finite"
+    assert lorentz.horizon("square", 0.01, min_width=0.9)["channels"]
+
+
+@pytest.mark.parametrize("call, text", [
+    (lambda: lorentz.flights("square", 0), "count"),
+    (lambda: lorentz.flights("square", 10, start="nowhere"), "start"),
+    (lambda: lorentz.flights("square", 10, engine="bach"), "did you mean batch"),
+    (lambda: lorentz.flights("square", 10, threads=0), "threads"),
+    (lambda: lorentz.flights("square", 10, 0.9), "overlap|inside|batch"),
+    (lambda: lorentz.horizon("square", 1e-9), "min_width"),
+])
+def test_bad_arguments(call, text):
+    with pytest.raises(lorentz.Error, match=text):
+        call()

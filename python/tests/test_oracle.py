@@ -1,0 +1,151 @@
+"""Exact answers in ints and Fractions, margins, verdicts, proofs."""
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import lorentz
+import numpy as np
+import pytest
+from lorentz import oracle
+
+SEED = 20161115
+
+
+def test_cells_of_any_size():
+    answer = oracle.first_hit(lorentz.Scene("square", 0.1), [0, 0.445], [1, 1e-20])
+    assert answer.cell == (45500000000000001275, 1) and answer.time == 4.55e19
+    assert oracle.first_hit(lorentz.Scene("square", 0.1), [0.05, 0], [1, 0]).outcome == "inside"
+    assert oracle.first_hit(lorentz.Scene("square", 0.1), [0, 0.445], [1, 0]).outcome == "never"
+
+
+def test_a_time_by_hand():
+    # (t - 1/2)^2 + 1/100 = 1/9: the disc of cell (1, 0).
+    answer = oracle.first_hit(lorentz.unit_scene(2, Fraction(1, 3)), [Fraction(1, 2), Fraction(1, 10)], [1, 0])
+    assert answer.obstacle == (0, 0, (1, 0))
+    assert answer.exact_time == lorentz.ExactTime(Fraction(1, 2), Fraction(91, 900))
+    assert answer.time == float(answer.exact_time) == pytest.approx(0.5 - math.sqrt(91 / 900), rel=1e-15)
+    # Along the axis the root is a square: (1 - t)^2 = 1/9.
+    along = oracle.first_hit(lorentz.unit_scene(2, "1/3"), ["1/2", 0], [1, 0])
+    assert along.exact_time.fraction() == Fraction(1, 6) and along.time == 1 / 6
+    assert answer.exact_time.fraction() is None
+
+
+@pytest.mark.parametrize("name", ["square", "cubic", "hcp", "ellipse", "ellipsoid", "superposition-pi-5"])
+def test_the_exact_time_rounds_to_the_time(name):
+    """Two ways: the oracle's C++ integers, and Fractions of the obstacle alone."""
+    scene = lorentz.Scene(name)
+    x, v, _ = lorentz.draw_starts(scene, 30, seed=SEED)
+    for i in range(len(x)):
+        answer = oracle.first_hit(scene, x[i], v[i], digits=40)
+        assert float(answer.exact_time) == answer.time
+        low, high = answer.exact_time.bounds(200)
+        assert low <= high and high - low <= Fraction(1, 2**200) and float(low) == answer.time
+        assert Fraction(str(answer.exact_time.decimal(40))) == Fraction(answer.time_decimal)
+
+
+def test_rational_inputs_are_taken_as_they_are():
+    """A start on the edge of a corridor, which floats cannot name: 1/3 is free at radius 1/3, and never hits."""
+    scene = lorentz.unit_scene(2, Fraction(1, 3))
+    assert oracle.first_hit(scene, [Fraction(1, 2), Fraction(1, 3)], [1, 0]).outcome == "never"
+    below = oracle.first_hit(scene, [Fraction(1, 2), Fraction(1, 3) - Fraction(1, 10**30)], [1, 0])
+    assert below.outcome == "hit" and below.cell == (1, 0)
+    as_floats = oracle.first_hit(lorentz.unit_scene(2, 0.1), [0.5, Fraction(1, 8)], [1, 2])
+    assert as_floats == oracle.first_hit(lorentz.unit_scene(2, 0.1), [0.5, 0.125], [1.0, 2.0])
+    assert oracle.first_hit(scene, ["1/2", "1/10"], [1, 0], max_time=0.1).outcome == "later"
+
+
+def test_detail():
+    answer = oracle.first_hit(lorentz.unit_scene(2, 0.25), [-1.5, 0], [1, 0], detail=True)
+    assert answer.point == (-1.25, 0.0) and answer.normal == (-1.0, 0.0) and answer.impact_parameter == 0
+    with pytest.raises(lorentz.Error, match="detail"):
+        oracle.first_hit(lorentz.unit_scene(2, "1/3"), [0.5, 0.5], [1, 0], detail=True)
+
+
+def test_where_nothing_is():
+    scene = lorentz.unit_scene(2, 0.25)
+    assert oracle.is_free(scene, [0.5, 0.5]) and not oracle.is_free(scene, [1, 1.1])
+    assert oracle.is_free(scene, [0.25, 0])  # the obstacle is open
+
+
+def test_margins():
+    """The line passes the disc of (1, 0) by 4 ulps of its y; then the decision about it is the hardest."""
+    radius = 0.25
+    y = radius + 4 * math.ulp(radius)
+    passing = oracle.margin(lorentz.unit_scene(2, radius), [0.5, y], [1, 0.001])
+    assert passing.condition is not None
+    grazing = oracle.margin(lorentz.unit_scene(2, radius), [0.5, math.nextafter(radius, 0)], [1, 2**-60])
+    assert grazing.decision == "meeting" and grazing.decided and grazing.obstacle == (0, 0, (1, 0))
+    assert 0 < grazing.margin < 2
+    assert oracle.margin(lorentz.unit_scene(2, radius), [0, 0.5], [1, 0]).margin is None
+    easy = oracle.margin(lorentz.unit_scene(2, radius), [0.5, 0], [1, 0.1])
+    assert easy.margin > 1e6
+
+
+def test_what_was_passed():
+    near = oracle.passed(lorentz.unit_scene(2, 0.1), [0, 0.445], [0.9998476951563913, 0.01745240643728351], most=3)
+    assert len(near) == 3 and near[-1].obstacle == (0, 0, (27, 1)) and near[-1].gap < 0
+    assert [one.time for one in near] == sorted(one.time for one in near) and near[0].gap > 0
+
+
+def test_verdicts():
+    scene, x, v = lorentz.unit_scene(2, 0.1), [0, 0.445], [1, 0.0175]
+    exact = oracle.first_hit(scene, x, v)
+    assert lorentz.judge_answer(scene, x, v, exact).verdict == "agree"
+    a_few_ulps = replace(exact, time=exact.time + 3 * math.ulp(exact.time))
+    verdict = lorentz.judge_answer(scene, x, v, a_few_ulps)
+    assert (verdict.verdict, verdict.ulps, verdict.wrong_time) == ("agree", 3, False)
+    assert lorentz.judge_answer(scene, x, v, a_few_ulps, ulps=0).wrong_time
+    another = lorentz.judge_answer(scene, x, v, lorentz.hit(exact.time + 5, (exact.cell[0] + 5, 1)))
+    assert another.verdict == "wrong" and another.departs > 4 and another.cause is not None
+    assert lorentz.judge_answer(scene, x, v, lorentz.never()).cause == "never-for-hit"
+    assert lorentz.judge_answer(scene, x, v, lorentz.undecided()).verdict == "undecided"
+    assert lorentz.judge_answer(scene, x, v, lorentz.unsupported("too hot")).verdict == "unsupported"
+
+
+@pytest.mark.parametrize("name", ["square", "cubic", "ellipsoid"])
+def test_certificates_prove_and_refute(name):
+    scene = lorentz.Scene(name)
+    x, v, _ = lorentz.draw_starts(scene, 20, seed=SEED)
+    for i in range(len(x)):
+        exact = oracle.first_hit(scene, x[i], v[i], digits=40)
+        proof = oracle.certificate(scene, x[i], v[i])
+        assert oracle.check(scene, x[i], v[i], exact, proof) is None
+        again = lorentz.Certificate.from_dict(proof.to_dict(), scene.dimension)
+        assert again.to_dict() == proof.to_dict() and oracle.check(scene, x[i], v[i], exact, again) is None
+        later = replace(exact, time=math.nextafter(exact.time, math.inf), time_decimal=None)
+        assert oracle.check(scene, x[i], v[i], later, proof)
+        other = replace(exact, cell=(exact.cell[0] + 1, *exact.cell[1:]))
+        assert oracle.check(scene, x[i], v[i], other, proof)
+    with pytest.raises(lorentz.Error, match="either windows or rows"):
+        lorentz.Certificate.from_dict({}, 2)
+    with pytest.raises(lorentz.Error, match="basis"):
+        lorentz.Certificate.from_dict({"rows": [{"lattice": 0, "atom": 0, "basis": [[1]]}]}, 2)
+
+
+def test_convergents_are_exact():
+    random = np.random.default_rng(SEED)
+    for rise, run in random.uniform(-3, 3, (50, 2)).tolist() + [[0.1, 1.0], [-7.5, 2.0]]:
+        slope, steps = Fraction(rise) / Fraction(run), oracle.convergents(rise, run)
+        assert Fraction(steps[-1].p, steps[-1].q) == slope and steps[-1].remainder == 0
+        for step in steps:
+            assert step.remainder == step.q * slope - step.p
+        value = Fraction(steps[-1].a)
+        for step in reversed(steps[:-1]):
+            value = step.a + 1 / value
+        assert value == slope
+    assert len(oracle.convergents(0.1, 1.0, 3)) == 3
+    with pytest.raises(lorentz.Error, match="run"):
+        oracle.convergents(1.0, 0.0)
+
+
+@pytest.mark.parametrize("query, text", [
+    (dict(x=[0, 0], v=[0, 0]), "v"),
+    (dict(x=[0, math.inf], v=[1, 0]), "finite"),
+    (dict(x=[0, 0, 0], v=[1, 0]), "x: has 3 components|dimension"),
+    (dict(x=[0, 0], v=[1, 0], start_from=(0, 5, (0, 0))), "atom"),
+    (dict(x=[0, "a half"], v=[1, 0]), "a half"),
+])
+def test_what_is_no_query(query, text):
+    with pytest.raises(lorentz.Error, match=text):
+        oracle.first_hit("square", **query)

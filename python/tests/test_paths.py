@@ -1,0 +1,86 @@
+"""Particles in floats and in certainty."""
+
+from fractions import Fraction
+
+import lorentz
+import numpy as np
+import pytest
+
+SEED = 20161115
+
+
+def test_problem_2_of_the_100_digit_challenge():
+    scene, start = lorentz.Scene("square", Fraction(1, 3)), dict(x=[Fraction(1, 2), Fraction(1, 10)], v=[1, 0])
+    path = lorentz.itinerary(scene, **start, time=10, digits=50, states=True)
+    assert path.distance == "0.99526291944335416089031180942672162102946692273415"
+    assert path.end == "time" and len(path.collisions) == 14 and path.collisions[0].cell == (1, 0)
+    assert len(path.collisions[0].x) == 2 and path.collisions[-1].bits > path.collisions[0].bits
+    # 1/3 and 1/10 are no floats: those next to them are another problem.
+    rounded = lorentz.itinerary(scene.nearest(), [0.5, 0.1], [1.0, 0.0], time=10, digits=20)
+    assert rounded.distance.startswith("0.9952621335999704")
+    # The time is the rational number that a float is.
+    assert lorentz.itinerary(scene, **start, time=Fraction(1, 10)).x != lorentz.itinerary(scene, **start, time=0.1,
+                                                                                       digits=40).x
+    golden = lorentz.itinerary("square", [0.5, 0.5], ["1", "golden"], collisions=2)
+    assert len(golden.collisions) == 2
+
+
+def test_floats_follow_the_truth_for_a_while():
+    scene = lorentz.Scene("square", 0.3)
+    x, v, _ = lorentz.draw_starts(scene, 20, seed=SEED)
+    paths = lorentz.trajectories(scene, x, v, 4)
+    assert paths.place.shape == (20, 4, 2) and paths.count.tolist() == [4] * 20
+    for i in range(20):
+        truth = lorentz.itinerary(scene, x[i], v[i], collisions=4, states=True)
+        for k, collision in enumerate(truth.collisions):
+            assert collision.cell == tuple(paths.cell[i, k])
+            assert abs(paths.time[i, k] - float(collision.time)) < 1e-9
+            assert np.allclose(paths.place[i, k], [float(c) for c in collision.x], rtol=0, atol=1e-9)
+            assert np.allclose(paths.velocity[i, k], [float(c) for c in collision.v], rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("precision", ["binary64", "double-double"])
+def test_together_as_one_by_one(precision):
+    scene = lorentz.Scene("cubic", 0.3)
+    x, v, left = lorentz.draw_starts(scene, 50, "surface", seed=SEED)
+    both = [lorentz.trajectories(scene, x, v, 12, start_from=left, engine=engine, precision=precision)
+            for engine in ("batch", "reduction")]
+    for name in ("count", "stop_code", "time", "lattice", "atom", "cell", "place", "velocity"):
+        a, b = (getattr(paths, name) for paths in both)
+        assert np.array_equal(a, b, equal_nan=a.dtype.kind == "f"), name
+        assert not a.flags.owndata and not a.flags.writeable
+    assert lorentz.STOPS[both[0].stop_code[0]] == "collisions"
+
+
+def test_paths_that_end():
+    scene = lorentz.unit_scene(2, 0.25)
+    starts = dict(x=[[0.5, 0], [0, 0.5], [0, 0]], v=[[1, 0], [1, 0], [1, 0]], collisions=3)
+    free = lorentz.trajectories(scene, **starts)
+    assert [lorentz.STOPS[code] for code in free.stop_code] == ["collisions", "never", "inside"]
+    paths = lorentz.trajectories(scene, **starts, until=1.0)
+    assert [lorentz.STOPS[code] for code in paths.stop_code] == ["time", "time", "inside"]
+    assert paths.count.tolist() == [2, 0, 0]
+    assert paths.time[0, :2].tolist() == [0.25, 0.75] and np.isnan(paths.time[0, 2])
+    assert np.isnan(paths.place[1:]).all() and paths.place[0, 0].tolist() == [0.75, 0.0]
+
+
+def test_starts_are_numbered():
+    whole = lorentz.draw_starts("honeycomb", 50, "surface", seed=7)
+    part = lorentz.draw_starts("honeycomb", 20, "surface", seed=7, first=30)
+    assert np.array_equal(whole.x[30:], part.x) and np.array_equal(whole.start_from[2][30:], part.start_from[2])
+    assert not np.array_equal(lorentz.draw_starts("honeycomb", 50, seed=8).x, whole.x)
+    with pytest.raises(lorentz.Error, match="near-rational"):
+        lorentz.draw_starts("honeycomb", 1, "far")
+
+
+def test_bad_starts():
+    with pytest.raises(lorentz.Error, match="row 1"):
+        lorentz.trajectories("square", [[0.5, 0.5], [0.5, 0.5]], [[1, 0], [0, 0]], 3)
+    with pytest.raises(lorentz.Error, match="precision"):
+        lorentz.trajectories("square", [[0.5, 0.5]], [[1, 0]], 3, precision="float")
+    with pytest.raises(lorentz.Error, match="collisions or time"):
+        lorentz.itinerary("square", [0.5, 0.5], [1, 0])
+    with pytest.raises(lorentz.Error, match="time"):
+        lorentz.itinerary("square", [0.5, 0.5], [1, 0], time="soon")
+    with pytest.raises(lorentz.Error, match="the engine batch does radii up to half"):
+        lorentz.trajectories(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0]], 3)

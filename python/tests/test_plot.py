@@ -1,0 +1,67 @@
+"""Pictures hold what they should."""
+
+import lorentz
+import matplotlib
+import numpy as np
+import pytest
+
+matplotlib.use("Agg")
+SEED = 20161115
+
+
+def patches(ax):
+    return sum(len(c.get_paths()) for c in ax.collections if isinstance(c, matplotlib.collections.PatchCollection))
+
+
+def test_a_scene_has_the_obstacles_in_the_box():
+    ax = lorentz.plot.scene(lorentz.unit_scene(2, 0.1), (-0.5, 3.5, -0.5, 2.5))
+    assert patches(ax) == 4 * 3 and ax.get_aspect() == 1
+    reaching_in = lorentz.plot.scene(lorentz.unit_scene(2, 0.1), (0.05, 0.95, -0.5, 0.5))
+    assert patches(reaching_in) == 2
+    assert patches(lorentz.plot.scene("honeycomb", (0, 6, 0, 6))) > 20
+
+
+def test_ellipses_are_turned():
+    ellipse = next(lorentz.plot._obstacles({"vectors": [[9, 0], [0, 9]], "atoms": [
+        {"position": [0, 0], "semiaxes": [[0.3, 0.4], [-0.08, 0.06]]}]}, (-1, 1, -1, 1)))
+    assert ellipse.width == pytest.approx(1.0) and ellipse.height == pytest.approx(0.2)
+    assert ellipse.angle % 180 == pytest.approx(np.degrees(np.arctan2(4, 3)))
+
+
+def test_flights_end_where_they_hit(tmp_path):
+    scene = lorentz.Scene("square", 0.2)
+    x, v, _ = lorentz.draw_starts(scene, 10, seed=SEED)
+    x[0], v[0] = [0.0, 0.5], [1.0, 0.0]  # for ever
+    answers = lorentz.first_hit(scene, x, v)
+    ax = lorentz.plot.flights(scene, x, v, answers, ax=lorentz.plot.scene(scene), longest=1000)
+    solid, dashed = (c.get_segments() for c in ax.collections
+                     if isinstance(c, matplotlib.collections.LineCollection))
+    assert (len(solid), len(dashed)) == (9, 1)
+    ends = np.array([line[1] for line in solid])
+    distances = np.linalg.norm(ends - np.round(ends), axis=1)
+    assert np.allclose(distances, 0.2, atol=1e-12)
+    ax.figure.savefig(tmp_path / "flights.png")
+    assert (tmp_path / "flights.png").stat().st_size > 10_000
+
+
+def test_a_path_goes_through_its_collisions():
+    scene = lorentz.Scene("triangular", 0.3)
+    x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
+    paths = lorentz.trajectories(scene, x, v, 10)
+    ax = lorentz.plot.trajectory(scene, x[0], paths)
+    line = ax.lines[0].get_xydata()
+    assert np.array_equal(line, np.vstack([x, paths.place[0]]))
+
+
+def test_free_paths_and_survival():
+    paths = lorentz.flights("square", 100_000, 0.01, seed=SEED)
+    ax = lorentz.plot.survival(paths)
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["Boca-Zaharescu", "1e+05 flights"]
+    assert len(lorentz.plot.free_paths(paths).lines) == 1
+
+
+def test_what_cannot_be_drawn():
+    with pytest.raises(lorentz.Error, match="two dimensions"):
+        lorentz.plot.scene("cubic")
+    with pytest.raises(lorentz.Error, match="smaller"):
+        lorentz.plot.scene("square", (0, 1e6, 0, 1e6))

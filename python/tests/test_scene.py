@@ -1,0 +1,77 @@
+"""Scenes from dicts, files and names; numbers as they are."""
+
+import pickle
+from fractions import Fraction
+
+import lorentz
+import numpy as np
+import pytest
+
+SQUARE = {"dimension": 2, "lattices": [{"vectors": [[1, 0], [0, 1]], "atoms": [{"position": [0, 0], "radius": 0.1}]}]}
+
+
+def test_a_dict_a_file_and_a_name_are_the_same_scene(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text("dimension = 2\n[[lattices]]\nvectors = [[1, 0], [0, 1]]\n"
+                    "atoms = [{position = [0, 0], radius = 0.1}]\n")
+    scenes = [lorentz.Scene(SQUARE), lorentz.Scene(file), lorentz.Scene(str(file)), lorentz.Scene("square", 0.1),
+              lorentz.unit_scene(2, 0.1), pickle.loads(pickle.dumps(lorentz.Scene(SQUARE)))]
+    assert all(scene == scenes[0] for scene in scenes)
+    assert len({hash(scene) for scene in scenes}) == 1
+    assert lorentz.Scene("square", 0.2) != scenes[0]
+
+
+def test_the_catalogue():
+    names = lorentz.catalogue()
+    assert {"square", "cubic", "honeycomb", "diamond", "ellipsoid"} <= set(names)
+    for name in names:
+        scene = lorentz.Scene(name)
+        assert lorentz.Scene(scene.to_dict()) == scene and scene.is_binary64
+
+
+def test_numbers_mean_what_they_are():
+    third = lorentz.unit_scene(2, Fraction(1, 3))
+    assert not third.is_binary64
+    assert third.to_dict()["lattices"][0]["atoms"][0]["radius"] == Fraction(1, 3)
+    assert third.nearest().to_dict()["lattices"][0]["atoms"][0]["radius"] == 1 / 3
+    assert lorentz.unit_scene(2, Fraction(1, 4)) == lorentz.unit_scene(2, 0.25)
+    assert not lorentz.unit_scene(2, "0.1").is_binary64 and lorentz.unit_scene(2, 0.1).is_binary64
+    assert lorentz.unit_scene(2, np.float64(0.1)) == lorentz.unit_scene(2, 0.1)
+
+
+def test_arrays_need_floats():
+    with pytest.raises(lorentz.Error, match="no binary64"):
+        lorentz.first_hit(lorentz.unit_scene(2, "1/3"), [[0.5, 0.5]], [[1, 0]])
+
+
+def without(*path):
+    scene = lorentz.Scene(SQUARE).to_dict()
+    place = scene
+    for key in path[:-1]:
+        place = place[key]
+    del place[path[-1]]
+    return scene
+
+
+@pytest.mark.parametrize("scene, text", [
+    (without("dimension"), "dimension is missing"),
+    (without("lattices", 0, "atoms", 0, "radius"), r"lattices\[0\].atoms\[0\]: radius is missing"),
+    (SQUARE | {"colour": 1}, '"colour" is not known'),
+    ({"dimension": 2, "lattices": [{"vectors": [[1, 1], [1, 1]], "atoms": SQUARE["lattices"][0]["atoms"]}]},
+     "dependent"),
+    (SQUARE | {"dimension": float("nan")}, "finite"),
+    (SQUARE | {"dimension": object()}, "numbers are"),
+])
+def test_what_is_no_scene(scene, text):
+    with pytest.raises(lorentz.Error, match=text):
+        lorentz.Scene(scene)
+
+
+def test_names_that_are_none():
+    with pytest.raises(lorentz.FileError, match="did you mean square"):
+        lorentz.Scene("squar")
+    assert issubclass(lorentz.FileError, OSError) and issubclass(lorentz.FileError, lorentz.Error)
+    with pytest.raises(lorentz.Error, match="radius"):
+        lorentz.Scene("ellipse", 0.1)
+    with pytest.raises(lorentz.Error, match="above"):
+        lorentz.Scene("square", -1)
