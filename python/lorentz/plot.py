@@ -40,8 +40,9 @@ def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
     for number, lattice in enumerate(place.nearest().to_dict()["lattices"]):
         patches = list(_obstacles(lattice, limits))
         colour = OBSTACLES[number % len(OBSTACLES)]
-        ax.add_collection(PatchCollection(patches, facecolor=colour, edgecolor="face", linewidth=0.5,
-                                         zorder=1))
+        ax.add_collection(PatchCollection(patches, facecolor=colour, edgecolor="none", zorder=1))
+        centres = np.reshape([patch.center for patch in patches], (-1, 2))
+        ax.scatter(*centres.T, s=4, color=colour, linewidths=0, zorder=1)
     ax.set_xlim(limits[0], limits[1])
     ax.set_ylim(limits[2], limits[3])
     ax.set_aspect("equal")
