@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any, Callable, TypeVar
 
 from ._lorentz import Error
-from ._numbers import Obstacle
+from ._numbers import Obstacle, integer
 
 Rounded = TypeVar("Rounded")
 
@@ -21,6 +21,12 @@ class ExactTime:
 
     rational: Fraction
     root: Fraction
+
+    def __post_init__(self) -> None:
+        exact = self.fraction()  # equal times are equal: a rational one has the root 0
+        if exact is not None and self.root != 0:
+            object.__setattr__(self, "rational", exact)
+            object.__setattr__(self, "root", Fraction(0))
 
     def fraction(self) -> Fraction | None:
         """The same as one rational number; None if it is irrational."""
@@ -89,7 +95,8 @@ class Answer:
         """The answer in the form of docs/formats.md, as far as that has it."""
         line: dict[str, Any] = {"id": None, "outcome": self.outcome}
         if self.cell is not None:
-            line |= {"lattice": self.lattice, "atom": self.atom, "cell": [str(int(n)) for n in self.cell]}
+            line |= {"lattice": integer(self.lattice, "lattice"), "atom": integer(self.atom, "atom"),
+                     "cell": [str(integer(n, "cell")) for n in self.cell]}
         if self.time is not None:
             line["time"] = "inf" if self.time == math.inf else self.time
         if self.time_decimal is not None:
@@ -118,12 +125,12 @@ class Answer:
 
 def hit(time: float, cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
     """What an engine answers that found a first hit: when, and which obstacle."""
-    return Answer("hit", int(lattice), int(atom), tuple(int(n) for n in cell), float(time))
+    return Answer("hit", *_obstacle(lattice, atom, cell), float(time))
 
 
 def inside(cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
     """What an engine answers if the start lies in an obstacle."""
-    return Answer("inside", int(lattice), int(atom), tuple(int(n) for n in cell))
+    return Answer("inside", *_obstacle(lattice, atom, cell))
 
 
 def never() -> Answer:
@@ -139,6 +146,10 @@ def undecided() -> Answer:
 def unsupported(message: str) -> Answer:
     """What an engine answers to a good query that it does not do."""
     return Answer("error", message=message, unsupported=True)
+
+
+def _obstacle(lattice: Any, atom: Any, cell: Any) -> tuple[int, int, tuple[int, ...]]:
+    return integer(lattice, "lattice"), integer(atom, "atom"), tuple(integer(n, "cell") for n in cell)
 
 
 def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:

@@ -14,8 +14,8 @@ from ._scene import SceneLike, native
 
 Floats = npt.NDArray[np.float64]
 #: What queries leave: None, one obstacle (lattice, atom, cell) of all, or columns of the three; a lattice
-#: below 0 means none. Answers will do: then each query leaves the obstacle that was hit.
-StartFrom = Union[None, Answers, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]]
+#: below 0 means none; or a list of N obstacles and None. Answers will do: then each query leaves what was hit.
+StartFrom = Union[None, Answers, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike], list[Any]]
 
 
 class Outcome(IntEnum):
@@ -104,10 +104,18 @@ def engines() -> list[str]:
 
 
 def _vectors(numbers: npt.ArrayLike, name: str) -> Floats:
+    if isinstance(numbers, np.ma.MaskedArray):
+        raise Error(f"{name}: is a masked array; fill it first")
     try:
-        return np.atleast_2d(np.asarray(numbers, dtype=np.float64))
-    except (TypeError, ValueError) as error:
+        given = np.asarray(numbers)
+        if given.dtype.kind in "cmM":
+            raise TypeError(f"{given.dtype} is no type of real numbers")
+        floats = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"{name}: is no array of numbers: {error}") from None
+    if given.dtype.kind in "iu" and given.dtype.itemsize == 8 and (abs(floats) >= 2.0**53).any():
+        raise Error(f"{name}: has integers from 2**53 on, which floats may round; lorentz.oracle takes them as they are")
+    return np.atleast_2d(floats)
 
 
 def _columns(start_from: StartFrom, count: int, dimension: int) -> tuple[Any, Any, Any] | None:
@@ -118,6 +126,8 @@ def _columns(start_from: StartFrom, count: int, dimension: int) -> tuple[Any, An
             raise Error(f"start_from: the cell of row {next(iter(start_from.large_cells))} does not fit 64 bits")
         left = np.where(start_from.outcome == Outcome.HIT, start_from.lattice, -1)
         return left.astype(np.int32), start_from.atom, start_from.cell
+    if isinstance(start_from, list) and all(map(_is_obstacle_or_none, start_from)):
+        return _columns(_columns_of(start_from, dimension), count, dimension)
     try:
         lattice, atom, cell = start_from
         return (np.broadcast_to(_integers(lattice, np.int32), (count,)),
@@ -125,6 +135,16 @@ def _columns(start_from: StartFrom, count: int, dimension: int) -> tuple[Any, An
                 np.broadcast_to(_integers(cell, np.int64), (count, dimension)))
     except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"start_from: needs lattice, atom, cell for {count} queries: {error}") from None
+
+
+def _is_obstacle_or_none(row: Any) -> bool:
+    return row is None or (isinstance(row, tuple) and len(row) == 3 and np.ndim(row[0]) == 0 and np.ndim(row[2]) == 1)
+
+
+def _columns_of(rows: list[Any], dimension: int) -> Any:
+    """Of a list of obstacles and None, as a judge's function gets it."""
+    none = (-1, 0, (0,) * dimension)
+    return tuple(np.array([(none if row is None else row)[k] for row in rows]) for k in range(3))
 
 
 def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:

@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from . import _lorentz
 from ._first_hit import Floats
-from ._numbers import Number
+from ._lorentz import Error
+from ._numbers import Number, finite
 from ._scene import Scene, SceneLike, native
 
 
@@ -101,6 +102,8 @@ def horizon(scene: SceneLike, radius: Number | None = None, *, min_width: float 
     Raises:
         Error: the obstacles are so small that there are too many channels to list.
     """
+    if not finite(min_width, "min_width") >= 0:
+        raise Error(f"min_width: {min_width} is below 0")
     place = Scene(scene, radius)
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
     found: dict[str, Any] = json.loads(text)

@@ -9,8 +9,8 @@ from typing import Any, Callable, Iterable, Union
 from . import _lorentz
 from ._answer import Answer
 from ._first_hit import Outcome
-from ._lorentz import Answers
-from ._numbers import Obstacle
+from ._lorentz import Answers, Error
+from ._numbers import Obstacle, integer
 from ._scene import Scene, wrapped
 
 #: ``engine(scene, x, v, start_from)``: the answer to one query, or to N (docs/python.md).
@@ -42,7 +42,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     Returns:
         The report of `lorentz judge --json`: ``verdict``, ``line`` (the verdict in a line), ``difficulties``
         (rows: what was asked, and what came of it), ``findings`` (what went wrong, each with its simplest
-        case); and ``text``, what `lorentz judge` prints.
+        case); and ``text``, what `lorentz judge` prints, and how many calls with many queries failed.
 
     Raises:
         Error: an unknown engine. FileError: the page cannot be written, or the package has none (docs/page.md).
@@ -50,12 +50,16 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     if isinstance(engine, str):
         function, called, command = None, engine, f"lorentz.judge({engine!r})"
     else:
+        if not callable(engine):
+            raise Error(f"engine: {engine!r} is neither a name nor a function")
         function = _Asked(engine, vectorized)
         called = name or str(getattr(engine, "__name__", type(engine).__name__))
         command = f"lorentz.judge({called})"
     page = None if html is None else os.fspath(html)
     report, text = _lorentz.judge(function, called, command, quick, time, seed, threads, ulps, times, page)
     result: dict[str, Any] = json.loads(report)
+    if function is not None and function.failed:
+        text += f"\n{function.failed} calls with many queries failed and were repeated one by one: {function.failure}\n"
     return result | {"text": text}
 
 
@@ -65,6 +69,7 @@ class _Asked:
     def __init__(self, function: FirstHitFunction, vectorized: bool) -> None:
         self.function, self.vectorized = function, vectorized
         self.seen: tuple[_lorentz.Scene, Scene] | None = None
+        self.failed, self.failure = 0, ""  # calls with many queries, and why the first did
 
     def __call__(self, scene: _lorentz.Scene, x: Any, v: Any, start_from: list[Obstacle | None]) -> list[str]:
         place = self._scene(scene)
@@ -79,6 +84,7 @@ class _Asked:
             message = _message(error)
         if len(x) == 1:
             return [_error(message)]
+        self.failed, self.failure = self.failed + 1, self.failure or message
         # Which of them is at fault? One by one only those fail that have to.
         return [line for i in range(len(x)) for line in self(scene, x[i:i + 1], v[i:i + 1], start_from[i:i + 1])]
 
@@ -113,8 +119,8 @@ def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
         return Answer("error", message="")
     if outcome not in (Outcome.HIT, Outcome.INSIDE):
         return Answer(outcome.name.lower())
-    lattice, atom = (int(columns[name][i]) if name in columns else 0 for name in ("lattice", "atom"))
-    cell = tuple(int(n) for n in columns["cell"][i])
+    lattice, atom = (integer(columns[name][i], name) if name in columns else 0 for name in ("lattice", "atom"))
+    cell = tuple(integer(n, "cell") for n in columns["cell"][i])
     time = float(columns["time"][i]) if outcome is Outcome.HIT else None
     return Answer(outcome.name.lower(), lattice, atom, cell, time)
 

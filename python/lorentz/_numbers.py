@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from fractions import Fraction
 from numbers import Integral, Rational
 from typing import Any, Sequence, Union
@@ -37,7 +38,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
     if isinstance(value, (Integral, Fraction)):
-        rational = Fraction(value)
+        rational = _fraction(value)
         return float(rational) if is_binary64(rational) else str(rational)
     return float(value)
 
@@ -50,11 +51,38 @@ def text(value: Any) -> str:
         raise Error(f"{error}; numbers are finite floats, ints, Fractions or texts like '1/3'") from None
 
 
+def integer(value: Any, name: str) -> int:
+    """The int that an int, a NumPy integer or a float without a fraction is. Raises Error for all else."""
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        raise Error(f"{name}: {value!r} is no integer") from None
+    if number != value:
+        raise Error(f"{name}: {value!r} is no integer; round it, if that is meant")
+    return number
+
+
 def obstacle_dict(obstacle: Obstacle) -> dict[str, Any]:
     """`from` of a query, and what an answer says of an obstacle."""
     lattice, atom, cell = obstacle
     # As texts, for cells may be larger than what JSON's numbers carry.
-    return {"lattice": int(lattice), "atom": int(atom), "cell": [str(int(n)) for n in cell]}
+    return {"lattice": integer(lattice, "lattice"), "atom": integer(atom, "atom"),
+            "cell": [str(integer(n, "cell")) for n in cell]}
+
+
+def finite(value: Any, name: str) -> float:
+    """A float that is no NaN and not infinite. Raises Error."""
+    number = float(value)
+    if not math.isfinite(number):
+        raise Error(f"{name}: {value!r} is no finite number")
+    return number
+
+
+def time_limit(value: float | None, name: str) -> float | None:
+    """A limit of time: above 0, perhaps infinite; or None. Raises Error."""
+    if value is not None and not value > 0:
+        raise Error(f"{name}: {value!r} is no time above 0")
+    return value
 
 
 def exact(number: Any) -> Fraction | None:
@@ -64,4 +92,9 @@ def exact(number: Any) -> Fraction | None:
             return Fraction(number)
         except ValueError:
             return None
-    return Fraction(number) if isinstance(number, (Integral, Fraction)) else Fraction(float(number))
+    return _fraction(number) if isinstance(number, (Integral, Fraction)) else Fraction(finite(number, "number"))
+
+
+def _fraction(number: Any) -> Fraction:
+    # An integer of NumPy would stay one inside the Fraction, and overflow there.
+    return number if isinstance(number, Fraction) else Fraction(int(number))

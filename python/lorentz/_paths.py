@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _lorentz
 from ._first_hit import Floats, StartFrom, _columns, _vectors
 from ._lorentz import Error, Paths
-from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text
+from ._numbers import Number, Obstacle, Vector, exact, obstacle_dict, plain, text, time_limit
 from ._scene import SceneLike, native
 
 #: What ``Paths.stop_code`` says: why a particle does not go on (docs of the C++ header trajectory.hpp).
@@ -45,6 +45,7 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
         raise Error(f'precision: "{precision}" is none; there are "binary64", "double-double"')
     if not 0 <= collisions < 2**31:
         raise Error("collisions: needs a number, 0 or above")
+    time_limit(until, "until")
     place, positions = native(scene), _vectors(x, "x")
     left = _columns(start_from, len(positions), place.dimension)
     return _lorentz.follow(place, positions, _vectors(v, "v"), left, collisions, until, engine,
@@ -104,6 +105,15 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     """
     if collisions is None and time is None:
         raise Error("needs collisions or time: how far to follow the particle")
+    if not 1 <= digits <= 100_000:
+        raise Error(f"digits: {digits} is no number from 1 to 100000")
+    if collisions is not None and not 0 < collisions < 2**31:
+        raise Error(f"collisions: {collisions} is no number above 0")
+    if most_bits < 0:
+        raise Error(f"most_bits: {most_bits} is below 0")
+    if time is not None:
+        until_when = exact(time) if isinstance(time, str) else time
+        time_limit(until_when, "time")  # type: ignore[arg-type]
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
     until = plain(time)
     limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number

@@ -2,7 +2,8 @@
 
 Every decision is the sign of an integer; nothing is rounded but what is called so. A scene is whatever
 `lorentz.Scene` takes (make a Scene once where many questions are asked: it keeps what was prepared), x and v
-are sequences of numbers, lengths are in the scene's unit, times are such that x + t v is the place.
+are sequences of numbers, lengths are in the scene's unit, times are such that x + t v is the place. `first_hit`
+and `entry_time` take rational numbers, too; the others need floats, or numbers that are equal to one.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any, Sequence
 from . import _lorentz
 from ._answer import Answer, ExactTime
 from ._lorentz import Certificate, Error
-from ._numbers import Obstacle, Vector, exact, obstacle_dict, plain, text
+from ._numbers import Obstacle, Vector, exact, finite, integer, obstacle_dict, plain, text, time_limit
 from ._scene import Scene, SceneLike
 
 __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check", "convergents", "entry_time",
@@ -43,6 +44,9 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 
     Cost: 5 us (2D) or 20 us (3D) an atom, and some 20 us for Python.
     """
+    if not 0 <= digits <= 100_000:
+        raise Error(f"digits: {digits} is no number from 0 to 100000")
+    time_limit(max_time, "max_time")
     place = _scene(scene)
     query = _query(x, v, start_from)
     if not (place.is_binary64 and _floats_only(query)):
@@ -70,6 +74,8 @@ def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None
     place = _scene(scene)
     position, velocity = _fractions(x, "x"), _fractions(v, "v")
     centre, axes = _centre_and_axes(place, obstacle)
+    if not any(velocity):
+        raise Error("v is zero")
     w = _solved(axes, [a - b for a, b in zip(position, centre)])
     u = _solved(axes, velocity)
     square = _dot(u, u)
@@ -171,7 +177,9 @@ class Convergent:
 
 def convergents(rise: float, run: float = 1.0, limit: int = 1000) -> list[Convergent]:
     """The exact continued fraction of the slope rise / run of two floats, until it ends or for `limit` terms."""
-    return [Convergent(*one) for one in _lorentz.convergents(rise, run, limit)]
+    if limit < 0:
+        raise Error(f"limit: {limit} is below 0")
+    return [Convergent(*one) for one in _lorentz.convergents(finite(rise, "rise"), finite(run, "run"), limit)]
 
 
 def _scene(scene: SceneLike) -> Scene:
@@ -234,15 +242,25 @@ def _centre_and_axes(scene: Scene, obstacle: Obstacle) -> tuple[list[Fraction], 
     """The obstacle as centre + A y, |y| < 1: its centre, and the columns of A."""
     lattice_number, atom_number, cell = obstacle
     dimension = scene.dimension
-    lattice = scene.to_dict()["lattices"][lattice_number]
-    atom = lattice["atoms"][atom_number]
+    lattices = scene.to_dict()["lattices"]
+    lattice = lattices[_number_of("lattice", lattice_number, len(lattices))]
+    atom = lattice["atoms"][_number_of("atom", atom_number, len(lattice["atoms"]))]
+    if len(cell) != dimension:
+        raise Error(f"cell: has {len(cell)} coordinates, needs {dimension}")
     centre = _fractions(atom["position"], "position")
     for n, vector in zip(cell, lattice["vectors"]):
-        centre = [c + int(n) * component for c, component in zip(centre, _fractions(vector, "vectors"))]
+        centre = [c + integer(n, "cell") * component for c, component in zip(centre, _fractions(vector, "vectors"))]
     if "semiaxes" in atom:
         return centre, [_fractions(axis, "semiaxes") for axis in atom["semiaxes"]]
     radius = _fractions([atom["radius"]], "radius")[0]
     return centre, [[radius if i == k else Fraction(0) for i in range(dimension)] for k in range(dimension)]
+
+
+def _number_of(name: str, value: Any, count: int) -> int:
+    number = integer(value, name)
+    if not 0 <= number < count:
+        raise Error(f"{name}: there is no {number}; the scene has {count} there")
+    return number
 
 
 def _solved(columns: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction]:
