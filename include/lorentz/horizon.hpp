@@ -89,7 +89,7 @@ using SearchProgress = std::function<void(const std::string& what, std::size_t d
 /// corridors and planar channels at least that wide. The search for cylinders can be left out: among
 /// small obstacles it is the longer one. Throws TooManyChannels, mostly at once, for directions that come
 /// into question are counted before any is looked at; a search of very many takes half a minute, and
-/// `progress` hears of it.
+/// `progress` hears of it. Throws InputError for a `min_width` that is below 0 or not finite.
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
                    const SearchProgress& progress = {});
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/scene_check.hpp>
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
@@ -216,6 +217,8 @@ bool Horizon::is_finite() const {
 
 Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
                    const SearchProgress& progress) {
+  if (!(min_width >= 0 && std::isfinite(min_width)))
+    throw InputError("min_width: needs a number, 0 or above");
   return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false, progress)
                               : horizon_in<3>(scene, min_width, with_cylinders, progress);
 }

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <cmath>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/oracle.hpp>
 #include "tests/oracle/horizon_support.hpp"
 #include "tests/support/support.hpp"
@@ -69,4 +71,9 @@ TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells
   CHECK(total > 3700);  // pi / (4 r^2) / 2, and those on the axis
   CHECK(total < 4100);
   CHECK(last + 64 > total);
+}
+
+TEST_CASE("Horizon: a width that is none is refused, not searched for", "[oracle][horizon]") {
+  for (const double width : {std::nan(""), -1.0, HUGE_VAL})
+    CHECK_THROWS_AS(horizon_of(unit_scene(2, 0.1), width), InputError);
 }
