@@ -33,7 +33,7 @@ struct Options {
 
 Rational positive_rational(const std::string& text, const char* option) {
   const auto number = rational_from(text);
-  if (!number || !(oracle::nearest(*number) > 0))
+  if (!number || !is_positive(*number))
     throw InputError(fmt::format("{}: {} is no rational number above zero (like 1/3, 0.1, 2.5e-3)", option,
                                  json_quoted(text)));
   return *number;

@@ -76,7 +76,8 @@ class Itinerary {
   using OnCollision = std::function<bool(const CertifiedCollision&)>;
 
   /// Calls on_collision for each collision, in order, as soon as it is certain to all digits; false from it
-  /// ends the journey there (as `collisions`). Throws InputError for a start that is none (v = 0).
+  /// ends the journey there (as `collisions`). Throws InputError for a start that is none (v = 0), no
+  /// digits, a time that is not above 0.
   Arrival follow(const Start& start, const Journey& journey, const OnCollision& on_collision = {}) const;
 
  private:

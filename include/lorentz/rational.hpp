@@ -24,6 +24,8 @@ using Rational = std::variant<double, Fraction>;
 /// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or one with an exponent beyond 10^4.
 std::optional<Rational> rational_from(std::string_view text);
 
+bool is_positive(const Rational& number);
+
 /// scale * sqrt(root) + shift, as far as starts need it: a rational number has no root.
 struct Surd {
   Rational shift = 0.0, scale = 0.0;

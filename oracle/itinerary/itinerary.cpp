@@ -92,6 +92,7 @@ Itinerary::~Itinerary() = default;
 
 Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCollision& on_collision) const {
   if (journey.digits < 1) throw InputError("digits: needs 1 or more");
+  if (journey.time && !is_positive(*journey.time)) throw InputError("time: must be above zero");
   return impl_->scene.dimension == 2 ? follow_in<2>(impl_->scene, start, journey, on_collision)
                                      : follow_in<3>(impl_->scene, start, journey, on_collision);
 }

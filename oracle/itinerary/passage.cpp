@@ -327,7 +327,7 @@ long Passage<D>::bits_lost() const {
 
 template <std::size_t D>
 long Passage<D>::working_bits() const {
-  return std::min(bits_, bits_ - bits_lost() + kGuardBits);
+  return std::min(bits_, std::max(bits_ - bits_lost(), 0L) + kGuardBits);
 }
 
 template <std::size_t D>

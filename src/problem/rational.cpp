@@ -102,13 +102,13 @@ std::optional<Surd> surd_from(std::string_view text) {
   return surd;
 }
 
-namespace {
-
 bool is_positive(const Rational& number) {
   if (const double* value = std::get_if<double>(&number)) return *value > 0;
   const std::string numerator = std::get<Fraction>(number).numerator.decimal();
   return numerator != "0" && !numerator.starts_with('-');
 }
+
+namespace {
 
 std::optional<std::string> flaw_of(const RationalAtom& atom, int dimension) {
   if (atom.is_ball())

@@ -212,6 +212,16 @@ TEST_CASE("Itinerary: directions beyond rational numbers") {
   CHECK(first_time(root) == time(1, sqrt(Decimal(2)), 1, 1));
 }
 
+TEST_CASE("Itinerary: among obstacles far smaller than the bits to begin with") {
+  // To and fro between two discs of radius r, head-on; an error of the start grows by 2 / r each time.
+  for (const char* radius : {"1e-30", "1e-100", "1e-300", "1e-400", "1e-1000"}) {
+    INFO(radius);
+    const Told told = follow(unit(2, radius), start_at({"1/2", "0"}, {"1", "0"}), collisions(3));
+    CHECK(told.word() == std::vector<ObstacleId>{disc(1, 0), disc(0, 0), disc(1, 0)});
+    CHECK(told.collisions.back().time == "2.5000000000000000");
+  }
+}
+
 TEST_CASE("Itinerary: scenes and starts with a flaw are errors with a place") {
   RationalScene dependent = unit(2, "1/4");
   dependent.lattices[0].vectors[1] = {exact("1/3"), 0.0, 0.0};
@@ -221,6 +231,9 @@ TEST_CASE("Itinerary: scenes and starts with a flaw are errors with a place") {
   no_digits.digits = 0;
   CHECK_THROWS_AS(Itinerary(unit(2, "1/4")).follow(start_at({"1/2", "1/2"}, {"1", "0"}), no_digits),
                   InputError);
+  for (const char* time : {"-1/3", "0", "-0"})
+    CHECK_THROWS_WITH(Itinerary(unit(2, "1/4")).follow(start_at({"1/2", "1/2"}, {"1", "0"}), until(time, 17)),
+                      Catch::Contains("time"));
   CHECK_THROWS_AS(Itinerary(unit(2, "1/4")).follow(start_at({"1/2", "1/2"}, {"0", "sqrt(0)"}), collisions(1)),
                   InputError);
 }
