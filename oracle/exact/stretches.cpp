@@ -1,6 +1,7 @@
 #include "oracle/exact/stretches.hpp"
 
 #include <optional>
+#include <vector>
 
 #include "oracle/exact/exact_line.hpp"
 #include "oracle/exact/short_basis.hpp"
@@ -122,18 +123,24 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
 }
 
 template <std::size_t D>
-bool Stretches<D>::cut_on(Basis<D> basis, const Z& low, const Z& high,
-                          const std::function<bool(const Stretch<D>&)>& take) const {
-  const Z rows = shorten(basis, low, high);
-  if (rows <= kFewRows || !is_long(low, high)) return take({low, high, basis});
-  const Z middle = floor_div(low + high, 2);
-  return cut_on(basis, low, middle, take) || cut_on(basis, middle, high, take);
-}
-
-template <std::size_t D>
 bool Stretches<D>::cut(const Z& low, const Z& high,
                        const std::function<bool(const Stretch<D>&)>& take) const {
-  return cut_on(view_.basis, low, high, take);
+  // What is left to do, the first of it at the back; not on the stack, for halves may be of thousands of
+  // bits.
+  std::vector<Stretch<D>> left{{low, high, view_.basis}};
+  while (!left.empty()) {
+    Stretch<D> stretch = std::move(left.back());
+    left.pop_back();
+    const Z rows = shorten(stretch.basis, stretch.low, stretch.high);
+    if (rows <= kFewRows || !is_long(stretch.low, stretch.high)) {
+      if (take(stretch)) return true;
+      continue;
+    }
+    const Z middle = floor_div(stretch.low + stretch.high, 2);
+    left.push_back({middle, stretch.high, stretch.basis});
+    left.push_back({std::move(stretch.low), middle, std::move(stretch.basis)});
+  }
+  return false;
 }
 
 template <std::size_t D>

@@ -35,8 +35,6 @@ class Stretches {
   bool visit(const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
 
  private:
-  bool cut_on(Basis<D> basis, const Z& low, const Z& high,
-              const std::function<bool(const Stretch<D>&)>& take) const;
   /// Makes the basis short for the stretch; returns the number of rows, or a lower bound that is many.
   Z shorten(Basis<D>& basis, const Z& low, const Z& high) const;
   /// In space: the same, for the planes of b1 and b2.

@@ -35,6 +35,11 @@ TEST_CASE("lorentz doctor finds this machine fit, and says what it looked at", "
     CHECK(contains(out, std::string("\"") + library + ' '));
 }
 
+TEST_CASE("lorentz doctor needs no large stack", "[cli][doctor]") {
+  const std::string command = "ulimit -s 128; " + std::string(LORENTZ_PROGRAM) + " doctor >/dev/null";
+  CHECK(std::system(command.c_str()) == 0);
+}
+
 TEST_CASE("lorentz doctor calls a machine that rounds otherwise not fit, and says for what",
           "[cli][doctor]") {
   const auto [status, out, err] = Folder().lorentz("doctor --pretend-rounding toward-zero");
