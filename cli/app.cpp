@@ -86,6 +86,14 @@ std::string& called() {
   return line;
 }
 
+// `lorentz help golden make` is what everyone tries: lorentz golden make --help.
+void help_as_option(int argc, char** argv) {
+  static char option[] = "--help";
+  if (argc < 2 || std::string_view(argv[1]) != "help") return;
+  std::rotate(argv + 1, argv + 2, argv + argc);
+  argv[argc - 1] = option;
+}
+
 // What shells and the build ask for, and no person: not in --help.
 bool serves(const CLI::App& app, int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
@@ -102,6 +110,7 @@ bool serves(const CLI::App& app, int argc, char** argv) {
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   try {
     if (serves(app, argc, argv)) return kDone;
+    help_as_option(argc, argv);
     parse(app, argc, argv);
     return action();
   } catch (const CLI::ParseError& help) {

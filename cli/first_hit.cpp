@@ -111,7 +111,7 @@ int act_on_columns(const Options& options, ColumnOrder::Format format) {
                      std::string(": only streams in JSON have it (--format ndjson)"));
   const std::optional<double> radius = positive_number(options.radius, "--radius");
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  ColumnOrder order{.format = format, .queries = options.queries, .engine = options.engine};
+  ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = options.engine};
   order.max_time = positive_number(options.max_time, "--max-time");
   order.jobs = jobs_of(options), order.strict = options.strict;
   order.scene = load_scene(*options.scene, radius, unknown);

@@ -47,7 +47,10 @@ Scene in_binary64(const RationalScene& scene) {
 template <class AnItem, class AScene>
 SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<AScene> initial,
                                          UnknownKeys unknown)
-    : lines_(path), keys_(lines_.name(), unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {
+    : lines_(queries_file(path)),
+      keys_(lines_.name(), unknown),
+      scene_(std::move(initial)),
+      initial_(scene_.has_value()) {
   reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
   if (path == "-" && isatty(STDIN_FILENO) == 1)
     say("reads lines from the terminal (--help has an example); Ctrl-D ends them");

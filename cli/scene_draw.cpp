@@ -48,6 +48,14 @@ bool is_other_than_svg(const std::string& file) {
   return first == std::string::npos || start[first] != '<' || start.find("<svg") == std::string::npos;
 }
 
+// A file called x.png that holds an SVG opens nowhere.
+void refuse_other_formats(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension();
+  for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
+    if (extension == other)
+      throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
+}
+
 // The flights of a query stream, up to the first query of another scene than the first one's.
 std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
   constexpr std::size_t kMostFlights = 1000;
@@ -174,6 +182,7 @@ int draw(const Options& options) {
   drawing_options.window = window_of(options);
   read_size(options, drawing_options);
   const std::size_t most = options.channels ? whole_number(*options.channels, "--channels", 1, 100) : 0;
+  refuse_other_formats(options.output);
   if (options.output != "-" && is_other_than_svg(options.output))
     throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;

@@ -29,6 +29,16 @@ std::vector<CatalogueEntry> catalogue() {
   return entries;
 }
 
+const std::string& queries_file(const std::string& file) {
+  std::error_code error;
+  if (file == "-" || fs::exists(file, error) || error) return file;
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  if (const std::string scene = compare::nearest_name(file, names); !scene.empty())
+    throw FileError(fmt::format("{}: no such file (a scene is given by --scene {})", file, scene));
+  return file;
+}
+
 std::string find_scene(const std::string& name_or_file) {
   std::error_code error;
   const bool is_name = name_or_file.find('/') == std::string::npos;
@@ -89,6 +99,7 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius, 
 }
 
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
+  if (flaw_of(scene) || oracle::dependence_in(scene)) return;  // what binary64 has left of rational numbers
   const oracle::Contacts contacts = oracle::contacts_in(scene, 20, oracle::Pairs::within_lattices);
   const oracle::Contact* worst = nullptr;  // one that touches, unless some overlap
   for (const oracle::Contact& contact : contacts.found)

@@ -21,6 +21,10 @@ std::vector<CatalogueEntry> catalogue();
 /// The file of a scene of the catalogue, or the file itself. Throws FileError, listing the catalogue.
 std::string find_scene(const std::string& name_or_file);
 
+/// The same text, which names queries. Throws FileError if there is no such file and a scene of the catalogue
+/// seems to be meant: that is what --scene is for.
+const std::string& queries_file(const std::string& file);
+
 /// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius.
 /// Unknown keys are warned of, or errors. Throws InputError or FileError.
 Scene read_scene(const std::string& name_or_file, std::optional<double> radius,

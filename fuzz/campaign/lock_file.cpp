@@ -18,7 +18,7 @@ LockFile::LockFile(const std::string& file, bool writes, const std::string& busy
     close();
     lock_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
     if (lock_ < 0 && !writes_) return;
-    if (lock_ < 0) throw write_error(path_, errno);
+    if (lock_ < 0) throw write_error(file, errno);
     if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
       close();
       throw FileError(file + ": " + busy);

@@ -52,6 +52,9 @@ TEST_CASE("Mistyped subcommands, options, scenes and engines get the nearest nam
   CHECK(contains(said("golden verfy", 2), "(did you mean verify?)"));
   CHECK(contains(said("compare --engin classical", 2),
                  "no such option: --engin (did you mean --engine?); lorentz compare --help has all"));
+  CHECK(contains(said("first-hit squar", 3), "squar: no such file (a scene is given by --scene square)"));
+  CHECK(contains(said("trajectory --time 1 hexagonl", 3), "given by --scene hexagonal)"));
+  CHECK(contains(said("first-hit --format csv --scene square cubic", 3), "given by --scene cubic)"));
   CHECK(contains(said("golden check --ulsp 3", 2),
                  "--ulsp (did you mean --ulps?); lorentz golden check --help"));
   CHECK(contains(said("compare --count 1 --scene sqare", 3), "(did you mean square?)"));
@@ -71,7 +74,9 @@ TEST_CASE("Without a subcommand the help is shown; every help has an example", "
     CHECK(run.status == 2);
     CHECK(contains(run.out, "Subcommands:\n"));
     CHECK(run.out == help.out);
+    CHECK(folder.lorentz("help " + std::string(bare)).out == help.out);
   }
+  CHECK(folder.lorentz("help compair").status == 2);
   for (const char* command : {"",
                               "first-hit",
                               "compare",

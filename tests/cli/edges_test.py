@@ -164,6 +164,8 @@ class Test:
         run = self.run([*self.words, "--help"])
         self.check(run.status == 0 and "Example" in run.out, "help has no example", run)
         self.examples(run.out)
+        same = self.run(["help", *self.words])
+        self.check((same.status, same.out) == (0, run.out), "`lorentz help ..` says something else", same)
         run = self.run([*self.words, "--no-such-option"])
         named = f"no such option: --no-such-option; lorentz {self.name} --help has all"
         self.check(run.status == 2 and named in run.err, "an unknown option is not named", run)

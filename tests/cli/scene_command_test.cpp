@@ -120,6 +120,10 @@ TEST_CASE("scene draw: well-formed pictures of the whole catalogue", "[cli][scen
   CHECK(is_well_formed(folder.read("p.svg")));
   CHECK(folder.lorentz("scene draw square -o /nowhere/p.svg").status == 3);
   CHECK(folder.lorentz("scene draw").status == 2);
+  const Run raster = folder.lorentz("scene draw square -o " + folder.file("p.png"));
+  CHECK(raster.status == 2);
+  CHECK(contains(raster.err, "p.png: pictures are drawn as SVG"));
+  CHECK_FALSE(fs::exists(folder.file("p.png")));
   const auto odd = folder.write("a&b<c>.toml",
                                 "dimension = 2\nlattices = [{vectors = [[1e-9, 0], [1e9, 1]], atoms = "
                                 "[{position = [0, 0], radius = 0.1}]}]\n");

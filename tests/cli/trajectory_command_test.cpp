@@ -31,6 +31,22 @@ TEST_CASE("trajectory: a line a collision, and the end", "[cli][trajectory]") {
   CHECK(contains(end, R"("distance":"0.995262919443354160890311809427"})"));
 }
 
+TEST_CASE("trajectory: a radius below all of binary64 is a radius", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write("starts", R"({"x":["1/2",0],"v":[1,0]})");
+  const Run run = folder.lorentz("trajectory --scene square --radius 1e-400 --collisions 1 " + starts);
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, R"("cell":[1,0],"time":"0.50000000000000000")"));
+  const std::string stream = folder.write(
+      "stream",
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":"1e-400"}]}]}})"
+      "\n"
+      R"({"x":["1/2",0],"v":[1,0]})");
+  CHECK(folder.lorentz("trajectory --collisions 1 " + stream).out == run.out);
+  CHECK(folder.lorentz("trajectory --scene square --radius -1e-400 --collisions 1 " + starts).status == 2);
+  CHECK(folder.lorentz("trajectory --scene square --time 0e5 " + starts).status == 2);
+}
+
 TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
   const Folder folder;
   const std::string starts =
