@@ -98,17 +98,23 @@ void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, Answ
   uncertain_.clear();
   const bool together = batch_ || certified_batch_;
   if (together) fly(first, queries, answers);
-  std::size_t uncertain = 0, flaw = 0;
+  // Of nearly all rows a flight wrote all there is to say.
+  const bool is_plain = together && limits_.empty() && uncertain_.empty() && queries.flaws.empty() &&
+                        queries.large_from.empty();
+  std::size_t uncertain = 0, flaw = 0, large = 0;
   for (std::size_t i = 0; i < queries.count; ++i) {
+    if (is_plain && answers.outcome[first + i] == Outcome::hit) continue;
     const bool asked = uncertain < uncertain_.size() && uncertain_[uncertain] == i;
     uncertain += asked;
+    const bool from_afar = large < queries.large_from.size() && queries.large_from[large].first == i;
+    large += from_afar;
     if (flaw < queries.flaws.size() && queries.flaws[flaw].row == i)
       answers.set_error(first + i, queries.flaws[flaw++].message, false);
     else if (!(limit(i) > 0))
       answers.set_error(first + i, "max_time must be above zero", false);
     else if (asked)
       ask(first, queries, i, AnswerRows::kExactStage, answers);
-    else if (together)
+    else if (together && !from_afar)
       finish(first, queries, i, answers);
     else
       ask(first, queries, i, usual_stage(traits_), answers);

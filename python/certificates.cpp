@@ -1,6 +1,8 @@
 // Certificates as dictionaries: the form that golden sets have them in (docs/certificates.md).
 #include "python/certificates.hpp"
 
+#include <cmath>
+
 #include <lorentz/errors.hpp>
 #include "python/scene.hpp"
 
@@ -53,7 +55,11 @@ CertificateBasis basis_from(const py::handle& rows, int dimension) {
 }
 
 WindowEnd end_from(const py::handle& end, const char* key) {
-  if (!py::isinstance<py::str>(end)) return WindowEnd(end.cast<double>());
+  if (!py::isinstance<py::str>(end)) {
+    const auto number = end.cast<double>();
+    if (!std::isfinite(number)) throw InputError(std::string(key) + ": is no finite number");
+    return WindowEnd(number);
+  }
   const auto value = oracle::window_end_from(end.cast<std::string>());
   if (!value) throw InputError(std::string(key) + ": is no number and no text like \"-0x1f4p-3\"");
   return *value;
@@ -75,6 +81,9 @@ PyCertificate from_dict(const py::dict& dict, int dimension) {
             {r["lattice"].cast<int>(), r["atom"].cast<int>(), basis_from(r["basis"], dimension)});
   } catch (const py::cast_error&) {
     throw InputError("certificate: has something else where a number belongs");
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_LookupError) && !error.matches(PyExc_TypeError)) throw;
+    throw InputError(std::string("certificate: has not the form of docs/certificates.md: ") + error.what());
   }
   return certificate;
 }

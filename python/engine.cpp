@@ -1,16 +1,20 @@
 #include "python/engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include <lorentz/errors.hpp>
+#include "python/signals.hpp"
 
 namespace lorentz::python {
 namespace {
 
-// Rows that are flown together: so few that they stay in the cache, so many that threads have enough.
-constexpr std::size_t kRowsTogether = 4096;
-constexpr std::size_t kRowsBetweenSignals = 1 << 14;
+// Rows that are flown together: so few that they stay in the cache, so many that threads have enough; and of
+// engines that take their time with each row, so few that Ctrl-C does not wait.
+std::size_t rows_together(const std::string& engine, int threads) {
+  return compare::traits_of(engine).in_bulk ? std::size_t{4096} * static_cast<std::size_t>(threads) : 16;
+}
 
 std::string shape_text(const py::array& array) {
   std::string text = "(";
@@ -29,15 +33,25 @@ void check_shape(const py::array& array, const char* name, py::ssize_t count, in
                    std::to_string(count) + "," + second + ")");
 }
 
-// Numbers in every layout, `stride` bytes apart.
+// Rows of an array of any layout, to columns: all components of a row at once, for it is in the cache once.
+template <std::size_t components, class Number>
+void copy_rows(const py::array& array, std::size_t first, std::size_t count, std::vector<Number>* columns) {
+  std::array<Number*, components> to;
+  for (std::size_t k = 0; k < components; ++k) columns[k].resize(count), to[k] = columns[k].data();
+  const py::ssize_t row = array.strides(0), component = array.ndim() == 2 ? array.strides(1) : 0;
+  const char* from = static_cast<const char*>(array.data()) + static_cast<py::ssize_t>(first) * row;
+  for (std::size_t i = 0; i < count; ++i, from += row)
+    for (std::size_t k = 0; k < components; ++k)
+      std::memcpy(to[k] + i, from + static_cast<py::ssize_t>(k) * component, sizeof(Number));
+}
+
 template <class Number>
-void append(const py::array& array, std::size_t first, std::size_t count, int component,
-            std::vector<Number>& column) {
-  const py::ssize_t stride = array.strides(0);
-  const char* from = static_cast<const char*>(array.data()) + static_cast<py::ssize_t>(first) * stride;
-  if (array.ndim() == 2) from += component * array.strides(1);
-  column.resize(count);
-  for (std::size_t i = 0; i < count; ++i, from += stride) std::memcpy(&column[i], from, sizeof(Number));
+void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
+                  std::array<std::vector<Number>, 3>& columns) {
+  if (array.shape(1) == 2)
+    copy_rows<2>(array, first, count, columns.data());
+  else
+    copy_rows<3>(array, first, count, columns.data());
 }
 
 // Of a column engine of that name.
@@ -63,18 +77,20 @@ void check_own_engine(const std::string& name) {
     throw InputError("engine: arrays are for engines of this program; judge() takes others");
 }
 
-void look_for_signals() {
-  const py::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 QueryArrays QueryArrays::of(Numbers x, Numbers v, std::optional<Numbers> max_time, const py::object& from) {
-  QueryArrays queries{std::move(x), std::move(v), std::move(max_time), {}, {}, {}};
+  QueryArrays queries{std::move(x), std::move(v), std::move(max_time), {}, {}, {}, {}};
   if (from.is_none()) return queries;
   const auto parts = from.cast<py::tuple>();
   queries.from_lattice = parts[0].cast<QueryArrays::Integers32>();
   queries.from_atom = parts[1].cast<QueryArrays::Integers32>();
   queries.from_cell = parts[2].cast<QueryArrays::Integers64>();
+  for (const auto& [row, lattice, atom, cell] :
+       parts[3].cast<std::vector<std::tuple<std::size_t, int, int, std::vector<py::object>>>>()) {
+    ObstacleId from{lattice, atom, {}};
+    for (std::size_t k = 0; k < std::min(cell.size(), std::size_t{3}); ++k)
+      from.cell[k] = integer_from(cell[k], "start_from");
+    queries.large_from.emplace_back(row, from);
+  }
   return queries;
 }
 
@@ -89,22 +105,24 @@ void QueryArrays::check(int dimension) const {
 }
 
 void QueryArrays::copy(std::size_t first, std::size_t most, QueryRows& rows) const {
-  rows.clear();
   rows.count = std::min(most, count() - first);
-  for (int k = 0; k < static_cast<int>(x.shape(1)); ++k) {
-    append(x, first, rows.count, k, rows.x[k]);
-    append(v, first, rows.count, k, rows.v[k]);
-    if (from_cell) append(*from_cell, first, rows.count, k, rows.from_cell[k]);
-  }
-  if (max_time) append(*max_time, first, rows.count, 0, rows.max_time);
-  if (from_lattice) append(*from_lattice, first, rows.count, 0, rows.from_lattice);
-  if (from_atom) append(*from_atom, first, rows.count, 0, rows.from_atom);
+  copy_vectors(x, first, rows.count, rows.x);
+  copy_vectors(v, first, rows.count, rows.v);
+  if (max_time) copy_rows<1>(*max_time, first, rows.count, &rows.max_time);
+  if (from_lattice) copy_rows<1>(*from_lattice, first, rows.count, &rows.from_lattice);
+  if (from_atom) copy_rows<1>(*from_atom, first, rows.count, &rows.from_atom);
+  if (from_cell) copy_vectors(*from_cell, first, rows.count, rows.from_cell);
+  rows.large_from.clear();
+  const auto is_before = [](const auto& one, std::size_t row) { return one.first < row; };
+  for (auto one = std::lower_bound(large_from.begin(), large_from.end(), first, is_before);
+       one != large_from.end() && one->first < first + rows.count; ++one)
+    rows.large_from.emplace_back(one->first - first, one->second);
 }
 
 PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int threads)
     : name_(checked(name, threads)),
       dimension_(scene.dimension()),
-      together_(kRowsTogether * static_cast<std::size_t>(threads)),
+      together_(rows_together(name_, threads)),
       engine_(name_, scene.scene(), max_time, threads) {}
 
 std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse,
@@ -117,15 +135,26 @@ std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool
   const py::gil_scoped_release release;
   const std::lock_guard lock(in_use_);
   answers->resize(queries.count(), dimension_);
-  QueryRows rows;
-  for (std::size_t first = 0, looked = 0; first < queries.count(); first += rows.count) {
-    const std::size_t told = answers->reasons.size();
-    queries.copy(first, together_, rows);
-    engine_.answer_from(first, rows, *answers);
-    if (refuse) refuse_first(*answers, told);
-    if (first >= looked + kRowsBetweenSignals) look_for_signals(), looked = first;
+  try {
+    answer(queries, refuse, *answers);
+  } catch (...) {
+    answers->resize(queries.count(), dimension_);  // not half of these answers and half of older ones
+    for (std::size_t i = 0; i < answers->count; ++i) answers->set_plain(i, Outcome::error);
+    throw;
   }
   return answers;
+}
+
+void PyEngine::answer(const QueryArrays& queries, bool refuse, AnswerRows& answers) {
+  QueryRows rows;
+  SignalWatch watch;
+  for (std::size_t first = 0; first < queries.count(); first += rows.count) {
+    const std::size_t told = answers.reasons.size();
+    queries.copy(first, together_, rows);
+    engine_.answer_from(first, rows, answers);
+    if (refuse) refuse_first(answers, told);
+    watch.look();
+  }
 }
 
 }  // namespace lorentz::python

@@ -14,26 +14,24 @@ namespace lorentz::python {
 /// Throws InputError unless it is the name of an engine of this program.
 void check_own_engine(const std::string& name);
 
-/// For work without the interpreter's lock, now and then: throws what Ctrl-C means to Python.
-void look_for_signals();
-
 /// Columns of queries where NumPy has them, of any layout.
 struct QueryArrays {
   Numbers x, v;                     ///< (N, d)
   std::optional<Numbers> max_time;  ///< (N,)
   using Integers32 = py::array_t<std::int32_t, py::array::forcecast>;
   using Integers64 = py::array_t<std::int64_t, py::array::forcecast>;
-  std::optional<Integers32> from_lattice, from_atom;  ///< (N,); a lattice below 0: none
-  std::optional<Integers64> from_cell;                ///< (N, d)
+  std::optional<Integers32> from_lattice, from_atom;           ///< (N,); a lattice below 0: none
+  std::optional<Integers64> from_cell;                         ///< (N, d)
+  std::vector<std::pair<std::size_t, ObstacleId>> large_from;  ///< as in QueryRows
 
-  /// `from`: None, or a tuple (lattice, atom, cell).
+  /// `from`: None, or a tuple (lattice, atom, cell, large), the last a list of (row, lattice, atom, cell).
   static QueryArrays of(Numbers x, Numbers v, std::optional<Numbers> max_time, const py::object& from);
 
   /// Throws InputError if the shapes do not fit together.
   void check(int dimension) const;
   std::size_t count() const { return static_cast<std::size_t>(x.shape(0)); }
 
-  /// The rows from `first` on, at most `most`. Needs no interpreter.
+  /// The rows from `first` on, at most `most`, over what `rows` has of these queries. Needs no interpreter.
   void copy(std::size_t first, std::size_t most, QueryRows& rows) const;
 };
 
@@ -44,17 +42,20 @@ class PyEngine {
 
   /// All answers. Lets other threads of Python run, and looks for Ctrl-C now and then. Throws InputError,
   /// naming the row, for the first that is no query, if `refuse`; else such rows are errors.
-  /// `out`, if given, is written and returned: as many rows, so that what looks at its memory still may.
+  /// `out`, if given, is written and returned: as many rows, so that what looks at its memory still may; all
+  /// of its rows are errors after an exception.
   std::shared_ptr<AnswerRows> first_hit(const QueryArrays& queries, bool refuse,
                                         std::shared_ptr<AnswerRows> out);
 
   const std::string& name() const { return name_; }
 
  private:
+  void answer(const QueryArrays& queries, bool refuse, AnswerRows& answers);
+
   const std::string name_;
   const int dimension_;
-  const std::size_t together_;
-  std::mutex in_use_;  // one call at a time: the engine has room for one part of the rows
+  const std::size_t together_;  // rows
+  std::mutex in_use_;           // one call at a time: the engine has room for one part of the rows
   compare::ColumnEngine engine_;
 };
 

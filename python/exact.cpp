@@ -97,11 +97,14 @@ class PyOracle {
     return {prover_->prove(query, exact), scene_.dimension};
   }
 
-  std::optional<std::string> refutation(const std::string& text, const std::string& answer,
+  // The reader of answers passes over `time_decimal`.
+  std::optional<std::string> refutation(const std::string& text, const std::string& answer_line,
+                                        const std::string& time_decimal,
                                         const PyCertificate& certificate) const {
     if (!check_) check_.emplace(scene_);
-    return check_->refutation(read_query(text, scene_), read_answer(answer, scene_.dimension),
-                              certificate.proof);
+    Answer answer = read_answer(answer_line, scene_.dimension);
+    answer.time_decimal = time_decimal;
+    return check_->refutation(read_query(text, scene_), answer, certificate.proof);
   }
 
  private:
@@ -142,7 +145,8 @@ void bind_exact(py::module_& module) {
       .def("passed", &PyOracle::passed, py::arg("query"), py::arg("most"))
       .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"))
       .def("prove", &PyOracle::prove, py::arg("query"))
-      .def("refutation", &PyOracle::refutation, py::arg("query"), py::arg("answer"), py::arg("certificate"));
+      .def("refutation", &PyOracle::refutation, py::arg("query"), py::arg("answer"), py::arg("time_decimal"),
+           py::arg("certificate"));
   module.def("convergents", convergents, py::arg("rise"), py::arg("run"), py::arg("limit"));
 }
 

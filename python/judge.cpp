@@ -8,6 +8,7 @@
 #include "cli/whole_file.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"
+#include "python/signals.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::python {
@@ -121,11 +122,11 @@ class FunctionAnswerer final : public compare::Answerer {
 };
 
 // Without the interpreter's lock, so that a function's answerers can take it in any thread.
-cli::JudgeReport report_of(const cli::JudgeOrder& order, const Run& run) {
+cli::JudgeReport report_of(const cli::JudgeOrder& order, Run& run) {
   cli::JudgeReport report;
   {
     const py::gil_scoped_release release;
-    report = cli::judged(order, run.stop);
+    report = watched(run.stop, [&] { return cli::judged(order, run.stop); });
   }
   run.rethrow();
   return report;

@@ -9,6 +9,7 @@
 #include "flights/sample/free_starts.hpp"
 #include "python/engine.hpp"
 #include "python/lines.hpp"
+#include "python/signals.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -70,8 +71,8 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
     paths.set(i, scene, particle);
     return true;
   };
-  for (std::size_t k = 0; k < paths.collisions && particles.advance(until, visit) > 0; ++k)
-    look_for_signals();
+  SignalWatch watch;
+  for (std::size_t k = 0; k < paths.collisions && particles.advance(until, visit) > 0; ++k) watch.look();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Stop stop = particles.stop(i);
     paths.stop[i] = static_cast<std::uint8_t>(stop == Stop::none ? Stop::collisions : stop);
@@ -90,14 +91,15 @@ AskFirstHit asked(const std::string& engine, const Scene& scene) {
 void follow_one_by_one(const std::string& engine, const Scene& scene, const std::vector<Query>& starts,
                        double until, Precision precision, Paths& paths) {
   const AskFirstHit ask = asked(engine, scene);
+  SignalWatch watch;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     Trajectory trajectory(ask, scene, starts[i], precision);
     const Stop stop = trajectory.run(paths.collisions, until, [&](const Trajectory& now) {
       paths.set(i, scene, now.state());
+      watch.look();
       return true;
     });
     paths.stop[i] = static_cast<std::uint8_t>(stop);
-    look_for_signals();
   }
 }
 
@@ -133,10 +135,11 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
   oracle::Arrival arrival;
   {
     const py::gil_scoped_release release;
+    SignalWatch watch;
     arrival = oracle::Itinerary(scene.exact())
                   .follow(from, journey, [&](const oracle::CertifiedCollision& collision) {
                     met.push_back(collision);
-                    if (met.size() % 16 == 0) look_for_signals();
+                    watch.look();
                     return true;
                   });
   }
@@ -153,6 +156,39 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
 
 // ---- Starts
 
+struct DrawnStarts {
+  DrawnStarts(std::size_t count, int dimension)
+      : x({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
+        v({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
+        cell({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
+        lattice(static_cast<py::ssize_t>(count)),
+        atom(static_cast<py::ssize_t>(count)) {}
+
+  py::array_t<double> x, v;
+  py::array_t<std::int64_t> cell;
+  py::array_t<std::int32_t> lattice, atom;
+};
+
+void draw_into(DrawnStarts& drawn, const flights::FreeStarts& starts, std::uint64_t first) {
+  auto x = drawn.x.mutable_unchecked<2>(), v = drawn.v.mutable_unchecked<2>();
+  auto cell = drawn.cell.mutable_unchecked<2>();
+  auto lattice = drawn.lattice.mutable_unchecked<1>(), atom = drawn.atom.mutable_unchecked<1>();
+  const py::gil_scoped_release release;
+  SignalWatch watch;
+  Query start;
+  for (py::ssize_t i = 0; i < x.shape(0); ++i) {
+    starts.draw(first + static_cast<std::uint64_t>(i), start);
+    lattice(i) = start.from ? start.from->lattice : -1;
+    atom(i) = start.from ? start.from->atom : 0;
+    for (py::ssize_t k = 0; k < x.shape(1); ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      x(i, k) = start.x[c], v(i, k) = start.v[c];
+      cell(i, k) = start.from ? start.from->cell[c].int64() : 0;
+    }
+    watch.look();
+  }
+}
+
 py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
               std::uint64_t first) {
   const auto& names = flights::kind_names();
@@ -162,27 +198,11 @@ py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, 
     for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
     throw InputError("kind: " + json_quoted(kind) + " is none; there are " + known);
   }
-  const int d = scene.dimension();
-  const auto n = static_cast<py::ssize_t>(count);
-  py::array_t<double> x({n, py::ssize_t{d}}), v({n, py::ssize_t{d}});
-  py::array_t<std::int32_t> lattice(n), atom(n);
-  py::array_t<std::int64_t> cell({n, py::ssize_t{d}});
-  const flights::FreeStarts starts(scene.scene(), static_cast<flights::Kind>(found - names.begin()), seed);
-  Query start;
-  for (py::ssize_t i = 0; i < n; ++i) {
-    starts.draw(first + static_cast<std::uint64_t>(i), start);
-    lattice.mutable_at(i) = start.from ? start.from->lattice : -1;
-    atom.mutable_at(i) = start.from ? start.from->atom : 0;
-    for (py::ssize_t k = 0; k < d; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      x.mutable_at(i, k) = start.x[c], v.mutable_at(i, k) = start.v[c];
-      cell.mutable_at(i, k) = start.from ? start.from->cell[c].int64() : 0;
-    }
-    if (i % 4096 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-  py::dict drawn(py::arg("x") = x, py::arg("v") = v, py::arg("start_from") = py::none());
-  if (kind == "surface") drawn["start_from"] = py::make_tuple(lattice, atom, cell);
-  return drawn;
+  DrawnStarts drawn(count, scene.dimension());
+  draw_into(drawn, {scene.scene(), static_cast<flights::Kind>(found - names.begin()), seed}, first);
+  py::dict columns(py::arg("x") = drawn.x, py::arg("v") = drawn.v, py::arg("start_from") = py::none());
+  if (kind == "surface") columns["start_from"] = py::make_tuple(drawn.lattice, drawn.atom, drawn.cell);
+  return columns;
 }
 
 // ---- Arrays

@@ -62,19 +62,13 @@ PyScene::PyScene(RationalScene scene)
   const oracle::Itinerary check(exact_);  // throws InputError
 }
 
-// In binary64; if it is not, in rational numbers. Of two complaints the first is the one that is told.
+// In binary64; if it is not, in rational numbers, whose complaint is told: they may be texts, too.
 template <class ReadBinary64, class ReadRational>
 PyScene PyScene::either(const ReadBinary64& binary64, const ReadRational& rational) {
-  std::optional<InputError> why_not;
   try {
     return PyScene(binary64());
-  } catch (const InputError& error) {
-    why_not = error;
-  }
-  try {
-    return PyScene(rational());
   } catch (const InputError&) {
-    throw *why_not;
+    return PyScene(rational());
   }
 }
 
@@ -90,6 +84,13 @@ PyScene PyScene::load(const std::string& name_or_file) {
   } catch (const InputError& error) {
     throw InputError(name_or_file + ": " + error.what());
   }
+}
+
+const Scene& PyScene::nearest() const {
+  if (is_binary64_) return nearest_;
+  if (const auto flaw = flaw_of(nearest_)) throw InputError("rounded to binary64: " + *flaw);
+  if (const auto flaw = oracle::dependence_in(nearest_)) throw InputError("rounded to binary64: " + *flaw);
+  return nearest_;
 }
 
 const Scene& PyScene::scene() const {

@@ -28,8 +28,9 @@ class PyScene {
   /// Throws InputError if that is not so.
   const Scene& scene() const;
 
-  /// With every number rounded, if need be.
-  const Scene& nearest() const { return nearest_; }
+  /// With every number rounded, if need be. Throws InputError where that is no scene: a number beyond the
+  /// range of binary64, a radius that becomes 0, vectors that become dependent.
+  const Scene& nearest() const;
   const RationalScene& exact() const { return exact_; }
 
  private:

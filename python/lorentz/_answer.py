@@ -7,22 +7,33 @@ import math
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
+from functools import total_ordering
 from typing import Any, Callable, TypeVar
 
 from ._lorentz import Error
-from ._numbers import Obstacle, integer
+from ._numbers import Obstacle, integer, whole
 
 Rounded = TypeVar("Rounded")
 
 
+def _nearest_float(number: Fraction) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
+@total_ordering
 @dataclass(frozen=True)
 class ExactTime:
-    """The time ``rational - sqrt(root)``, exactly: when a line enters an obstacle."""
+    """The time ``rational - sqrt(root)``, exactly: when a line enters an obstacle. Times are ordered."""
 
     rational: Fraction
     root: Fraction
 
     def __post_init__(self) -> None:
+        if self.root < 0:
+            raise Error(f"root: {self.root} is below 0")
         exact = self.fraction()  # equal times are equal: a rational one has the root 0
         if exact is not None and self.root != 0:
             object.__setattr__(self, "rational", exact)
@@ -36,17 +47,30 @@ class ExactTime:
 
     def bounds(self, bits: int) -> tuple[Fraction, Fraction]:
         """Rational numbers not above and not below it, at most 2**-bits apart."""
+        bits = whole(bits, "bits")
         below = math.isqrt((self.root.numerator << 2 * bits) // self.root.denominator)
         return (self.rational - Fraction(below + 1, 1 << bits), self.rational - Fraction(below, 1 << bits))
 
     def __float__(self) -> float:
-        """Correctly rounded, ties to even."""
-        return self._where_ends_agree(float)
+        """Correctly rounded, ties to even; an infinity beyond the range of floats."""
+        return self._where_ends_agree(_nearest_float)
 
     def decimal(self, digits: int) -> Decimal:
         """To so many significant digits, correctly rounded, ties to even."""
-        context = Context(prec=digits, rounding=ROUND_HALF_EVEN)
+        context = Context(prec=whole(digits, "digits", 1, 10**6), rounding=ROUND_HALF_EVEN)
         return self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
+
+    def __lt__(self, other: ExactTime) -> bool:
+        """Earlier, exactly."""
+        if not isinstance(other, ExactTime):
+            return NotImplemented
+        bits = 64
+        while self != other:  # equal times have equal parts, see above; others some bits tell apart
+            (low, high), (other_low, other_high) = self.bounds(bits), other.bounds(bits)
+            if high < other_low or other_high < low:
+                return high < other_low
+            bits *= 2
+        return False
 
     def _where_ends_agree(self, rounded: Callable[[Fraction], Rounded]) -> Rounded:
         exact = self.fraction()
@@ -111,8 +135,14 @@ class Answer:
 
     @staticmethod
     def from_line(line: str) -> Answer:
-        """Of a line in that form."""
-        fields = json.loads(line)
+        """Of a line in that form. Raises Error where it is none."""
+        try:
+            return Answer._from_fields(json.loads(line))
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            raise Error(f"answer: {line!r:.80} has not the form of docs/formats.md: {error!r}") from None
+
+    @staticmethod
+    def _from_fields(fields: dict[str, Any]) -> Answer:
         time = fields.get("time")
         return Answer(
             outcome=fields["outcome"], lattice=fields.get("lattice"), atom=fields.get("atom"),

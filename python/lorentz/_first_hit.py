@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _lorentz
 from ._lorentz import Answers, Error
+from ._numbers import integer, rational, whole
 from ._scene import SceneLike, native
 
 Floats = npt.NDArray[np.float64]
@@ -46,7 +47,9 @@ class Engine:
 
     def __init__(self, scene: SceneLike, name: str = "batch", *, threads: int = 1) -> None:
         self._scene = native(scene)
-        self._engine = _lorentz.Engine(self._scene, name, None, threads)
+        if not isinstance(name, str):
+            raise Error(f"engine: {name!r} is no name")
+        self._engine = _lorentz.Engine(self._scene, name, None, whole(threads, "threads", 1, 1024))
 
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
                   start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
@@ -54,13 +57,15 @@ class Engine:
 
         Args:
             out: Answers of as many queries, which are written over and returned, with what looks at them: new
-                memory costs as much as some of the flights.
+                memory costs as much as some of the flights. After an exception all of its outcomes are ERROR.
         """
         if on_error not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is none; there are "raise" and "mark"')
+        if out is not None and not isinstance(out, Answers):
+            raise Error(f"out: {type(out).__name__} is no Answers")
         positions, velocities = _vectors(x, "x"), _vectors(v, "v")
         count = len(positions)
-        limits = None if max_time is None else np.broadcast_to(np.asarray(max_time, np.float64), (count,))
+        limits = None if max_time is None else _limits(max_time, count)
         return self._engine.first_hit(positions, velocities, limits,
                                       _columns(start_from, count, self._scene.dimension), on_error == "raise", out)
 
@@ -108,43 +113,80 @@ def _vectors(numbers: npt.ArrayLike, name: str) -> Floats:
         raise Error(f"{name}: is a masked array; fill it first")
     try:
         given = np.asarray(numbers)
-        if given.dtype.kind in "cmM":
+        if numbers is None or given.dtype.kind in "bcmMSUV":
             raise TypeError(f"{given.dtype} is no type of real numbers")
         floats = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"{name}: is no array of numbers: {error}") from None
-    if given.dtype.kind in "iu" and given.dtype.itemsize == 8 and (abs(floats) >= 2.0**53).any():
-        raise Error(f"{name}: has integers from 2**53 on, which floats may round; lorentz.oracle takes them as they are")
+    if not _is_kept(numbers, given, floats):
+        raise Error(f"{name}: has numbers that floats would round; lorentz.oracle takes them as they are")
     return np.atleast_2d(floats)
 
 
-def _columns(start_from: StartFrom, count: int, dimension: int) -> tuple[Any, Any, Any] | None:
+def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats) -> bool:
+    """Is every number the float that it became? (Integers beyond 2**53, Fractions and long doubles may not be.)"""
+    if isinstance(numbers, (list, tuple)) and given.dtype == np.float64:
+        given = np.asarray(numbers, dtype=object)  # what was an int there is a float in `given`
+    if given.dtype == object:
+        pairs = zip(given.ravel().tolist(), floats.ravel().tolist())
+        return all(isinstance(number, float) or rational(number) == value for number, value in pairs)
+    if given.dtype.kind in "iu" and given.dtype.itemsize == 8:
+        return bool((abs(floats) < 2.0**53).all())
+    return given.dtype.itemsize <= 8 or bool(((given == floats) | np.isnan(floats)).all())
+
+
+def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
+    try:
+        return np.broadcast_to(np.asarray(max_time, np.float64), (count,))
+    except (TypeError, ValueError, OverflowError) as error:
+        raise Error(f"max_time: is neither a number nor an array of {count}: {error}") from None
+
+
+#: Columns lattice, atom, cell, and the rows whose cells 64 bits do not hold: (row, lattice, atom, cell).
+_Left = tuple[Any, Any, Any, list[Any]]
+
+
+def _columns(start_from: StartFrom, count: int, dimension: int) -> _Left | None:
     if start_from is None:
         return None
     if isinstance(start_from, Answers):
-        if start_from.large_cells:
-            raise Error(f"start_from: the cell of row {next(iter(start_from.large_cells))} does not fit 64 bits")
-        left = np.where(start_from.outcome == Outcome.HIT, start_from.lattice, -1)
-        return left.astype(np.int32), start_from.atom, start_from.cell
-    if isinstance(start_from, list) and all(map(_is_obstacle_or_none, start_from)):
-        return _columns(_columns_of(start_from, dimension), count, dimension)
+        return _columns_of_answers(start_from)
     try:
+        if isinstance(start_from, (list, tuple)) and all(map(_is_obstacle_or_none, start_from)):
+            return _columns_of_rows(list(start_from), count, dimension)
         lattice, atom, cell = start_from
         return (np.broadcast_to(_integers(lattice, np.int32), (count,)),
                 np.broadcast_to(_integers(atom, np.int32), (count,)),
-                np.broadcast_to(_integers(cell, np.int64), (count, dimension)))
+                np.broadcast_to(_integers(cell, np.int64), (count, dimension)), [])
     except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"start_from: needs lattice, atom, cell for {count} queries: {error}") from None
+
+
+def _columns_of_answers(answers: Answers) -> _Left:
+    left = np.where(answers.outcome == Outcome.HIT, answers.lattice, -1).astype(np.int32)
+    large = [(row, int(left[row]), int(answers.atom[row]), cell)
+             for row, cell in sorted(answers.large_cells.items()) if left[row] >= 0]
+    left[[row for row, *_ in large]] = -1
+    return left, answers.atom, answers.cell, large
 
 
 def _is_obstacle_or_none(row: Any) -> bool:
     return row is None or (isinstance(row, tuple) and len(row) == 3 and np.ndim(row[0]) == 0 and np.ndim(row[2]) == 1)
 
 
-def _columns_of(rows: list[Any], dimension: int) -> Any:
+def _columns_of_rows(rows: list[Any], count: int, dimension: int) -> _Left:
     """Of a list of obstacles and None, as a judge's function gets it."""
+    if len(rows) != count or any(row is not None and len(row[2]) != dimension for row in rows):
+        raise ValueError(f"there are {len(rows)}, or cells have not {dimension} coordinates")
     none = (-1, 0, (0,) * dimension)
-    return tuple(np.array([(none if row is None else row)[k] for row in rows]) for k in range(3))
+    whole_rows = [none if row is None else (integer(row[0], "lattice"), integer(row[1], "atom"),
+                                            tuple(integer(n, "cell") for n in row[2])) for row in rows]
+    large = [(i, *row) for i, row in enumerate(whole_rows) if not all(-2**63 <= n < 2**63 for n in row[2])]
+    for i, *_ in large:
+        whole_rows[i] = none
+    lattice, atom, cell = zip(*whole_rows) if rows else ((), (), ())
+    return (_integers(np.array(lattice, int), np.int32), _integers(np.array(atom, int), np.int32),
+            np.reshape(np.array(cell, np.int64), (count, dimension)), large)
 
 
 def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:
@@ -153,4 +195,6 @@ def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:
         raise TypeError("there are integers beyond 64 bits, or other objects")
     if array.dtype.kind not in "iu":
         raise TypeError(f"{array.dtype} is no type of integers")
-    return array.astype(kind, casting="same_kind", copy=False)
+    if array.size and not np.iinfo(kind).min <= int(array.min()) <= int(array.max()) <= np.iinfo(kind).max:
+        raise OverflowError(f"there are integers that {np.dtype(kind)} does not hold")
+    return array.astype(kind, copy=False)

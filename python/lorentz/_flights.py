@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _lorentz
 from ._first_hit import Floats
 from ._lorentz import Error
-from ._numbers import Number, finite
+from ._numbers import finite, whole
 from ._scene import Scene, SceneLike, native
 
 
@@ -60,7 +60,7 @@ class FreePaths:
         return laws(self.scene, self.edges, start=self.start)
 
 
-def flights(scene: SceneLike, count: int = 1_000_000, radius: Number | None = None, *, start: str = "uniform",
+def flights(scene: SceneLike, count: int = 1_000_000, radius: float | None = None, *, start: str = "uniform",
             seed: int = 20161115, engine: str = "batch", threads: int = 1) -> FreePaths:
     """Flies drawn starts, and counts their free paths; constant memory, 10^7 flights a second and thread in 2D.
 
@@ -72,22 +72,27 @@ def flights(scene: SceneLike, count: int = 1_000_000, radius: Number | None = No
     Source: docs/free_paths.md. Raises Error where the scene leaves nothing free, or the engine cannot fly it.
     """
     place = Scene(scene, radius)
-    report, edges, counts, beyond = _lorentz.flights(native(place), count, start, seed, engine, threads)
+    report, edges, counts, beyond = _lorentz.flights(
+        native(place), whole(count, "count", 1, 2**52), start, whole(seed, "seed", 0, 2**64 - 1), engine,
+        whole(threads, "threads", 1, 1024))
     return FreePaths(place, start, edges, counts, beyond, json.loads(report))
 
 
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
     """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; often none is."""
-    t = np.asarray(times, np.float64)
+    try:
+        t = np.asarray(times, np.float64)
+    except (TypeError, ValueError) as error:
+        raise Error(f"times: is no array of numbers: {error}") from None
     return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), start, t)}
 
 
-def mean_free_path(scene: SceneLike, radius: Number | None = None) -> float | None:
+def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | None:
     """From collision to collision, exact up to rounding; None where no formula is known."""
     return _lorentz.mean_free_path(native(Scene(scene, radius)))[0]
 
 
-def horizon(scene: SceneLike, radius: Number | None = None, *, min_width: float = 0.0,
+def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float = 0.0,
             cylinders: bool = True) -> dict[str, Any]:
     """The infinite channels that a scene leaves open, decided exactly (docs/horizon.md).
 

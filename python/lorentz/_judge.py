@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 from typing import Any, Callable, Iterable, Union
@@ -10,7 +11,7 @@ from . import _lorentz
 from ._answer import Answer
 from ._first_hit import Outcome
 from ._lorentz import Answers, Error
-from ._numbers import Obstacle, integer
+from ._numbers import Obstacle, finite, integer, whole
 from ._scene import Scene, wrapped
 
 #: ``engine(scene, x, v, start_from)``: the answer to one query, or to N (docs/python.md).
@@ -52,15 +53,32 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     else:
         if not callable(engine):
             raise Error(f"engine: {engine!r} is neither a name nor a function")
+        _check_parameters(engine)
         function = _Asked(engine, vectorized)
-        called = name or str(getattr(engine, "__name__", type(engine).__name__))
+        called = str(name or getattr(engine, "__name__", type(engine).__name__))
         command = f"lorentz.judge({called})"
     page = None if html is None else os.fspath(html)
-    report, text = _lorentz.judge(function, called, command, quick, time, seed, threads, ulps, times, page)
+    seconds = None if time is None else finite(time, "time")
+    report, text = _lorentz.judge(
+        function, called, command, quick, seconds, whole(seed, "seed", 0, 2**64 - 1),
+        whole(threads, "threads", 1, 1024), finite(ulps, "ulps"), times, page)
     result: dict[str, Any] = json.loads(report)
     if function is not None and function.failed:
-        text += f"\n{function.failed} calls with many queries failed and were repeated one by one: {function.failure}\n"
+        text += (f"\n{function.failed} calls with many queries failed and were repeated one by one: "
+                 f"{function.failure}\n")
     return result | {"text": text}
+
+
+def _check_parameters(function: FirstHitFunction) -> None:
+    """Before two minutes of calls fail, one by one."""
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):  # of some that are written in C nothing is known
+        return
+    try:
+        signature.bind(None, None, None, None)
+    except TypeError as error:
+        raise Error(f"engine: is called with scene, x, v, start_from: {error}") from None
 
 
 class _Asked:
@@ -110,6 +128,10 @@ def _answers(given: Any) -> Iterable[Answer]:
         large = given.large_cells
         return _answers(columns | {"cell": [large.get(i, cell) for i, cell in enumerate(given.cell.tolist())]})
     if isinstance(given, dict):
+        count = len(given["outcome"])
+        for name, column in given.items():
+            if len(column) != count:
+                raise Error(f"{name}: has {len(column)} rows, outcome has {count}")
         return [_answer(given, i, Outcome(int(code))) for i, code in enumerate(given["outcome"])]
     return list(given)
 

@@ -66,7 +66,7 @@ class Engine:
         x: Floats,
         v: Floats,
         max_time: Floats | None,
-        start_from: tuple[Any, Any, Any] | None,
+        start_from: tuple[Any, Any, Any, list[Any]] | None,
         refuse: bool,
         out: Answers | None,
     ) -> Answers: ...
@@ -86,7 +86,7 @@ class Oracle:
     def passed(self, query: str, most: int) -> list[dict[str, Any]]: ...
     def judge(self, query: str, answer: str, ulps: float) -> dict[str, Any]: ...
     def prove(self, query: str) -> Certificate: ...
-    def refutation(self, query: str, answer: str, certificate: Certificate) -> str | None: ...
+    def refutation(self, query: str, answer: str, time_decimal: str, certificate: Certificate) -> str | None: ...
 
 class Paths:
     """Collisions of N particles, C of each: read-only views, without a copy."""
@@ -131,7 +131,7 @@ def follow(
     scene: Scene,
     x: Floats,
     v: Floats,
-    start_from: tuple[Any, Any, Any] | None,
+    start_from: tuple[Any, Any, Any, list[Any]] | None,
     collisions: int,
     until: float,
     engine: str,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from fractions import Fraction
 from numbers import Integral, Rational
 from typing import Any, Sequence, Union
@@ -19,6 +20,27 @@ Vector = Union[Sequence[Number], "np.ndarray[Any, Any]"]
 Obstacle = tuple[int, int, Sequence[int]]
 
 
+# What the formats take for a rational number; an exponent of more digits would be work for hours.
+_DECIMAL = re.compile(r"-?(\d+/0*[1-9]\d*|(\d+\.?\d*|\.\d+)(e[+-]?\d{1,5})?)", re.ASCII | re.IGNORECASE)
+_HEXADECIMAL = re.compile(r"(-?)0x([0-9a-f]+)\.?([0-9a-f]*)(?:p([+-]?\d{1,5}))?", re.ASCII | re.IGNORECASE)
+
+
+def rational(value: Any, name: str = "number") -> Fraction:
+    """The rational number that a float, an int, a Decimal, a number of NumPy is, exactly. Raises Error."""
+    if isinstance(value, Fraction):
+        return value
+    if not isinstance(value, (bool, np.bool_)):
+        try:
+            if isinstance(value, Integral):
+                return Fraction(int(value))
+            return Fraction(*map(int, value.as_integer_ratio()))
+        except (AttributeError, TypeError):
+            pass
+        except (ValueError, OverflowError):
+            raise Error(f"{name}: {value!r} is no finite number") from None
+    raise Error(f"{name}: {value!r} is no number; numbers are floats, ints, Fractions, Decimals or texts like '1/3'")
+
+
 def is_binary64(number: Rational) -> bool:
     """True if a float has exactly this value."""
     try:
@@ -27,28 +49,32 @@ def is_binary64(number: Rational) -> bool:
         return False
 
 
-def plain(value: Any) -> Any:
-    """What JSON can say of a number, a sequence or a dict of them, without a change of any number."""
-    if isinstance(value, (bool, str)) or value is None:
+def plain(value: Any, name: str = "number") -> Any:
+    """What JSON can say of a number, a sequence or a dict of them, without a change of any number: a float where
+    there is one that is equal, else a text. Raises Error, naming the place, for what is no number."""
+    if value is None or isinstance(value, float) and math.isfinite(value):
         return value
+    if isinstance(value, str):
+        number = exact(value)
+        return float(number) if number is not None and is_binary64(number) else str(value)
     if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if isinstance(value, (Integral, Fraction)):
-        rational = _fraction(value)
-        return float(rational) if is_binary64(rational) else str(rational)
-    return float(value)
+        return {str(key): item if key == "from" else plain(item, str(key)) for key, item in value.items()}
+    if isinstance(value, np.ndarray) and value.ndim > 0 or isinstance(value, (list, tuple)):
+        return [plain(item, name) for item in value]
+    number = rational(value, name)
+    return float(number) if is_binary64(number) else str(number)
 
 
 def text(value: Any) -> str:
-    """The same as a line of JSON. Raises Error where a number is not finite."""
-    try:
-        return json.dumps(plain(value), allow_nan=False)
-    except (TypeError, ValueError) as error:
-        raise Error(f"{error}; numbers are finite floats, ints, Fractions or texts like '1/3'") from None
+    """The same as a line of JSON."""
+    return json.dumps(plain(value), allow_nan=False)
+
+
+def vector(numbers: Any, name: str) -> list[Any]:
+    """The components of a place or a velocity. Raises Error where these are none."""
+    if isinstance(numbers, (str, bytes, dict)) or np.ndim(numbers) != 1:
+        raise Error(f"{name}: {numbers!r} is no sequence of 2 or 3 numbers")
+    return list(numbers)
 
 
 def integer(value: Any, name: str) -> int:
@@ -62,39 +88,56 @@ def integer(value: Any, name: str) -> int:
     return number
 
 
+def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
+    """An integer in this range. Raises Error."""
+    number = integer(value, name)
+    if not least <= number <= most:
+        raise Error(f"{name}: {number} is not from {least} to {most}")
+    return number
+
+
+def parts(obstacle: Any, name: str = "start_from") -> Obstacle:
+    """Lattice, atom, cell. Raises Error where these are not what it is."""
+    if not isinstance(obstacle, (tuple, list)) or len(obstacle) != 3 or np.ndim(obstacle[2]) != 1:
+        raise Error(f"{name}: {obstacle!r} is no obstacle (lattice, atom, cell)")
+    return obstacle[0], obstacle[1], obstacle[2]
+
+
 def obstacle_dict(obstacle: Obstacle) -> dict[str, Any]:
     """`from` of a query, and what an answer says of an obstacle."""
-    lattice, atom, cell = obstacle
+    lattice, atom, cell = parts(obstacle)
     # As texts, for cells may be larger than what JSON's numbers carry.
     return {"lattice": integer(lattice, "lattice"), "atom": integer(atom, "atom"),
             "cell": [str(integer(n, "cell")) for n in cell]}
 
 
 def finite(value: Any, name: str) -> float:
-    """A float that is no NaN and not infinite. Raises Error."""
-    number = float(value)
-    if not math.isfinite(number):
-        raise Error(f"{name}: {value!r} is no finite number")
-    return number
+    """The float that a number is. Raises Error where there is none that is equal."""
+    number = rational(value, name)
+    if not is_binary64(number):
+        raise Error(f"{name}: {value!r} is no number that a float can be")
+    return float(number)
 
 
-def time_limit(value: float | None, name: str) -> float | None:
+def time_limit(value: Any, name: str) -> Any:
     """A limit of time: above 0, perhaps infinite; or None. Raises Error."""
-    if value is not None and not value > 0:
-        raise Error(f"{name}: {value!r} is no time above 0")
-    return value
+    try:
+        if value is None or (exact(value) or 0 if isinstance(value, str) else value) > 0:
+            return value
+    except (TypeError, ValueError):
+        pass
+    raise Error(f"{name}: {value!r} is no time above 0")
 
 
 def exact(number: Any) -> Fraction | None:
     """The rational number that it is; None of a text with a square root."""
-    if isinstance(number, str):
-        try:
-            return Fraction(number)
-        except ValueError:
-            return None
-    return _fraction(number) if isinstance(number, (Integral, Fraction)) else Fraction(finite(number, "number"))
-
-
-def _fraction(number: Any) -> Fraction:
-    # An integer of NumPy would stay one inside the Fraction, and overflow there.
-    return number if isinstance(number, Fraction) else Fraction(int(number))
+    if not isinstance(number, str):
+        return rational(number)
+    if _DECIMAL.fullmatch(number):
+        return Fraction(str(number))
+    hexadecimal = _HEXADECIMAL.fullmatch(number)
+    if not hexadecimal:
+        return None
+    sign, whole_part, part, exponent = hexadecimal.groups("")
+    digits = Fraction(int(sign + whole_part + part, 16))
+    return digits * Fraction(2) ** (int(exponent or 0) - 4 * len(part))

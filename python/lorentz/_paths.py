@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _lorentz
 from ._first_hit import Floats, StartFrom, _columns, _vectors
 from ._lorentz import Error, Paths
-from ._numbers import Number, Obstacle, Vector, exact, obstacle_dict, plain, text, time_limit
+from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole
 from ._scene import SceneLike, native
 
 #: What ``Paths.stop_code`` says: why a particle does not go on (docs of the C++ header trajectory.hpp).
@@ -43,13 +43,12 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     """
     if precision not in ("binary64", "double-double"):
         raise Error(f'precision: "{precision}" is none; there are "binary64", "double-double"')
-    if not 0 <= collisions < 2**31:
-        raise Error("collisions: needs a number, 0 or above")
-    time_limit(until, "until")
+    most = whole(collisions, "collisions", 0, 2**31 - 1)
+    last = time_limit(until, "until")
     place, positions = native(scene), _vectors(x, "x")
     left = _columns(start_from, len(positions), place.dimension)
-    return _lorentz.follow(place, positions, _vectors(v, "v"), left, collisions, until, engine,
-                           precision == "double-double")
+    return _lorentz.follow(place, positions, _vectors(v, "v"), left, most, math.inf if last is None else float(last),
+                           engine, precision == "double-double")
 
 
 @dataclass(frozen=True)
@@ -105,17 +104,12 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     """
     if collisions is None and time is None:
         raise Error("needs collisions or time: how far to follow the particle")
-    if not 1 <= digits <= 100_000:
-        raise Error(f"digits: {digits} is no number from 1 to 100000")
-    if collisions is not None and not 0 < collisions < 2**31:
-        raise Error(f"collisions: {collisions} is no number above 0")
-    if most_bits < 0:
-        raise Error(f"most_bits: {most_bits} is below 0")
-    if time is not None:
-        until_when = exact(time) if isinstance(time, str) else time
-        time_limit(until_when, "time")  # type: ignore[arg-type]
+    digits, most_bits = whole(digits, "digits", 1, 100_000), whole(most_bits, "most_bits", 0, 2**40)
+    if collisions is not None:
+        collisions = whole(collisions, "collisions", 1, 2**31 - 1)
+    time_limit(time, "time")
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
-    until = plain(time)
+    until = plain(time, "time")
     limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number
     path = _lorentz.itinerary(native(scene), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
@@ -139,8 +133,8 @@ def draw_starts(scene: SceneLike, count: int, kind: str = "uniform", *, seed: in
             ``near-rational`` (beside small lattice vectors), ``grazing`` (past the edge of an obstacle).
         first: the number of the first.
 
-    Velocities have length 1 up to rounding. Raises Error where the obstacles leave nothing free.
+    Velocities have length 1 up to rounding, but those of ``near-rational``. Raises Error where the obstacles
+    leave nothing free.
     """
-    if count < 0:
-        raise Error("count: needs a number, 0 or above")
-    return Starts(**_lorentz.draw(native(scene), count, kind, seed, first))
+    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), kind, whole(seed, "seed", 0, 2**64 - 1),
+                                  whole(first, "first")))

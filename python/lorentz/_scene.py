@@ -61,7 +61,7 @@ class Scene:
         return isinstance(other, Scene) and self.to_dict() == other.to_dict()
 
     def __hash__(self) -> int:
-        return hash(str(self.to_dict()))
+        return hash(_frozen(self.to_dict()))
 
     def __repr__(self) -> str:
         return f"Scene({self.to_dict()!r})"
@@ -99,7 +99,16 @@ def _read(source: SceneLike) -> _lorentz.Scene:
         return source._scene
     if isinstance(source, Mapping):
         return _lorentz.Scene.from_json(text({"scene": dict(source)}))
-    return _lorentz.Scene.load(os.fspath(source))
+    scene = _lorentz.Scene.load(os.fspath(source))
+    # A text like "0.25" in a file is a float, too.
+    return scene if scene.is_binary64 else _lorentz.Scene.from_json(text({"scene": scene.to_dict()}))
+
+
+def _frozen(value: Any) -> Any:
+    """Lists and dicts as tuples, which have a hash, equal for equal numbers of any type."""
+    if isinstance(value, dict):
+        return tuple((key, _frozen(value[key])) for key in sorted(value))
+    return tuple(map(_frozen, value)) if isinstance(value, (list, tuple)) else value
 
 
 def _with_radius(scene: dict[str, Any], radius: Number) -> dict[str, Any]:

@@ -8,6 +8,7 @@ and `entry_time` take rational numbers, too; the others need floats, or numbers 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Sequence
@@ -15,7 +16,8 @@ from typing import Any, Sequence
 from . import _lorentz
 from ._answer import Answer, ExactTime
 from ._lorentz import Certificate, Error
-from ._numbers import Obstacle, Vector, exact, finite, integer, obstacle_dict, plain, text, time_limit
+from ._numbers import (Number, Obstacle, Vector, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
+                       text, time_limit, vector, whole)
 from ._scene import Scene, SceneLike
 
 __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check", "convergents", "entry_time",
@@ -23,7 +25,7 @@ __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check"
 
 
 def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None, digits: int = 0,
-              detail: bool = False, max_time: float | None = None) -> Answer:
+              detail: bool = False, max_time: Number | None = None) -> Answer:
     """Which obstacle is hit first, exactly.
 
     Args:
@@ -44,14 +46,16 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 
     Cost: 5 us (2D) or 20 us (3D) an atom, and some 20 us for Python.
     """
-    if not 0 <= digits <= 100_000:
-        raise Error(f"digits: {digits} is no number from 0 to 100000")
-    time_limit(max_time, "max_time")
+    digits = whole(digits, "digits", 0, 100_000)
+    if time_limit(max_time, "max_time") == math.inf:
+        max_time = None
     place = _scene(scene)
     query = _query(x, v, start_from)
-    if not (place.is_binary64 and _floats_only(query)):
-        return _first_hit_of_rationals(place, x, v, start_from, digits, detail, max_time)
-    answer = Answer.from_line(_oracle(place).first_hit(text(query), digits, detail, max_time))
+    limit = None if max_time is None else exact(max_time)
+    if not (place.is_binary64 and _floats_only(query) and (limit is None or is_binary64(limit))):
+        return _first_hit_of_rationals(place, x, v, start_from, digits, detail, limit)
+    answer = Answer.from_line(
+        _oracle(place).first_hit(text(query), digits, detail, None if limit is None else float(limit)))
     if answer.outcome != "hit":
         return answer
     return replace(answer, exact_time=entry_time(place, x, v, answer.obstacle))
@@ -60,7 +64,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 def is_free(scene: SceneLike, x: Vector) -> bool:
     """True if x lies in no open obstacle. Numbers must be floats, or equal to one."""
     place = _scene(scene)
-    return _oracle(place).is_free(text({"x": x, "v": [1] + [0] * (place.dimension - 1)}))
+    return _oracle(place).is_free(_text(x, [1] + [0] * (place.dimension - 1), None))
 
 
 def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None) -> ExactTime:
@@ -122,7 +126,7 @@ class Approach:
 def passed(scene: SceneLike, x: Vector, v: Vector, *, most: int = 5,
            start_from: Obstacle | None = None) -> list[Approach]:
     """The obstacles that the flight came nearest to, at most so many, in order of time; the one hit is last."""
-    return [Approach(**one) for one in _oracle(scene).passed(_text(x, v, start_from), most)]
+    return [Approach(**one) for one in _oracle(scene).passed(_text(x, v, start_from), whole(most, "most"))]
 
 
 @dataclass(frozen=True)
@@ -146,9 +150,10 @@ class Verdict:
 def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, start_from: Obstacle | None = None,
                  ulps: float = 4) -> Verdict:
     """Is this answer right? An answer that inputs moved by up to `ulps` ulps would make right is "ill-posed"."""
-    if not 0 <= ulps < 1e300:
+    tolerance = finite(ulps, "ulps")
+    if not 0 <= tolerance < 1e300:
         raise Error("ulps: needs a number, 0 or above")
-    return Verdict(**_oracle(scene).judge(_text(x, v, start_from), answer.to_line(), ulps))
+    return Verdict(**_oracle(scene).judge(_text(x, v, start_from), _checked(answer).to_line(), tolerance))
 
 
 def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Certificate:
@@ -162,7 +167,12 @@ def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certifi
 
     Of the answer outcome, obstacle, time and ``time_decimal`` are proved. Shares no code with the searches.
     """
-    return _oracle(scene).refutation(_text(x, v, start_from), answer.to_line(), proof)
+    if not isinstance(proof, Certificate):
+        raise Error(f"proof: {type(proof).__name__} is no Certificate; Certificate.from_dict makes one of a dict")
+    decimal = _checked(answer).time_decimal
+    if decimal is not None and (not isinstance(decimal, str) or not decimal or answer.outcome != "hit"):
+        return "time_decimal: is no text, or of an answer without a time"
+    return _oracle(scene).refutation(_text(x, v, start_from), answer.to_line(), decimal or "", proof)
 
 
 @dataclass(frozen=True)
@@ -177,9 +187,8 @@ class Convergent:
 
 def convergents(rise: float, run: float = 1.0, limit: int = 1000) -> list[Convergent]:
     """The exact continued fraction of the slope rise / run of two floats, until it ends or for `limit` terms."""
-    if limit < 0:
-        raise Error(f"limit: {limit} is below 0")
-    return [Convergent(*one) for one in _lorentz.convergents(finite(rise, "rise"), finite(run, "run"), limit)]
+    terms = _lorentz.convergents(finite(rise, "rise"), finite(run, "run"), whole(limit, "limit"))
+    return [Convergent(*one) for one in terms]
 
 
 def _scene(scene: SceneLike) -> Scene:
@@ -194,43 +203,68 @@ def _oracle(scene: SceneLike) -> _lorentz.Oracle:
 
 
 def _query(x: Vector, v: Vector, start_from: Obstacle | None) -> dict[str, Any]:
-    query: dict[str, Any] = {"x": list(x), "v": list(v)}
+    query: dict[str, Any] = {"x": vector(x, "x"), "v": vector(v, "v")}
     if start_from is not None:
         query["from"] = obstacle_dict(start_from)
     return query
 
 
 def _text(x: Vector, v: Vector, start_from: Obstacle | None) -> str:
-    return text(_query(x, v, start_from))
+    query = _query(x, v, start_from)
+    if not _floats_only(query):
+        raise Error("x, v: need floats, or numbers that are equal to one; first_hit and entry_time take others, too")
+    return text(query)
 
 
 def _floats_only(query: dict[str, Any]) -> bool:
-    return all(isinstance(number, float) for key in "xv" for number in plain(query[key]))
+    return all(isinstance(number, float) for key in "xv" for number in plain(query[key], key))
+
+
+def _checked(answer: Answer) -> Answer:
+    if not isinstance(answer, Answer):
+        raise Error(f"answer: {answer!r} is no Answer")
+    return answer
 
 
 def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obstacle | None, digits: int,
-                            detail: bool, max_time: float | None) -> Answer:
-    from ._paths import itinerary
+                            detail: bool, limit: Fraction | None) -> Answer:
+    from ._paths import Itinerary, itinerary
 
     if detail:
         raise Error("detail: is of queries whose numbers are floats")
-    path = itinerary(scene, x, v, start_from=start_from, collisions=1, time=max_time, digits=max(digits, 17))
-    if path.end == "time":
+    def follow(time: Fraction | None, decimals: int) -> Itinerary:
+        return itinerary(scene, x, v, start_from=start_from, collisions=1, time=time, digits=decimals)
+
+    path = follow(limit, max(digits, 17))
+    if path.end == "undecided" and limit is not None:  # that may be the very time of the hit
+        path = follow(None, max(digits, 17))
+    if path.end == "time" or path.end == "never" and limit is not None:
         return Answer("later")
     if path.end != "collisions":
         return Answer(path.end)
     first = path.collisions[0]
-    decimal = first.time if digits else None
-    answer = Answer("hit", first.lattice, first.atom, first.cell, float(first.time), None, decimal)
-    if any(exact(number) is None for number in [*x, *v]):
-        return answer  # among square roots
+    answer = Answer("hit", first.lattice, first.atom, first.cell, float(first.time))
+    if any(exact(number) is None for number in [*x, *v]):  # among square roots
+        if limit is not None and Fraction(first.time) >= limit:
+            return Answer("later" if Fraction(first.time) > limit else "undecided")
+        return replace(answer, time_decimal=follow(None, digits).collisions[0].time) if digits else answer
     when = entry_time(scene, x, v, answer.obstacle)
-    return replace(answer, exact_time=when, time=float(when))
+    if limit is not None and not when < ExactTime(limit, Fraction(0)):
+        return Answer("later")
+    return replace(answer, exact_time=when, time=float(when), time_decimal=_decimal_text(when, digits))
+
+
+def _decimal_text(time: ExactTime, digits: int) -> str | None:
+    """As `time_decimal` has it."""
+    if digits == 0:
+        return None
+    decimal = time.decimal(digits)
+    return format(decimal, "f") if decimal.adjusted() == -7 else str(decimal).lower()
 
 
 def _fractions(numbers: Vector, name: str) -> list[Fraction]:
     fractions = []
-    for number in numbers:
+    for number in vector(numbers, name):
         fraction = exact(number)
         if fraction is None:
             raise Error(f"{name}: {number!r} is no rational number")
@@ -240,7 +274,7 @@ def _fractions(numbers: Vector, name: str) -> list[Fraction]:
 
 def _centre_and_axes(scene: Scene, obstacle: Obstacle) -> tuple[list[Fraction], list[list[Fraction]]]:
     """The obstacle as centre + A y, |y| < 1: its centre, and the columns of A."""
-    lattice_number, atom_number, cell = obstacle
+    lattice_number, atom_number, cell = parts(obstacle, "obstacle")
     dimension = scene.dimension
     lattices = scene.to_dict()["lattices"]
     lattice = lattices[_number_of("lattice", lattice_number, len(lattices))]

@@ -19,6 +19,7 @@ from matplotlib.patches import Ellipse
 from ._first_hit import Outcome
 from ._flights import FreePaths
 from ._lorentz import Answers, Error, Paths
+from ._numbers import finite
 from ._scene import Scene, SceneLike
 
 __all__ = ["flights", "free_paths", "scene", "survival", "trajectory"]
@@ -35,7 +36,7 @@ def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
     """The obstacles of a 2D scene in ``box`` = (x low, x high, y low, y high), else around some cells; each at
     least a dot."""
     place = _flat(of)
-    limits = _around_cells(place) if box is None else box
+    limits = _around_cells(place) if box is None else _box(box)
     ax = _axes(ax)
     for number, lattice in enumerate(place.nearest().to_dict()["lattices"]):
         patches = list(_obstacles(lattice, limits))
@@ -53,7 +54,9 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
             longest: float = 40.0) -> Any:
     """Flights of a 2D scene (N at most some hundred) up to their hits; what is longer than ``longest``, or never
     ends, is cut and dashed. Without axes the scene is drawn, too."""
-    starts, velocities = np.atleast_2d(np.asarray(x, float)), np.atleast_2d(np.asarray(v, float))
+    starts, velocities = np.reshape(np.asarray(x, float), (-1, 2)), np.reshape(np.asarray(v, float), (-1, 2))
+    if not isinstance(answers, Answers) or not len(answers) == len(starts) == len(velocities):
+        raise Error(f"answers: needs the Answers to these {len(starts)} queries")
     lengths = np.linalg.norm(velocities, axis=1)
     hits = answers.outcome == Outcome.HIT
     shown = np.where(hits, np.minimum(answers.time * lengths, longest), longest)
@@ -61,7 +64,7 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
     flown = np.isin(answers.outcome, (Outcome.HIT, Outcome.NEVER, Outcome.LATER))
     whole = hits & (shown < longest)
     if ax is None:
-        ax = scene(of, _around(np.concatenate([starts, ends[flown]])))
+        ax = scene(of, _around(np.concatenate([starts, ends[flown]])) if len(starts) else None)
     for mask, style in ((whole, "solid"), (flown & ~whole, "dashed")):
         lines = np.stack([starts[mask], ends[mask]], axis=1)
         ax.add_collection(LineCollection(list(lines), colors=FLIGHT, linestyles=style, linewidths=1, zorder=2))
@@ -72,6 +75,8 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
 
 def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int = 0, *, ax: Any = None) -> Any:
     """The path of one particle in 2D, from its start through its collisions; without axes with the scene."""
+    if not 0 <= particle < len(paths):
+        raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
     count = int(paths.count[particle])
     points = np.concatenate([np.reshape(np.asarray(start, float), (1, 2)), paths.place[particle, :count]])
     if ax is None:
@@ -123,6 +128,13 @@ def _flat(of: SceneLike) -> Scene:
     if place.dimension != 2:
         raise Error("pictures are of two dimensions; `lorentz scene draw` has those of three")
     return place
+
+
+def _box(box: Any) -> Box:
+    numbers = [finite(number, "box") for number in box]
+    if len(numbers) != 4 or not (numbers[0] < numbers[1] and numbers[2] < numbers[3]):
+        raise Error(f"box: {box!r} is not x low, x high, y low, y high")
+    return numbers[0], numbers[1], numbers[2], numbers[3]
 
 
 def _around(points: npt.NDArray[np.float64]) -> Box:

@@ -20,6 +20,11 @@ def same(a, b):
     return all(np.array_equal(getattr(a, name), getattr(b, name), equal_nan=name == "time") for name in COLUMNS)
 
 
+def same_rows(part, whole, rows):
+    return all(np.array_equal(getattr(part, name), getattr(whole, name)[rows], equal_nan=name == "time")
+               for name in COLUMNS)
+
+
 def test_the_example_of_the_readme():
     answers = lorentz.first_hit("square", EXAMPLE_X, EXAMPLE_V, 0.1, engine="certified-batch")
     assert answers.outcome.tolist() == [Outcome.HIT, Outcome.NEVER, Outcome.HIT, Outcome.INSIDE]
@@ -48,14 +53,14 @@ def test_every_engine_of_the_program_answers():
 
 
 def test_nothing_is_copied():
-    x, v, _ = lorentz.draw_starts("square", 5000, seed=SEED)
+    x, v, _ = lorentz.draw_starts("square", 1_000_000, seed=SEED)
     answers = lorentz.first_hit("square", x, v)
     for name, address in answers._addresses.items():
         column = getattr(answers, name)
         assert column.__array_interface__["data"][0] == address, name
         assert not column.flags.owndata and not column.flags.writeable, name
         assert column.base is answers, name
-    assert answers.cell.shape == (5000, 2) and len(answers) == 5000
+    assert answers.cell.shape == (1_000_000, 2) and len(answers) == 1_000_000
 
 
 def test_columns_outlive_their_answers():
@@ -78,6 +83,16 @@ def test_memory_is_used_again():
     assert same(again, engine.first_hit(x[::-1], v[::-1]))
     with pytest.raises(lorentz.Error, match="out: is of 5000 queries in 2"):
         engine.first_hit(x[1:], v[1:], out=first)
+
+
+def test_nothing_half_written_is_left_in_out():
+    engine = lorentz.Engine("square")
+    x, v, _ = lorentz.draw_starts("square", 9000, seed=SEED)
+    out = engine.first_hit(x, v)
+    v[8001] = 0
+    with pytest.raises(lorentz.Error, match="row 8001"):
+        engine.first_hit(x, v, out=out)
+    assert (out.outcome == Outcome.ERROR).all() and np.isnan(out.time).all() and not out.cell.any()
 
 
 def test_any_layout_and_type_of_input():
@@ -124,6 +139,40 @@ def test_what_is_left_is_ignored():
     assert then.outcome.tolist() == [Outcome.HIT] * 2 and then.cell.tolist() == [[-2, 0], [2, 0]]
 
 
+@pytest.mark.parametrize("engine", ["batch", "oracle"])
+def test_each_of_many_rows_has_its_own_start_and_limit(engine):
+    scene = lorentz.Scene("rock-salt")  # two atoms
+    x, v, start_from = lorentz.draw_starts(scene, 9000, "surface", seed=SEED)
+    assert set(start_from[1]) == {0, 1} and len(np.unique(start_from[2], axis=0)) == 1
+    shift = np.arange(27000).reshape(9000, 3) % 64
+    vectors = np.array(scene.to_dict()["lattices"][0]["vectors"])
+    x, start_from = x + shift @ vectors, (*start_from[:2], start_from[2] + shift)
+    limits = np.linspace(0.1, 2, 9000)
+    whole = lorentz.first_hit(scene, x, v, engine=engine, start_from=start_from, max_time=limits)
+    assert 2000 < (whole.outcome == Outcome.HIT).sum() < 8000
+    for rows in (slice(4000, 4200), slice(8900, 9000)):
+        part = tuple(column[rows] for column in start_from)
+        assert same_rows(lorentz.first_hit(scene, x[rows], v[rows], engine=engine, start_from=part,
+                                           max_time=limits[rows]), whole, rows)
+
+
+@pytest.mark.parametrize("engine", ["certified-batch", "oracle", "certified"])
+def test_an_obstacle_beyond_64_bits_can_be_left(engine):
+    x, v = np.full((9000, 2), 0.5), np.tile([1, 0.3], (9000, 1))
+    x[[7, 5000]], v[[7, 5000]] = [0, 0.445], [1, 1e-20]
+    first = lorentz.first_hit("square", x, v, 0.1, engine=engine)
+    assert sorted(first.large_cells) == [7, 5000]
+    obstacles = [None if i % 2 else (0, 0, first.large_cells.get(i, tuple(first.cell[i]))) for i in range(9000)]
+    then = lorentz.first_hit("square", x, v, 0.1, engine=engine, start_from=first)
+    some = lorentz.first_hit("square", x, v, 0.1, engine=engine, start_from=obstacles)
+    for i in (6, 7, 8, 4999, 5000):
+        cell = first.large_cells.get(i, first.cell[i])
+        exact = lorentz.oracle.first_hit(lorentz.Scene("square", 0.1), x[i], v[i], start_from=(0, 0, cell))
+        assert exact.cell == then.large_cells.get(i, tuple(then.cell[i])) != tuple(cell)
+        other = exact if i % 2 == 0 else lorentz.oracle.first_hit(lorentz.Scene("square", 0.1), x[i], v[i])
+        assert other.cell == some.large_cells.get(i, tuple(some.cell[i]))
+
+
 @pytest.mark.parametrize("engine", ["batch", "certified-batch", "oracle"])
 def test_a_bad_row_is_named(engine):
     x, v, _ = lorentz.draw_starts("square", 9000, seed=SEED)
@@ -152,7 +201,7 @@ def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
     (dict(x=[[0, 0]], v=[[1, 0]], engine="bach"), "did you mean batch"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="cmd:cat"), "judge"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="oracle", threads=2), "threads: only the engines batch"),
-    (dict(x=[[0, 0]], v=[[1, 0]], threads=0), "threads: needs"),
+    (dict(x=[[0, 0]], v=[[1, 0]], threads=0), "threads: 0 is not from 1 to 1024"),
     (dict(x=[[0, 0]], v=[[1, 0]], on_error="ignore"), "on_error"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0, 7, [0, 0]), on_error="raise"), "row 0"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0.5, 0, [0, 0])), "start_from: .* no type of integers"),
@@ -203,11 +252,29 @@ def test_other_threads_run_meanwhile():
     assert len(middle) >= 3
 
 
-def test_an_interrupt_comes_through():
-    x, v, _ = lorentz.draw_starts("cubic", 20000, seed=SEED)
-    x, v = np.tile(x, (100, 1)), np.tile(v, (100, 1))
-    timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
+MANY = np.full((2_000_000, 2), 0.5), np.full((2_000_000, 2), 0.3)
+
+
+@pytest.mark.parametrize("work", [
+    lambda: lorentz.first_hit("square", *MANY, engine="oracle"),
+    lambda: lorentz.first_hit("square", *MANY, 1e-4, engine="published-256"),
+    lambda: lorentz.draw_starts("kagome", 20_000_000, "near-rational"),
+    lambda: lorentz.draw_starts("cubic", 20_000_000, "grazing"),
+    lambda: lorentz.trajectories("square", [[0.5, 0.5]], [[1, 0.3]], 1_000_000, engine="oracle"),
+    lambda: lorentz.itinerary("square", [0.5, 0.5], [1, 0.3], collisions=100_000),
+    lambda: lorentz.flights("square", 10**9),
+    lambda: lorentz.judge("reduction", time=60),
+])
+def test_an_interrupt_comes_through(work):
+    begin = []
+
+    def interrupt():
+        begin.append(time.monotonic())
+        signal.raise_signal(signal.SIGINT)
+
+    timer = threading.Timer(0.5, interrupt)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        lorentz.first_hit("cubic", x, v, engine="oracle")
+        work()
     timer.join()
+    assert time.monotonic() - begin[0] < 5  # soon; a machine may be busy

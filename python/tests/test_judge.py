@@ -23,9 +23,7 @@ class Certified:
     def __call__(self, scene, x, v, start_from):
         if id(scene) not in self.engines:
             self.engines = {id(scene): (scene, lorentz.Engine(scene, "certified-batch"))}
-        none = (-1, 0, (0,) * scene.dimension)
-        left = list(zip(*(none if one is None else one for one in start_from)))
-        return self.engines[id(scene)][1].first_hit(x, v, start_from=left)
+        return self.engines[id(scene)][1].first_hit(x, v, start_from=start_from)
 
 
 def one_by_one(scene, x, v, start_from):
@@ -42,8 +40,7 @@ def test_a_right_function_is_right():
 def test_a_vectorized_function_is_the_same():
     report = lorentz.judge(Certified(), vectorized=True, time=SHORT)
     assert report["engine"] == "Certified" and report["queries"] > 200
-    # Its columns do not take obstacles beyond 64 bits to start from; nothing else may be wrong.
-    assert all("beyond 64 bits" in finding["given"]["message"] for finding in report["findings"])
+    assert report["verdict"] == "right" and report["findings"] == []
 
 
 def test_a_wrong_function_is_found_out():
@@ -59,6 +56,16 @@ def test_a_wrong_function_is_found_out():
     given = lorentz.Answer.from_line(json.dumps(finding["given"]))
     verdict = lorentz.judge_answer(finding["scene"], finding["query"]["x"], finding["query"]["v"], given)
     assert (verdict.verdict, verdict.cause) == ("wrong", "not-the-time")
+
+
+def test_wrong_times_count_when_that_is_asked():
+    def inexact(scene, x, v, start_from):
+        answer = one_by_one(scene, x, v, start_from)
+        return replace(answer, time=answer.time * (1 + 1e-9)) if answer.outcome == "hit" else answer
+
+    lenient, strict = (lorentz.judge(inexact, time=SHORT, times=times) for times in (False, True))
+    assert (lenient["verdict"], strict["verdict"]) == ("right", "wrong")
+    assert strict["wrong_time"] > 100 and {finding["cause"] for finding in strict["findings"]} == {"wrong-time"}
 
 
 @pytest.mark.parametrize("vectorized", [False, True])

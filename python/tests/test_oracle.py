@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from decimal import Decimal
 from fractions import Fraction
 
 import lorentz
@@ -149,3 +150,63 @@ def test_convergents_are_exact():
 def test_what_is_no_query(query, text):
     with pytest.raises(lorentz.Error, match=text):
         oracle.first_hit("square", **query)
+
+
+@pytest.mark.parametrize("x, v, when", [([0.5, 0], [1, 0], Fraction(1, 4)), (["1/3", 0], [1, 0], Fraction(5, 12))])
+def test_a_time_limit(x, v, when):
+    scene = lorentz.unit_scene(2, 0.25)
+    assert oracle.first_hit(scene, x, v).exact_time.fraction() == when
+    for limit, outcome in [(when, "later"), (float(when) * 0.999, "later"), (float(when) * 1.001, "hit")]:
+        assert oracle.first_hit(scene, x, v, max_time=limit).outcome == outcome, limit
+    assert oracle.first_hit(scene, x, v, max_time=np.inf).outcome == "hit"
+
+
+def test_a_time_limit_between_floats():
+    scene = lorentz.unit_scene(2, 0.25)
+    x, v, third = [0.5, 0.0], [0.75, 0.0], Fraction(1, 3)  # enters at 1/3, which no float is
+    assert oracle.first_hit(scene, x, v).exact_time.fraction() == third
+    for limit, outcome in [(third, "later"), (third + Fraction(1, 10**30), "hit"), (float(third), "later"),
+                           (math.nextafter(third, 1), "hit"), ("1/3", "later")]:
+        assert oracle.first_hit(scene, x, v, max_time=limit).outcome == outcome, limit
+
+
+def test_a_time_in_decimal_is_checked():
+    scene, x, v = lorentz.unit_scene(2, 0.25), [0.5, 0.375], [1, 1]
+    answer, proof = oracle.first_hit(scene, x, v, digits=40), oracle.certificate(scene, x, v)
+    assert answer.time_decimal and oracle.check(scene, x, v, answer, proof) is None
+    nearly = answer.time_decimal[:-1] + str((int(answer.time_decimal[-1]) + 1) % 10)
+    for wrong in ("9.9", nearly, "", "x"):
+        assert "decimal" in oracle.check(scene, x, v, replace(answer, time_decimal=wrong), proof), wrong
+
+
+def test_digits_are_as_many_as_asked_for_whatever_the_numbers_are():
+    scene = lorentz.unit_scene(2, 0.25)
+    for x, v in [([0.5, 0.375], [1, 0.9]), (["1/3", "0.4"], [1, "9/10"]), ([0.5, 0.375], ["sqrt(2)", "golden"]),
+                 ([0.5, 0.375], [3e6, 1e6]), (["0.50000000000000000001", "0.4"], ["3e6", "1e6"])]:
+        texts = [oracle.first_hit(scene, x, v, digits=digits).time_decimal for digits in (1, 5, 16, 40)]
+        assert [len(text.partition("e")[0].replace(".", "").lstrip("0")) for text in texts] == [1, 5, 16, 40]
+        assert all(abs(Fraction(text) / Fraction(texts[3]) - 1) < Fraction(1, 2 * 10**(digits - 1))
+                   for text, digits in zip(texts, (1, 5, 16)))
+    midway = oracle.first_hit(scene, ["0.500000000000000000125", 0], [1, 0], digits=20)  # 0.249999999999999999875
+    assert midway.time_decimal == "0.24999999999999999988"  # the even one
+    floats, rationals = (oracle.first_hit(scene, x, [2.0**21, 0.5], digits=3) for x in ([0.5, 0], [0.5, "0." + 400 * "0" + "1"]))
+    assert floats.time_decimal == rationals.time_decimal == "0.000000119"
+
+
+def test_a_time_beyond_floats():
+    scene = lorentz.unit_scene(2, 0.25)
+    assert oracle.first_hit(scene, ["1/2", "1/2"], ["1e-400", "1e-400"]).time == math.inf
+    assert float(oracle.first_hit(scene, [0.5, 0.4], [5e-324, 5e-324]).exact_time) == math.inf
+
+
+def test_numbers_of_every_type_are_what_they_are():
+    scene, v = lorentz.unit_scene(2, 0.25), [1, 0.3]
+    tenth = oracle.first_hit(scene, [0.5, Fraction(1, 10)], v)
+    for same in (Decimal("0.1"), "0.1", "1/10", "1e-1", np.str_("0.1")):
+        assert oracle.first_hit(scene, [0.5, same], v) == tenth
+    float_tenth = oracle.first_hit(scene, [0.5, 0.1], v)
+    assert float_tenth != tenth
+    for same in (np.float64(0.1), Decimal(0.1), Fraction(0.1), (0.1).hex(), np.longdouble(0.1)):
+        assert oracle.first_hit(scene, [0.5, same], v) == float_tenth
+    third = np.longdouble(1) / 3
+    assert oracle.first_hit(scene, [0.5, third], v) == oracle.first_hit(scene, [0.5, Fraction(*third.as_integer_ratio())], v)

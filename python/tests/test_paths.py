@@ -52,6 +52,24 @@ def test_together_as_one_by_one(precision):
     assert lorentz.STOPS[both[0].stop_code[0]] == "collisions"
 
 
+@pytest.mark.parametrize("name", ["rock-salt", "superposition-pi-5", "ellipses-mixed"])
+def test_each_collision_is_with_what_is_hit_first(name):
+    scene = lorentz.Scene(name)
+    x, v, _ = lorentz.draw_starts(scene, 40, seed=SEED)
+    paths = lorentz.trajectories(scene, x, v, 2)
+    first = lorentz.first_hit(scene, x, v)
+    numbers = {(int(a), int(b)) for a, b in zip(first.lattice, first.atom)}
+    assert len(numbers) == sum(len(lattice["atoms"]) for lattice in scene.to_dict()["lattices"]) > 1
+    for field in ("lattice", "atom", "cell"):
+        assert np.array_equal(getattr(paths, field)[:, 0], getattr(first, field)), field
+    assert np.allclose(paths.time[:, 0], first.time, rtol=1e-12)
+    assert np.allclose(paths.place[:, 0], x + first.time[:, None] * v, rtol=0, atol=1e-12)
+    then = lorentz.first_hit(scene, paths.place[:, 0], paths.velocity[:, 0], start_from=first)
+    for field in ("lattice", "atom", "cell"):
+        assert np.array_equal(getattr(paths, field)[:, 1], getattr(then, field)), field
+    assert np.allclose(paths.time[:, 1], first.time + then.time, rtol=1e-9)
+
+
 def test_paths_that_end():
     scene = lorentz.unit_scene(2, 0.25)
     starts = dict(x=[[0.5, 0], [0, 0.5], [0, 0]], v=[[1, 0], [1, 0], [1, 0]], collisions=3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Callable
 
@@ -14,6 +15,17 @@ from lorentz import oracle
 
 SQUARE = lorentz.unit_scene(2, 0.1)
 X, V = [0.5, 0.5], [1, 0.3]
+
+
+
+def square_with_vector(length: str) -> lorentz.Scene:
+    return lorentz.Scene({"dimension": 2, "lattices": [{"vectors": [[length, 0], [0, 1]], "atoms": [
+        {"position": [0, 0], "radius": 0.1}]}]})
+
+
+def one_window(begin: float) -> dict[str, Any]:
+    return {"windows": [{"lattice": 0, "atom": 0, "from": begin, "to": 2, "basis": [[1, 0], [0, 1]]}]}
+
 
 REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("digits", lambda: lorentz.itinerary(SQUARE, X, V, collisions=2, digits=0)),
@@ -44,6 +56,64 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("x: ", lambda: lorentz.first_hit(SQUARE, np.ma.masked_array([X], [[True, False]]), [V])),
     ("x: ", lambda: lorentz.first_hit(SQUARE, np.array([[2**53 + 1, 0]]), [V])),
     ("x: ", lambda: lorentz.first_hit(SQUARE, [[10**400, 0.5]], [V])),
+    ("threads: 2.5", lambda: lorentz.Engine(SQUARE, threads=2.5)),  # type: ignore[arg-type]
+    ("threads: -1 ", lambda: lorentz.flights(SQUARE, 10, threads=-1)),
+    ("threads: 'two'", lambda: lorentz.judge("reduction", threads="two")),  # type: ignore[arg-type]
+    ("seed: -1 ", lambda: lorentz.draw_starts(SQUARE, 3, seed=-1)),
+    ("seed: 18446744073709551616 ", lambda: lorentz.judge("reduction", seed=2**64)),
+    ("count: -3 ", lambda: lorentz.draw_starts(SQUARE, -3)),
+    ("count: 0 ", lambda: lorentz.flights(SQUARE, 0)),
+    ("count: nan", lambda: lorentz.flights(SQUARE, math.nan)),  # type: ignore[arg-type]
+    ("first: -1 ", lambda: lorentz.draw_starts(SQUARE, 3, first=-1)),
+    ("collisions: -1 ", lambda: lorentz.trajectories(SQUARE, [X], [V], -1)),
+    ("collisions: 1.5", lambda: lorentz.trajectories(SQUARE, [X], [V], 1.5)),  # type: ignore[arg-type]
+    ("until: 'soon'", lambda: lorentz.trajectories(SQUARE, [X], [V], 1, until="soon")),  # type: ignore[arg-type]
+    ("max_time: 'soon'", lambda: oracle.first_hit(SQUARE, X, V, max_time="soon")),  # type: ignore[arg-type]
+    ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time="soon")),
+    ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=[1, 2])),
+    ("most: -1 ", lambda: oracle.passed(SQUARE, X, V, most=-1)),
+    ("limit: -1 ", lambda: oracle.convergents(0.5, limit=-1)),
+    ("rise: 'x'", lambda: oracle.convergents("x")),  # type: ignore[arg-type]
+    ("min_width: None", lambda: lorentz.horizon("square", min_width=None)),  # type: ignore[arg-type]
+    ("ulps: 'x'", lambda: lorentz.judge("reduction", ulps="x")),  # type: ignore[arg-type]
+    ("time: 'x'", lambda: lorentz.judge("reduction", time="x")),  # type: ignore[arg-type]
+    ("rounded to binary64: .*radius", lambda: lorentz.unit_scene(2, "1e400").nearest()),
+    ("rounded to binary64: .*radius", lambda: lorentz.unit_scene(2, "1e-400").nearest()),
+    ("rounded to binary64: .*dependent", lambda: square_with_vector("1e-400").nearest()),
+    ("start_from: .*int32", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=(2**32, 0, (0, 0)))),
+    ("start_from: .*int32", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=(0, 2**32, (0, 0)))),
+    ("start_from: .*int64", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=(0, 0, np.array([2**64 - 1, 0], np.uint64)))),
+    ("start_from: .*int32", lambda: lorentz.trajectories(SQUARE, [X], [V], 1, start_from=(2**32, 0, (0, 0)))),
+    ("start_from", lambda: oracle.first_hit(SQUARE, X, V, start_from=(0, 0))),  # type: ignore[arg-type]
+    ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[2**53 + 1, 0.0]], [V])),
+    ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[Fraction(1, 3), 0]], [V])),
+    ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[Decimal("0.1"), 0]], [V])),
+    ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[np.longdouble(1) / 3, 0]], [V])),
+    ("v: is no array of numbers", lambda: lorentz.first_hit(SQUARE, [X], np.array([[True, False]]))),
+    ("x: is no array of numbers", lambda: lorentz.first_hit(SQUARE, [["1", "2"]], [V])),
+    ("x: ", lambda: oracle.first_hit(SQUARE, b"12", V)),  # type: ignore[arg-type]
+    ("x: nan", lambda: oracle.first_hit(SQUARE, [math.nan, 0], V)),
+    ("radius: inf", lambda: lorentz.unit_scene(2, math.inf)),
+    ("rise: Fraction", lambda: oracle.convergents(Fraction(1, 3))),  # type: ignore[arg-type]
+    ("rise: 9007199254740993", lambda: oracle.convergents(2**53 + 1)),
+    ("x, v: need floats", lambda: oracle.margin(SQUARE, ["1/3", 0.4], V)),
+    ("from: is no finite number", lambda: lorentz.Certificate.from_dict(one_window(math.nan), 2)),
+    ("from: is no finite number", lambda: lorentz.Certificate.from_dict(one_window(-math.inf), 2)),
+    ("certificate: .*KeyError", lambda: lorentz.Certificate.from_dict({"windows": [{"lattice": 0}]}, 2)),
+    ("proof: dict", lambda: oracle.check(SQUARE, X, V, lorentz.never(), {})),  # type: ignore[arg-type]
+    ("answer: None", lambda: oracle.judge_answer(SQUARE, X, V, None)),  # type: ignore[arg-type]
+    ("answer: .*KeyError", lambda: lorentz.Answer.from_line("{}")),
+    ("answer: ", lambda: lorentz.Answer.from_line("x")),
+    ("root: -1", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(-1))),
+    ("digits: 0 ", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(1)).decimal(0)),
+    ("engine: None", lambda: lorentz.Engine(SQUARE, None)),  # type: ignore[arg-type]
+    ("out: int", lambda: lorentz.Engine(SQUARE).first_hit([X], [V], out=5)),  # type: ignore[arg-type]
+    ("time: True", lambda: lorentz.itinerary(SQUARE, X, V, time=True)),
+    ("times: ", lambda: lorentz.laws("square", "x")),
+    ("box: ", lambda: lorentz.plot.scene("square", (1, 0, 0, 1))),
+    ("particle: there is no 1", lambda: lorentz.plot.trajectory(SQUARE, X, lorentz.trajectories(SQUARE, [X], [V], 2), 1)),
+    ("answers: ", lambda: lorentz.plot.flights(SQUARE, [X, X], [V, V], lorentz.first_hit(SQUARE, [X], [V]))),
+    ("engine: .*scene, x, v, start_from", lambda: lorentz.judge(lambda x, v: lorentz.never())),
 ]
 
 
@@ -69,6 +139,29 @@ def test_equal_times_are_equal() -> None:
     assert (oracle.entry_time(scene, [0.125, 0], [-1, 0], (0, 0, (0, 0))) ==
             oracle.entry_time(scene, [0, 0.125], [0, -2], (0, 0, (0, 0))))
     assert lorentz.oracle.ExactTime(Fraction(1, 8), Fraction(1, 64)).fraction() == 0
+
+
+def test_times_are_ordered_exactly() -> None:
+    Time = lorentz.oracle.ExactTime
+    late = Time(Fraction(2), Fraction(2))  # 0.5857..
+    tiny = Fraction(1, 10**300)
+    times = [Time(Fraction(1), Fraction(2)), Time(Fraction(0), Fraction(0)), Time(Fraction(1, 2), Fraction(0)),
+             late, Time(Fraction(2), Fraction(2) - tiny), Time(Fraction(2) + tiny, Fraction(2))]
+    assert sorted(reversed(times), key=float)[3] is not late  # floats do not tell the last three apart
+    assert sorted(reversed(times)) == times
+    assert late < times[4] and not times[4] < late and not late < late and late >= Time(Fraction(2), Fraction(2))
+    with pytest.raises(TypeError):
+        late < 1  # type: ignore[operator]
+
+
+def test_columns_of_other_lengths_are_no_answers() -> None:
+    def longer(scene: Any, x: Any, v: Any, start_from: Any) -> Any:
+        told = lorentz.first_hit(scene, x, v, engine="certified-batch")
+        return {"outcome": told.outcome, "cell": told.cell, "time": [*told.time, 1.0]}
+
+    report = lorentz.judge(longer, vectorized=True, time=0.5)
+    assert report["verdict"] == "wrong"
+    assert "time: has 2 rows, outcome has 1" in report["findings"][0]["given"]["message"]
 
 
 def test_a_list_of_obstacles_and_none_is_left() -> None:

@@ -75,3 +75,19 @@ def test_names_that_are_none():
         lorentz.Scene("ellipse", 0.1)
     with pytest.raises(lorentz.Error, match="above"):
         lorentz.Scene("square", -1)
+
+
+def test_a_text_that_is_a_float_is_one(tmp_path):
+    file = tmp_path / "quarter.toml"
+    file.write_text('dimension = 2\nlattices = [{vectors = [["1", 0], [0, "0x1p0"]], atoms = [{position = [0, 0], '
+                    'radius = "1/4"}]}]\n')
+    scene = lorentz.unit_scene(2, 0.25)
+    for same in (lorentz.unit_scene(2, "0.25"), lorentz.unit_scene(2, Fraction(1, 4)), lorentz.Scene("square", "1/4"),
+                 lorentz.Scene(file)):
+        assert same == scene and hash(same) == hash(scene) and same.is_binary64
+        assert lorentz.first_hit(same, [[0.5, 0.5]], [[1, 0.3]]).outcome.tolist() == [lorentz.Outcome.HIT]
+    minus = lorentz.Scene({"dimension": 2, "lattices": [{"vectors": [[1, -0.0], [0, 1]], "atoms": [
+        {"position": [0, 0], "radius": 0.25}]}]})
+    assert minus == scene and hash(minus) == hash(scene)
+    assert hash(lorentz.unit_scene(2, "1/3")) == hash(lorentz.unit_scene(2, Fraction(1, 3)))
+    assert not lorentz.unit_scene(2, "0.1").is_binary64

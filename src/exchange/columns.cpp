@@ -1,5 +1,6 @@
 #include "src/exchange/columns.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace lorentz {
@@ -7,12 +8,16 @@ namespace lorentz {
 void QueryRows::clear() {
   count = 0;
   for (int k = 0; k < 3; ++k) x[k].clear(), v[k].clear(), from_cell[k].clear();
-  max_time.clear(), from_lattice.clear(), from_atom.clear(), id.clear(), flaws.clear(), lines.clear();
+  max_time.clear(), from_lattice.clear(), from_atom.clear(), large_from.clear();
+  id.clear(), flaws.clear(), lines.clear();
 }
 
 Query QueryRows::query(std::size_t i, int dimension) const {
   Query query;
   for (int k = 0; k < dimension; ++k) query.x[k] = x[k][i], query.v[k] = v[k][i];
+  const auto large = std::lower_bound(large_from.begin(), large_from.end(), i,
+                                      [](const auto& one, std::size_t row) { return one.first < row; });
+  if (large != large_from.end() && large->first == i) query.from = large->second;
   if (from_lattice.empty() || from_lattice[i] < 0) return query;
   query.from.emplace();
   query.from->lattice = from_lattice[i], query.from->atom = from_atom[i];

@@ -30,6 +30,8 @@ struct QueryRows {
   /// The obstacle that a query leaves; a lattice below 0: none. Empty: no query leaves one.
   std::vector<std::int32_t> from_lattice, from_atom;
   std::array<std::vector<std::int64_t>, 3> from_cell;
+  /// Those whose cells 64 bits do not hold, by row; the columns say that these rows leave none.
+  std::vector<std::pair<std::size_t, ObstacleId>> large_from;
 
   std::vector<std::string> id;  ///< as text; empty: there are none
 
