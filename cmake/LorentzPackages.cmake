@@ -10,6 +10,7 @@ set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/compress_manuals.cmake)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the tests are no part of a package
 
 get_cmake_property(installed COMPONENTS)
@@ -43,7 +44,13 @@ trajectories.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lorentz)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+if(TARGET lorentz_python)  # a module for one version of Python; scenes and golden sets are those of the program
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  math(EXPR next_minor "${Python3_VERSION_MINOR}+1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), \
+python3-numpy, lorentz (= ${PROJECT_VERSION})")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Engines, oracle, certificates and trajectories as functions of NumPy arrays.")
 
 # What Debian's policy wants in each package's folder of documents: the licence, and when it was made.
