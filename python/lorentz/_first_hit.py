@@ -109,6 +109,17 @@ def engines() -> list[str]:
 
 
 def _vectors(numbers: npt.ArrayLike, name: str) -> Floats:
+    return np.atleast_2d(_floats(numbers, name))
+
+
+def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
+    limits = _floats(max_time, "max_time")
+    if limits.ndim > 1 or limits.ndim == 1 and limits.shape != (count,):
+        raise Error(f"max_time: has the shape {limits.shape}, needs one number or ({count},)")
+    return np.broadcast_to(limits, (count,))
+
+
+def _floats(numbers: npt.ArrayLike, name: str) -> Floats:
     if isinstance(numbers, np.ma.MaskedArray):
         raise Error(f"{name}: is a masked array; fill it first")
     try:
@@ -120,7 +131,7 @@ def _vectors(numbers: npt.ArrayLike, name: str) -> Floats:
         raise Error(f"{name}: is no array of numbers: {error}") from None
     if not _is_kept(numbers, given, floats):
         raise Error(f"{name}: has numbers that floats would round; lorentz.oracle takes them as they are")
-    return np.atleast_2d(floats)
+    return floats
 
 
 def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats) -> bool:
@@ -133,13 +144,6 @@ def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats) ->
     if given.dtype.kind in "iu" and given.dtype.itemsize == 8:
         return bool((abs(floats) < 2.0**53).all())
     return given.dtype.itemsize <= 8 or bool(((given == floats) | np.isnan(floats)).all())
-
-
-def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
-    try:
-        return np.broadcast_to(np.asarray(max_time, np.float64), (count,))
-    except (TypeError, ValueError, OverflowError) as error:
-        raise Error(f"max_time: is neither a number nor an array of {count}: {error}") from None
 
 
 #: Columns lattice, atom, cell, and the rows whose cells 64 bits do not hold: (row, lattice, atom, cell).
@@ -179,14 +183,18 @@ def _columns_of_rows(rows: list[Any], count: int, dimension: int) -> _Left:
     if len(rows) != count or any(row is not None and len(row[2]) != dimension for row in rows):
         raise ValueError(f"there are {len(rows)}, or cells have not {dimension} coordinates")
     none = (-1, 0, (0,) * dimension)
-    whole_rows = [none if row is None else (integer(row[0], "lattice"), integer(row[1], "atom"),
-                                            tuple(integer(n, "cell") for n in row[2])) for row in rows]
+    whole_rows = [none if row is None else (_index(row[0]), _index(row[1]), tuple(integer(n, "cell") for n in row[2]))
+                  for row in rows]
     large = [(i, *row) for i, row in enumerate(whole_rows) if not all(-2**63 <= n < 2**63 for n in row[2])]
     for i, *_ in large:
         whole_rows[i] = none
     lattice, atom, cell = zip(*whole_rows) if rows else ((), (), ())
     return (_integers(np.array(lattice, int), np.int32), _integers(np.array(atom, int), np.int32),
             np.reshape(np.array(cell, np.int64), (count, dimension)), large)
+
+
+def _index(value: Any) -> int:
+    return whole(value, "start_from", -2**31, 2**31 - 1)
 
 
 def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:

@@ -71,6 +71,9 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("max_time: 'soon'", lambda: oracle.first_hit(SQUARE, X, V, max_time="soon")),  # type: ignore[arg-type]
     ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time="soon")),
     ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=[1, 2])),
+    ("max_time: has numbers that floats", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=Fraction(1, 3))),
+    ("max_time: is no array", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=True)),
+    ("start_from: 1099511627776", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=[(2**40, 0, (2**70, 0))])),
     ("most: -1 ", lambda: oracle.passed(SQUARE, X, V, most=-1)),
     ("limit: -1 ", lambda: oracle.convergents(0.5, limit=-1)),
     ("rise: 'x'", lambda: oracle.convergents("x")),  # type: ignore[arg-type]
