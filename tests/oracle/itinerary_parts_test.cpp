@@ -116,5 +116,6 @@ TEST_CASE("Itinerary: the derivative of a collision is what small changes become
   State<3> state;
   state.y = {Ball(-800), Ball(-60), Ball(90)};
   state.v = {Ball(18), Ball(2), Ball(-1)};
-  for (const auto& atom : ExactScene<3>(space).lattices[0].atoms) check_derivative(atom, state);
+  const ExactScene<3> exact(space);
+  for (const auto& atom : exact.lattices[0].atoms) check_derivative(atom, state);
 }
