@@ -130,7 +130,7 @@ TEST_CASE("Questions about far cells are told from others", "[judge][circumstanc
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->text == "in far cells, with numbers of 1e+09 or more");
   for (Features& f : right) f.cell = 5e9;
-  CHECK(circumstance_of(failing, right)->text != "in far cells, with numbers of 1e+09 or more");
+  CHECK_FALSE(circumstance_of(failing, right));
 }
 
 TEST_CASE("Findings of one cause are one, the simplest case in front, the most frequent cause first",
