@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "cli/numbers.hpp"
 #include "cli/table.hpp"
+#include "report/share.hpp"
 
 namespace lorentz::cli {
 
@@ -62,10 +61,10 @@ std::string verdict_of(const Tally& t) {
   const std::size_t answers = t.agree + t.ill_posed + t.wrong;
   const std::string others = t.agree + t.wrong == t.queries ? "" : "; " + others_of(t);
   if (answers == 0) return fmt::format("{}: no answer to judge{}", t.name, others);
-  std::string text =
-      t.wrong ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
-              : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)", t.name,
-                            answers, 100 * (1 - std::pow(0.05, 1.0 / static_cast<double>(answers))));
+  std::string text = t.wrong
+                         ? fmt::format("{}: wrong in {} of {} answers", t.name, t.wrong, answers)
+                         : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)",
+                                       t.name, answers, 100 * report::bound_of_none(answers));
   text += others;
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };

@@ -9,6 +9,7 @@
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "compare/registry.hpp"
+#include "report/share.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -58,9 +59,8 @@ std::string bounds(const FuzzReport& report) {
   if (n == 0) return "no case was answered\n";
   if (report.total(Kind::wrong) > 0) return {};
   return fmt::format(
-      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 % (3 in {}); variants and other words not "
-      "counted\n",
-      n, 3.0 / static_cast<double>(n), n);
+      "wrong: 0 in {}: at most {:.2g} of such cases, with 95 %; variants and other words not counted\n", n,
+      report::bound_of_none(n));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <boost/math/special_functions/beta.hpp>
 
+#include <cmath>
 #include <stdexcept>
 
 #include <lorentz/exchange.hpp>
@@ -20,6 +21,11 @@ Share share_of(std::size_t count, std::size_t total) {
   const auto k = static_cast<double>(count), others = static_cast<double>(total - count);
   return {count, count == 0 ? 0 : boost::math::ibeta_inv(k, others + 1, kEachTail),
           count == total ? 1 : boost::math::ibetac_inv(k + 1, others, kEachTail)};
+}
+
+// (1 - bound)^total = 0.05
+double bound_of_none(std::size_t total) {
+  return total == 0 ? 1 : -std::expm1(std::log(0.05) / static_cast<double>(total));
 }
 
 void append_share(std::string& out, const Share& share) {

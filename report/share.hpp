@@ -20,6 +20,10 @@ struct Share {
 /// nothing is known: 0 to 1. `count` above `total` is an std::invalid_argument.
 Share share_of(std::size_t count, std::size_t total);
 
+/// What is known, with 95 %, of a share of which none was seen in `total` independent trials: it is at most
+/// this. About 3 / total; 1 of no trials.
+double bound_of_none(std::size_t total);
+
 /// Appends {"count":3,"low":1e-4,"high":2e-3}.
 void append_share(std::string& out, const Share& share);
 

@@ -223,7 +223,7 @@ TEST_CASE("Where nothing is wrong it says what that means", "[fuzz][fuzz_command
   const Folder folder;
   const Run run = folder.lorentz("fuzz -e certified -t grazing --count 300");
   CHECK(run.status == 0);
-  CHECK(contains(run.out, "wrong: 0 in 300: at most 0.01 of such cases, with 95 %"));
+  CHECK(contains(run.out, "wrong: 0 in 300: at most 0.0099 of such cases, with 95 %"));
   CHECK(contains(run.out, "no findings"));
   const Run json =
       folder.lorentz("fuzz -e certified -t grazing --count 300 --json --seed 18446744073709551615");
