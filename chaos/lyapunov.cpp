@@ -58,19 +58,21 @@ class Group {
   const std::uint64_t each_;
 };
 
-// Of all exponents, and of their sum.
-Lyapunov told(const std::vector<Sums>& groups, int exponents) {
+// Of all exponents, of their sum, and of that of the first `half`.
+Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   Lyapunov result;
-  std::vector<double> part, sum(groups.size()), flight;
+  std::vector<double> part, sum(groups.size()), growing(groups.size()), flight;
   for (int k = 0; k < exponents; ++k) {
     part.clear();
     for (std::size_t g = 0; g < groups.size(); ++g) {
       part.push_back(groups[g].growth[k] / static_cast<double>(groups[g].collisions));
       sum[g] += part.back();
+      if (k < half) growing[g] += part.back();
     }
     result.map.push_back(estimate_of(part));
   }
   result.sum = estimate_of(sum);
+  result.growing = estimate_of(growing);
   for (const Sums& group : groups) {
     flight.push_back(group.flight / static_cast<double>(group.collisions));
     result.collisions += group.collisions, result.stopped += group.stopped;
@@ -93,7 +95,7 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
   for (std::uint64_t number = 0; number < kGroups; ++number)
     if (done[number] && all[number].collisions > 0) good.push_back(all[number]);
   const int half = plan.scene.dimension - 1;
-  Lyapunov result = told(good, plan.whole_spectrum ? 2 * half : half);
+  Lyapunov result = told(good, plan.whole_spectrum ? 2 * half : half, half);
   if (result.collisions > 0 && !std::isfinite(result.sum.value))
     throw InputError(
         "the exponents below zero are lost to rounding: a collision parts neighbours by a factor of 10^8 or "

@@ -34,7 +34,6 @@ struct Report {
   Estimate flow(std::size_t k) const {
     return {found.map[k].value / mean_free_path(), found.map[k].error / mean_free_path()};
   }
-  Estimate growing() const;
   const char* limit_of() const {
     return plan.scene.dimension == 2 ? "the exponent above zero" : "the sum of those above zero";
   }
@@ -42,15 +41,6 @@ struct Report {
   std::string table() const;
   std::string json() const;
 };
-
-// The entropy a collision. Of a whole spectrum the sum of all is no use; and errors of parts don't add up.
-Estimate Report::growing() const {
-  if (!plan.whole_spectrum) return found.sum;
-  Estimate sum;
-  for (std::size_t k = 0; k < found.map.size() / 2; ++k)
-    sum.value += found.map[k].value, sum.error += found.map[k].error;
-  return sum;
-}
 
 std::string plus_minus(const Estimate& estimate) {
   return fmt::format("{:.7g} +- {:.2g}", estimate.value, estimate.error);
@@ -70,10 +60,10 @@ std::string Report::table() const {
   text += table.text() + '\n';
   if (plan.whole_spectrum) text += fmt::format("sum of all, a collision: {:.1e}\n", found.sum.value);
   if (plan.scene.dimension == 3)
-    text += fmt::format("sum of those above zero, a collision: {}\n", plus_minus(growing()));
+    text += fmt::format("sum of those above zero, a collision: {}\n", plus_minus(found.growing));
   if (limit)
     text += fmt::format("theory, r -> 0: {:.7g} a collision, {}; here {:+.2g} of it\n", *limit, limit_of(),
-                        growing().value - *limit);
+                        found.growing.value - *limit);
   text += fmt::format("mean free path {}; ", plus_minus(found.mean_flight));
   return text + (exact.value ? fmt::format("exact {:.10g}, by which exponents a unit of time are taken\n",
                                            *exact.value)
@@ -93,7 +83,7 @@ std::string Report::json() const {
       "\"mean_flight\":{},\"mean_flight_error\":{},\"mean_free_path\":{}}}\n",
       json_quoted(scene), plan.seed, found.collisions, chaos::kGroups * chaos::kParticles, found.stopped,
       found.is_whole, exponents, finite_or_null(found.sum.value), finite_or_null(found.sum.error),
-      finite_or_null(growing().value), limit ? finite_or_null(*limit) : "null",
+      finite_or_null(found.growing.value), limit ? finite_or_null(*limit) : "null",
       finite_or_null(found.mean_flight.value), finite_or_null(found.mean_flight.error),
       exact.value ? finite_or_null(*exact.value) : "null");
 }
