@@ -36,7 +36,7 @@ struct Report {
   flights::Tail tail;                 ///< of free paths from uniform starts, t -> infinity
 
   bool is_uniform() const { return plan.from == Ensemble::uniform; }
-  bool has_corridors() const { return tail.constant.value_or(0) > 0 && tail.exponent == 2.0; }
+  bool has_corridors() const { return tail.open.value_or(false); }
 
   /// MSD / (2 d t).
   Estimate rate(const Displacement& at) const {
@@ -44,25 +44,36 @@ struct Report {
     return {at.square.value / all, at.square.error / all};
   }
 
+  std::string lines_of_coefficient() const;
   std::string lines_of_theory() const;
   std::string table() const;
   std::string csv() const;
   std::string json() const;
 };
 
+// D, if there is one: with open corridors it is but a number at the time T.
+std::string Report::lines_of_coefficient() const {
+  const std::string estimate =
+      fmt::format("{:.6g} +- {:.1e}", found.coefficient.value, found.coefficient.error);
+  constexpr const char* kWhat = "(MSD(T) - MSD(T/2)) / (d T)";
+  if (!has_corridors())
+    return fmt::format("D = {}, {}\n{}long free paths: {}\n", estimate, kWhat,
+                       tail.open ? "" : "whether there is a D is not known\n", tail.remark);
+  std::string text = fmt::format(
+      "no D: corridors or planar channels are open, MSD ~ 2 C t ln t in the end\n{} = {}, which grows with "
+      "T\n",
+      kWhat, estimate);
+  text += fmt::format("slope of MSD / t in ln t from T / 16 on: {:.4g} +- {:.1g}; theory, 2 C: {}\n",
+                      found.logarithmic.value, found.logarithmic.error,
+                      tail.constant ? fmt::format("{:.6g}", 2 * *tail.constant) : "not known");
+  return text + "(heavy tails: these errors are too small)\n";
+}
+
 std::string Report::lines_of_theory() const {
-  std::string text;
-  if (random_walk)
-    text += fmt::format("theory, gaps -> 0 (Machta and Zwanzig): D = {:.6g}; here {:.4f} of it\n",
-                        *random_walk, found.coefficient.value / *random_walk);
-  if (has_corridors())
-    return text + fmt::format(
-                      "open corridors: MSD ~ 2 C t ln t in the end, and D grows without end\n"
-                      "theory: 2 C = {:.6g}; slope of MSD / t in ln t from T / 16 on: {:.4g} +- {:.1g} "
-                      "(heavy tails: "
-                      "the error is too small)\n",
-                      2 * *tail.constant, found.logarithmic.value, found.logarithmic.error);
-  return text + fmt::format("long free paths: {}\n", tail.remark);
+  if (!random_walk) return "";
+  return fmt::format(
+      "theory, gaps -> 0 (Machta and Zwanzig): D = {:.6g}{}\n", *random_walk,
+      has_corridors() ? "" : fmt::format("; here {:.4f} of it", found.coefficient.value / *random_walk));
 }
 
 std::string Report::table() const {
@@ -84,10 +95,7 @@ std::string Report::table() const {
                              fmt::format("{:.1e}", at.from_velocity.error)});
     table.add(row);
   }
-  return text + table.text() +
-         fmt::format("\nD = {:.6g} +- {:.1e}, (MSD(T) - MSD(T/2)) / (d T)\n", found.coefficient.value,
-                     found.coefficient.error) +
-         lines_of_theory();
+  return text + table.text() + '\n' + lines_of_coefficient() + lines_of_theory();
 }
 
 std::string Report::csv() const {
@@ -110,13 +118,15 @@ std::string Report::json() const {
   return fmt::format(
       "{{\"scene\":{},\"from\":\"{}\",\"seed\":{},\"particles\":{},\"collisions\":{},\"stopped\":{},"
       "\"whole\":{},"
-      "\"displacements\":[{}],\"D\":{},\"D_error\":{},\"machta_zwanzig\":{},\"logarithmic\":{},"
+      "\"displacements\":[{}],\"open\":{},\"D\":{},\"D_error\":{},\"machta_zwanzig\":{},\"logarithmic\":{},"
       "\"logarithmic_error\":{},\"two_C\":{}}}\n",
       json_quoted(scene), is_uniform() ? "uniform" : "surface", plan.seed, found.particles, found.collisions,
-      found.stopped, found.is_whole, rows, finite_or_null(found.coefficient.value),
-      finite_or_null(found.coefficient.error), random_walk ? finite_or_null(*random_walk) : "null",
-      finite_or_null(found.logarithmic.value), finite_or_null(found.logarithmic.error),
-      has_corridors() ? finite_or_null(2 * *tail.constant) : "null");
+      found.stopped, found.is_whole, rows, tail.open ? fmt::format("{}", *tail.open) : "null",
+      has_corridors() ? "null" : finite_or_null(found.coefficient.value),
+      has_corridors() ? "null" : finite_or_null(found.coefficient.error),
+      random_walk ? finite_or_null(*random_walk) : "null", finite_or_null(found.logarithmic.value),
+      finite_or_null(found.logarithmic.error),
+      has_corridors() && tail.constant ? finite_or_null(2 * *tail.constant) : "null");
 }
 
 Ensemble ensemble_of(const std::string& name) {
@@ -124,12 +134,6 @@ Ensemble ensemble_of(const std::string& name) {
   if (name == "surface") return Ensemble::surface;
   throw InputError(fmt::format("--from: {} is no kind of start{}; there are uniform and surface",
                                json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
-}
-
-flights::Tail tail_of(const Scene& scene) {
-  for (const flights::Tail& tail : flights::tails_of(scene, Ensemble::uniform))
-    if (tail.when == "t -> infinity") return tail;
-  return {};
 }
 
 int act(const Options& options) {
@@ -145,7 +149,7 @@ int act(const Options& options) {
     return kFailed;
   }
   report.random_walk = chaos::machta_zwanzig(report.plan.scene);
-  report.tail = tail_of(report.plan.scene);
+  report.tail = flights::tail_of_long_paths(report.plan.scene, Ensemble::uniform);
   print(options.json ? report.json() : report.table());
   if (!report.found.is_whole) return kFailed;
   csv.write([&] { return report.csv(); });

@@ -18,12 +18,13 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
   if (total == 0) return;
   Laws laws = laws_of(report.plan.scene, report.plan.from);
   no_law = laws.none;
+  exponent = tail_exponent(edges, counts);
   for (Law& law : laws.laws) {
     const auto more = [&law](double t) { return std::min(1.0, 1.02 * law.survival(t)); };
     const ChiSquared fit = fit_of(law.survival, law.smooth_from), off = fit_of(more, law.smooth_from);
-    fits.push_back({std::move(law), fit, off});
+    const auto local = exponent ? local_exponent(edges, exponent->from, law.survival) : std::nullopt;
+    fits.push_back({std::move(law), fit, off, local});
   }
-  exponent = tail_exponent(edges, counts);
 }
 
 std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& tail) const {

@@ -19,6 +19,7 @@ struct FlightsFindings {
   struct Fit {
     flights::Law law;
     flights::ChiSquared as_it_is, two_percent_more;  ///< the second shows what the test can see
+    std::optional<double> local_exponent;            ///< of its density, from where that of the flights is
   };
 
   std::vector<double> edges;                  ///< of the logarithmic bins
@@ -26,7 +27,7 @@ struct FlightsFindings {
   std::uint64_t total = 0;
   std::vector<Fit> fits;
   std::string no_law;  ///< why there is none
-  std::vector<flights::Tail> tails;
+  std::vector<flights::Tail> tails;  ///< that of long paths the last
   std::optional<flights::TailExponent> exponent;
   flights::MeanFreePath mean;  ///< from collision to collision
 

@@ -15,30 +15,26 @@ using namespace flights;
 
 namespace {
 
-// Is this moment infinite, at the scene's own radius? (What tails become as r -> 0 says nothing of that.)
-bool is_infinite(const std::vector<Tail>& tails, double moment) {
-  return std::any_of(tails.begin(), tails.end(), [&](const Tail& tail) {
-    return tail.when == "t -> infinity" && tail.exponent && *tail.exponent <= moment + 1 &&
-           tail.constant.value_or(0) > 0;
-  });
+// A test of fit; where there is but one bin nothing is tested.
+std::string text_of(const ChiSquared& fit) {
+  if (!fit.p_value) return "not tested: too few flights for two bins";
+  const double p = *fit.p_value;
+  return fmt::format("p = {}", p < 1e-300 ? "below 1e-300"
+                               : p < 1e-4 ? fmt::format("{:.1e}", p)
+                                          : fmt::format("{:.4f}", p));
 }
 
-std::string p_text(double p) {
-  if (p < 1e-300) return "below 1e-300";
-  return p < 1e-4 ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
-}
-
-// What the mean and its error mean, where they do not mean what they look like.
-std::string remark_on_mean(Ensemble from, const std::vector<Tail>& tails) {
-  if (from == Ensemble::uniform && is_infinite(tails, 1))
-    return "the exact mean is infinite: open channels make the density of a first flight fall like t^-2 in "
-           "the "
-           "end; what "
-           "is here is a sample's mean, and grows with it";
-  if (from == Ensemble::surface && is_infinite(tails, 2))
-    return "the variance is infinite (a density like t^-3 in the end), so that the standard error is too "
-           "small";
-  return "";
+// What the mean and its error mean, where they do not mean what they look like, or may not.
+std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
+  const bool uniform = from == Ensemble::uniform;
+  if (!long_paths.open)
+    return fmt::format("{} may be infinite: {}", uniform ? "the exact mean" : "the variance",
+                       long_paths.remark);
+  if (!*long_paths.open) return "";
+  return uniform ? "the exact mean is infinite: open channels make the density of a first flight fall like "
+                   "t^-2 in the end; what is here is a sample's mean, and grows with it"
+                 : "the variance is infinite (a density like t^-3 in the end), so that the standard error is "
+                   "too small";
 }
 
 std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
@@ -56,18 +52,24 @@ std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& f
 std::string lines_of_theory(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
-  for (const FlightsFindings::Fit& fit : found.fits)
-    text += fmt::format(
-        "law: {} ({})\n  chi squared {:.1f}, {} degrees: p = {}; of 1.02 times its survival: p = {}\n",
-        fit.law.name, fit.law.when, fit.as_it_is.statistic, fit.as_it_is.degrees,
-        p_text(fit.as_it_is.p_value), p_text(fit.two_percent_more.p_value));
+  for (const FlightsFindings::Fit& fit : found.fits) {
+    text += fmt::format("law: {} ({})\n", fit.law.name, fit.law.when);
+    text += fit.as_it_is.p_value ? fmt::format(
+                                       "  chi squared {:.1f}, {} degrees: {}; of 1.02 times its "
+                                       "survival: {}\n",
+                                       fit.as_it_is.statistic, fit.as_it_is.degrees, text_of(fit.as_it_is),
+                                       text_of(fit.two_percent_more))
+                                 : fmt::format("  {}\n", text_of(fit.as_it_is));
+  }
   if (found.exponent)
     text += fmt::format(
-        "tail: the density falls like t^-{:.3f}, 95 % [{:.3f}, {:.3f}], of {} flights longer than {:.6g}\n",
-        found.exponent->exponent, found.exponent->low, found.exponent->high, found.exponent->count,
-        found.exponent->from);
+        "tail: of {} flights longer than {:.6g} the density falls like t^-{:.3f}, 95 % [{:.3f}, {:.3f}]\n",
+        found.exponent->count, found.exponent->from, found.exponent->exponent, found.exponent->low,
+        found.exponent->high);
   else
     text += "tail: too few long flights for an exponent\n";
+  for (const FlightsFindings::Fit& fit : found.fits)
+    if (fit.local_exponent) text += fmt::format("  the law there: like t^-{:.3f}\n", *fit.local_exponent);
   for (const Tail& tail : found.tails) {
     text += fmt::format("  theory, {}:", tail.when);
     if (tail.exponent) text += fmt::format(" t^-{:g}", *tail.exponent);
@@ -128,6 +130,21 @@ std::string name_of(Ensemble from) {
   return from == Ensemble::uniform ? "uniform" : "surface";
 }
 
+// Of one hit there is no standard error.
+std::string line_of_mean(const FlightsReport& report, const FlightsFindings& found) {
+  const double mean = report.account.tally.mean(), error = report.account.tally.standard_error();
+  const bool has_error = std::isfinite(error);
+  std::string text = fmt::format("mean {:.8g}, standard error {}", mean,
+                                 has_error ? fmt::format("{:.2g}", error) : "not known");
+  if (const auto exact = exact_mean(report, found))
+    return text +
+           fmt::format("; exact {:.10g}{} ({})", *exact,
+                       has_error ? fmt::format(": off by {:.2f} of these", (mean - *exact) / error) : "",
+                       found.mean.how);
+  if (report.plan.from == Ensemble::surface) text += fmt::format("; no exact mean: {}", found.mean.how);
+  return text;
+}
+
 }  // namespace
 
 std::string FlightsReport::name_with_radius() const {
@@ -147,15 +164,10 @@ std::string FlightsReport::table() const {
       fmt::format(": {} hits, {} never, {} undecided; {} starts lay in an obstacle, and were drawn anew\n",
                   tally.hits, tally.never, tally.undecided, tally.inside);
   if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
-  text += fmt::format("\nmean {:.8g}, standard error {:.2g}", tally.mean(), tally.standard_error());
-  if (const auto exact = exact_mean(*this, found))
-    text += fmt::format("; exact {:.10g}: off by {:.2f} of these ({})", *exact,
-                        (tally.mean() - *exact) / tally.standard_error(), found.mean.how);
-  else if (plan.from == Ensemble::surface)
-    text += fmt::format("; no exact mean: {}", found.mean.how);
-  text += fmt::format("\nmean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),
+  text += '\n' + line_of_mean(*this, found) + '\n';
+  text += fmt::format("mean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),
                       tally.shortest, tally.longest);
-  if (const std::string remark = remark_on_mean(plan.from, found.tails); !remark.empty())
+  if (const std::string remark = remark_on_mean(plan.from, found.tails.back()); !remark.empty())
     text += remark + '\n';
   return text + '\n' + lines_of_theory(found) + '\n' + table_of_survival(found);
 }
@@ -168,10 +180,10 @@ std::string FlightsReport::json() const {
   for (const FlightsFindings::Fit& fit : found.fits)
     theory += fmt::format(
         "{}{{\"name\":{},\"when\":{},\"statistic\":{},\"degrees\":{},\"p_value\":{},"
-        "\"p_value_of_1.02\":{}}}",
+        "\"p_value_of_1.02\":{},\"tail_exponent\":{}}}",
         theory.empty() ? "" : ",", json_quoted(fit.law.name), json_quoted(fit.law.when),
-        number_or_null(fit.as_it_is.statistic), fit.as_it_is.degrees, fit.as_it_is.p_value,
-        fit.two_percent_more.p_value);
+        number_or_null(fit.as_it_is.statistic), fit.as_it_is.degrees, number_or_null(fit.as_it_is.p_value),
+        number_or_null(fit.two_percent_more.p_value), number_or_null(fit.local_exponent));
   std::string tails;
   for (const Tail& tail : found.tails)
     tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}{}}}",
@@ -195,8 +207,9 @@ std::string FlightsReport::json() const {
       json_quoted(plan.engine), plan.seed, tally.flights(), plan.count, tally.hits, tally.never,
       tally.undecided, tally.inside, any ? number_or_null(tally.mean()) : "null",
       any ? number_or_null(tally.standard_error()) : "null", number_or_null(exact_mean(*this, found)),
-      json_quoted(remark_on_mean(plan.from, found.tails)), any ? number_or_null(tally.mean_log()) : "null",
-      any ? number_or_null(tally.shortest) : "null", any ? number_or_null(tally.longest) : "null",
+      json_quoted(remark_on_mean(plan.from, found.tails.back())),
+      any ? number_or_null(tally.mean_log()) : "null", any ? number_or_null(tally.shortest) : "null",
+      any ? number_or_null(tally.longest) : "null",
       number_or_null(e ? std::optional(e->exponent) : std::nullopt),
       e ? fmt::format("[{},{}]", number_or_null(e->low), number_or_null(e->high)) : "null",
       number_or_null(e ? std::optional(e->from) : std::nullopt), e ? e->count : 0, tails, theory,
@@ -276,7 +289,9 @@ std::string page_json(const std::vector<FlightsReport>& reports, const std::stri
     const Tally& tally = report.account.tally;
     line +=
         fmt::format("{}{}: {} flights", line.empty() ? "" : "; ", report.name_with_radius(), tally.flights());
-    if (tally.hits > 0) line += fmt::format(", mean {:.6g} ± {:.2g}", tally.mean(), tally.standard_error());
+    if (tally.hits > 0) line += fmt::format(", mean {:.6g}", tally.mean());
+    if (std::isfinite(tally.standard_error()) && found.tails.back().open == false)
+      line += fmt::format(" ± {:.2g}", tally.standard_error());
     if (const auto exact = exact_mean(report, found)) line += fmt::format(", exact {:.6g}", *exact);
   }
   std::string out = fmt::format(

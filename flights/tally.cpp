@@ -34,7 +34,8 @@ double Tally::mean() const {
 double Tally::standard_error() const {
   const auto n = static_cast<double>(hits);
   const double m = mean();
-  return std::sqrt(std::max(0.0, square.value() / n - m * m) / n);
+  if (hits < 2) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(0.0, square.value() / n - m * m) / (n - 1));
 }
 
 double Tally::mean_log() const {

@@ -25,7 +25,8 @@ struct Tally {
   void add(const Tally& other);
 
   double mean() const;
-  /// sqrt(variance / hits).
+  /// Of the mean: the root of (the mean of the squares less the square of the mean) / (hits - 1); infinite of
+  /// fewer than two hits.
   double standard_error() const;
   double mean_log() const;
 

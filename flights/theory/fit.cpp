@@ -104,54 +104,56 @@ ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint6
 
 namespace {
 
-// Bins from a first edge on, under the power law P(path > t) = (t / first edge)^-a. In u = ln t this is an
-// exponential law, whose likelihood is concave in a.
+// Bins from a first edge on, with what was counted or is expected in them and beyond the last edge, under the
+// power law P(path > t) = (t / first edge)^-a. In u = ln t this is an exponential law, whose likelihood is
+// concave in a.
 class BinnedTail {
  public:
-  BinnedTail(std::size_t first, std::span<const double> edges, std::span<const std::uint64_t> counts) {
-    for (std::size_t i = first; i < edges.size(); ++i) {
-      starts_.push_back(std::log(edges[i] / edges[first]));
-      counts_.push_back(static_cast<double>(counts[i + 1]));
-      total_ += counts[i + 1];
-    }
+  void add(double distance, double count) {
+    starts_.push_back(distance);
+    counts_.push_back(count);
+    total_ += count;
   }
 
-  std::uint64_t total() const { return total_; }
+  double total() const { return total_; }
 
   double log_likelihood(double a) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < starts_.size(); ++i) {
-      sum -= counts_[i] * a * starts_[i];
-      if (i + 1 < starts_.size()) sum += counts_[i] * std::log(-std::expm1(-a * width(i)));
-    }
-    return sum;
+    return over_bins([&](std::size_t i, bool last) {
+      return -a * starts_[i] + (last ? 0 : std::log(-std::expm1(-a * width(i))));
+    });
   }
-
-  // Its derivative.
+  // Its derivative: the sum of the paths' scores.
   double slope(double a) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < starts_.size(); ++i) {
-      sum -= counts_[i] * starts_[i];
-      if (i + 1 < starts_.size()) sum += counts_[i] * width(i) / std::expm1(a * width(i));
-    }
-    return sum;
+    return over_bins([&](std::size_t i, bool last) { return score(a, i, last); });
   }
-
-  // Kolmogorov-Smirnov distance at the edges.
-  double distance(double a) const {
-    double above = static_cast<double>(total_), far = 0;
-    for (std::size_t i = 0; i < starts_.size(); ++i) {
-      far = std::max(far, std::fabs(above / static_cast<double>(total_) - std::exp(-a * starts_[i])));
-      above -= counts_[i];
-    }
-    return far;
+  // What the counts say of the variance of that sum, over what the power law says: 1 but for chance if it is
+  // one.
+  double scatter(double a) const {
+    const double squares =
+        over_bins([&](std::size_t i, bool last) { return score(a, i, last) * score(a, i, last); });
+    const double information = over_bins([&](std::size_t i, bool last) {
+      if (last) return 0.0;
+      const double half = std::sinh(a * width(i) / 2);
+      return width(i) * width(i) / (4 * half * half);
+    });
+    return squares / information;
   }
 
  private:
   double width(std::size_t i) const { return starts_[i + 1] - starts_[i]; }
+  double score(double a, std::size_t i, bool last) const {
+    return -starts_[i] + (last ? 0 : width(i) / std::expm1(a * width(i)));
+  }
+  template <class Of>
+  double over_bins(const Of& of) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < starts_.size(); ++i)
+      if (counts_[i] > 0) sum += counts_[i] * of(i, i + 1 == starts_.size());
+    return sum;
+  }
 
   std::vector<double> starts_, counts_;
-  std::uint64_t total_ = 0;
+  double total_ = 0;
 };
 
 // Where a function changes sign between `low` and `high`, to 13 digits.
@@ -169,7 +171,7 @@ constexpr std::size_t kLeastBins = 3;
 // The a of largest likelihood, or nothing.
 std::optional<double> best_power(const BinnedTail& tail) {
   const auto slope = [&](double a) { return tail.slope(a); };
-  if (tail.total() == 0 || !(slope(kFlattest) > 0) || !(slope(kSteepest) < 0)) return std::nullopt;
+  if (!(tail.total() > 0) || !(slope(kFlattest) > 0) || !(slope(kSteepest) < 0)) return std::nullopt;
   double high = 1;  // a bracket of a factor of 2
   while (slope(high) > 0) high *= 2;
   while (high > kFlattest && slope(high / 2) < 0) high /= 2;
@@ -186,11 +188,16 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
                                                std::span<const std::uint64_t> counts) {
   check(edges, counts);
   if (bins_from(first, edges) < kLeastBins) return std::nullopt;
-  const BinnedTail tail(first, edges, counts);
+  BinnedTail tail;
+  for (std::size_t i = first; i < edges.size(); ++i)
+    tail.add(std::log(edges[i] / edges[first]), static_cast<double>(counts[i + 1]));
   const std::optional<double> a = best_power(tail);
-  if (!a) return std::nullopt;
-  // Where the likelihood is e^(-1.92..) of the largest: half the 95 % point of chi-squared with one degree.
-  const double least = tail.log_likelihood(*a) - 1.9207294103470620;
+  constexpr double kLeastScatter = 1e-6;  // below, all paths are in one bin: nothing says how sure it is
+  const double scatter = a ? tail.scatter(*a) : 0;
+  if (scatter < kLeastScatter) return std::nullopt;
+  // Half the 95 % point of chi-squared with one degree, in units in which the slope scatters as under a power
+  // law (Kent, Biometrika 69, 1982).
+  const double least = tail.log_likelihood(*a) - 1.9207294103470620 * scatter;
   const auto likely = [&](double x) { return tail.log_likelihood(x) - least; };
   TailExponent result;
   result.exponent = 1 + *a;
@@ -198,8 +205,7 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
   result.high = likely(kSteepest) < 0 ? 1 + zero_of(likely, *a, kSteepest) : kInfinity;
   result.from = edges[first];
   result.to = edges.back();
-  result.count = tail.total();
-  result.distance = tail.distance(*a);
+  result.count = static_cast<std::uint64_t>(tail.total());
   return result;
 }
 
@@ -227,6 +233,18 @@ std::optional<TailExponent> tail_exponent(std::span<const double> edges,
   const double share = 0.25 * std::pow(all, 2 / (1 + pilot->exponent));
   const auto first = edge_before(std::max(least, share), edges, counts);
   return first ? tail_exponent_from(*first, edges, counts) : pilot;
+}
+
+std::optional<double> local_exponent(std::span<const double> edges, double from,
+                                     const std::function<double(double)>& survival) {
+  BinnedTail tail;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges[i] < from) continue;
+    const double beyond = i + 1 < edges.size() ? survival(edges[i + 1]) : 0;
+    tail.add(std::log(edges[i] / from), survival(edges[i]) - beyond);
+  }
+  const std::optional<double> a = best_power(tail);
+  return a ? std::optional(1 + *a) : std::nullopt;
 }
 
 }  // namespace lorentz::flights

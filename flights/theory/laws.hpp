@@ -36,10 +36,17 @@ struct Tail {
   std::optional<double> constant;       ///< in the scene's unit to the power exponent - 1; 0: it falls faster
   std::string remark;                   ///< where the constant comes from, or why it or the tail is not known
   std::optional<double> approach = {};  ///< a: the relative distance from it falls like t^-a only
+  /// t -> infinity: is a corridor or a planar channel open, so that the mean from a uniform start is
+  /// infinite, and the variance from a surface? Nothing: not known.
+  std::optional<bool> open = {};
 };
 
-/// Those that are known: at most one for each limit. What is asked of the horizon of a scene of many
-/// obstacles may take half a minute.
+/// That of t -> infinity, at the scene's own radii. Whether a way is open is decided exactly (horizon.hpp),
+/// which for a scene of many obstacles may take half a minute, or is not known.
+/// held by "Tails: of a superposition what the horizon says"
+Tail tail_of_long_paths(const Scene& scene, Ensemble ensemble);
+
+/// Those that are known: that one the last, at most one for each limit.
 std::vector<Tail> tails_of(const Scene& scene, Ensemble ensemble);
 
 /// The mean free path from collision to collision. (From a uniform start there may be none: an infinite

@@ -1,4 +1,5 @@
 // How the probability of long free paths falls.
+#include <cmath>
 #include <numbers>
 
 #include <lorentz/horizon.hpp>
@@ -52,43 +53,78 @@ std::optional<Tail> tail_3d_of_small(const Scene& scene, Ensemble ensemble) {
                  "of the limit law; approached like (r^2 t / V)^(-2/3)");
 }
 
-// From the channels, all of them.
-Tail tail_of_horizon(const Scene& scene, Ensemble ensemble, const char* when) {
+constexpr const char* kLongPaths = "t -> infinity";
+
+Tail tail_without(const char* remark) {
+  Tail tail{kLongPaths, std::nullopt, std::nullopt, remark};
+  tail.open = false;
+  return tail;
+}
+
+// Of open corridors or planar channels: the power is theirs, whatever else is there.
+Tail tail_of_channels(const Scene& scene, Ensemble ensemble, const std::optional<double>& constant,
+                      std::string remark) {
+  Tail tail = tail_of(kLongPaths, 1, constant.value_or(1), mean_free_path_of(scene).value, ensemble,
+                      std::move(remark));
+  if (!constant) tail.constant.reset();
+  tail.open = true;
+  return tail;
+}
+
+Tail tail_of_horizon(const Scene& scene, Ensemble ensemble) {
+  const bool flat = scene.dimension == 2;
+  const std::string channel = flat ? "corridor" : "planar channel";
+  const auto not_known = [&](const std::string& why) {
+    return Tail{kLongPaths, std::nullopt, std::nullopt,
+                "it is not known whether a " + channel + " is open: " + why};
+  };
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);
-    if (horizon.is_finite()) return {when, std::nullopt, std::nullopt, "none: every path ends"};
-    if (!horizon.tail_constant) return {when, std::nullopt, std::nullopt, horizon.no_tail_constant};
-    if (*horizon.tail_constant == 0)
-      return {when, std::nullopt, 0, "no planar channel is open: it falls faster than with one"};
-    const bool flat = scene.dimension == 2;
-    Tail tail = tail_of(when, 1, *horizon.tail_constant, mean_free_path_of(scene).value, ensemble,
-                        flat ? "of the corridors" : "of the planar channels; approached like t^(-2/3)");
+    if (horizon.is_finite()) return tail_without("none: every path ends");
+    if (horizon.channels.empty()) {
+      if (!horizon.undecided.empty())
+        return not_known("three lattices or more with long common periods are undecided");
+      Tail tail = tail_without("no planar channel is open: it falls faster than with one");
+      tail.constant = 0;
+      return tail;
+    }
+    if (!horizon.tail_constant)
+      return tail_of_channels(
+          scene, ensemble, std::nullopt,
+          "of the " + channel + "s; the constant is not known (" + horizon.no_tail_constant + ")");
+    Tail tail = tail_of_channels(scene, ensemble, horizon.tail_constant,
+                                 "of the " + channel + "s" + (flat ? "" : "; approached like t^(-2/3)"));
     if (!flat) tail.approach = 2.0 / 3;
     return tail;
   } catch (const oracle::TooManyChannels& error) {
-    return {when, std::nullopt, std::nullopt, error.what()};
+    return not_known(error.what());
   }
 }
 
-Tail tail_of_long_paths(const Scene& scene, Ensemble ensemble) {
-  constexpr const char* kWhen = "t -> infinity";
-  std::string why_not;
-  const auto small = small_obstacles_of(scene, why_not);
-  if (small && small->lattices() > 1)
-    return {kWhen, std::nullopt, std::nullopt,
-            "not that of the limit: incommensurate lattices shut each other's corridors"};
-  if (!small || !small->discs) return tail_of_horizon(scene, ensemble, kWhen);
-  const MeanFreePath mean = mean_free_path_of(scene);
-  if (!mean.value) return {kWhen, std::nullopt, std::nullopt, mean.how};
-  const auto sum = corridor_tail_constant(scene.lattices[0]);
-  if (!sum) return {kWhen, std::nullopt, std::nullopt, "too many corridors to be added up"};
-  if (sum->value == 0) return {kWhen, std::nullopt, std::nullopt, "none: every path ends"};
-  return tail_of(
-      kWhen, 1, sum->value, mean.value, ensemble,
-      sum->of_limit ? "of the limit law: there are too many corridors to be added up" : "of the corridors");
+// One lattice of discs so small that some corridor is wide: the sum in binary64 cannot miss it, and is there
+// at once, where the exact search takes its time or refuses.
+std::optional<Tail> tail_of_small_discs(const Scene& scene, Ensemble ensemble) {
+  constexpr double kSmall = 0.1;  // of the square root of the cell's area; the shortest vector is at most
+                                  // 1.07 of it, so that its corridor is 0.7 wide or more
+  if (scene.dimension != 2 || scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1)
+    return std::nullopt;
+  const Lattice& lattice = scene.lattices[0];
+  const Atom& disc = lattice.atoms[0];
+  if (!disc.is_ball() || disc.radius > kSmall * std::sqrt(cell_volume(lattice, 2))) return std::nullopt;
+  if (!mean_free_path_of(scene).value) return std::nullopt;  // the sum is for discs that don't overlap
+  const auto sum = corridor_tail_constant(lattice);
+  return tail_of_channels(scene, ensemble, sum ? std::optional(sum->value) : std::nullopt,
+                          !sum            ? "of the corridors; too many to be added up"
+                          : sum->of_limit ? "of the limit law: there are too many corridors to be added up"
+                                          : "of the corridors");
 }
 
 }  // namespace
+
+Tail tail_of_long_paths(const Scene& scene, Ensemble ensemble) {
+  if (const auto tail = tail_of_small_discs(scene, ensemble)) return *tail;
+  return tail_of_horizon(scene, ensemble);
+}
 
 std::vector<Tail> tails_of(const Scene& scene, Ensemble ensemble) {
   std::vector<Tail> tails;

@@ -254,6 +254,55 @@ TEST_CASE("Flights: what a mean means is said where it is not what it looks like
     CHECK_FALSE(contains(said(finite), "is infinite"));
 }
 
+TEST_CASE("Flights: the mean of a scene with overlaps and open corridors is infinite, too",
+          "[flights][flights_command]") {
+  const Folder folder;
+  const std::string scene = folder.write("overlaps.toml",
+                                         "dimension = 2\n[[lattices]]\nvectors = [[1, 0], [0, 1]]\n"
+                                         "[[lattices.atoms]]\nposition = [0, 0]\nradius = 0.1\n"
+                                         "[[lattices.atoms]]\nposition = [0.05, 0]\nradius = 0.1\n");
+  const auto said = [&](const std::string& options) {
+    return folder.lorentz("flights --count 1e4 --scene " + options).out;
+  };
+  CHECK(contains(said(scene + " --json"), "\"mean_remark\":\"the exact mean is infinite"));
+  CHECK(contains(said(scene + " --from surface"), "the variance is infinite"));
+  CHECK(contains(said("superposition-pi-5 --radius 1e-5"),
+                 "the exact mean may be infinite: it is not known whether a corridor is open"));
+}
+
+TEST_CASE("Flights: where nothing is tested there is no p-value", "[flights][flights_command]") {
+  const Folder folder;
+  // The law begins at 64 spacings, and no path is so long.
+  const std::string what = "flights --scene triangular --radius 0.45 --from surface --count 1e5 --seed 7507 ";
+  CHECK(contains(folder.lorentz(what).out, "\n  not tested: too few flights for two bins\n"));
+  const std::string json = folder.lorentz(what + "--json").out;
+  CHECK(contains(json, R"("degrees":0,"p_value":null,"p_value_of_1.02":null)"));
+  // One flight has a mean, and nothing that tells its error.
+  const Run one = folder.lorentz("flights --count 1 --json --from surface");
+  CHECK(contains(one.out, "\"mean_error\":null"));
+  CHECK(contains(folder.lorentz("flights --count 1 --from surface").out, "standard error not known"));
+}
+
+TEST_CASE("Flights: the interval of the exponent holds what the law itself has there",
+          "[flights][flights_command]") {
+  const Folder folder;
+  int inside = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Run run =
+        folder.lorentz("flights --scene superposition-pi-5-pi-7 --from surface --count 2e5 --json --seed " +
+                       std::to_string(seed));
+    const std::size_t at = run.out.find("\"tail_interval\":[");
+    REQUIRE(at != std::string::npos);
+    double low = 0, high = 0;
+    REQUIRE(std::sscanf(run.out.c_str() + at, "\"tail_interval\":[%lf,%lf]", &low, &high) == 2);
+    const double law = number_of(run.out, "tail_exponent", run.out.find("\"theory\""));
+    CHECK(law > 5.4);  // what it is here; in the end it is 5
+    inside += low <= law && law <= high;
+  }
+  INFO(inside << " of 20");
+  CHECK(inside >= 15);  // of 95 in 100 fewer come once in 3000 times
+}
+
 // Binary64 has no direction that meets discs so small before its numbers end.
 TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[flights][flights_command]") {
   const Folder folder;

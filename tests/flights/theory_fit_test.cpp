@@ -66,12 +66,12 @@ TEST_CASE("Chi-squared: by hand", "[flights][fit]") {
   const auto fit = chi_squared(edges, Counts{110, 90, 90, 110}, 400, kExponential);
   CHECK(fit.statistic == Approx(4));
   CHECK(fit.degrees == 3);
-  CHECK(fit.p_value == Approx(0.2614641299491106));
+  CHECK(fit.p_value.value() == Approx(0.2614641299491106));
   // Of 60 paths 15: the bins are merged in pairs.
   const auto merged = chi_squared(edges, Counts{20, 10, 10, 20}, 60, kExponential);
   CHECK(merged.degrees == 1);
   CHECK(merged.statistic == Approx(0).margin(1e-9));
-  CHECK(merged.p_value == Approx(1));
+  CHECK(merged.p_value.value() == Approx(1));
   // The rest is merged backwards; what adds most is named.
   const auto rest = chi_squared(edges, Counts{60, 0, 0, 5}, 65, kExponential);
   CHECK(rest.degrees == 1);
@@ -90,7 +90,8 @@ TEST_CASE("Chi-squared: bad bins, and laws that give no chance", "[flights][fit]
   CHECK_THROWS_AS(chi_squared({}, Counts{1}, 1, kExponential), std::invalid_argument);
   // All paths end before 1, says the law.
   const auto none = chi_squared(edges, Counts{1000, 0, 1}, 1001, [](double t) { return t < 1 ? 1 - t : 0; });
-  CHECK(none.degrees == 0);  // one bin: nothing is expected beyond
+  CHECK(none.degrees == 0);  // one bin: nothing is expected beyond, and nothing tested
+  CHECK_FALSE(none.p_value);
   for (const auto& no_law : {std::function<double(double)>([](double) { return 1.5; }),
                              std::function<double(double)>([](double t) { return t < 2 ? 0.3 : 0.4; }),
                              std::function<double(double)>([](double t) { return 1 - t; })})
@@ -107,7 +108,7 @@ TEST_CASE("Chi-squared: p-values are uniform under the law", "[flights][fit]") {
     Random random(20261122, "p-values", sample);
     const auto counts = counted(edges, kPaths, [&] { return draw(random); });
     const auto fit = chi_squared(edges, counts, kPaths, limit_survival_from_uniform);
-    ++tenths[std::min(9, static_cast<int>(10 * fit.p_value))];
+    ++tenths[std::min(9, static_cast<int>(10 * fit.p_value.value()))];
   }
   // Their tenths by chi-squared in turn: 9 degrees, of which 27.9 is the 0.1 % point.
   double statistic = 0;
@@ -124,7 +125,7 @@ TEST_CASE("Chi-squared: a law 2 % off is rejected at 10^6 paths", "[flights][fit
   const auto p_value = [&](double height, double stretch) {
     return chi_squared(edges, counts, 1'000'000,
                        [&](double s) { return height * limit_survival_from_uniform(s / stretch); })
-        .p_value;
+        .p_value.value();
   };
   CHECK(p_value(1, 1) > 0.001);
   CHECK(p_value(1.02, 1) < 1e-9);
@@ -137,7 +138,7 @@ TEST_CASE("Chi-squared: a law 2 % off is rejected at 10^6 paths", "[flights][fit
   for (std::size_t i = 1; i < fewer.size(); ++i) fewer[i] -= fewer[i] / 50;
   for (const auto count : fewer) total += count;
   fewer[0] += 1'000'000 - total;
-  CHECK(chi_squared(edges, fewer, 1'000'000, limit_survival_from_uniform).p_value < 1e-9);
+  CHECK(chi_squared(edges, fewer, 1'000'000, limit_survival_from_uniform).p_value.value() < 1e-9);
 }
 
 namespace {
@@ -182,7 +183,6 @@ TEST_CASE("Tail exponent: by hand", "[flights][fit]") {
   const auto tail = tail_exponent_from(0, edges, counts);
   REQUIRE(tail);
   CHECK(tail->exponent == Approx(2).epsilon(1e-12));
-  CHECK(tail->distance == Approx(0).margin(1e-12));
   CHECK(tail->count == 4096);
   CHECK(tail->from == 1);
   CHECK(tail->to == 32);
@@ -208,34 +208,6 @@ TEST_CASE("Tail exponent: of so few of the longest paths that the law is a power
   CHECK(tail->high > 3);
 }
 
-TEST_CASE("Tail exponent: of superposed lattices, which bend before they are powers", "[flights][fit]") {
-  // Counts of 10^7 paths, about their expectations under the limit law's product. 100 samples each.
-  constexpr double kPaths = 1e7;
-  const auto edges = octaves(-2, 24);
-  for (const int lattices : {1, 2, 3}) {
-    int inside = 0;
-    for (std::uint64_t sample = 0; sample < 100; ++sample) {
-      Random random(20261122, "bent tails", sample);
-      Counts counts(edges.size() + 1);
-      double longer = 1;
-      for (std::size_t i = 0; i <= edges.size(); ++i) {
-        const double still = i < edges.size() ? std::pow(limit_survival_from_uniform(edges[i]), lattices) : 0;
-        double normal = -6;  // Irwin and Hall's
-        for (int k = 0; k < 12; ++k) normal += random.uniform();
-        const double expected = kPaths * (longer - still);
-        counts[i] =
-            static_cast<std::uint64_t>(std::max(0.0, std::round(expected + normal * std::sqrt(expected))));
-        longer = still;
-      }
-      const auto tail = tail_exponent(edges, counts);
-      REQUIRE(tail);
-      inside += tail->low <= lattices + 1 && lattices + 1 <= tail->high;
-    }
-    INFO(lattices << " lattices: " << inside << " of 100");
-    CHECK(inside >= 85);
-  }
-}
-
 TEST_CASE("Tail exponent: nothing where there is too little", "[flights][fit]") {
   const std::vector<double> edges{1, 2, 4, 8, 16};
   CHECK_FALSE(tail_exponent(edges, Counts{0, 190, 100, 50, 25, 25}));
@@ -243,6 +215,7 @@ TEST_CASE("Tail exponent: nothing where there is too little", "[flights][fit]") 
   CHECK_FALSE(tail_exponent(edges, Counts{900, 0, 0, 0, 0, 0}));
   CHECK_FALSE(tail_exponent(edges, Counts{0, 900, 0, 0, 0, 0}));  // falls faster than any power
   CHECK_FALSE(tail_exponent(edges, Counts{0, 0, 0, 0, 0, 900}));  // does not fall
+  CHECK_FALSE(tail_exponent(edges, Counts{0, 0, 900, 0, 0, 0}));  // one bin says nothing of its scatter
   CHECK_FALSE(tail_exponent_from(2, edges, Counts{0, 200, 100, 50, 25, 25}));
   CHECK_THROWS_AS(tail_exponent(edges, Counts{1, 2}), std::invalid_argument);
 }

@@ -323,3 +323,83 @@ TEST_CASE("Tails: exponents and constants", "[flights][tails]") {
         "none: every path ends");
   CHECK_FALSE(tail_when(tails_of(unit_scene(2, 0.6), Ensemble::uniform), "t -> infinity")->exponent);
 }
+
+namespace {
+
+// Two lattices of discs, of which the second has these vectors.
+Scene with_second(const Scene& first, std::array<Vec, 3> vectors, Vec position = {}) {
+  Scene scene = first;
+  Lattice second = scene.lattices[0];
+  second.vectors = vectors;
+  second.atoms[0].position = position;
+  scene.lattices.push_back(second);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]") {
+  const Scene square = unit_scene(2, 0.1), cubic = unit_scene(3, 0.1);
+  const double two = std::sqrt(2.0), three = std::sqrt(3.0);
+  struct Asked {
+    std::string name;
+    Scene scene;
+    std::optional<bool> open;
+  };
+  std::vector<Asked> all{
+      {"the same axes, decimals", with_second(square, {{{1.414, 0, 0}, {0, 1.732, 0}}}), true},
+      {"the same axes, roots", with_second(square, {{{two, 0, 0}, {0, three, 0}}}), true},
+      {"in a skewed basis", with_second(square, {{{two, 0, 0}, {5 * two, three, 0}}}), true},
+      {"of one direction alone", with_second(square, {{{two, 0, 0}, {0.3, three, 0}}}), true},
+      {"of the diagonal alone", with_second(square, {{{1.375, 1.375, 0}, {0.1, 1.3, 0}}}), true},
+      {"commensurable, out of step", with_second(square, {{{1, 0, 0}, {0, 1, 0}}}, {0.5, 0.5, 0}), true},
+      {"commensurable, large", with_second(unit_scene(2, 0.36), {{{1, 0, 0}, {0, 1, 0}}}, {0.5, 0.5, 0}),
+       false},
+      {"turned by pi/5", turned_squares(0.1, {0, kPi / 5}), false},
+      {"turned by 3/4, commensurable", turned_squares(0.01, {0, std::atan(0.75)}), false},
+      {"layers, in space", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0}, {0, 0, 1}}}), true},
+      {"layers at another distance", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0}, {0, 0, two}}}), true},
+      {"skewed, in space", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0.1}, {0.3, 0.2, two}}}), false}};
+  Scene ellipses = all[1].scene;
+  ellipses.lattices[1].atoms[0] = {{}, 0, {{0.3, 0.01, 0}, {0, 0.05, 0}}};
+  all.push_back({"ellipses", ellipses, true});
+  ellipses.lattices[1].atoms[0].semiaxes = {{{0.9, 0, 0}, {0, 0.9, 0}}};
+  all.push_back({"ellipses that overlap", ellipses, false});
+  Scene overlapping = square;
+  overlapping.lattices[0].atoms.push_back({{0.05, 0, 0}, 0.1, {}});
+  all.push_back({"overlaps", overlapping, true});
+  Scene third = all[1].scene;
+  third.lattices.push_back(with_second(square, {{{kPi, 0, 0}, {0, kPi / 2, 0}}}).lattices[1]);
+  all.push_back({"three, long common periods", third, std::nullopt});
+  all.push_back({"too small to be searched", turned_squares(1e-5, {0, kPi / 5}), std::nullopt});
+  for (const auto& [name, scene, open] : all) {
+    INFO(name);
+    const Tail uniform = tail_of_long_paths(scene, Ensemble::uniform),
+               surface = tail_of_long_paths(scene, Ensemble::surface);
+    INFO(uniform.remark);
+    CHECK(uniform.open == open);
+    CHECK(surface.open == open);
+    CHECK(uniform.exponent == (open == true ? std::optional(2.0) : std::nullopt));
+    CHECK(surface.exponent == (open == true ? std::optional(3.0) : std::nullopt));
+    CHECK((uniform.remark.find("not known whether") != std::string::npos) == !open.has_value());
+    CHECK(uniform.remark.find("incommensurate") == std::string::npos);
+    CHECK(tails_of(scene, Ensemble::uniform).back().remark == uniform.remark);
+  }
+}
+
+TEST_CASE("Tails: one lattice of discs, by the sum or the search", "[flights][tails]") {
+  // A corridor of width 2^-60, and touching discs; the sum in binary64 has no place for such a width.
+  const Scene touching = unit_scene(2, 0.5);
+  CHECK(tail_of_long_paths(touching, Ensemble::uniform).open == false);
+  Scene nearly = test::one_atom(2, {{{1, 0, 0}, {0, 1 + 0x1p-52, 0}}}, 0.5);
+  CHECK(tail_of_long_paths(nearly, Ensemble::uniform).open == true);
+  for (const double r : {0.3, 0.11, 0.09, 0.01}) {
+    const Scene scene = test::one_atom(2, {{{1, 0, 0}, {0.3, 0.8, 0}}}, r);
+    CHECK(tail_of_long_paths(scene, Ensemble::uniform).constant.value() ==
+          Approx(*oracle::horizon_of(scene).tail_constant).epsilon(1e-9));
+  }
+  // Discs in a row that overlap: no area is free of them alone.
+  const Scene rows = test::one_atom(2, {{{0.01, 0, 0}, {0, 100, 0}}}, 0.05);
+  CHECK(tail_of_long_paths(rows, Ensemble::uniform).exponent == 2);
+  CHECK_FALSE(tail_of_long_paths(rows, Ensemble::uniform).constant);
+}

@@ -36,11 +36,36 @@ TEST_CASE("lorentz diffusion: theory stands beside, and threads change nothing",
   CHECK(lines(folder.read("csv")) == 18);
   CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
   const Run open = folder.lorentz("diffusion --radius 0.4 --count 500 --time 20 --from surface");
-  CHECK(contains(open.out, "theory: 2 C = 0.102403"));
+  CHECK(contains(open.out, "theory, 2 C: 0.102403"));
   CHECK_FALSE(contains(open.out, "by velocities"));  // of uniform starts only
   const Run json = folder.lorentz("diffusion --radius 0.4 --count 500 --time 20 --json");
   CHECK(contains(json.out, R"("two_C":0.10240)"));
   CHECK(lines(json.out) == 1);
+}
+
+TEST_CASE("lorentz diffusion: no D where lattices leave corridors open that they share",
+          "[chaos][chaos_command]") {
+  const Folder folder;
+  const auto scene = [&](const char* second) {
+    return folder.write("scene.toml",
+                        std::string("dimension = 2\n[[lattices]]\nvectors = [[1, 0], [0, 1]]\n"
+                                    "[[lattices.atoms]]\nposition = [0, 0]\nradius = 0.1\n[[lattices]]\n"
+                                    "vectors = ") +
+                            second + "\n[[lattices.atoms]]\nposition = [0, 0]\nradius = 0.1\n");
+  };
+  const std::string what = "diffusion --count 200 --time 10 --scene ";
+  for (const char* second : {"[[1.414, 0], [0, 1.732]]", "[[1.4142135623730951, 0], [0.3, 1.7320508]]"}) {
+    const std::string file = scene(second), text = folder.lorentz(what + file).out;
+    INFO(text);
+    CHECK(contains(text, "\nno D: corridors or planar channels are open"));
+    CHECK(contains(text, "theory, 2 C: not known"));
+    CHECK_FALSE(contains(text, "\nD = "));
+    CHECK(contains(folder.lorentz(what + file + " --json").out, R"("open":true,"D":null,"D_error":null)"));
+  }
+  CHECK(contains(folder.lorentz(what + scene("[[1.4, 0.3], [-0.2, 1.7]]")).out, "every path ends"));
+  const std::string tiny = what + "superposition-pi-5 --radius 1e-5 ";
+  CHECK(contains(folder.lorentz(tiny).out, "\nwhether there is a D is not known\n"));
+  CHECK(contains(folder.lorentz(tiny + "--json").out, R"("open":null,"D":)"));
 }
 
 TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {

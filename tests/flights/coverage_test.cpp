@@ -1,0 +1,162 @@
+// Do intervals hold what they are said to hold, as often as they say? Samples of laws that are known.
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "cases/random.hpp"
+#include "flights/theory/fit.hpp"
+#include "flights/theory/laws.hpp"
+#include "tests/support/command_line.hpp"
+#include "tests/support/scenes.hpp"
+
+using namespace lorentz;
+using namespace lorentz::flights;
+using cases::Random;
+
+namespace {
+
+// Eight bins an octave.
+std::vector<double> octaves(int low, int high) {
+  std::vector<double> edges;
+  for (int k = low; k < high; ++k)
+    for (int j = 0; j < 8; ++j) edges.push_back(std::ldexp(1 + j / 8.0, k));
+  return edges;
+}
+
+double normal(Random& random) {  // Irwin and Hall's
+  double sum = -6;
+  for (int k = 0; k < 12; ++k) sum += random.uniform();
+  return sum;
+}
+
+// `total` paths of a law, counted. Only the long ones are drawn, one by one; the others are in one bin.
+class Sampler {
+ public:
+  Sampler(const Law& law, double total) : edges_(octaves(-2, 60)), total_(total) {
+    for (double& edge : edges_) edge *= law.scale;
+    for (const double edge : edges_) survivals_.push_back(law.survival(edge));
+    // Several times as many as the longest that are looked at, of which there are most in heavy tails.
+    const double longest = 4 * std::max(400.0, 0.25 * std::pow(total, 2.0 / 3));
+    while (first_ + 1 < edges_.size() && total * survivals_[first_ + 1] > longest) ++first_;
+  }
+
+  std::vector<std::uint64_t> draw(Random& random) const {
+    std::vector<std::uint64_t> counts(edges_.size() + 1);
+    const double p = survivals_[first_], expected = total_ * p,
+                 drawn = std::round(expected + normal(random) * std::sqrt(expected * (1 - p)));
+    for (double n = 0; n < drawn; ++n) {
+      const auto after = std::upper_bound(survivals_.begin(), survivals_.end(), p * (1 - random.uniform()),
+                                          std::greater<>());
+      ++counts[static_cast<std::size_t>(after - survivals_.begin())];
+    }
+    counts[first_] = static_cast<std::uint64_t>(total_ - drawn);
+    return counts;
+  }
+  const std::vector<double>& edges() const { return edges_; }
+
+ private:
+  std::vector<double> edges_, survivals_;
+  double total_;
+  std::size_t first_ = 0;
+};
+
+struct NamedLaw {
+  std::string name;
+  Law law;
+};
+
+// All limit laws that there are: one to three lattices of discs, ellipses, of either ensemble.
+std::vector<NamedLaw> all_laws() {
+  constexpr double kPi = std::numbers::pi;
+  std::vector<std::pair<std::string, Scene>> scenes;
+  Scene discs = unit_scene(2, 1e-4), ellipses = discs;
+  const Lattice square = discs.lattices[0];
+  scenes.emplace_back("1 lattice", discs);
+  for (const double angle : {kPi / 5, kPi / 7}) {
+    Lattice turned = square;
+    const double c = std::cos(angle), s = std::sin(angle);
+    turned.vectors = {{{c, s, 0}, {-s, c, 0}}};
+    discs.lattices.push_back(turned);
+    scenes.emplace_back(std::to_string(discs.lattices.size()) + " lattices", discs);
+  }
+  ellipses.lattices[0].atoms[0] = {{}, 0, {{1e-4, 3e-5, 0}, {-5e-6, 1e-5, 0}}};
+  scenes.emplace_back("ellipses", ellipses);
+  std::vector<NamedLaw> laws;
+  for (const auto& [name, scene] : scenes)
+    for (const auto ensemble : {Ensemble::uniform, Ensemble::surface})
+      laws.push_back({name + (ensemble == Ensemble::uniform ? ", uniform" : ", surface"),
+                      laws_of(scene, ensemble).laws.at(0)});
+  return laws;
+}
+
+// Of so many samples, how many intervals hold the law's local exponent from where they begin?
+int held(const NamedLaw& of, double total, int samples) {
+  const Sampler sampler(of.law, total);
+  std::map<double, double> exponents;  // by where they begin
+  int inside = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    Random random(20261123, of.name, sample);
+    const auto tail = tail_exponent(sampler.edges(), sampler.draw(random));
+    REQUIRE(tail);
+    const auto [at, is_new] = exponents.try_emplace(tail->from);
+    if (is_new) at->second = local_exponent(sampler.edges(), tail->from, of.law.survival).value();
+    inside += tail->low <= at->second && at->second <= tail->high;
+  }
+  return inside;
+}
+
+// Within four standard deviations of 95 in 100.
+bool is_95_in_100(int inside, int samples) {
+  return std::fabs(inside - 0.95 * samples) < 4 * std::sqrt(0.0475 * samples);
+}
+
+}  // namespace
+
+TEST_CASE("Local exponent: of a power law its own, of a limit law above the last one", "[flights][fit]") {
+  const std::vector<double> edges = octaves(0, 40);
+  CHECK(local_exponent(edges, 1, [](double t) { return std::pow(t, -1.5); }).value() == Approx(2.5));
+  CHECK(local_exponent(edges, 1024, [](double t) { return 7 * std::pow(t, -3); }).value() == Approx(4));
+  CHECK_FALSE(local_exponent(edges, 1, [](double t) { return t < 1 ? 1.0 : 0.0; }));
+  CHECK_FALSE(local_exponent(edges, 1e13, [](double t) { return 1 / t; }));  // no edge is there
+  for (const NamedLaw& of : all_laws()) {
+    INFO(of.name);
+    const auto exponent = [&](double from) {
+      std::vector<double> scaled = edges;
+      for (double& edge : scaled) edge *= of.law.scale;
+      return local_exponent(scaled, from * of.law.scale, of.law.survival).value();
+    };
+    CHECK(exponent(4) > exponent(16));
+    CHECK(exponent(16) > exponent(1 << 20));
+    CHECK(exponent(1 << 20) == Approx(std::round(exponent(1 << 20))).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("Tail exponent: intervals hold the law's local exponent 95 times in 100", "[flights][coverage]") {
+  constexpr int kSamples = 200;
+  int all = 0, samples = 0;
+  for (const NamedLaw& of : all_laws()) {
+    const int inside = held(of, 1e6, kSamples);
+    INFO(of.name << ": " << inside << " of " << kSamples);
+    CHECK(is_95_in_100(inside, kSamples));
+    all += inside, samples += kSamples;
+  }
+  INFO("all: " << all << " of " << samples);
+  CHECK(is_95_in_100(all, samples));
+}
+
+TEST_CASE("Tail exponent: the same of 10^5 to 10^8 paths, 2000 samples of each law",
+          "[flights][coverage][long]") {
+  constexpr int kSamples = 2000;
+  for (const NamedLaw& of : all_laws())
+    for (const double total : {1e5, 1e6, 1e7, 1e8}) {
+      const int inside = held(of, total, kSamples);
+      fmt::print("{}, {:g} paths: {} of {}\n", of.name, total, inside, kSamples);
+      CHECK(is_95_in_100(inside, kSamples));
+    }
+}
