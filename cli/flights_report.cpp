@@ -28,8 +28,8 @@ std::string text_of(const ChiSquared& fit) {
 std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
   const bool uniform = from == Ensemble::uniform;
   if (!long_paths.open)
-    return fmt::format("{} may be infinite: {}", uniform ? "the exact mean" : "the variance",
-                       long_paths.remark);
+    return fmt::format("{} may be infinite, or too large for a sample: {}",
+                       uniform ? "the exact mean" : "the variance", long_paths.remark);
   if (!*long_paths.open) return "";
   return uniform ? "the exact mean is infinite: open channels make the density of a first flight fall like "
                    "t^-2 in the end; what is here is a sample's mean, and grows with it"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <lorentz/geometry.hpp>
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::flights {
 namespace {
@@ -51,6 +52,26 @@ bool three_add_up(const Lattice& a, const Lattice& b, const Lattice& c, int dime
   return false;
 }
 
+// Unit normals of the rows, or planes, between which a lattice leaves a way open: 1/|k| apart for a
+// reciprocal vector k, across which its obstacles are 2 |A^T k| / |k| wide.
+std::vector<Vec> normals_of_ways(const Lattice& lattice, int dimension) {
+  std::vector<Vec> found;
+  for (const Vec& k : reciprocal_vectors(lattice, dimension, dimension == 2 ? 16 : 4)) {
+    double widest = 0;
+    for (const Atom& atom : lattice.atoms) {
+      double half2 = 0;
+      for (const Vec& axis : semiaxes_of(atom, dimension)) half2 += dot(axis, k) * dot(axis, k);
+      widest = std::max(widest, 2 * std::sqrt(half2));
+    }
+    if (widest > 0 && widest < 1) found.push_back(scaled(k, 1 / length(k)));
+  }
+  return found;
+}
+
+double angle_between(const Vec& a, const Vec& b) {
+  return length(cross(a, b));
+}
+
 }  // namespace
 
 bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
@@ -80,6 +101,23 @@ bool independent(const Scene& scene) {
         if (three_add_up(all[i], all[k], all[m], scene.dimension)) return false;
     }
   return true;
+}
+
+std::optional<double> nearly_common_way(const Scene& scene) {
+  std::vector<std::vector<Vec>> others;
+  for (std::size_t i = 1; i < scene.lattices.size(); ++i)
+    others.push_back(normals_of_ways(scene.lattices[i], scene.dimension));
+  std::optional<double> least;
+  for (const Vec& normal : normals_of_ways(scene.lattices[0], scene.dimension)) {
+    double largest = 0;  // of the angles to the nearest of each other lattice
+    for (const std::vector<Vec>& normals : others) {
+      double nearest = 1;
+      for (const Vec& other : normals) nearest = std::min(nearest, angle_between(normal, other));
+      largest = std::max(largest, nearest);
+    }
+    if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(1), largest);
+  }
+  return least;
 }
 
 }  // namespace lorentz::flights

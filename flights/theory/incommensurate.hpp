@@ -2,6 +2,8 @@
 // far enough: what is asked is whether small integers show it. Private to flights/theory.
 #pragma once
 
+#include <optional>
+
 #include <lorentz/problem.hpp>
 
 namespace lorentz::flights {
@@ -20,5 +22,11 @@ bool commensurable(const Lattice& a, const Lattice& b, int dimension);
 /// space? They are if reciprocal vectors, one a lattice and not all zero, never add up to zero; tried are
 /// those of two lattices, and of three, with small indices.
 bool independent(const Scene& scene);
+
+/// Do ways that every lattice leaves open on its own lie in nearly one direction, to kCoincidence, but not
+/// exactly? Then paths may be as long as if a corridor were open, up to about a width over that angle: turned
+/// by rounded numbers, lattices that share a direction share it nearly. The angle, in radians; of ways with
+/// small indices.
+std::optional<double> nearly_common_way(const Scene& scene);
 
 }  // namespace lorentz::flights

@@ -1,9 +1,11 @@
 // How the probability of long free paths falls.
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <lorentz/horizon.hpp>
 #include "flights/theory/corridor_sum.hpp"
+#include "flights/theory/incommensurate.hpp"
 #include "flights/theory/laws.hpp"
 #include "flights/theory/small_obstacles.hpp"
 #include "src/problem/scene_geometry.hpp"
@@ -71,33 +73,58 @@ Tail tail_of_channels(const Scene& scene, Ensemble ensemble, const std::optional
   return tail;
 }
 
+Tail not_known(std::string why) {
+  return {kLongPaths, std::nullopt, std::nullopt, std::move(why)};
+}
+
+// No corridor, or no planar channel, is open.
+Tail tail_of_shut(const Scene& scene) {
+  if (const auto angle = nearly_common_way(scene)) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1g", *angle);
+    return not_known(std::string("ways of the lattices are parallel to ") + text +
+                     " radians, though not exactly: as good as open until t is about one over that");
+  }
+  if (scene.dimension == 2) return tail_without("none: every path ends");
+  Tail tail = tail_without("no planar channel is open: it falls faster than with one");
+  tail.constant = 0;
+  return tail;
+}
+
+// Of obstacles too small for all directions to be searched: is a wide way open?
+bool has_wide_channel(const Scene& scene) {
+  constexpr double kWide = 0.03;  // of the cell's size: some 10^4 to 10^5 directions, a second
+  const double wide =
+      kWide * std::pow(cell_volume(scene.lattices[0], scene.dimension), 1.0 / scene.dimension);
+  try {
+    return !oracle::horizon_of(scene, wide, false).channels.empty();
+  } catch (const oracle::TooManyChannels&) {
+    return false;
+  }
+}
+
 Tail tail_of_horizon(const Scene& scene, Ensemble ensemble) {
   const bool flat = scene.dimension == 2;
-  const std::string channel = flat ? "corridor" : "planar channel";
-  const auto not_known = [&](const std::string& why) {
-    return Tail{kLongPaths, std::nullopt, std::nullopt,
-                "it is not known whether a " + channel + " is open: " + why};
+  const std::string channel = flat ? "corridor" : "planar channel",
+                    unknown = "it is not known whether a " + channel + " is open: ";
+  const auto without_constant = [&](const std::string& why) {
+    return tail_of_channels(scene, ensemble, std::nullopt,
+                            "of the " + channel + "s; the constant is not known (" + why + ")");
   };
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);
-    if (horizon.is_finite()) return tail_without("none: every path ends");
-    if (horizon.channels.empty()) {
-      if (!horizon.undecided.empty())
-        return not_known("three lattices or more with long common periods are undecided");
-      Tail tail = tail_without("no planar channel is open: it falls faster than with one");
-      tail.constant = 0;
-      return tail;
-    }
-    if (!horizon.tail_constant)
-      return tail_of_channels(
-          scene, ensemble, std::nullopt,
-          "of the " + channel + "s; the constant is not known (" + horizon.no_tail_constant + ")");
+    if (horizon.channels.empty())
+      return horizon.undecided.empty()
+                 ? tail_of_shut(scene)
+                 : not_known(unknown + "three lattices or more with long common periods are undecided");
+    if (!horizon.tail_constant) return without_constant(horizon.no_tail_constant);
     Tail tail = tail_of_channels(scene, ensemble, horizon.tail_constant,
                                  "of the " + channel + "s" + (flat ? "" : "; approached like t^(-2/3)"));
     if (!flat) tail.approach = 2.0 / 3;
     return tail;
   } catch (const oracle::TooManyChannels& error) {
-    return not_known(error.what());
+    return has_wide_channel(scene) ? without_constant("there are too many")
+                                   : not_known(unknown + error.what());
   }
 }
 

@@ -356,7 +356,6 @@ TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]")
       {"commensurable, large", with_second(unit_scene(2, 0.36), {{{1, 0, 0}, {0, 1, 0}}}, {0.5, 0.5, 0}),
        false},
       {"turned by pi/5", turned_squares(0.1, {0, kPi / 5}), false},
-      {"turned by 3/4, commensurable", turned_squares(0.01, {0, std::atan(0.75)}), false},
       {"layers, in space", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0}, {0, 0, 1}}}), true},
       {"layers at another distance", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0}, {0, 0, two}}}), true},
       {"skewed, in space", with_second(cubic, {{{two, 0, 0}, {0.2, three, 0.1}, {0.3, 0.2, two}}}), false}};
@@ -372,6 +371,7 @@ TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]")
   third.lattices.push_back(with_second(square, {{{kPi, 0, 0}, {0, kPi / 2, 0}}}).lattices[1]);
   all.push_back({"three, long common periods", third, std::nullopt});
   all.push_back({"too small to be searched", turned_squares(1e-5, {0, kPi / 5}), std::nullopt});
+  all.push_back({"too small, the same axes", test::with_radius(all[1].scene, 1e-5), true});
   for (const auto& [name, scene, open] : all) {
     INFO(name);
     const Tail uniform = tail_of_long_paths(scene, Ensemble::uniform),
@@ -385,6 +385,31 @@ TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]")
     CHECK(uniform.remark.find("incommensurate") == std::string::npos);
     CHECK(tails_of(scene, Ensemble::uniform).back().remark == uniform.remark);
   }
+}
+
+TEST_CASE("Tails: lattices that share a direction, turned by rounded numbers", "[flights][tails]") {
+  const auto second = [](const Scene& first, std::array<Vec, 3> vectors) {
+    Scene scene = with_second(first, vectors);
+    for (Lattice& lattice : scene.lattices) lattice = turned(lattice, 0.3);
+    return scene;
+  };
+  const double two = std::sqrt(2.0), three = std::sqrt(3.0);
+  for (const Scene& scene : {second(unit_scene(2, 0.1), {{{two, 0, 0}, {0, three, 0}}}),
+                             second(unit_scene(2, 0.1), {{{two, 0, 0}, {5 * two + 0.3, three, 0}}}),
+                             second(unit_scene(2, 0.1), {{{2 * two, two, 0}, {0.1, three, 0}}}),
+                             turned_squares(0.01, {0, std::atan(0.75)}),
+                             second(unit_scene(3, 0.1), {{{two, 0, 0}, {0.2, three, 0.1}, {0, 0.4, two}}})}) {
+    REQUIRE_FALSE(oracle::horizon_of(scene, 0, false).is_infinite());
+    const Tail tail = tail_of_long_paths(scene, Ensemble::uniform);
+    INFO(tail.remark);
+    CHECK_FALSE(tail.open);
+    CHECK(tail.remark.find("radians") != std::string::npos);
+  }
+  CHECK(tail_of_long_paths(second(unit_scene(2, 0.1), {{{1.4, 0.3, 0}, {-0.2, 1.7, 0}}}), Ensemble::uniform)
+            .open == false);
+  // Obstacles that leave no way of their own lattice open.
+  CHECK(tail_of_long_paths(second(unit_scene(2, 0.45), {{{two, two, 0}, {0.1, 1.3, 0}}}), Ensemble::uniform)
+            .open == false);
 }
 
 TEST_CASE("Tails: one lattice of discs, by the sum or the search", "[flights][tails]") {
