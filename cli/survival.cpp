@@ -99,11 +99,9 @@ struct Survival {
   std::string csv() const;
   std::string svg() const;
   std::string page_json() const;
-  std::uint64_t longest() const {
-    std::uint64_t most = 0;
-    for (const Arithmetic& one : arithmetics)
-      most = std::max(most, *std::max_element(one.right.begin(), one.right.end()));
-    return most;
+  /// Up to where a share is shown: its first 0, or the last collision that was looked at.
+  std::uint64_t last_of(const Arithmetic& one) const {
+    return std::min(collisions, *std::max_element(one.right.begin(), one.right.end()) + 1);
   }
 };
 
@@ -115,6 +113,11 @@ std::string Survival::table() const {
     const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
     text += fmt::format("{:<28} {:>8.2f} {:>8} {:>8}\n", one.name(engine), one.mean(), *least, *most);
   }
+  const bool is_cut = std::any_of(arithmetics.begin(), arithmetics.end(),
+                                  [&](const Arithmetic& one) { return one.share(collisions) > 0; });
+  if (is_cut)
+    text += fmt::format("some starts were right to the end, {} collisions: there the mean is too small\n",
+                        collisions);
   return text;
 }
 
@@ -131,7 +134,9 @@ std::string Survival::csv() const {
   std::string text = "collision";
   for (const Arithmetic& one : arithmetics) text += fmt::format(",bits{}", one.bits);
   text += '\n';
-  for (std::uint64_t k = 1; k <= longest() + 1; ++k) {
+  std::uint64_t last = 0;
+  for (const Arithmetic& one : arithmetics) last = std::max(last, last_of(one));
+  for (std::uint64_t k = 1; k <= last; ++k) {
     text += std::to_string(k);
     for (const Arithmetic& one : arithmetics) text += fmt::format(",{}", one.share(k));
     text += '\n';
@@ -147,9 +152,8 @@ std::string Survival::svg() const {
   plot.value_label = "share of starts";
   for (const Arithmetic& one : arithmetics) {
     pictures::PlotSeries series{one.name(engine), {}};
-    double share = 1;
-    for (std::uint64_t k = 1; share > 0; ++k)
-      series.points.push_back({static_cast<double>(k), share = one.share(k), 0});
+    for (std::uint64_t k = 1; k <= last_of(one); ++k)
+      series.points.push_back({static_cast<double>(k), one.share(k), 0});
     plot.series.push_back(std::move(series));
   }
   return pictures::draw_free_paths(plot);
@@ -162,9 +166,8 @@ std::string Survival::page_json() const {
   std::string line = fmt::format("{} starts; right collisions, the mean:", starts);
   for (const Arithmetic& one : arithmetics) {
     report::SurvivalCurve curve{scene, one.name(engine), radius, {}};
-    double share = 1;
-    for (std::uint64_t k = 1; share > 0; ++k) {
-      share = one.share(k);
+    for (std::uint64_t k = 1; k <= last_of(one); ++k) {
+      const double share = one.share(k);
       const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(starts)));
       curve.points.push_back({k, share, report::share_of(right, starts)});
     }

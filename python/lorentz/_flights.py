@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +15,10 @@ from ._first_hit import Floats
 from ._lorentz import Error
 from ._numbers import finite, whole
 from ._scene import Scene, SceneLike, native
+
+
+def _known(number: float | None) -> float:
+    return math.nan if number is None else float(number)
 
 
 @dataclass(frozen=True)
@@ -39,13 +44,13 @@ class FreePaths:
 
     @property
     def mean(self) -> float:
-        """Of the flights that end."""
-        return float(self.report["mean"])
+        """Of the flights that end; nan if none does."""
+        return _known(self.report["mean"])
 
     @property
     def mean_error(self) -> float:
-        """One standard error of it, by chance alone."""
-        return float(self.report["mean_error"])
+        """One standard error of it, by chance alone; nan of fewer than two flights."""
+        return _known(self.report["mean_error"])
 
     def survival(self) -> Floats:
         """P(path > t) at ``edges``, shape (K,)."""
@@ -53,7 +58,7 @@ class FreePaths:
 
     def density(self) -> Floats:
         """Of the path, in each bin between two edges, shape (K - 1,)."""
-        return self.counts[1:-1] / (self.count * np.diff(self.edges))
+        return self.counts[1:-1] / (max(self.count - int(self.report["undecided"]), 1) * np.diff(self.edges))
 
     def laws(self) -> dict[str, Floats]:
         """P(path > t) at ``edges`` by each law that theory has of the scene, by name."""

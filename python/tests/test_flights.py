@@ -13,6 +13,7 @@ def test_the_mean_is_the_exact_one():
     assert exact == pytest.approx((1 - np.pi * 0.04) / 0.4, rel=1e-14)
     assert paths.count == 300_000 and abs(paths.mean - exact) < 5 * paths.mean_error
     assert 0 < paths.mean_error < 0.01
+    assert np.isnan(lorentz.flights("square", 1, 0.2, start="surface", seed=SEED).mean_error)
 
 
 def test_survival_follows_the_law():

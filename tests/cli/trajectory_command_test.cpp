@@ -183,3 +183,14 @@ TEST_CASE("survival: more bits, more right collisions", "[cli][survival]") {
   CHECK(folder.lorentz("survival --count 0").status == 2);
   CHECK(folder.lorentz("survival --bits 5").status == 2);
 }
+
+TEST_CASE("survival says nothing of collisions beyond those that it looked at", "[cli][survival]") {
+  const Folder folder;
+  const Run run = folder.lorentz("survival --radius 0.4 --count 4 --collisions 3 --bits 256 --csv " +
+                                 folder.file("csv") + " --html " + folder.file("html"));
+  INFO(run.out << run.err);
+  REQUIRE(run.status == 0);
+  CHECK(contains(run.out, "some starts were right to the end, 3 collisions: there the mean is too small"));
+  CHECK(folder.read("csv") == "collision,bits256\n1,1\n2,1\n3,1\n");
+  CHECK_FALSE(contains(folder.lorentz("survival --radius 0.1 --count 4 --bits 53").out, "too small"));
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include "cases/random.hpp"
 #include "report/power_fit.hpp"
 #include "report/query_text.hpp"
 
@@ -48,6 +49,26 @@ TEST_CASE("Power laws are fitted in logarithms, with Student's interval", "[repo
   CHECK_FALSE(power_fit({{1, 1}, {2, 2}}));
   CHECK_FALSE(power_fit({{1, 1}, {1, 2}, {1, 3}}));
   CHECK_THROWS_AS(power_fit({{1, 1}, {2, 0}, {3, 1}}), std::invalid_argument);
+}
+
+TEST_CASE("Power laws: intervals hold the exponent 95 times in 100", "[report][power_fit][coverage]") {
+  constexpr int kSamples = 4000;
+  for (const int points : {3, 4, 8}) {
+    int inside = 0;
+    for (int sample = 0; sample < kSamples; ++sample) {
+      lorentz::cases::Random random(20261123, "power laws", sample);
+      std::vector<std::pair<double, double>> rough;
+      for (int i = 0; i < points; ++i) {
+        double normal = -6;  // Irwin and Hall's
+        for (int k = 0; k < 12; ++k) normal += random.uniform();
+        rough.emplace_back(std::pow(10, -i), std::pow(10, 0.25 * i) * std::exp(0.1 * normal));
+      }
+      const PowerFit fit = power_fit(rough).value();
+      inside += fit.low <= -0.25 && -0.25 <= fit.high;
+    }
+    INFO(points << " points: " << inside << " of " << kSamples);
+    CHECK(std::abs(inside - 3800) < 4 * 13.8);
+  }
 }
 
 TEST_CASE("What a store keeps of cells reads back as the same cells, or is refused", "[report][cell]") {

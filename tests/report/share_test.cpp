@@ -49,6 +49,28 @@ TEST_CASE("Bounds of a share are those of Clopper and Pearson", "[report][share]
   CHECK(text == R"({"count":3,"low":0.25,"high":0.5})");
 }
 
+TEST_CASE("Bounds of a share hold it 95 times in 100 or more, whatever it is", "[report][share][coverage]") {
+  for (const std::size_t total : {1, 3, 20, 150})
+    for (double share = 0.005; share < 1; share += 0.005) {
+      double held = 0;
+      for (std::size_t k = 0; k <= total; ++k) {
+        const Share bounds = share_of(k, total);
+        if (bounds.low <= share && share <= bounds.high)
+          held += chance_of_so_many(k, total, share) - chance_of_so_many(k + 1, total, share);
+      }
+      INFO(total << " trials, share " << share);
+      CHECK(held > 0.95 - 1e-9);
+    }
+}
+
+TEST_CASE("What was never seen is bounded with 95 %, of few trials, too", "[report][share]") {
+  CHECK(bound_of_none(0) == 1);
+  CHECK(bound_of_none(1) == Approx(0.95));  // 3 / N would be 3
+  for (const std::size_t total : {1, 2, 10, 1000})
+    CHECK(std::pow(1 - bound_of_none(total), total) == Approx(0.05));
+  CHECK(bound_of_none(1'000'000'000'000'000) == Approx(2.995732e-15));
+}
+
 TEST_CASE("A manifest says what made the numbers, whatever the command was", "[report][manifest]") {
   const Manifest manifest = manifest_of(~std::uint64_t{0}, "lorentz bench --engine 'cmd:\"a\"\n'");
   for (const std::string& text : {manifest.version, manifest.commit, manifest.compiler, manifest.flags,

@@ -78,3 +78,39 @@ TEST_CASE("Diffusion does not depend on the threads", "[chaos]") {
   CHECK(one.collisions == four.collisions);
   CHECK(one.particles == 2'000);
 }
+
+namespace {
+
+// The root mean square of deviations from their mean, in errors that were told.
+double in_errors(const std::vector<Estimate>& estimates) {
+  double mean = 0, squares = 0;
+  const auto n = static_cast<double>(estimates.size());
+  for (const Estimate& one : estimates) mean += one.value / n;
+  for (const Estimate& one : estimates) squares += std::pow((one.value - mean) / one.error, 2) / (n - 1);
+  return std::sqrt(squares);
+}
+
+}  // namespace
+
+TEST_CASE("Errors of displacements are those of other seeds", "[chaos][coverage]") {
+  constexpr std::uint64_t kSeeds = 100;
+  std::vector<Estimate> coefficients, squares, from_velocities;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Diffusion one = diffusion_of({triangular(0.3), flights::Ensemble::uniform, seed, 640, 6},
+                                       {.jobs = 2, .stop = nullptr, .on_progress = {}});
+    coefficients.push_back(one.coefficient);
+    squares.push_back(one.displacements[8].square);
+    from_velocities.push_back(one.displacements.back().from_velocity);
+  }
+  // 1 +- 0.07 of a hundred.
+  for (const auto& estimates : {coefficients, squares, from_velocities})
+    CHECK(in_errors(estimates) == Approx(1).margin(0.3));
+}
+
+TEST_CASE("Of one particle no error is told", "[chaos]") {
+  const Diffusion one = measured(triangular(0.3), 1, 4);
+  CHECK(one.particles == 1);
+  CHECK(std::isinf(one.coefficient.error));
+  CHECK(std::isinf(one.displacements[0].square.error));
+  CHECK(std::isfinite(measured(triangular(0.3), 2, 4).coefficient.error));
+}

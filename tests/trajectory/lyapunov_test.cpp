@@ -126,6 +126,16 @@ TEST_CASE("Exponents do not depend on the threads", "[chaos]") {
   CHECK(one.mean_flight.value == four.mean_flight.value);
 }
 
+TEST_CASE("The sum above zero has the error of its groups, with the whole spectrum or without", "[chaos]") {
+  const Scene scene = unit_scene(3, 0.3);
+  const Lyapunov half = lyapunov_of({scene, 5, 20'000, false}), whole = lyapunov_of({scene, 5, 20'000, true});
+  CHECK(whole.growing.value == Approx(half.sum.value).epsilon(1e-9));
+  CHECK(whole.growing.error == Approx(half.sum.error).epsilon(1e-6));
+  CHECK(half.growing.error == half.sum.error);
+  // Errors of parts don't add up.
+  CHECK(whole.growing.error < 0.99 * (whole.map[0].error + whole.map[1].error));
+}
+
 TEST_CASE("Scenes without exponents are refused", "[chaos]") {
   CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 0.6), 1, 1000, false}), InputError);
   CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, true}), InputError);  // e^-27 of e^27
