@@ -150,6 +150,38 @@ TEST_CASE("Tail exponent: intervals hold the law's local exponent 95 times in 10
   CHECK(is_95_in_100(all, samples));
 }
 
+TEST_CASE("Tail exponent: intervals hold the local exponent of what is no power law", "[flights][coverage]") {
+  // A mixture of a steep and a flat one, and a law that falls ever faster.
+  struct Bent {
+    double (*survival)(double);
+    double (*path)(Random&);
+  };
+  const auto mixture = [](Random& random) {
+    const double power = random.one_in(10) ? 0.7 : 6;
+    return std::pow(1 - random.uniform(), -1 / power);
+  };
+  const auto steeper = [](Random& random) { return std::exp(std::sqrt(-std::log(1 - random.uniform()))); };
+  const std::vector<double> edges = octaves(0, 40);
+  for (const Bent& bent :
+       {Bent{[](double t) { return 0.9 * std::pow(t, -6) + 0.1 * std::pow(t, -0.7); }, mixture},
+        Bent{[](double t) { return std::exp(-std::log(t) * std::log(t)); }, steeper}}) {
+    const double exponent = local_exponent(edges, 1, bent.survival).value();
+    constexpr int kSamples = 1000;
+    int inside = 0;
+    for (int sample = 0; sample < kSamples; ++sample) {
+      Random random(20261123, "bent", sample);
+      std::vector<std::uint64_t> counts(edges.size() + 1);
+      for (int i = 0; i < 1000; ++i)
+        ++counts[static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), bent.path(random)) -
+                                          edges.begin())];
+      const auto tail = tail_exponent_from(0, edges, counts).value();
+      inside += tail.low <= exponent && exponent <= tail.high;
+    }
+    INFO("exponent " << exponent << ": " << inside << " of " << kSamples);
+    CHECK(is_95_in_100(inside, kSamples));
+  }
+}
+
 TEST_CASE("Tail exponent: the same of 10^5 to 10^8 paths, 2000 samples of each law",
           "[flights][coverage][long]") {
   constexpr int kSamples = 2000;
