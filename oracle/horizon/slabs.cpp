@@ -5,6 +5,7 @@
 
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
+#include "oracle/horizon/common_rows.hpp"
 
 namespace lorentz::oracle {
 namespace {
@@ -221,9 +222,20 @@ struct Search {
     return false;
   }
 
-  void look_along(const LatticePoint<D>& candidate) {
+  // Two lattices mostly have but few normals in common, however many either has. False if they may have many.
+  bool look_along_common() {
+    if constexpr (D == 2)
+      for (std::size_t i = 0; i < scene.lattices.size(); ++i)
+        for (std::size_t k = i + 1; k < scene.lattices.size(); ++k)
+          if (const auto normals = common_normals(scene.lattices[i], scene.lattices[k])) {
+            for (const ZVec<2>& normal : *normals) look_along(normal);
+            return true;
+          }
+    return false;
+  }
+
+  void look_along(ZVec<D> normal) {
     if (work > kMostWork) return;
-    ZVec<D> normal = candidate.p;
     Z divisor = 0;
     for (const Z& component : normal) divisor = gcd(divisor, component);
     for (Z& component : normal) component /= divisor;
@@ -245,12 +257,13 @@ struct Search {
 template <std::size_t D>
 Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress) {
   Search<D> search{scene, {}, 0};
+  if (search.look_along_common()) return search.result;
   const Candidates<D> candidates = fewest_candidates(scene);
   // The points come as their images: back to normals by their coefficients.
   const auto look_at = [&](const LatticePoint<D>& point) {
     LatticePoint<D> normal;
     for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
-    search.look_along(normal);
+    search.look_along(normal.p);
   };
   const auto step = [&](std::size_t done, std::size_t total) {
     if (progress && done % 64 == 0) progress(D == 2 ? "directions" : "planes", done / 2, total / 2);

@@ -370,7 +370,10 @@ TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]")
   Scene third = all[1].scene;
   third.lattices.push_back(with_second(square, {{{kPi, 0, 0}, {0, kPi / 2, 0}}}).lattices[1]);
   all.push_back({"three, long common periods", third, std::nullopt});
-  all.push_back({"too small to be searched", turned_squares(1e-5, {0, kPi / 5}), std::nullopt});
+  all.push_back({"small, turned by pi/5", turned_squares(1e-5, {0, kPi / 5}), false});
+  all.push_back({"too small to be searched", turned_squares(1e-12, {0, kPi / 5}), std::nullopt});
+  all.push_back({"too small, in step",
+                 with_second(unit_scene(2, 1e-5), {{{1, 0, 0}, {0, 1, 0}}}, {0.5, 0.5, 0}), true});
   all.push_back({"too small, the same axes", test::with_radius(all[1].scene, 1e-5), true});
   for (const auto& [name, scene, open] : all) {
     INFO(name);

@@ -3,18 +3,22 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
+#include "oracle/horizon/common_rows.hpp"
+#include "oracle/integers/dyadic.hpp"
 #include "tests/oracle/horizon_support.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
-using oracle::Horizon;
-using oracle::horizon_of;
+using namespace lorentz::oracle;
 
 TEST_CASE("Horizon: what is not done is said, and nothing hangs", "[oracle][horizon]") {
   CHECK_THROWS_AS(horizon_of(unit_scene(2, 1e-9)), oracle::TooManyChannels);
@@ -76,4 +80,78 @@ TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells
 TEST_CASE("Horizon: a width that is none is refused, not searched for", "[oracle][horizon]") {
   for (const double width : {std::nan(""), -1.0, HUGE_VAL})
     CHECK_THROWS_AS(horizon_of(unit_scene(2, 0.1), width), InputError);
+}
+
+namespace {
+
+// Which of the first lattice's ways run along one of the second's; whole numbers, so that it is exact.
+std::vector<Vec> shared_ways(const Horizon& a, const Horizon& b) {
+  std::vector<Vec> shared;
+  for (const Channel& one : a.channels)
+    for (const Channel& other : b.channels)
+      if (cross(one.vector, other.vector)[2] == 0) {
+        shared.push_back(one.vector);
+        break;
+      }
+  return shared;
+}
+
+}  // namespace
+
+TEST_CASE("Horizon: the normals that two lattices have in common, by looking at all", "[oracle][horizon]") {
+  test::Draw draw(20261124);
+  const auto whole = [&] { return std::round(draw.vec(2, -40'000, 40'000)[0]); };
+  int known = 0, shared = 0, unknown = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::array<Scene, 2> alone;
+    for (Scene& scene : alone) {
+      scene = test::one_atom(2, {{{whole(), whole(), 0}, {whole(), whole(), 0}}}, 2000);
+      // A shear of a long way keeps one direction, and no other.
+      if (i % 2) scene.lattices[0].vectors = {{{20'000, 0, 0}, {whole(), 31'000, 0}}};
+      if (i % 4 == 3) scene.lattices[0].atoms[0] = {{}, 0, {{3000, 500, 0}, {-1000, 1000, 0}}};
+    }
+    const auto area = [](const Scene& scene) {
+      return std::fabs(cross(scene.lattices[0].vectors[0], scene.lattices[0].vectors[1])[2]);
+    };
+    if (area(alone[0]) < 1e8 || area(alone[1]) < 1e8) continue;
+    const ChannelScene<2> exact({2, {alone[0].lattices[0], alone[1].lattices[0]}}, 0);
+    const auto normals = common_normals(exact.lattices[0], exact.lattices[1]);
+    if (!normals) {
+      ++unknown;
+      continue;
+    }
+    ++known;
+    CHECK(normals->size() <= 2);
+    for (const Vec& way : shared_ways(horizon_of(alone[0]), horizon_of(alone[1]))) {
+      ++shared;
+      const ZVec<2> along = scaled_vector<2>(way, exact.exponent);
+      CHECK(std::any_of(normals->begin(), normals->end(),
+                        [&](const ZVec<2>& normal) { return dot(normal, along) == 0; }));
+    }
+  }
+  INFO(known << " known, with " << shared << " shared ways; " << unknown << " unknown");
+  CHECK(known > 100);
+  CHECK(shared > 50);
+}
+
+TEST_CASE("Horizon: superposed lattices of tiny discs are decided", "[oracle][horizon]") {
+  const auto scenes = test::all_scenes();
+  for (const double radius : {1e-4, 1e-7})
+    for (const char* name : {"superposition-pi-5", "superposition-pi-5-pi-7"}) {
+      INFO(name << ", r = " << radius);
+      CHECK(horizon_of(test::with_radius(scenes.at(name), radius)).is_finite());
+    }
+  // One direction in common, of a cell that is sheared.
+  Scene scene = unit_scene(2, 1e-4);
+  scene.lattices.push_back(scene.lattices[0]);
+  scene.lattices[1].vectors = {{{std::sqrt(2), 0, 0}, {0.3, std::sqrt(3), 0}}};
+  const Horizon horizon = horizon_of(scene);
+  REQUIRE(horizon.channels.size() == 1);
+  CHECK(horizon.channels[0].vector == Vec{1, 0, 0});
+  CHECK(horizon.channels[0].width == Approx(1 - 2e-4));
+  // So small that rounded numbers have much in common.
+  CHECK_THROWS_AS(horizon_of(test::with_radius(scenes.at("superposition-pi-5"), 1e-12)), TooManyChannels);
+  // In step they have as many as one has.
+  scene.lattices[1].vectors = scene.lattices[0].vectors;
+  CHECK_THROWS_AS(horizon_of(scene), TooManyChannels);
 }
