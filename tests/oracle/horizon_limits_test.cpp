@@ -106,10 +106,15 @@ TEST_CASE("Horizon: the normals that two lattices have in common, by looking at 
     std::array<Scene, 2> alone;
     for (Scene& scene : alone) {
       scene = test::one_atom(2, {{{whole(), whole(), 0}, {whole(), whole(), 0}}}, 2000);
-      // A shear of a long way keeps one direction, and no other.
-      if (i % 2) scene.lattices[0].vectors = {{{20'000, 0, 0}, {whole(), 31'000, 0}}};
-      if (i % 4 == 3) scene.lattices[0].atoms[0] = {{}, 0, {{3000, 500, 0}, {-1000, 1000, 0}}};
+      auto& u = scene.lattices[0].vectors;
+      if (i % 4 == 1) u = {{{20'000, 0, 0}, {whole(), 31'000, 0}}};  // the same rows
+      if (i % 4 == 2) u = {{{whole(), 0, 0}, {0, whole(), 0}}};      // the same rows and columns
+      if (i % 4 == 3) u = {{{20'000, 0, 0}, {0, 31'000, 0}}};
+      if (i % 8 == 5) scene.lattices[0].atoms[0] = {{}, 0, {{3000, 500, 0}, {-1000, 1000, 0}}};
     }
+    // The second has a long way of the first for a short one.
+    auto& first = alone[1].lattices[0].vectors[0];
+    if (i % 4 == 3) first = {20'000.0 * (1 + i % 3), 31'000.0 * (1 + i % 5), 0};
     const auto area = [](const Scene& scene) {
       return std::fabs(cross(scene.lattices[0].vectors[0], scene.lattices[0].vectors[1])[2]);
     };
