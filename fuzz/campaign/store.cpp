@@ -11,9 +11,9 @@
 #include <fstream>
 
 #include "fuzz/campaign/batch.hpp"
-#include "fuzz/campaign/lock_file.hpp"
 #include "fuzz/campaign/sqlite.hpp"
 #include "src/problem/write_error.hpp"
+#include "store/lock_file.hpp"
 
 namespace lorentz::fuzz {
 
@@ -106,7 +106,7 @@ struct Store::Impl {
         writes(access == Access::write),
         lock(path == kMemory || access == Access::read
                  ? nullptr
-                 : std::make_unique<LockFile>(path, access == Access::write, kBusy)),
+                 : std::make_unique<store::LockFile>(path, access == Access::write, kBusy)),
         connection(path, opening(path, access).name, opening(path, access).flags) {
     set_up();
   }
@@ -155,7 +155,7 @@ struct Store::Impl {
 
   const std::string path;
   const bool writes;
-  std::unique_ptr<LockFile> lock;
+  std::unique_ptr<store::LockFile> lock;
   Connection connection;
   bool is_set_up = false, in_transaction = false;
 };

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/problem.hpp>
 #include "src/exchange/exchange_scene.hpp"
 
@@ -14,8 +15,8 @@ namespace lorentz {
 namespace json = simdjson::ondemand;
 
 /// A text that is no JSON (besides what simdjson::simdjson_error says).
-struct NotJson {
-  std::string why;
+struct NotJson : InputError {
+  using InputError::InputError;
 };
 
 /// Throws InputError beyond 64 levels, far more than any format here has. Recursion is bounded by this.
