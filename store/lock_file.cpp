@@ -15,9 +15,15 @@ namespace lorentz::store {
 
 namespace {
 
+// Also of a link to a file that is not there yet.
 std::string without_links(const std::string& file) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;
   std::error_code error;
-  const auto place = std::filesystem::weakly_canonical(file, error);
+  fs::path place = file;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i)
+    place = place.parent_path() / fs::read_symlink(place, error);
+  place = fs::weakly_canonical(place, error);
   return error ? file : place.string();
 }
 
