@@ -175,7 +175,7 @@ Cell cell_of(std::string_view text_of_cell) {
     return cell;
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(std::string("is not a cell of a table: ") + error.what());
-  } catch (const InputError& error) {
+  } catch (const std::runtime_error& error) {  // InputError, NotJson
     throw InputError(std::string("is not a cell of a table: ") + error.what());
   }
 }

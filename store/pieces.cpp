@@ -87,6 +87,8 @@ std::string piece_in(std::string_view line, std::uint64_t begin) {
     json::document document = parser.iterate(padded);
     skip(document.get_value());
     if (!ended(document)) refuse("is more than one piece");
+  } catch (const NotJson& error) {
+    refuse(std::string("is not JSON: ") + error.what());
   } catch (const simdjson::simdjson_error& error) {
     refuse(std::string("is not JSON: ") + error.what());
   }
