@@ -1,12 +1,15 @@
 // Histograms, and accounts of runs: written, read, added up.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
 #include "cases/random.hpp"
 #include "flights/account.hpp"
+#include "flights/run.hpp"
 
 using namespace lorentz;
 using namespace lorentz::flights;
@@ -97,6 +100,54 @@ TEST_CASE("An account is read as it was written", "[flights]") {
     bad.replace(bad.find(from), from.size(), to);
     INFO(bad);
     CHECK_THROWS_AS(Account::of(bad), InputError);
+  }
+}
+
+TEST_CASE("An account that no run of its plan can have come to is refused", "[flights]") {
+  Plan plan;
+  plan.scene = unit_scene(2, 0.3);
+  plan.seed = 7402, plan.count = 2 * kBlock + 100;
+  Account account = Account::begun(plan);
+  CHECK_NOTHROW(account.check(plan));
+  run(plan, {}, account);
+  CHECK_NOTHROW(account.check(plan));
+  const std::uint64_t n = account.tally.hits, most = ~std::uint64_t{0};
+  REQUIRE(n > 0);
+  ExactSum negative;
+  negative.add(-1);
+  const auto first = [](std::vector<std::uint64_t>& counts) -> std::uint64_t& {
+    return *std::find_if(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 0; });
+  };
+  const std::vector<std::function<void(Account&)>> edits{
+      [](Account& a) { a.done = {}; },
+      [](Account& a) { a.done.insert(3); },
+      [](Account& a) { a.done = {}, a.done.insert(0, 1); },
+      [&](Account& a) { a.tally.hits = most; },
+      [&](Account& a) { --a.tally.hits, ++a.tally.never; },
+      [&](Account& a) { a.tally.never = 1; },
+      [&](Account& a) { a.tally.undecided = most, ++a.tally.hits; },
+      [&](Account& a) { a.tally.inside = most; },
+      [&](Account& a) { --a.tally.logarithms; },
+      [&](Account& a) { a.tally.logarithms = most; },
+      [&](Account& a) { a.tally.time = negative; },
+      [&](Account& a) { a.tally.time.add(1e300); },
+      [&](Account& a) { a.tally.square = negative; },
+      [&](Account& a) { a.tally.log.add(-1e9); },
+      [](Account& a) { a.tally.shortest = -1; },
+      [](Account& a) { a.tally.shortest = 0; },
+      [](Account& a) { a.tally.shortest = std::nan(""); },
+      [](Account& a) { a.tally.longest *= 2; },
+      [](Account& a) { a.tally.longest = HUGE_VAL; },
+      [&](Account& a) { ++first(a.tally.bins.logarithmic); },
+      [&](Account& a) { first(a.tally.bins.linear) = most; },
+      [&](Account& a) { first(a.tally.bins.logarithmic) += most, ++a.tally.bins.logarithmic.back(); },
+      [](Account& a) { a.tally.bins = Bins(a.tally.bins.exponent()); },
+      [](Account& a) { a.tally = Tally(a.tally.bins.exponent() + 1); }};
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    Account bad = account;
+    edits[i](bad);
+    INFO("edit " << i);
+    CHECK_THROWS_AS(bad.check(plan), InputError);
   }
 }
 
