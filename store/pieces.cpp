@@ -4,21 +4,14 @@
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
+#include "store/check.hpp"
 
 namespace lorentz::store {
 namespace {
 
 constexpr std::string_view kCheck = ",\"check\":\"";
 
-// FNV-1a in 64 bits. A change of a single byte is always seen: each step is one-to-one. The checks of pieces
-// begin with their header's, so that a piece of another run has another one.
-std::uint64_t check_of(std::string_view text, std::uint64_t begin) {
-  for (const char c : text) begin = (begin ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return begin;
-}
-
-constexpr std::uint64_t kBegin = 0xcbf29ce484222325;
-
+// The checks of pieces begin with their header's, so that a piece of another run has another one.
 std::string with_check(const std::string& line, std::uint64_t begin) {
   return fmt::format("{}{}{:016x}\"}}", line, kCheck, check_of(line, begin));
 }
@@ -66,8 +59,8 @@ std::string difference(std::string_view line, std::string_view kind, const Plan&
 }
 
 void check_header(std::string_view line, std::string_view kind, const Plan& plan) {
-  checked(line, kBegin);
-  if (line == with_check(header_of(kind, plan), kBegin)) return;
+  checked(line, kCheckOfNothing);
+  if (line == with_check(header_of(kind, plan), kCheckOfNothing)) return;
   try {
     throw InputError(difference(line, kind, plan) + "; give what it was begun with, or name another file");
   } catch (const simdjson::simdjson_error&) {
@@ -98,8 +91,8 @@ std::string piece_in(std::string_view line, std::uint64_t begin) {
 }  // namespace
 
 std::string text_of(std::string_view kind, const Plan& plan, const std::vector<std::string>& pieces) {
-  const std::string header = with_check(header_of(kind, plan), kBegin);
-  const std::uint64_t begin = check_of(header, kBegin);
+  const std::string header = with_check(header_of(kind, plan), kCheckOfNothing);
+  const std::uint64_t begin = check_of(header);
   std::string text = header + '\n';
   for (const std::string& piece : pieces) text += with_check(std::string(kPiece) + piece, begin) + '\n';
   return text;
@@ -108,7 +101,7 @@ std::string text_of(std::string_view kind, const Plan& plan, const std::vector<s
 std::vector<std::string> pieces_in(std::string_view text, std::string_view kind, const Plan& plan) {
   std::vector<std::string> pieces;
   std::size_t number = 0;
-  std::uint64_t begin = kBegin;
+  std::uint64_t begin = kCheckOfNothing;
   if (text.empty()) refuse("line 1 is missing");
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -118,7 +111,7 @@ std::vector<std::string> pieces_in(std::string_view text, std::string_view kind,
       if (end == text.size()) refuse("has no end: the file was cut off");
       if (number == 1) {
         check_header(line, kind, plan);
-        begin = check_of(line, kBegin);
+        begin = check_of(line);
       } else {
         pieces.push_back(piece_in(line, begin));
       }
