@@ -43,15 +43,23 @@ struct Way {
   }
 };
 
-struct Sums {
-  std::array<double, kTimes> square{}, from_velocity{};
-  std::uint64_t particles = 0, collisions = 0, stopped = 0;
+// The values of a group: the squares at all times, then the same from velocities.
+constexpr int kFromVelocity = kTimes, kValues = 2 * kTimes;
 
-  void add(const Way& way) {
-    for (int k = 0; k < kTimes; ++k) square[k] += way.square[k], from_velocity[k] += way.from_velocity[k];
-    ++particles;
+void add(const Way& way, Sums& sums) {
+  for (int k = 0; k < kTimes; ++k) {
+    sums.values[k] += way.square[k];
+    sums.values[kFromVelocity + k] += way.from_velocity[k];
   }
-};
+  ++sums.particles;
+}
+
+bool is_possible(const Sums& sums, Share share) {
+  return sums.values.size() == kValues &&
+         std::all_of(sums.values.begin(), sums.values.begin() + kTimes, [](double x) { return x >= 0; }) &&
+         sums.stopped <= share.last - share.first &&
+         sums.particles == share.last - share.first - sums.stopped;
+}
 
 // The particles [first, last), to the time T.
 void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& starts, Share share,
@@ -72,7 +80,7 @@ void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& 
       continue;
     }
     ways[i].fly(particles[i].velocity, plan.time, times);
-    sums.add(ways[i]);
+    add(ways[i], sums);
   }
 }
 
@@ -89,14 +97,14 @@ double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
 double coefficient_of(const Sums& sums, int dimension, const std::vector<double>& times) {
   const auto n = static_cast<double>(sums.particles);
   const int last = kTimes - 1;
-  return (sums.square[last] - sums.square[last - 2]) / n / (dimension * times[last]);
+  return (sums.values[last] - sums.values[last - 2]) / n / (dimension * times[last]);
 }
 
 double logarithmic_of(const Sums& sums, const std::vector<double>& times) {
   std::vector<double> logs, rates;
   for (int k = kTimes - 9; k < kTimes; ++k) {
     logs.push_back(std::log(times[k]));
-    rates.push_back(sums.square[k] / static_cast<double>(sums.particles) / times[k]);
+    rates.push_back(sums.values[k] / static_cast<double>(sums.particles) / times[k]);
   }
   return slope_of(logs, rates);
 }
@@ -111,11 +119,11 @@ Estimate estimate_over(const std::vector<Sums>& groups, const Of& of) {
 Diffusion told(const std::vector<Sums>& groups, int dimension, const std::vector<double>& times) {
   Diffusion result;
   for (int k = 0; k < kTimes; ++k) {
-    const auto mean = [k](const std::array<double, kTimes> Sums::*which) {
-      return [=](const Sums& sums) { return (sums.*which)[k] / static_cast<double>(sums.particles); };
+    const auto mean = [](int which) {
+      return [=](const Sums& sums) { return sums.values[which] / static_cast<double>(sums.particles); };
     };
-    result.displacements.push_back({times[k], estimate_over(groups, mean(&Sums::square)),
-                                    estimate_over(groups, mean(&Sums::from_velocity))});
+    result.displacements.push_back(
+        {times[k], estimate_over(groups, mean(k)), estimate_over(groups, mean(kFromVelocity + k))});
   }
   result.coefficient =
       estimate_over(groups, [&](const Sums& sums) { return coefficient_of(sums, dimension, times); });
@@ -142,17 +150,22 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   const Batch engine(plan.scene);
   const flights::Starts starts(plan.scene, plan.from, plan.seed);
   const std::vector<double> times = times_of(plan.time);
-  std::vector<Sums> all(kGroups), good;
-  const std::vector<bool> done = for_each_group(work, [&](std::uint64_t group) {
-    Share share = share_of(group, plan.count);
-    for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
-      fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times,
-          all[group]);
-  });
-  for (std::uint64_t group = 0; group < kGroups; ++group)
-    if (done[group] && all[group].particles > 0) good.push_back(all[group]);
+  const auto all = for_each_group(
+      work,
+      [&](std::uint64_t group) {
+        Sums sums{std::vector<double>(kValues)};
+        Share share = share_of(group, plan.count);
+        for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
+          fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times,
+              sums);
+        return sums;
+      },
+      [&](std::uint64_t group, const Sums& sums) { return is_possible(sums, share_of(group, plan.count)); });
+  std::vector<Sums> good;
+  for (const auto& sums : all)
+    if (sums && sums->particles > 0) good.push_back(*sums);
   Diffusion result = told(good, plan.scene.dimension, times);
-  result.is_whole = std::find(done.begin(), done.end(), false) == done.end();
+  result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();
   return result;
 }
 

@@ -1,35 +1,90 @@
 #include "chaos/groups.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 #include <exception>
 #include <mutex>
 #include <thread>
 
+#include <lorentz/errors.hpp>
+#include "src/exchange/exchange_json.hpp"
+
 namespace lorentz::chaos {
 
-std::vector<bool> for_each_group(const Work& work, const std::function<void(std::uint64_t)>& act) {
-  std::vector<bool> done(kGroups);
+std::string text_of(std::uint64_t group, const Sums& sums) {
+  std::string values;
+  for (const double value : sums.values)
+    values += fmt::format("{}{}", values.empty() ? "" : ",", std::bit_cast<std::uint64_t>(value));
+  return fmt::format("{{\"group\":{},\"values\":[{}],\"particles\":{},\"collisions\":{},\"stopped\":{}}}",
+                     group, values, sums.particles, sums.collisions, sums.stopped);
+}
+
+Sums sums_in(std::string_view text, std::uint64_t& group) {
+  try {
+    const simdjson::padded_string padded(text);
+    json::parser parser;
+    json::document document = parser.iterate(padded);
+    json::object object = document.get_object();
+    Sums sums;
+    group = object["group"];
+    for (std::uint64_t bits : json::array(object["values"]))
+      sums.values.push_back(std::bit_cast<double>(bits));
+    sums.particles = object["particles"], sums.collisions = object["collisions"],
+    sums.stopped = object["stopped"];
+    return sums;
+  } catch (const simdjson::simdjson_error& error) {
+    throw InputError(std::string("is not a group of particles: ") + error.what());
+  }
+}
+
+namespace {
+
+using AllSums = std::vector<std::optional<Sums>>;
+
+AllSums kept_in(const Kept& kept, const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
+  AllSums all(kGroups);
+  kept.each([&](const std::string& text) {
+    std::uint64_t group = 0;
+    Sums sums = sums_in(text, group);
+    if (group >= kGroups || all[group])
+      throw InputError("is a group that the run has not, or that was there before");
+    if (!is_possible(group, sums)) throw InputError("is a group that cannot have come to such numbers");
+    all[group] = std::move(sums);
+  });
+  return all;
+}
+
+}  // namespace
+
+AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)>& act,
+                       const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
+  AllSums all = work.kept ? kept_in(*work.kept, is_possible) : AllSums(kGroups);
   std::uint64_t next = 0, finished = 0;
+  for (const auto& sums : all) finished += sums.has_value();
   std::exception_ptr failure;
   std::mutex mutex;
   const auto take = [&](std::uint64_t& group) {
     const std::lock_guard lock(mutex);
+    while (next < kGroups && all[next]) ++next;
     if (failure || work.is_stopped() || next == kGroups) return false;
     group = next++;
     return true;
   };
+  const auto hand_in = [&](std::uint64_t group, Sums sums) {
+    const std::lock_guard lock(mutex);
+    if (work.is_stopped()) return;  // it may be a part of the group only
+    if (work.kept) work.kept->add(text_of(group, sums));
+    all[group] = std::move(sums);
+    if (work.on_progress) work.on_progress(++finished);
+  };
   const auto run = [&] {
-    for (std::uint64_t group; take(group);) {
-      try {
-        act(group);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-        return;
-      }
+    try {
+      for (std::uint64_t group; take(group);) hand_in(group, act(group));
+    } catch (...) {
       const std::lock_guard lock(mutex);
-      done[group] = !work.is_stopped();
-      if (work.on_progress) work.on_progress(++finished);
+      failure = std::current_exception();
     }
   };
   {
@@ -38,7 +93,7 @@ std::vector<bool> for_each_group(const Work& work, const std::function<void(std:
     run();
   }
   if (failure) std::rethrow_exception(failure);
-  return done;
+  return all;
 }
 
 Share share_of(std::uint64_t group, std::uint64_t count) {

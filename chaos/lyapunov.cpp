@@ -10,12 +10,8 @@
 namespace lorentz::chaos {
 namespace {
 
-// What all particles of a group came to.
-struct Sums {
-  std::array<double, Tangents::kMost> growth{};
-  double flight = 0;
-  std::uint64_t collisions = 0, stopped = 0;
-};
+// The values of a group: the growth of each tangent vector, and the time of all flights.
+constexpr std::size_t kFlight = Tangents::kMost, kValues = kFlight + 1;
 
 class Group {
  public:
@@ -34,13 +30,13 @@ class Group {
     std::vector<Tangents> tangents;
     for (std::size_t i = 0; i < particles.size(); ++i)
       tangents.emplace_back(particles[i].velocity, plan_.scene.dimension, count);
-    Sums sums;
+    Sums sums{std::vector<double>(kValues)};
     const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
       std::array<double, Tangents::kMost> growth{};
       tangents[i].pass(particle, collision, curvatures_, growth);
       if (particle.collisions <= kUncounted) return true;
-      for (int k = 0; k < Tangents::kMost; ++k) sums.growth[k] += growth[k];
-      sums.flight += collision.flight;
+      for (int k = 0; k < Tangents::kMost; ++k) sums.values[k] += growth[k];
+      sums.values[kFlight] += collision.flight;
       ++sums.collisions;
       return true;
     };
@@ -48,6 +44,13 @@ class Group {
       particles.advance(HUGE_VAL, visit);
     sums.stopped = particles.size() - particles.going();
     return sums;
+  }
+
+  bool is_possible(const Sums& sums) const {
+    const std::uint64_t all = kParticles * each_;
+    return sums.values.size() == kValues && sums.values[kFlight] >= 0 && sums.particles == 0 &&
+           sums.stopped <= kParticles && sums.collisions <= all &&
+           (sums.stopped > 0 || sums.collisions == all);
   }
 
  private:
@@ -65,7 +68,7 @@ Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   for (int k = 0; k < exponents; ++k) {
     part.clear();
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      part.push_back(groups[g].growth[k] / static_cast<double>(groups[g].collisions));
+      part.push_back(groups[g].values[k] / static_cast<double>(groups[g].collisions));
       sum[g] += part.back();
       if (k < half) growing[g] += part.back();
     }
@@ -74,7 +77,7 @@ Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   result.sum = estimate_of(sum);
   result.growing = estimate_of(growing);
   for (const Sums& group : groups) {
-    flight.push_back(group.flight / static_cast<double>(group.collisions));
+    flight.push_back(group.values[kFlight] / static_cast<double>(group.collisions));
     result.collisions += group.collisions, result.stopped += group.stopped;
   }
   result.mean_flight = estimate_of(flight);
@@ -89,18 +92,19 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
   const Batch engine(plan.scene);
   const flights::Starts starts(plan.scene, flights::Ensemble::surface, plan.seed);
   const Group group(plan, engine, work);
-  std::vector<Sums> all(kGroups), good;
-  const std::vector<bool> done =
-      for_each_group(work, [&](std::uint64_t number) { all[number] = group.run(starts, number); });
-  for (std::uint64_t number = 0; number < kGroups; ++number)
-    if (done[number] && all[number].collisions > 0) good.push_back(all[number]);
+  const auto all = for_each_group(
+      work, [&](std::uint64_t number) { return group.run(starts, number); },
+      [&](std::uint64_t, const Sums& sums) { return group.is_possible(sums); });
+  std::vector<Sums> good;
+  for (const auto& sums : all)
+    if (sums && sums->collisions > 0) good.push_back(*sums);
   const int half = plan.scene.dimension - 1;
   Lyapunov result = told(good, plan.whole_spectrum ? 2 * half : half, half);
   if (result.collisions > 0 && !std::isfinite(result.sum.value))
     throw InputError(
         "the exponents below zero are lost to rounding: a collision parts neighbours by a factor of 10^8 or "
         "more, and what shrinks by as much is smaller than the last digit of what grows");
-  result.is_whole = std::find(done.begin(), done.end(), false) == done.end();
+  result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();
   return result;
 }
 

@@ -58,20 +58,11 @@ std::vector<BenchGroup> groups_of(const Options& options) {
   return groups;
 }
 
-report::CellStore::Run run_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups,
-                              const report::Manifest& manifest) {
-  report::CellStore::Run run;
-  run.options = fmt::format("engines {}; {} queries, seed {}; cells", fmt::join(plan.engines, ", "),
-                            plan.count, plan.seed);
-  for (const BenchGroup& group : groups) {
-    run.options +=
-        fmt::format(" {}/{}/{}", group.scene, group.radius.value_or("own"), name_of(group.difficulty));
-    append_scene_line(run.scenes, load_scene(group.scene, positive_number(group.radius, "--radius")));
-  }
-  run.program = fmt::format("lorentz {}, commit {}, {}, {}, on {}, {}, {}", manifest.version, manifest.commit,
-                            manifest.compiler, manifest.flags, manifest.machine, manifest.instructions,
-                            manifest.system);
-  return run;
+// What figures depend on besides what was asked.
+store::Plan words_of(const report::Manifest& manifest) {
+  return {
+      {"commit", manifest.commit},   {"compiler", manifest.compiler},         {"flags", manifest.flags},
+      {"machine", manifest.machine}, {"instructions", manifest.instructions}, {"system", manifest.system}};
 }
 
 BenchPlan plan_of(const Options& options) {
@@ -94,11 +85,11 @@ int act(const Options& options) {
   if (options.store) goes_on_when_repeated();
   std::string manifest_text;
   append_manifest(manifest_text, manifest);
-  BenchStore store(options.store, run_of(plan, groups, manifest), manifest_text);
+  BenchStore store(options.store, plan, groups, words_of(manifest), manifest_text);
   std::vector<report::Cell> cells;
   bool failed = false;
   for (const BenchGroup& group : groups) {
-    auto kept = store.find(group, plan.engines);
+    auto kept = store.find(group);
     if (!kept) {
       BenchCells measured = measure_cells(plan, group);
       failed |= measured.failed;

@@ -1,66 +1,81 @@
 #include "cli/bench_store.hpp"
 
-#include <algorithm>
-#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <lorentz/errors.hpp>
-#include <lorentz/line_reader.hpp>
+#include <algorithm>
+#include <utility>
+
+#include <lorentz/exchange.hpp>
 #include "cli/numbers.hpp"
-#include "cli/whole_file.hpp"
+#include "cli/scene_option.hpp"
 
 namespace lorentz::cli {
 namespace {
 
-report::CellStore read(const std::string& path) {
-  std::string text;
-  LineReader lines(path);
-  for (LineReader::Line line; lines.next(line);) text += std::string(line.text) + '\n';
-  return report::CellStore::of(text);
+CellKey key_of(const BenchGroup& group, const std::string& engine) {
+  return {group.scene, positive_number(group.radius, "--radius"), compare::name_of(group.difficulty), engine};
+}
+
+CellKey key_of(const report::Cell& cell) {
+  return {cell.scene, cell.radius, cell.difficulty, cell.engine};
+}
+
+store::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups, const store::Plan& more) {
+  std::vector<std::string> names;
+  std::string scenes;
+  for (const BenchGroup& group : groups) {
+    names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius.value_or("own"),
+                                compare::name_of(group.difficulty)));
+    append_scene_line(scenes, load_scene(group.scene, positive_number(group.radius, "--radius")));
+  }
+  store::Plan words{{"engines", fmt::format("{}", fmt::join(plan.engines, ", "))},
+                    {"queries", std::to_string(plan.count)},
+                    {"seed", std::to_string(plan.seed)},
+                    {"cells", fmt::format("{}", fmt::join(names, " "))},
+                    {"scenes", scenes}};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
 }
 
 }  // namespace
 
-BenchStore::BenchStore(std::optional<std::string> path, report::CellStore::Run run, std::string manifest)
-    : path_(std::move(path)), store_{std::move(run), std::move(manifest), {}} {
-  if (!path_) return;
-  lock_ = std::make_unique<fuzz::LockFile>(
-      *path_, true, "another process is writing this store; wait for it, stop it, or name another file");
-  if (std::filesystem::exists(*path_)) {
-    if (!std::filesystem::is_regular_file(*path_))
-      throw InputError("--store: " + *path_ + ": is no file; name one to keep the cells in");
-    try {
-      report::CellStore kept = read(*path_);
-      kept.check(store_.run);
-      store_ = std::move(kept);
-    } catch (const InputError& error) {
-      throw InputError("--store: " + *path_ + ": " + error.what() + "; name another file, or delete it");
-    }
-  }
-  save();
+BenchStore::BenchStore(std::optional<std::string> path, const BenchPlan& plan,
+                       const std::vector<BenchGroup>& groups, const store::Plan& words, std::string manifest)
+    : plan_(plan), store_(std::move(path), "bench", words_of(plan, groups, words)) {
+  store_.each([&](const std::string& piece) { read(piece, groups); });
+  if (!has_manifest_) store_.add({std::move(manifest)});
 }
 
-std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& group,
-                                                          const std::vector<std::string>& engines) const {
+// The first piece is the manifest, the others are cells.
+void BenchStore::read(const std::string& piece, const std::vector<BenchGroup>& groups) {
+  if (!std::exchange(has_manifest_, true)) return;
+  report::Cell cell = report::cell_of(piece);
+  if (const std::string flaw = flaw_of(cell, plan_.count); !flaw.empty()) throw InputError(flaw);
+  const CellKey key = key_of(cell);
+  const bool is_asked = std::any_of(groups.begin(), groups.end(), [&](const BenchGroup& group) {
+    return std::any_of(plan_.engines.begin(), plan_.engines.end(),
+                       [&](const std::string& engine) { return key == key_of(group, engine); });
+  });
+  if (!is_asked) throw InputError("is a cell that the run has not");
+  if (!cells_.emplace(key, std::move(cell)).second) throw InputError("is a cell that was there before");
+}
+
+std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& group) const {
   std::vector<report::Cell> found;
-  for (const std::string& engine : engines)
-    for (const report::Cell& cell : store_.cells)
-      if (cell.engine == engine && cell.scene == group.scene &&
-          cell.radius == positive_number(group.radius, "--radius") &&
-          cell.difficulty == compare::name_of(group.difficulty)) {
-        found.push_back(cell);
-        break;
-      }
-  if (found.size() < engines.size()) return std::nullopt;
+  for (const std::string& engine : plan_.engines) {
+    const auto cell = cells_.find(key_of(group, engine));
+    if (cell == cells_.end()) return std::nullopt;
+    found.push_back(cell->second);
+  }
   return found;
 }
 
 void BenchStore::add(const std::vector<report::Cell>& cells) {
-  store_.cells.insert(store_.cells.end(), cells.begin(), cells.end());
-  save();
-}
-
-void BenchStore::save() const {
-  if (path_) write_whole(*path_, store_.text());
+  std::vector<std::string> pieces;
+  for (const report::Cell& cell : cells)
+    if (cells_.emplace(key_of(cell), cell).second) append_cell(pieces.emplace_back(), cell);
+  store_.add(std::move(pieces));
 }
 
 }  // namespace lorentz::cli

@@ -1,39 +1,43 @@
 // The file in which `lorentz bench --store` keeps the cells that are done.
 #pragma once
 
-#include <memory>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "cli/bench_cells.hpp"
-#include "fuzz/campaign/lock_file.hpp"
-#include "report/cell_store.hpp"
+#include "cli/piece_store.hpp"
 
 namespace lorentz::cli {
 
+/// Scene, radius, difficulty, engine: what tells the cells of a run apart.
+using CellKey = std::tuple<std::string, std::optional<double>, std::string, std::string>;
+
 class BenchStore {
  public:
-  /// Without a path nothing is kept in a file. A file that is there must be of this run; one that is not is
-  /// begun. No other process may write it meanwhile. Throws InputError or FileError.
-  BenchStore(std::optional<std::string> path, report::CellStore::Run run, std::string manifest);
+  /// Without a path nothing is kept in a file. One that is there must be of this run. `words`: what its cells
+  /// depend on besides the plan and the groups. Throws InputError or FileError.
+  BenchStore(std::optional<std::string> path, const BenchPlan& plan, const std::vector<BenchGroup>& groups,
+             const store::Plan& words, std::string manifest);
 
   /// The cells of a group, one an engine in their order, if all of them are there.
-  std::optional<std::vector<report::Cell>> find(const BenchGroup& group,
-                                                const std::vector<std::string>& engines) const;
+  std::optional<std::vector<report::Cell>> find(const BenchGroup& group) const;
 
   /// Keeps them; killed at any moment, all or none of them are in the file.
   void add(const std::vector<report::Cell>& cells);
 
-  /// Of the run's first part.
-  const std::string& manifest() const { return store_.manifest; }
+  /// Of the run's first part, as JSON.
+  const std::string& manifest() const { return store_.pieces().front(); }
 
  private:
-  void save() const;
+  void read(const std::string& piece, const std::vector<BenchGroup>& groups);
 
-  std::optional<std::string> path_;
-  std::unique_ptr<fuzz::LockFile> lock_;
-  report::CellStore store_;
+  const BenchPlan& plan_;
+  bool has_manifest_ = false;
+  std::map<CellKey, report::Cell> cells_;
+  PieceStore store_;
 };
 
 }  // namespace lorentz::cli

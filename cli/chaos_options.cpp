@@ -6,6 +6,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
+#include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "compare/sampling.hpp"
@@ -23,6 +24,8 @@ void add_chaos_options(CLI::App& command, ChaosOptions& options) {
   command.add_option("--jobs", options.jobs, "threads; the result is the same")
       ->capture_default_str()
       ->type_name("N");
+  command.add_option("--store", options.store, "where parts that are done are kept, and gone on from")
+      ->type_name("FILE");
   command.add_flag("--json", options.json, "one JSON object instead of a table");
 }
 
@@ -34,15 +37,26 @@ std::uint64_t seed_of(const ChaosOptions& options) {
   return whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
 }
 
-void with_work(const ChaosOptions& options, const std::function<void(const chaos::Work&)>& run) {
+void with_work(const ChaosOptions& options, const std::string& kind, const store::Plan& plan,
+               const std::function<void(const chaos::Work&)>& run) {
   const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  PieceStore store(options.store, kind, plan);
+  if (!store.pieces().empty())
+    say("{}: {} of {} parts are done", *options.store, store.pieces().size(), chaos::kGroups);
   const Interrupt interrupt;
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("flying, part", chaos::kGroups, 1);
-    run({jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }});
+    chaos::Work work{jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }};
+    if (store)
+      work.kept = {[&](const ReadPiece& read) { store.each(read); },
+                   [&](const std::string& piece) { store.add({piece}); }};
+    run(work);
   }
   say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (Interrupt::came())
+    say("interrupted; {}",
+        store ? "the same command goes on" : "without --store nothing is kept to go on with");
 }
 
 std::string name_with_radius(const std::string& name, const Scene& scene) {

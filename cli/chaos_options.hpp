@@ -9,12 +9,13 @@
 
 #include <lorentz/problem.hpp>
 #include "chaos/groups.hpp"
+#include "store/pieces.hpp"
 
 namespace lorentz::cli {
 
 struct ChaosOptions {
   std::string scene = "square", seed, jobs = "1";
-  std::optional<std::string> radius;
+  std::optional<std::string> radius, store;
   bool json = false;
 
   ChaosOptions();
@@ -26,8 +27,10 @@ void add_chaos_options(CLI::App& command, ChaosOptions& options);
 Scene scene_of(const ChaosOptions& options);
 std::uint64_t seed_of(const ChaosOptions& options);
 
-/// Calls `run(work)` with threads, progress and Ctrl-C; says how long it took.
-void with_work(const ChaosOptions& options, const std::function<void(const chaos::Work&)>& run);
+/// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if one is asked
+/// for; says how long it took.
+void with_work(const ChaosOptions& options, const std::string& kind, const store::Plan& plan,
+               const std::function<void(const chaos::Work&)>& run);
 
 /// "square", or "square, r = 0.1" if all are balls of one radius.
 std::string name_with_radius(const std::string& name, const Scene& scene);

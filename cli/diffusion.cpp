@@ -6,6 +6,7 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/table.hpp"
@@ -142,8 +143,15 @@ int act(const Options& options) {
   report.plan = {scene_of(options), ensemble_of(options.from), seed_of(options),
                  whole_number(options.count, "--count", 1, std::uint64_t{1} << 52),
                  positive_number(options.time, "--time").value_or(100)};
+  check_apart({{"--store", options.store}, {"--csv", options.csv}});
   RequestedFile csv(options.csv);
-  with_work(options, [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
+  const store::Plan words{{"count", std::to_string(report.plan.count)},
+                          {"time", fmt::format("{}", report.plan.time)},
+                          {"starts", options.from},
+                          {"seed", std::to_string(report.plan.seed)},
+                          {"scene", scene_line(report.plan.scene)}};
+  with_work(options, "diffusion", words,
+            [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
   if (report.found.particles == 0) {
     say("no part was done: there is nothing to report");
     return kFailed;

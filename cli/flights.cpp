@@ -1,8 +1,5 @@
 // lorentz flights: very many free flights from drawn starts, their statistics, and theory beside them.
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -11,6 +8,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
+#include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
@@ -94,59 +92,52 @@ flights::Bounds bounds_of(const Options& options) {
   return bounds;
 }
 
-std::string read_file(const std::string& path) {
-  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-    throw FileError(fmt::format("{}: is no file", path));
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw FileError(fmt::format("{}: cannot be read", path));
-  return std::move(text).str();
+// The account of a stored piece, which must be one of this plan.
+Account account_in(const std::string& piece, const Plan& plan) {
+  Account account = Account::of(piece);
+  account.check(plan);
+  return account;
 }
 
-Account read_account(const std::string& path) {
-  try {
-    return Account::of(read_file(path));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path, error.what()));
-  }
-}
-
-Account empty_account(const Plan& plan) {
+// A run as its store has it, with what the stores of other shards have.
+struct Begun {
   Account account;
-  account.plan = plan.text();
-  account.tally = flights::Tally(flights::unit_exponent(plan.scene));
-  return account;
-}
+  PieceStore store;
 
-// What the store has of this plan, and the stores of other shards.
-Account opened(const Options& options, const Plan& plan) {
-  Account account = empty_account(plan);
-  std::vector<std::string> files = options.parts;
-  if (options.store && std::filesystem::is_regular_file(*options.store))
-    files.insert(files.begin(), *options.store);
-  for (const std::string& file : files) {
-    const Account stored = read_account(file);
-    if (stored.plan != account.plan)
-      throw InputError(
-          fmt::format("{}: is of another run: one with its scene, engine, starts, seed and count goes on "
-                      "with it",
-                      file));
-    try {
-      account.add(stored);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(fmt::format("{}: cannot be added: {}", file, error.what()));
+  Begun(const Options& options, const Plan& plan)
+      : account(Account::begun(plan)), store(options.store, "flights", plan.words()) {
+    store.each(reader(plan));
+    if (store) say_how_far(*options.store, plan);
+    for (const std::string& part : options.parts) {
+      read_pieces(part, "flights", plan.words(), reader(plan));
+      say_how_far(part, plan);
     }
-    say("{}: {} of {} blocks are done", file, stored.done.size(), plan.blocks());
   }
-  return account;
-}
+
+ private:
+  std::uint64_t before = 0;  // blocks of the files before
+
+  ReadPiece reader(const Plan& plan) {
+    return [this, &plan](const std::string& piece) {
+      try {
+        account.add(account_in(piece, plan));
+      } catch (const std::invalid_argument& error) {
+        throw InputError(fmt::format("cannot be added: {}", error.what()));
+      }
+    };
+  }
+  void say_how_far(const std::string& file, const Plan& plan) {
+    if (account.done.size() > before)
+      say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
+    before = account.done.size();
+  }
+};
 
 // Draws the progress, and stores now and then.
 class News {
  public:
-  News(const Options& options, const Plan& plan, flights::Ranks* ranks)
-      : store_(options.store), progress_("flying", plan.count, 1), count_(plan.count), ranks_(ranks) {}
+  News(PieceStore* store, const Plan& plan, flights::Ranks* ranks)
+      : store_(store), progress_("flying", plan.count, 1), count_(plan.count), ranks_(ranks) {}
 
   void operator()(const Account& account) {
     const bool others = ranks_ && ranks_->rank() != 0;
@@ -156,12 +147,12 @@ class News {
     next_ = now + kBetweenStores;
     if (others)
       ranks_->report(account, false);
-    else if (store_)
-      write_whole(*store_, (ranks_ ? ranks_->sum(account, false) : account).text());
+    else if (*store_)
+      store_->set({(ranks_ ? ranks_->sum(account, false) : account).text()});
   }
 
  private:
-  const std::optional<std::string> store_;
+  PieceStore* store_;  // of rank 0
   Progress progress_;
   const std::uint64_t count_;
   flights::Ranks* ranks_;
@@ -169,11 +160,11 @@ class News {
 };
 
 // Another rank's share: flown, and reported to rank 0.
-void fly_share(const Plan& plan, flights::Bounds bounds, const Options& options, flights::Ranks& ranks) {
-  Account known, own = empty_account(plan);
+void fly_share(const Plan& plan, flights::Bounds bounds, flights::Ranks& ranks) {
+  Account known, own = Account::begun(plan);
   ranks.share(known);
   bounds.done = known.done;
-  News news(options, plan, &ranks);
+  News news(nullptr, plan, &ranks);
   flights::run(plan, bounds, own, [&](const Account& account) { news(account); });
   ranks.report(own, true);
 }
@@ -181,16 +172,17 @@ void fly_share(const Plan& plan, flights::Bounds bounds, const Options& options,
 FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options& options,
                   flights::Ranks* ranks) {
   const Plan& plan = task.plan;
-  FlightsReport result{options.scene, task.radius, plan, opened(options, plan), {}};
+  Begun begun(options, plan);
+  FlightsReport result{options.scene, task.radius, plan, begun.account, {}};
   if (ranks) ranks->share(result.account);
   const auto start = std::chrono::steady_clock::now();
   {
-    News news(options, plan, ranks);
+    News news(&begun.store, plan, ranks);
     flights::run(plan, bounds, result.account, [&](const Account& account) { news(account); });
   }
   if (ranks) result.account = ranks->sum(result.account, true);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (options.store) write_whole(*options.store, result.account.text());
+  begun.store.set({result.account.text()});
   say("{:.2f} s", *result.seconds);
   return result;
 }
@@ -248,7 +240,7 @@ int act(const Options& options) {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
     if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
-    for (const Task& task : tasks) fly_share(task.plan, bounds, options, *ranks);
+    for (const Task& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
   } catch (const std::exception& error) {  // nobody waits for a process that is gone
     say("{}", error.what());

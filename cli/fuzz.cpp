@@ -74,7 +74,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
   const auto seconds_a_line = positive_number(options.progress, "--progress");
-  Store store(options.store.value_or(":memory:"), Store::Access::write);
+  Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   bool failed = false;
   {

@@ -32,6 +32,9 @@ struct FuzzReport {
   std::string json_of_targets() const;  ///< the members, without braces
 };
 
+/// Says what of a store cannot be read.
+void say_left_out(const std::string& message);
+
 /// A campaign as it stands in the store, with its findings.
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);
 

@@ -110,14 +110,14 @@ void print_golden_set(const std::vector<Example>& examples, const std::vector<fu
 }
 
 int act(const Options& options) {
-  const Store store(options.store, Store::Access::read);
+  const Store store(options.store, Store::Access::read, say_left_out);
   const std::vector<Stored> findings = store.findings();
   const std::vector<Example> examples = examples_in(findings, options.all);
   if (options.queries)
     print_queries(examples);
   else
     print_golden_set(examples, store.campaigns());
-  return kDone;
+  return store.is_whole() ? kDone : kFailed;
 }
 
 }  // namespace

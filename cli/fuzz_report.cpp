@@ -65,6 +65,10 @@ std::string bounds(const FuzzReport& report) {
 
 }  // namespace
 
+void say_left_out(const std::string& message) {
+  say("{}", message);
+}
+
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
   FuzzReport report;
   report.manifest = campaign.manifest;
@@ -193,7 +197,7 @@ std::string reason_in(const fuzz::CaseText& text) {
     return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
            answer.outcome == Outcome::never;
   };
-  if (!says_what(one.given) || !says_what(one.exact)) return "";
+  if (!says_what(one.given) || !says_what(one.exact) || !fuzz::is_in(one.scene, one.given)) return "";
   return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given, "");
 }
 

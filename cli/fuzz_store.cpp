@@ -61,14 +61,14 @@ std::string json_of_list(const Store& store, const std::vector<Stored>& findings
 }
 
 int list(const Options& options) {
-  const Store store(options.store, Store::Access::read);
+  const Store store(options.store, Store::Access::read, say_left_out);
   std::vector<Stored> findings = store.findings();
   std::stable_sort(findings.begin(), findings.end(), [](const Stored& a, const Stored& b) {
     return fuzz::rank_of(a.finding.kind) < fuzz::rank_of(b.finding.kind);
   });
   if (options.json) {
     print(json_of_list(store, findings));
-    return kDone;
+    return store.is_whole() ? kDone : kFailed;
   }
   print(campaign_table(store));
   for (const fuzz::Campaign& campaign : store.campaigns())
@@ -78,7 +78,7 @@ int list(const Options& options) {
     print("no findings\n");
   else
     print(options.all ? finding_table(findings) : table_of(causes_of(findings)));
-  return kDone;
+  return store.is_whole() ? kDone : kFailed;
 }
 
 std::string lines_of(const std::string& heading, const fuzz::CaseText& text) {
@@ -115,7 +115,9 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.given = read.given;
   report.exact = read.exact;
   const auto dispute =
-      dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact, *report.given);
+      fuzz::is_in(report.scene, *report.given)
+          ? dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact, *report.given)
+          : std::nullopt;
   if (dispute) report.explanation = dispute->text;
   if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;
@@ -126,7 +128,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
 
 int show(const Options& options, const std::string& id) {
   check_apart({{"--store", options.store}, {"--html", options.files.html}, {"--svg", options.files.svg}});
-  const Store store(options.store, Store::Access::read);
+  const Store store(options.store, Store::Access::read, say_left_out);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
     if (options.files.any()) options.files.write(case_report(store, one, options.files));

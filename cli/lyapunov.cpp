@@ -5,6 +5,7 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/table.hpp"
@@ -95,7 +96,12 @@ int act(const Options& options) {
                  whole_number(options.collisions, "--collisions", 1, std::uint64_t{1} << 52),
                  options.spectrum};
   const Scene& scene = report.plan.scene;
-  with_work(options, [&](const chaos::Work& work) { report.found = chaos::lyapunov_of(report.plan, work); });
+  const store::Plan words{{"collisions", std::to_string(report.plan.collisions)},
+                          {"spectrum", report.plan.whole_spectrum ? "whole" : "above zero"},
+                          {"seed", std::to_string(report.plan.seed)},
+                          {"scene", scene_line(scene)}};
+  with_work(options, "lyapunov", words,
+            [&](const chaos::Work& work) { report.found = chaos::lyapunov_of(report.plan, work); });
   if (report.found.collisions == 0) {
     say("no part was done: there is nothing to report");
     return kFailed;

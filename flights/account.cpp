@@ -4,52 +4,46 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
+#include "flights/plan.hpp"
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::flights {
 
 // ---- ranges
 
-namespace {
-
-using Pairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
-
-// In order, neighbours joined.
-Pairs joined(Pairs ranges) {
-  std::sort(ranges.begin(), ranges.end());
-  Pairs joined;
-  for (const auto& [first, last] : ranges) {
-    if (!joined.empty() && first <= joined.back().second)
-      throw std::invalid_argument(fmt::format("block {} is there twice", first));
-    if (!joined.empty() && first == joined.back().second + 1)
-      joined.back().second = last;
-    else
-      joined.emplace_back(first, last);
-  }
-  return joined;
+bool Ranges::meets(std::uint64_t first, std::uint64_t last) const {
+  const auto next = ranges_.upper_bound(last);  // the range before begins at `last` at most
+  return next != ranges_.begin() && std::prev(next)->second >= first;
 }
 
-}  // namespace
+void Ranges::check_apart(std::uint64_t first, std::uint64_t last) const {
+  if (last < first) throw std::invalid_argument("a range of blocks ends before it begins");
+  if (meets(first, last)) throw std::invalid_argument(fmt::format("block {} is there twice", first));
+}
 
-void Ranges::insert(std::uint64_t number) {
-  Ranges one;
-  one.ranges_ = {{number, number}};
-  add(one);
+void Ranges::insert(std::uint64_t first, std::uint64_t last) {
+  check_apart(first, last);
+  auto next = ranges_.upper_bound(last);
+  if (next != ranges_.end() && next->first == last + 1) {
+    last = next->second;
+    next = ranges_.erase(next);
+  }
+  if (next != ranges_.begin() && std::prev(next)->second + 1 == first)
+    std::prev(next)->second = last;
+  else
+    ranges_.emplace_hint(next, first, last);
 }
 
 void Ranges::add(const Ranges& other) {
-  Pairs all = ranges_;
-  all.insert(all.end(), other.ranges_.begin(), other.ranges_.end());
-  ranges_ = joined(std::move(all));
-}
-
-bool Ranges::contains(std::uint64_t number) const {
-  return std::any_of(ranges_.begin(), ranges_.end(),
-                     [&](const auto& range) { return range.first <= number && number <= range.second; });
+  for (const auto& [first, last] : other.ranges_) check_apart(first, last);
+  for (const auto& [first, last] : other.ranges_) insert(first, last);
 }
 
 std::uint64_t Ranges::size() const {
@@ -58,18 +52,13 @@ std::uint64_t Ranges::size() const {
   return size;
 }
 
-void Ranges::append(std::uint64_t first, std::uint64_t last) {
-  if (last < first || (!ranges_.empty() && first <= ranges_.back().second))
-    throw std::invalid_argument("ranges of blocks are not in order");
-  Pairs all = ranges_;
-  all.emplace_back(first, last);
-  ranges_ = joined(std::move(all));
-}
-
 // ---- the account
 
+Account Account::begun(const Plan& plan) {
+  return {{}, Tally(unit_exponent(plan.scene))};
+}
+
 void Account::add(const Account& other) {
-  if (plan != other.plan) throw std::invalid_argument("they are not parts of one run");
   done.add(other.done);
   tally.add(other.tally);
 }
@@ -85,29 +74,29 @@ std::string text_of(const std::vector<std::uint64_t>& counts) {
 }
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw InputError("no account of flights: " + what);
+  throw InputError("is not an account of flights: " + what);
 }
 
-void read_counts(json::array pairs, std::vector<std::uint64_t>& counts) {
+// Calls act(a, b) for the pairs [a,b] of an array.
+template <class Act>
+void for_each_pair(json::array pairs, const Act& act) {
   for (json::array pair : pairs) {
     std::uint64_t members[2];
     std::size_t i = 0;
     for (std::uint64_t member : pair) {
-      if (i == 2) refuse("a bin is a number and a count");
-      members[i++] = member;
+      if (i < 2) members[i] = member;
+      ++i;
     }
-    if (i != 2 || members[0] >= counts.size()) refuse("a bin that there is not");
-    counts[members[0]] = members[1];
+    if (i != 2) refuse("a bin, or a range, that is not two numbers");
+    act(members[0], members[1]);
   }
 }
 
-void read_ranges(json::array pairs, Ranges& ranges) {
-  for (json::array pair : pairs) {
-    std::vector<std::uint64_t> members;
-    for (std::uint64_t member : pair) members.push_back(member);
-    if (members.size() != 2) refuse("a range of blocks is two numbers");
-    ranges.append(members[0], members[1]);
-  }
+void read_counts(json::array pairs, std::vector<std::uint64_t>& counts) {
+  for_each_pair(pairs, [&](std::uint64_t bin, std::uint64_t count) {
+    if (bin >= counts.size() || counts[bin] != 0) refuse("a bin that does not exist, or comes twice");
+    counts[bin] = count;
+  });
 }
 
 ExactSum read_sum(json::object& object, const char* key) {
@@ -121,13 +110,13 @@ std::string Account::text() const {
   for (const auto& [first, last] : done.all())
     ranges += fmt::format("{}[{},{}]", ranges.empty() ? "" : ",", first, last);
   return fmt::format(
-      "{{\"flights\":1,\"plan\":{},\"blocks\":[{}],\"exponent\":{},\"hits\":{},\"never\":{},\"undecided\":{},"
+      "{{\"blocks\":[{}],\"exponent\":{},\"hits\":{},\"never\":{},\"undecided\":{},"
       "\"inside\":{},\"logarithms\":{},\"shortest\":{},\"longest\":{},\"time\":\"{}\","
-      "\"square\":\"{}\",\"log\":\"{}\",\"logarithmic\":[{}],\"linear\":[{}]}}\n",
-      json_quoted(plan), ranges, tally.bins.exponent(), tally.hits, tally.never, tally.undecided,
-      tally.inside, tally.logarithms, std::bit_cast<std::uint64_t>(tally.shortest),
-      std::bit_cast<std::uint64_t>(tally.longest), tally.time.text(), tally.square.text(), tally.log.text(),
-      text_of(tally.bins.logarithmic), text_of(tally.bins.linear));
+      "\"square\":\"{}\",\"log\":\"{}\",\"logarithmic\":[{}],\"linear\":[{}]}}",
+      ranges, tally.bins.exponent(), tally.hits, tally.never, tally.undecided, tally.inside, tally.logarithms,
+      std::bit_cast<std::uint64_t>(tally.shortest), std::bit_cast<std::uint64_t>(tally.longest),
+      tally.time.text(), tally.square.text(), tally.log.text(), text_of(tally.bins.logarithmic),
+      text_of(tally.bins.linear));
 }
 
 Account Account::of(std::string_view text) {
@@ -136,10 +125,9 @@ Account Account::of(std::string_view text) {
     json::parser parser;
     json::document document = parser.iterate(padded);
     json::object object = document.get_object();
-    if (std::uint64_t(object["flights"]) != 1) refuse("of another version");
     Account account;
-    account.plan = std::string(std::string_view(object["plan"]));
-    read_ranges(object["blocks"].get_array(), account.done);
+    for_each_pair(object["blocks"].get_array(),
+                  [&](std::uint64_t first, std::uint64_t last) { account.done.insert(first, last); });
     const auto exponent = std::int64_t(object["exponent"]);
     if (exponent < -1000 || exponent > 900) refuse("its unit of time");
     Tally& tally = account.tally = Tally(static_cast<int>(exponent));
@@ -153,11 +141,88 @@ Account Account::of(std::string_view text) {
     read_counts(object["logarithmic"].get_array(), tally.bins.logarithmic);
     read_counts(object["linear"].get_array(), tally.bins.linear);
     return account;
-  } catch (const simdjson::simdjson_error&) {  // what that says means nothing to who named the file
-    refuse("it is of another kind, or was cut off; name another file, or delete it");
-  } catch (const std::logic_error& error) {
+  } catch (const simdjson::simdjson_error& error) {
+    refuse(error.what());
+  } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }
+}
+
+// ---- does it fit together?
+
+namespace {
+
+// Flights of blocks that the plan has.
+std::uint64_t flights_in(const Ranges& blocks, const Plan& plan) {
+  if (blocks.all().empty()) return 0;
+  if (blocks.all().rbegin()->second >= plan.blocks()) refuse("a block that the plan has not");
+  const bool has_last = blocks.contains(plan.blocks() - 1);
+  return blocks.size() * kBlock - (has_last ? plan.blocks() * kBlock - plan.count : 0);
+}
+
+// No count is above n, and together they are n.
+bool add_up_to(std::uint64_t n, const std::vector<std::uint64_t>& counts) {
+  if (std::any_of(counts.begin(), counts.end(), [&](std::uint64_t count) { return count > n; })) return false;
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) == n;
+}
+
+// Is a sum of n numbers from `least` to `most` possible? Rounded, all of it is still in this order.
+bool lies_between(const ExactSum& sum, std::uint64_t n, double least, double most) {
+  const auto number = static_cast<double>(n);
+  return n == 0 ? sum == ExactSum() : number * least <= sum.value() && sum.value() <= number * most;
+}
+
+double squared(double t) {
+  return std::min(t * t, std::numeric_limits<double>::max());
+}
+
+// The first and the last bin that are not empty must be those of the extremes.
+bool has_extremes(const Bins& bins, double shortest, double longest) {
+  Bins ends(bins.exponent());
+  ends.count(shortest), ends.count(longest);
+  for (const auto counts : {&Bins::logarithmic, &Bins::linear}) {
+    const auto is_filled = [](std::uint64_t count) { return count != 0; };
+    const auto &all = bins.*counts, &two = ends.*counts;
+    if (std::find_if(all.begin(), all.end(), is_filled) - all.begin() !=
+            std::find_if(two.begin(), two.end(), is_filled) - two.begin() ||
+        std::find_if(all.rbegin(), all.rend(), is_filled) - all.rbegin() !=
+            std::find_if(two.rbegin(), two.rend(), is_filled) - two.rbegin())
+      return false;
+  }
+  return true;
+}
+
+// Logarithms may differ in their last digits from one machine to another.
+bool has_logarithms(const Tally& tally) {
+  const double slack = 1e-9 * 745 * static_cast<double>(tally.logarithms);
+  const double least = tally.shortest > 0 ? std::log(tally.shortest) : std::log(0x1p-1074);
+  const double most = tally.longest > 0 ? std::log(tally.longest) : 0,
+               n = static_cast<double>(tally.logarithms);
+  if (tally.logarithms > tally.hits || (tally.shortest > 0 && tally.logarithms < tally.hits)) return false;
+  return tally.logarithms == 0
+             ? tally.log == ExactSum()
+             : n * least - slack <= tally.log.value() && tally.log.value() <= n * most + slack;
+}
+
+}  // namespace
+
+void Account::check(const Plan& plan) const {
+  const Tally& t = tally;
+  const std::uint64_t flights = flights_in(done, plan);
+  if (t.bins.exponent() != unit_exponent(plan.scene)) refuse("its unit of time is not that of the scene");
+  if (!add_up_to(flights, {t.hits, t.never, t.undecided}))
+    refuse("outcomes that are not those of its blocks");
+  if (t.inside / Starts::kMostAttempts > flights) refuse("more draws than a run makes");
+  if (!add_up_to(t.hits, t.bins.logarithmic) || !add_up_to(t.hits, t.bins.linear))
+    refuse("bins that do not add up to its hits");
+  const Tally none;
+  const bool has_times = t.hits == 0 ? t.shortest == none.shortest && t.longest == none.longest
+                                     : t.shortest >= 0 && t.shortest <= t.longest && std::isfinite(t.longest);
+  if (!has_times || (t.hits > 0 && !has_extremes(t.bins, t.shortest, t.longest)))
+    refuse("times that are not in its bins");
+  if (!lies_between(t.time, t.hits, t.shortest, t.longest) ||
+      !lies_between(t.square, t.hits, squared(t.shortest), squared(t.longest)) || !has_logarithms(t))
+    refuse("sums that its times exclude");
 }
 
 }  // namespace lorentz::flights

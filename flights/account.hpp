@@ -1,12 +1,11 @@
-// What a run of flights has come to so far: which of its blocks are done, and their tally. As a line of JSON
-// it is what a run is gone on from, and what shards of one run are added up from.
+// What a run of flights has come to so far: which of its blocks are done, and their tally. As JSON it is what
+// a run is gone on from, and what shards of one run are added up from.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "flights/tally.hpp"
 
@@ -15,36 +14,49 @@ namespace lorentz::flights {
 /// Flights are flown in blocks of so many that follow one another; the last may be shorter.
 inline constexpr std::uint64_t kBlock = 1 << 16;
 
-/// A set of numbers, as ranges [first, last] with gaps between them, in order.
+/// A set of numbers, as ranges with gaps between them. Looking up and inserting one of n takes O(log n).
 class Ranges {
  public:
-  /// Throws std::invalid_argument, and changes nothing, if it is there, or they have a number in common.
-  void insert(std::uint64_t number);
+  /// The numbers first to last. Throws std::invalid_argument, and changes nothing, if last < first, or the
+  /// set has one of them.
+  void insert(std::uint64_t first, std::uint64_t last);
+  void insert(std::uint64_t number) { insert(number, number); }
+  /// Throws std::invalid_argument, and changes nothing, if both have a number in common.
   void add(const Ranges& other);
-  bool contains(std::uint64_t number) const;
+  bool contains(std::uint64_t number) const { return meets(number, number); }
   std::uint64_t size() const;
 
-  /// Appends a range behind all others; throws std::invalid_argument if it is not behind them.
-  void append(std::uint64_t first, std::uint64_t last);
-  const std::vector<std::pair<std::uint64_t, std::uint64_t>>& all() const { return ranges_; }
+  /// The last number of each range by its first.
+  const std::map<std::uint64_t, std::uint64_t>& all() const { return ranges_; }
 
   bool operator==(const Ranges&) const = default;
 
  private:
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_;
+  bool meets(std::uint64_t first, std::uint64_t last) const;
+  void check_apart(std::uint64_t first, std::uint64_t last) const;
+
+  std::map<std::uint64_t, std::uint64_t> ranges_;
 };
 
+struct Plan;
+
 struct Account {
-  std::string plan;  ///< the text of the plan that this belongs to (Plan::text)
-  Ranges done;       ///< numbers of blocks
+  Ranges done;  ///< numbers of blocks
   Tally tally;
 
-  /// Of the same plan; throws std::invalid_argument for another one, or blocks that are in both.
+  /// What a run of this plan begins with.
+  static Account begun(const Plan& plan);
+
+  /// Another account of the same plan; throws std::invalid_argument if a block is in both.
   void add(const Account& other);
 
-  /// One line of JSON.
+  /// Throws InputError if no run of this plan can have come to this: a block that the plan has not, counts
+  /// that do not add up to the flights of the blocks, sums or extremes that the bins exclude.
+  void check(const Plan& plan) const;
+
+  /// A JSON object.
   std::string text() const;
-  /// Throws InputError.
+  /// What text() gave. Throws InputError.
   static Account of(std::string_view text);
 
   bool operator==(const Account&) const = default;

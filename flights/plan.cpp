@@ -1,7 +1,5 @@
 #include "flights/plan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +13,16 @@ std::uint64_t Plan::blocks() const {
   return count / kBlock + (count % kBlock != 0);
 }
 
-std::string Plan::text() const {
+std::vector<std::pair<std::string, std::string>> Plan::words() const {
   std::string line;
   append_scene_line(line, scene);
-  while (line.ends_with('\n')) line.pop_back();
-  return fmt::format("{{\"engine\":{},\"from\":\"{}\",\"seed\":{},\"count\":{},\"cells\":{},\"of\":{}}}",
-                     json_quoted(engine), from == Ensemble::uniform ? "uniform" : "surface", seed, count,
-                     cells, line);
+  line.pop_back();
+  return {{"engine", engine},
+          {"starts", from == Ensemble::uniform ? "uniform" : "surface"},
+          {"seed", std::to_string(seed)},
+          {"count", std::to_string(count)},
+          {"cells", std::to_string(cells)},
+          {"scene", line}};
 }
 
 int unit_exponent(const Scene& scene) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <lorentz/problem.hpp>
 #include "flights/starts/starts.hpp"
@@ -23,8 +25,8 @@ struct Plan {
 
   std::uint64_t blocks() const;
 
-  /// All of it, as one line of JSON: what two runs have in common that can be added up.
-  std::string text() const;
+  /// All of it, as names and values: what two runs have in common that can be added up.
+  std::vector<std::pair<std::string, std::string>> words() const;
 };
 
 /// The exponent of the unit in which times are counted: near the mean free path of a dilute gas of these

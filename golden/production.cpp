@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <condition_variable>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +18,7 @@
 
 #include "golden/maker.hpp"
 #include "src/problem/write_error.hpp"
+#include "store/check.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -115,7 +117,9 @@ struct State {
 };
 
 std::uint64_t number_of(const std::string& id) {
-  return std::stoull(id, nullptr, 16);
+  std::uint64_t number = 0;
+  std::from_chars(id.data(), id.data() + id.size(), number, 16);
+  return number;
 }
 
 void count(RecordCounts& counts, const MadeRecord& made) {
@@ -162,8 +166,8 @@ void produce_rest(const Order& order, State& state, const std::function<void(std
   throw write_error(path, errno);
 }
 
-// The unfinished file, and beside it a note of how far it is. The note is replaced as a whole after each
-// write, so what lies beyond it in the file is not there.
+// The unfinished file, and beside it a note of how far it is, with the check of all its text. The note is
+// replaced as a whole after each write, so what lies beyond it in the file is not there.
 class PartFile {
  public:
   PartFile(const Order& order, const std::string& path)
@@ -200,11 +204,12 @@ class PartFile {
     if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
       fail(part_);
     bytes_ += text.size();
+    check_ = store::check_of(text, check_);
     const RecordCounts& a = state.counts;
     const std::string fresh = note_ + ".new";
     std::ofstream note(fresh);
-    note << bytes_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked << ' ' << a.hits << ' '
-         << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
+    note << bytes_ << ' ' << check_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked << ' '
+         << a.hits << ' ' << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
     note.close();
     if (!note || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
   }
@@ -221,11 +226,12 @@ class PartFile {
     std::ifstream note(note_);
     RecordCounts& a = state.counts;
     std::string end;
-    if (!(note >> bytes_ >> state.next_batch >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >>
-          a.errors >> end) ||
+    if (!(note >> bytes_ >> check_ >> state.next_batch >> a.records >> a.walked >> a.hits >> a.insides >>
+          a.nevers >> a.errors >> end) ||
         end != "end" || !read_part(state)) {
       state = {};
       bytes_ = 0;
+      check_ = store::kCheckOfNothing;
       return false;
     }
     std::filesystem::resize_file(part_, bytes_);
@@ -239,22 +245,23 @@ class PartFile {
     std::ifstream part(part_);
     std::string line;
     if (!std::getline(part, line) || line + '\n' != header_) return false;
-    std::uint64_t read = line.size() + 1;
+    std::uint64_t read = line.size() + 1, check = store::check_of(header_);
     constexpr std::string_view kId = "{\"id\":\"";
     while (read < bytes_ && std::getline(part, line)) {
       read += line.size() + 1;
+      check = store::check_of(line + '\n', check);
       if (line.starts_with(kId))
         state.ids.insert(number_of(line.substr(kId.size(), 16)));
       else
         state.scene_line = line;
     }
-    return read == bytes_ && state.ids.size() == state.counts.records;
+    return read == bytes_ && check == check_ && state.ids.size() == state.counts.records;
   }
 
   std::string path_, part_, note_, header_;
   std::FILE* file_ = nullptr;
   int lock_ = -1;  // held on the part for as long as this lives
-  std::uint64_t bytes_ = 0;
+  std::uint64_t bytes_ = 0, check_ = store::kCheckOfNothing;
 };
 
 }  // namespace

@@ -236,7 +236,7 @@ struct Reader::Impl {
     } catch (const simdjson::simdjson_error& error) {
       throw InputError(place + "not JSON as it should be: " + error.what());
     } catch (const NotJson& error) {
-      throw InputError(place + "not JSON: " + error.why);
+      throw InputError(place + "not JSON: " + error.what());
     } catch (const InputError& error) {
       throw InputError(place + error.what());
     }

@@ -45,8 +45,7 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   cli::FlightsReport report;
   report.plan.scene = scene.scene(), report.plan.engine = engine, report.plan.from = ensemble_of(start);
   report.plan.seed = seed, report.plan.count = count;
-  report.account.plan = report.plan.text();
-  report.account.tally = flights::Tally(flights::unit_exponent(report.plan.scene));
+  report.account = flights::Account::begun(report.plan);
   fly(report.plan, threads, report.account);
   const cli::FlightsFindings found(report);
   return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
 
@@ -81,13 +83,19 @@ std::string text(json::value value) {
   return std::string(std::string_view(value));
 }
 
+// What append_number wrote.
+double number(json::value value) {
+  if (value.type() == json::json_type::string && value.get_string().value() == "inf") return HUGE_VAL;
+  return read_number(value, "a number");
+}
+
 std::optional<double> number_or_null(json::value value) {
   if (value.is_null()) return std::nullopt;
-  return read_number(value, "cell");
+  return number(value);
 }
 
 double number(json::object& object, const char* key) {
-  return read_number(object[key], key);
+  return number(object[key]);
 }
 
 std::size_t count(json::object& object, const char* key) {
@@ -166,8 +174,57 @@ Cell cell_of(std::string_view text_of_cell) {
     if (!cell.skipped) read_measured(object, cell);
     return cell;
   } catch (const simdjson::simdjson_error& error) {
-    throw InputError(std::string("no cell of a table: ") + error.what());
+    throw InputError(std::string("is not a cell of a table: ") + error.what());
+  } catch (const std::runtime_error& error) {  // InputError, NotJson
+    throw InputError(std::string("is not a cell of a table: ") + error.what());
   }
+}
+
+namespace {
+
+bool fits(const Histogram& h, std::size_t most) {
+  std::size_t left = most;
+  const auto take = [&](std::size_t count) { return count <= left && ((left -= count), true); };
+  if (!take(h.exact)) return false;
+  for (const std::size_t count : h.counts)
+    if (!take(count)) return false;
+  const bool is_empty = left == most,
+             ends = h.counts.empty() || (h.counts.front() > 0 && h.counts.back() > 0);
+  if (is_empty) return h == Histogram();
+  return ends && h.first >= -1074 && h.first + static_cast<int>(h.counts.size()) <= 1024 && h.mean >= 0 &&
+         h.mean <= h.max * (1 + 1e-9) && h.p99 >= 0 && h.p99 <= h.max && std::isfinite(h.max) &&
+         (h.counts.empty() ? h.max == 0
+                           : std::ilogb(h.max) == h.first + static_cast<int>(h.counts.size()) - 1);
+}
+
+bool is_verdict(const std::string& text) {
+  return text == "wrong" || text == "ill-posed" || text == "wrong-time" || text == "agree";
+}
+
+}  // namespace
+
+std::string flaw_of(const Cell& cell, std::size_t most) {
+  const std::size_t n = cell.queries;
+  if (n > most || cell.unsupported > n) return "counts more queries than were asked";
+  if (cell.skipped) return "";
+  for (const Share* share : {&cell.undecided, &cell.ill_posed, &cell.wrong, &cell.wrong_time})
+    if (share->count > n || !(*share == share_of(share->count, n)))
+      return "has a share that is not one of its queries";
+  if (cell.error > n || cell.missing > n ||
+      cell.undecided.count + cell.ill_posed.count + cell.wrong.count + cell.unsupported + cell.error +
+              cell.missing >
+          n)
+    return "counts more answers than queries";
+  const Times& ns = cell.ns;
+  if (!(ns.q1 >= 0 && ns.q1 <= ns.median && ns.median <= ns.q3 && ns.mean >= 0 &&
+        std::isfinite(ns.q3 + ns.mean)))
+    return "has times out of order";
+  if (!(cell.instructions.value_or(0) >= 0) || !(cell.mean_path >= 0)) return "has a number below zero";
+  if (!fits(cell.ulps, n) || !fits(cell.conditions, n))
+    return "has a histogram that is not one of its answers";
+  if (cell.worst && (!is_verdict(cell.worst->verdict) || !(cell.worst->ulps.value_or(0) >= 0)))
+    return "has a worst input without a verdict";
+  return "";
 }
 
 }  // namespace lorentz::report

@@ -55,4 +55,8 @@ void append_cell(std::string& out, const Cell& cell);
 /// What append_cell wrote. Throws InputError.
 Cell cell_of(std::string_view json);
 
+/// Why no engine can have come to this with up to `most` queries, or nothing: counts that do not fit
+/// together, bounds that are not those of their counts, times and errors out of order.
+std::string flaw_of(const Cell& cell, std::size_t most);
+
 }  // namespace lorentz::report

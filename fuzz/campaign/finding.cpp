@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
@@ -10,6 +11,9 @@ namespace lorentz::fuzz {
 namespace {
 
 constexpr double kFar = 1e6, kExtreme = 1e100;
+
+// The kinds of findings, as rank_of() has them.
+constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided, Kind::slow};
 
 std::string outcomes_of(const Examined& examined) {
   return std::string(name_of(examined.given.outcome)) + " for " +
@@ -85,10 +89,47 @@ Answer read_answer(const std::string& line) {
   return answer;
 }
 
-std::string answer_text(const std::string& id, const Answer& answer, int dimension) {
-  std::string line;
-  append_answer_line(line, id, answer, dimension);
-  return std::string(without_line_end(line));
+// As a line that can be read back. What no answer stream has a word for is left out: a time that is no
+// number, and the bytes of a message that are not ASCII, where they are not UTF-8.
+std::string answer_text(const std::string& id, Answer answer, int dimension) {
+  if (answer.time && !(*answer.time > -HUGE_VAL)) answer.time.reset();
+  const auto line_of = [&] {
+    std::string line;
+    append_answer_line(line, id, answer, dimension);
+    line.pop_back();
+    return line;
+  };
+  const std::string line = line_of();
+  try {
+    read_answer(line);
+    return line;
+  } catch (const FileError&) {
+    for (char& c : answer.message)
+      if (static_cast<unsigned char>(c) > 126) c = '?';
+    return line_of();
+  }
+}
+
+bool is_plain(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+bool has_control_characters(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; });
+}
+
+std::string flaw_of(const CaseText& text) {
+  for (const std::string* line : {&text.scene, &text.query, &text.given, &text.exact})
+    if (has_control_characters(*line)) return "a line with control characters";
+  if (!(text.departs >= 0) || !(text.margin.value_or(0) >= 0)) return "an error, or a margin, below zero";
+  try {
+    const ReadCase one = case_in(text);
+    if (!is_in(one.scene, one.exact) || (one.exact.outcome == Outcome::hit && !one.exact.time))
+      return "an exact answer that the scene excludes";
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace
@@ -115,8 +156,23 @@ ReadCase case_in(const CaseText& text) {
   return one;
 }
 
+bool is_in(const Scene& scene, const Answer& answer) {
+  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return true;
+  const auto lattice = static_cast<std::size_t>(answer.obstacle.lattice),
+             atom = static_cast<std::size_t>(answer.obstacle.atom);
+  return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
+}
+
+std::string flaw_of(const Finding& f) {
+  for (const std::string* text : {&f.target, &f.words, &f.kind, &f.sort, &f.cause})
+    if (!is_plain(*text)) return "a name that is not plain text";
+  if (rank_of(f.kind) == static_cast<int>(std::size(kInOrder))) return "a kind that no finding has";
+  for (const CaseText* text : {&f.text, &f.shrunk})
+    if (const std::string flaw = flaw_of(*text); !flaw.empty()) return flaw;
+  return "";
+}
+
 int rank_of(std::string_view kind) {
-  constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided, Kind::slow};
   int rank = 0;
   for (const Kind one : kInOrder) {
     if (name_of(one) == kind) break;

@@ -57,6 +57,13 @@ struct ReadCase {
 /// Throws FileError if these are no lines of text_of().
 ReadCase case_in(const CaseText& text);
 
+/// Why a finding is not one that a campaign keeps, or nothing. A finding without a flaw has lines that
+/// case_in() reads, each of them JSON, and no control characters.
+std::string flaw_of(const Finding& finding);
+
+/// Does the scene have what the answer names?
+bool is_in(const Scene& scene, const Answer& answer);
+
 /// What is plain from a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit for hit,
 /// leaving".
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined);

@@ -4,13 +4,23 @@
 #include <sqlite3.h>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <lorentz/errors.hpp>
 
 namespace lorentz::fuzz {
+
+/// Of a row: a finding's lines are far shorter.
+inline constexpr int kMostBytes = 64 << 20;
+
+/// A value that no store has where it stands.
+struct BadValue : FileError {
+  using FileError::FileError;
+};
 
 class Connection {
  public:
@@ -23,6 +33,13 @@ class Connection {
       throw FileError(path + ": " + why);
     }
     sqlite3_busy_timeout(handle_, 2000);
+    // A store is data. Whatever else a file brings along must not run, nor take all memory.
+    for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                     {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                     {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                     {SQLITE_DBCONFIG_ENABLE_VIEW, 0}})
+      sqlite3_db_config(handle_, option, on, nullptr);
+    sqlite3_limit(handle_, SQLITE_LIMIT_LENGTH, kMostBytes);
   }
   ~Connection() { sqlite3_close(handle_); }
   Connection(const Connection&) = delete;
@@ -92,15 +109,21 @@ class Statement {
     bound_ = 0;
   }
 
-  // The columns of a row, from the left.
+  // The columns of a row, from the left. Throw BadValue for a value of another type or out of its range.
   std::string text() {
-    const int column = column_++;
+    const int column = next(SQLITE_TEXT);
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
     return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column))) : "";
   }
-  std::int64_t integer() { return sqlite3_column_int64(handle_, column_++); }
-  std::uint64_t count() { return static_cast<std::uint64_t>(integer()); }
-  double real() { return sqlite3_column_double(handle_, column_++); }
+  std::int64_t integer() { return sqlite3_column_int64(handle_, next(SQLITE_INTEGER)); }
+  std::uint64_t count(std::uint64_t most = std::numeric_limits<std::int64_t>::max()) {
+    const std::int64_t n = sqlite3_column_int64(handle_, column_);
+    if (n < 0 || static_cast<std::uint64_t>(n) > most) refuse("is out of its range");
+    return static_cast<std::uint64_t>(integer());
+  }
+  /// From 0 on.
+  int small() { return static_cast<int>(count(std::numeric_limits<int>::max())); }
+  double real() { return sqlite3_column_double(handle_, next(SQLITE_FLOAT)); }
   std::optional<double> real_or_null() {
     if (sqlite3_column_type(handle_, column_) != SQLITE_NULL) return real();
     ++column_;
@@ -110,6 +133,14 @@ class Statement {
  private:
   void check(int status) {
     if (status != SQLITE_OK) connection_.fail();
+  }
+  int next(int type) {
+    if (sqlite3_column_type(handle_, column_) != type) refuse("is of another type");
+    return column_++;
+  }
+  [[noreturn]] void refuse(const char* why) const {
+    throw BadValue(connection_.path() + ": its value of \"" + sqlite3_column_name(handle_, column_) + "\" " +
+                   why);
   }
   const Connection& connection_;
   sqlite3_stmt* handle_ = nullptr;

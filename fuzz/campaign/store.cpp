@@ -4,16 +4,20 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <numeric>
+#include <set>
+#include <sstream>
 
 #include "fuzz/campaign/batch.hpp"
-#include "fuzz/campaign/lock_file.hpp"
 #include "fuzz/campaign/sqlite.hpp"
 #include "src/problem/write_error.hpp"
+#include "store/lock_file.hpp"
 
 namespace lorentz::fuzz {
 
@@ -101,13 +105,14 @@ std::string Stored::label() const {
 }
 
 struct Store::Impl {
-  Impl(const std::string& path, Access access)
+  Impl(const std::string& path, Access access, OnLeftOut on_left_out)
       : path(path),
         writes(access == Access::write),
         lock(path == kMemory || access == Access::read
                  ? nullptr
-                 : std::make_unique<LockFile>(path, access == Access::write, kBusy)),
-        connection(path, opening(path, access).name, opening(path, access).flags) {
+                 : std::make_unique<store::LockFile>(path, access == Access::write, kBusy)),
+        connection(path, opening(path, access).name, opening(path, access).flags),
+        on_left_out(std::move(on_left_out)) {
     set_up();
   }
   ~Impl() {
@@ -137,7 +142,30 @@ struct Store::Impl {
     }
   }
 
-  // Before anything is changed.
+  // Tables, indices and what else there is, by name; white space counts nothing.
+  static std::vector<std::string> schema_of(const Connection& connection) {
+    Statement row(connection,
+                  "SELECT type || ' ' || name || ' ' || tbl_name || ' ' || ifnull(sql, '') FROM "
+                  "sqlite_master ORDER BY type, name");
+    std::vector<std::string> schema;
+    while (row.step()) {
+      std::istringstream words(row.text());
+      schema.emplace_back();
+      for (std::string word; words >> word;) schema.back() += word + ' ';
+    }
+    return schema;
+  }
+
+  static const std::vector<std::string>& our_schema() {
+    static const std::vector<std::string> schema = [] {
+      Connection ours(kMemory, kMemory, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+      ours.run(kSchema);
+      return schema_of(ours);
+    }();
+    return schema;
+  }
+
+  // Before anything is changed, or believed.
   template <class Pragma>
   void check(const Pragma& pragma) const {
     if (pragma("PRAGMA application_id") != kApplication)
@@ -146,6 +174,16 @@ struct Store::Impl {
       throw FileError(connection.path() + ": is a store of another format (" +
                       std::to_string(pragma("PRAGMA user_version")) + "); this program has format " +
                       std::to_string(kFormat) + ", and another version made it");
+    if (schema_of(connection) != our_schema())
+      throw FileError(connection.path() +
+                      ": has tables, views or triggers that no store has: another program changed it; take a "
+                      "copy from before, or name another store");
+  }
+
+  // A finding that cannot be read costs the others nothing.
+  void leave_out(const std::string& label, const std::string& why) {
+    if (left_out.insert(label).second && on_left_out)
+      on_left_out(connection.path() + ": the finding " + label + " is left out: " + why);
   }
 
   void begin() {
@@ -155,17 +193,32 @@ struct Store::Impl {
 
   const std::string path;
   const bool writes;
-  std::unique_ptr<LockFile> lock;
+  std::unique_ptr<store::LockFile> lock;
   Connection connection;
+  const OnLeftOut on_left_out;
+  std::set<std::string> left_out;
   bool is_set_up = false, in_transaction = false;
 };
 
-Store::Store(const std::string& path, Access access) : impl_(std::make_unique<Impl>(path, access)) {}
+Store::Store(const std::string& path, Access access, OnLeftOut on_left_out)
+    : impl_(std::make_unique<Impl>(path, access, std::move(on_left_out))) {}
 Store::~Store() = default;
 
 const std::string& Store::path() const {
   return impl_->connection.path();
 }
+
+namespace {
+
+std::uint64_t seed_in(const std::string& text, const std::string& path) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw FileError(path + ": a campaign has a seed that is not a number; take a copy from before");
+  return seed;
+}
+
+}  // namespace
 
 std::vector<Campaign> Store::campaigns() const {
   Statement all(impl_->connection,
@@ -177,7 +230,7 @@ std::vector<Campaign> Store::campaigns() const {
     one.manifest.version = all.text();
     one.manifest.engine = all.text();
     one.manifest.targets = all.text();
-    one.manifest.seed = std::stoull(all.text());
+    one.manifest.seed = seed_in(all.text(), path());
     one.manifest.options = all.text();
     one.manifest.keep = all.count();
     one.manifest.shard = all.text();
@@ -206,7 +259,21 @@ std::int64_t Store::open_campaign(const Manifest& manifest) {
   return id;
 }
 
+namespace {
+
+// Each count, and all of them together, as a campaign makes them.
+bool fits(const TargetTally& tally) {
+  const auto sum = [](const auto& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
+  };
+  return sum(tally.kinds) == tally.cases + tally.variants + tally.reworded &&
+         sum(tally.stages) <= sum(tally.kinds) && tally.margin > 0;
+}
+
+}  // namespace
+
 TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
+  constexpr std::uint64_t kMostCases = std::uint64_t{1} << 60;  // sums of all of them are below 2^63
   TargetTally tally;
   Statement row(
       impl_->connection,
@@ -215,47 +282,69 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   row.bind(campaign).bind(target);
   if (!row.step()) return tally;
   tally.next = row.count();
-  tally.cases = row.count();
-  tally.variants = row.count();
-  tally.reworded = row.count();
-  for (std::uint64_t& number : tally.kinds) number = row.count();
-  for (std::uint64_t& number : tally.stages) number = row.count();
+  for (std::uint64_t* number : {&tally.cases, &tally.variants, &tally.reworded})
+    *number = row.count(kMostCases);
+  for (std::uint64_t& number : tally.kinds) number = row.count(kMostCases);
+  for (std::uint64_t& number : tally.stages) number = row.count(kMostCases);
   tally.margin = row.real_or_null().value_or(tally.margin);
   tally.margin_index = row.count();
+  if (!fits(tally))
+    throw FileError(path() + ": the counts of " + std::string(target) +
+                    " do not fit together: the store was changed; take a copy from before, or name another");
   Statement sorts(impl_->connection, "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
   sorts.bind(campaign).bind(target);
   while (sorts.step()) {
     std::string sort = sorts.text();
-    tally.sorts.emplace(std::move(sort), sorts.count());
+    tally.sorts.emplace(std::move(sort), sorts.count(kMostCases));
   }
   return tally;
 }
+
+namespace {
+
+Finding finding_in(Statement& row) {
+  Finding f;
+  f.target = row.text();
+  f.index = row.count();
+  f.step = row.small();
+  for (std::string* text :
+       {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
+        &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
+    *text = row.text();
+  for (fuzz::CaseText* text : {&f.text, &f.shrunk}) {
+    text->departs = row.real();
+    text->margin = row.real_or_null();
+  }
+  f.shrinking = static_cast<Shrinking>(row.count(static_cast<std::uint64_t>(Shrinking::done)));
+  f.bits = row.small();
+  f.complexity = static_cast<long>(row.count());
+  f.tries = row.small();
+  return f;
+}
+
+}  // namespace
 
 std::vector<Stored> Store::findings() const {
   Statement row(impl_->connection, std::string("SELECT ") + kFindingColumns +
                                        " FROM finding ORDER BY campaign, target, place, step, words");
   std::vector<Stored> all;
-  while (row.step()) {
-    Stored one{row.integer(), {}};
-    Finding& f = one.finding;
-    f.target = row.text();
-    f.index = row.count();
-    f.step = static_cast<int>(row.integer());
-    for (std::string* text :
-         {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
-          &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
-      *text = row.text();
-    for (fuzz::CaseText* text : {&f.text, &f.shrunk}) {
-      text->departs = row.real();
-      text->margin = row.real_or_null();
+  for (std::uint64_t number = 1; row.step(); ++number) {
+    std::string label = "in row " + std::to_string(number);
+    try {
+      Stored one{row.integer(), {}};
+      one.finding = finding_in(row);
+      label = one.label();
+      if (const std::string flaw = flaw_of(one.finding); !flaw.empty()) throw BadValue("it has " + flaw);
+      all.push_back(std::move(one));
+    } catch (const BadValue& error) {
+      impl_->leave_out(label, error.what());
     }
-    f.shrinking = static_cast<Shrinking>(row.integer());
-    f.bits = static_cast<int>(row.integer());
-    f.complexity = static_cast<long>(row.integer());
-    f.tries = static_cast<int>(row.integer());
-    all.push_back(std::move(one));
   }
   return all;
+}
+
+bool Store::is_whole() const {
+  return impl_->left_out.empty();
 }
 
 void Store::put(std::int64_t campaign, std::string_view target, const TargetTally& tally) {

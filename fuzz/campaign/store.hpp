@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,8 +47,12 @@ class Store {
     settled,  ///< the same, of what nobody else may be writing
   };
 
-  /// The path ":memory:" is a store that goes with this object.
-  Store(const std::string& path, Access access);
+  /// Told, once each, of findings in the file that cannot be read.
+  using OnLeftOut = std::function<void(const std::string& message)>;
+
+  /// The path ":memory:" is a store that goes with this object. A file must have the tables of a store, and
+  /// nothing else; what it has of views and triggers never runs.
+  Store(const std::string& path, Access access, OnLeftOut on_left_out = {});
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
@@ -60,7 +65,10 @@ class Store {
 
   /// A tally that was never put is empty.
   TargetTally tally(std::int64_t campaign, std::string_view target) const;
+  /// Those that can be read, and have no flaw (flaw_of); the others are left out.
   std::vector<Stored> findings() const;
+  /// False if findings() left some out.
+  bool is_whole() const;
 
   /// Writes become durable together, by commit().
   void put(std::int64_t campaign, std::string_view target, const TargetTally& tally);

@@ -102,7 +102,8 @@ void merge(const std::vector<std::string>& paths, Store& into) {
   std::vector<Shard> shards;
   std::vector<std::unique_ptr<Store>> stores;
   for (const std::string& path : paths) {
-    stores.push_back(std::make_unique<Store>(path, Store::Access::settled));
+    stores.push_back(std::make_unique<Store>(path, Store::Access::settled,
+                                             [](const std::string& message) { throw FileError(message); }));
     shards.push_back({path, stores.back()->campaigns(), stores.back()->findings()});
   }
   check(shards);

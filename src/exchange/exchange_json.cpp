@@ -22,8 +22,8 @@ std::string_view number_text(json::value value) {
   if (is_json_number(token)) return token;
   const auto ascii =
       std::find_if(token.begin(), token.end(), [](char c) { return static_cast<unsigned char>(c) > 126; });
-  throw NotJson{json_quoted(token.substr(0, std::min<std::size_t>(40, ascii - token.begin()))) +
-                " is no JSON value"};
+  throw NotJson(json_quoted(token.substr(0, std::min<std::size_t>(40, ascii - token.begin()))) +
+                " is no JSON value");
 }
 
 // Are a number's digits an integer below 10^19, counted generously? simdjson gathers the digits in 64 bits
@@ -72,7 +72,7 @@ void skip(json::value value, int depth) {
 double read_number(json::value value, const std::string& place) {
   if (value.type() == json::json_type::string) return parse_hexadecimal(value.get_string().value(), place);
   if (value.type() == json::json_type::null && !token_of(value).starts_with("null"))
-    throw NotJson{"no value"};  // nan, say
+    throw NotJson("no value");  // nan, say
   if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
   double number;
   if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;

@@ -4,6 +4,7 @@
 
 #include <simdjson.h>
 
+#include <stdexcept>
 #include <string>
 
 #include <lorentz/problem.hpp>
@@ -13,9 +14,10 @@ namespace lorentz {
 
 namespace json = simdjson::ondemand;
 
-/// A text that is no JSON (besides what simdjson::simdjson_error says).
-struct NotJson {
-  std::string why;
+/// A text that is no JSON (besides what simdjson::simdjson_error says). Not an InputError: behind a bad value
+/// a reader goes on, behind what is no JSON it cannot.
+struct NotJson : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Throws InputError beyond 64 levels, far more than any format here has. Recursion is bounded by this.

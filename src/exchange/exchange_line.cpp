@@ -14,7 +14,7 @@ json::object JsonLine::open(const LineReader::Line& line) {
 }
 
 void JsonLine::close() {
-  if (!ended(document_)) throw NotJson{"more than one value in the line"};
+  if (!ended(document_)) throw NotJson("more than one value in the line");
 }
 
 CellRead read_cell(json::value value) {

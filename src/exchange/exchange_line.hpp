@@ -82,7 +82,7 @@ struct ExchangeReader::Impl {
     } catch (const simdjson::simdjson_error& error) {
       bad(not_json(line, error.what()));
     } catch (const NotJson& error) {
-      bad(not_json(line, error.why));
+      bad(not_json(line, error.what()));
     } catch (const InputError& error) {
       bad(error.what());
     }

@@ -128,9 +128,7 @@ Outcome outcome_named(std::string_view name) {
 double read_time(json::value value) {
   if (value.type() == json::json_type::string && value.get_string().value() == "inf")
     return std::numeric_limits<double>::infinity();
-  const double time = read_number(value, "time");
-  if (time < 0) throw InputError("time: is below zero");
-  return time;
+  return read_number(value, "time");
 }
 
 struct AnswerFields {
@@ -206,7 +204,7 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(not_json(line, error.what()));
   } catch (const NotJson& error) {
-    throw InputError(not_json(line, error.why));
+    throw InputError(not_json(line, error.what()));
   }
 }
 

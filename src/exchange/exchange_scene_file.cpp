@@ -64,13 +64,13 @@ SceneNode parse_json(const std::string& text) {
     throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
   try {
     SceneNode node = read_node(document.get_value());
-    if (!ended(document)) throw NotJson{"more than one value"};
+    if (!ended(document)) throw NotJson("more than one value");
     const SceneNode* inner = node.member("scene");
     return inner ? SceneNode(*inner) : node;
   } catch (const simdjson::simdjson_error& error) {
     throw InputError(line_of(document, padded) + "not JSON: " + error.what());
   } catch (const NotJson& error) {
-    throw InputError(line_of(document, padded) + "not JSON: " + error.why);
+    throw InputError(line_of(document, padded) + "not JSON: " + error.what());
   }
 }
 

@@ -71,8 +71,9 @@ EDGES = {
                        "--scene square --time 1 /no/such/file"),
     "survival": Edge("--count 2 --collisions 10", "--count 1e6 --csv OUT", ["--csv", "--svg"],
                      "--scene /no/such/file"),
-    "lyapunov": Edge("--collisions 1e4 --radius 0.3", "--collisions 1e12", missing="--scene /no/such/file"),
-    "diffusion": Edge("--count 1e3 --time 5 --radius 0.3", "--count 1e9 --csv OUT", ["--csv"],
+    "lyapunov": Edge("--collisions 1e4 --radius 0.3", "--collisions 1e12", ["--store"],
+                     "--scene /no/such/file"),
+    "diffusion": Edge("--count 1e3 --time 5 --radius 0.3", "--count 1e9 --csv OUT", ["--csv", "--store"],
                       "--scene /no/such/file"),
 }
 

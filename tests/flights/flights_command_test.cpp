@@ -79,8 +79,9 @@ TEST_CASE("Flights: a store goes on with its own run only", "[flights][flights_c
   folder.write("store", folder.read("store").substr(0, 300));
   const Run torn = folder.lorentz(what);
   CHECK(torn.status == 2);
-  CHECK(contains(torn.err,
-                 "store: no account of flights: it is of another kind, or was cut off; name another"));
+  CHECK(contains(
+      torn.err,
+      "store: line 1 has no end: the file was cut off; take a copy from before, or name another file"));
 }
 
 TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
@@ -359,7 +360,7 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
       {"--shard 3", "I/N"},
       {"--shard 2/2", "--shard"},
       {"--add /no/such/file", "/no/such/file"},
-      {"--add /dev/zero", "/dev/zero: is no file"},
+      {"--add /dev/zero", "/dev/zero: is not a regular file"},
       {"--radius 0.1,0.2 --store store", "run several one by one"},
       {"--radius 0.1,0.2 --shard 0/2", "run several one by one"},
       {"--radius 0.1,0", "--radius"},

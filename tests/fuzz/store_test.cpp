@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
 #include <lorentz/errors.hpp>
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
+#include "tests/support/scenes.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
@@ -29,13 +31,20 @@ fuzz::Finding finding() {
   f.kind = "wrong";
   f.sort = "wrong, 2D";
   f.cause = "a cause";
-  f.text = {"scene",
-            "query '\"",
-            "given",
-            "exact",
+  const std::string scene =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})";
+  f.text = {scene,
+            R"({"id":"query '\"","x":[0.5,0.25],"v":[1,0]})",
+            R"({"id":"query '\"","outcome":"error","message":"given\n"})",
+            R"({"id":"query '\"","outcome":"never"})",
             std::numeric_limits<double>::infinity(),
             0x1.23456789abcdep-300};
-  f.shrunk = {"s", "q", "g", "e", 12.5, {}};
+  f.shrunk = {scene,
+              R"({"id":"q","x":[0.5,0],"v":[1,0]})",
+              R"({"id":"q","outcome":"never"})",
+              R"({"id":"q","outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.25})",
+              12.5,
+              {}};
   f.shrinking = fuzz::Shrinking::cut_short;
   f.bits = 12;
   f.complexity = 3210;
@@ -64,7 +73,7 @@ TEST_CASE("What is put in a store comes out of it", "[fuzz][store]") {
   const Folder folder;
   fuzz::TargetTally tally;
   tally.next = 1ull << 60;
-  tally.cases = 5;
+  tally.cases = 85;  // with the variants as many as there are kinds
   tally.variants = 6;
   for (std::size_t k = 0; k < tally.kinds.size(); ++k) tally.kinds[k] = k * k;
   tally.sorts = {{"one", 1}, {"two", 2}};
@@ -227,6 +236,177 @@ TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
       contains(message_of([&] { Store store(folder.file("absent"), Store::Access::read); }), "No such file"));
   CHECK(contains(message_of([&] { Store store("/no/such/folder/store", Store::Access::write); }),
                  "/no/such/folder"));
+}
+
+namespace {
+
+// What another program does to a store.
+void change(const std::string& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(path.c_str(), &database) == SQLITE_OK);
+  char* why = nullptr;
+  if (sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &why) != SQLITE_OK) FAIL(sql << ": " << why);
+  sqlite3_close(database);
+}
+
+}  // namespace
+
+TEST_CASE("A store with other tables, views or triggers is refused, and nothing of it runs",
+          "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store"), copy = folder.file("copy");
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+    store.put(1, finding());
+    store.commit();
+  }
+  for (const char* sql :
+       {"CREATE TRIGGER t AFTER INSERT ON finding BEGIN DELETE FROM campaign; END",
+        "CREATE VIEW v AS SELECT * FROM finding", "ALTER TABLE sort ADD COLUMN more TEXT",
+        "DROP TABLE sort; CREATE VIEW sort AS SELECT 1 campaign, 'leaving' target, 's' sort, 2 number",
+        "CREATE INDEX i ON finding (kind)", "CREATE TABLE more (x)"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    change(copy, sql);
+    INFO(sql);
+    const std::string before = folder.read("copy");
+    for (const auto access : {Store::Access::write, Store::Access::read, Store::Access::settled})
+      CHECK(contains(message_of([&] { Store store(copy, access); }),
+                     "copy: has tables, views or triggers that no"));
+    CHECK(folder.read("copy") == before);
+  }
+}
+
+TEST_CASE("A finding that cannot be read is left out, said once, and costs the others nothing",
+          "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store"), copy = folder.file("copy");
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+    fuzz::Finding other = finding();
+    store.put(1, other);
+    other.index = 5;
+    store.put(1, other);
+    store.commit();
+  }
+  REQUIRE(Store(path, Store::Access::read).findings().size() == 2);
+  const std::string scene = "(SELECT scene FROM finding WHERE place = 5)";
+  for (const std::string set : {"shrinking = 50",
+                                "shrinking = -1",
+                                "shrinking = 'done'",
+                                "kind = 'odd'",
+                                "kind = x'00ff'",
+                                "step = -1",
+                                "step = 1 << 40",
+                                "bits = 'many'",
+                                "tries = -5",
+                                "departs = -1.0",
+                                "departs = 'x'",
+                                "margin = -1.0",
+                                "target = 'a' || char(27) || '[2J'",
+                                "cause = 'a' || char(10)",
+                                "words = char(233)",
+                                "scene = ''",
+                                "scene = 'x'",
+                                "query = query || ' {}'",
+                                "query = '{}'",
+                                "given = '{\"id\":0}'",
+                                "exact = given || char(10)",
+                                "shrunk_exact = replace(shrunk_exact, '\"atom\":0', '\"atom\":99')",
+                                "shrunk_exact = replace(shrunk_exact, ',\"time\":0.25', '')",
+                                "shrunk_scene = replace(scene, '0.25', '-1')",
+                                "given = cast(x'7b226964223a2230ff227d' AS TEXT)"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    change(copy, "UPDATE finding SET " + set + " WHERE place = 5");
+    INFO(set);
+    std::vector<std::string> said;
+    const Store store(copy, Store::Access::read,
+                      [&](const std::string& message) { said.push_back(message); });
+    CHECK(store.findings().size() == 1);
+    CHECK(store.findings()[0].finding.index == finding().index);
+    CHECK_FALSE(store.is_whole());
+    REQUIRE(said.size() == 1);
+    CHECK(contains(said[0], "copy: the finding "));
+    CHECK(contains(said[0], " is left out: "));
+    const Run list = folder.lorentz("fuzz list --json --store " + copy);
+    CHECK(list.status == 3);
+    CHECK(contains(list.err, " is left out: "));
+    CHECK(contains(list.out, "\"id\":\"1/leaving/12345678901.7\""));
+    Store into(":memory:", Store::Access::write);
+    CHECK(contains(message_of([&] { fuzz::merge({copy, path}, into); }), " is left out: "));
+  }
+  // What the answers say may be wrong in any way.
+  for (const std::string set :
+       {"given = replace(shrunk_exact, '0.25', '-1')", "given = replace(shrunk_exact, '0.25', '\"inf\"')",
+        "given = replace(shrunk_exact, '\"lattice\":0', '\"lattice\":99')"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    change(copy, "UPDATE finding SET " + set + ", shrunk_given = " + set.substr(8) + " WHERE place = 5");
+    INFO(set);
+    CHECK(Store(copy, Store::Access::read).findings().size() == 2);
+    CHECK(folder.lorentz("fuzz list --all --store " + copy).status == 0);
+    CHECK(folder.lorentz("fuzz show 1/leaving/5.7 --svg " + folder.file("svg") + " --store " + copy).status ==
+          0);
+  }
+}
+
+TEST_CASE("Counts and campaigns that no campaign came to are refused", "[fuzz][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store"), copy = folder.file("copy");
+  fuzz::TargetTally tally;
+  tally.next = tally.cases = tally.kinds[0] = 7;
+  tally.sorts = {{"a sort", 2}};
+  {
+    Store store(path, Store::Access::write);
+    store.open_campaign(manifest());
+    store.put(1, "leaving", tally);
+    store.commit();
+  }
+  for (const std::string sql :
+       {"UPDATE account SET cases = 8", "UPDATE account SET next = -1", "UPDATE account SET wrong = 1",
+        "UPDATE account SET fine = -7", "UPDATE account SET exact = 8", "UPDATE account SET margin = -1.0",
+        "UPDATE account SET cases = 9223372036854775807", "UPDATE account SET fine = 'x'",
+        "UPDATE sort SET number = -1", "UPDATE campaign SET seed = '5x'", "UPDATE campaign SET seed = ''",
+        "UPDATE campaign SET keep = -1", "UPDATE campaign SET engine = x'00'"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    change(copy, sql);
+    const Run list = folder.lorentz("fuzz list --json --store " + copy);
+    INFO(sql << '\n' << list.out << list.err);
+    CHECK(list.status == 3);
+    CHECK(contains(list.err, "copy: "));
+  }
+}
+
+TEST_CASE("Whatever an engine answered is kept so that it can be read", "[fuzz][store]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const double inf = std::numeric_limits<double>::infinity();
+  fuzz::Examined examined;
+  examined.exact = Answer::never();
+  const auto kept = [&] {
+    fuzz::Finding f = finding();
+    f.text = f.shrunk = fuzz::text_of("1/leaving/5", scene, query, examined);
+    INFO(f.text.given);
+    CHECK(flaw_of(f).empty());
+    return fuzz::case_in(f.text).given;
+  };
+  for (const double time : {-1.0, -0.0, -5e-324, -inf, inf, std::nan(""), -1e308}) {
+    examined.given = Answer::hit({0, 0, {Integer(1), Integer(0), Integer(0)}}, time);
+    const auto again = kept().time;
+    CHECK(again.has_value() == (time > -inf));
+    if (again) CHECK(*again == time);
+  }
+  const auto huge = Integer::from_decimal("-" + std::string(4000, '7'));
+  examined.given = Answer::hit({99, 99, {*huge, *huge, Integer(0)}}, 1);
+  CHECK(kept().obstacle == examined.given.obstacle);
+  for (const std::string& message :
+       {std::string("quotes \" and \\, lines\nand\ttabs"), std::string("\0\x1b[2J\x7f", 6),
+        std::string("caf\xc3\xa9"), std::string(100'000, 'x')}) {
+    examined.given = Answer::error(message);
+    CHECK(kept().message == message);
+  }
+  examined.given = Answer::error("half a caf\xc3");
+  CHECK(kept().message == "half a caf?");
 }
 
 TEST_CASE("Only shards of one campaign are merged", "[fuzz][store]") {

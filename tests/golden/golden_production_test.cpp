@@ -6,6 +6,7 @@
 #include <csignal>
 #include <set>
 
+#include "store/check.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
@@ -149,11 +150,13 @@ TEST_CASE("Golden: a question that comes twice is left out, and another made in 
   std::string record = rest.substr(rest.find("{\"id\"", 3000));
   record.resize(record.find('\n') + 1);
   const std::string note = folder.read("set.part.note");
-  REQUIRE(note == std::to_string(part.size()) + " 1 32 " + between(note, " 1 32 ", "\n") + "\n");
+  const auto begin_of_note = [&] {
+    return std::to_string(part.size()) + ' ' + std::to_string(store::check_of(part));
+  };
+  REQUIRE(note == begin_of_note() + " 1 32 " + between(note, " 1 32 ", "\n") + "\n");
   part += scene + record;
   folder.write("set.part", part);
-  folder.write("set.part.note",
-               std::to_string(part.size()) + " 1 33 " + between(note, " 1 32 ", "\n") + "\n");
+  folder.write("set.part.note", begin_of_note() + " 1 33 " + between(note, " 1 32 ", "\n") + "\n");
   CHECK(golden::produce_file(order, folder.file("set"), {}).records == 100);
   const std::string text = folder.read("set");
   CHECK(text.starts_with(part));
@@ -229,6 +232,8 @@ TEST_CASE("Golden: a part of another order, or one that does not fit its note, i
   change("set.part.note", [](const std::string&) { return "garbage"; });
   change("set.part.note", [](const std::string& note) { return replaced(note, " 64 ", " 63 "); });
   change("set.part", [](const std::string& part) { return part.substr(0, part.size() - 1); });
+  change("set.part", [](const std::string& part) { return replaced(part, "\"time\":1", "\"time\":2"); });
+  change("set.part", [](const std::string& part) { return replaced(part, "{\"id\":\"", "{\"id\":\"zzzz"); });
   change("set.part", [](const std::string& part) { return part.substr(0, part.size() / 2); });
   change("set.part", [](const std::string&) { return ""; });
 }

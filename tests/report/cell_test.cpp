@@ -1,8 +1,9 @@
 // Histograms, fits, and cells as text.
-#include "report/cell_store.hpp"
+#include "report/cell.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include <lorentz/exchange.hpp>
 #include "cases/random.hpp"
@@ -96,19 +97,54 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   skipped.scene = "ellipse", skipped.dimension = 2, skipped.difficulty = "grazing", skipped.engine = "oracle";
   skipped.skipped = true;
   skipped.unsupported = 3;
-  const CellStore store{{"these options", "scenes", "program"}, "{\"version\":\"1\"}", {cell, skipped}};
-  const CellStore again = CellStore::of(store.text());
-  CHECK(again.text() == store.text());
-  CHECK(again.cells == store.cells);
-  CHECK(again.run == store.run);
-  CHECK_NOTHROW(store.check(again.run));
-  for (const auto part : {&CellStore::Run::options, &CellStore::Run::scenes, &CellStore::Run::program}) {
-    CellStore::Run other = store.run;
-    other.*part = "others";
-    CHECK_THROWS_AS(store.check(other), InputError);
+  for (const Cell& one : {cell, skipped}) {
+    std::string text;
+    append_cell(text, one);
+    CHECK(cell_of(text) == one);
+    for (std::size_t cut = 0; cut < text.size(); cut += 5)
+      CHECK_THROWS_AS(cell_of(text.substr(0, cut)), InputError);
   }
-  const std::string text = store.text();
-  CHECK_THROWS_WITH(CellStore::of(text.substr(0, text.size() - 30)), Catch::StartsWith("line 3 "));
-  CHECK_THROWS_AS(CellStore::of(""), InputError);
-  CHECK_THROWS_AS(CellStore::of("{\"bench\":2}\n"), InputError);
+  std::string text;
+  append_cell(text, cell);
+  text.replace(text.find("0.1"), 3, "0.1x");
+  CHECK_THROWS_AS(cell_of(text), InputError);
+  cell.mean_path = INFINITY;  // as large as flights come
+  text.clear(), append_cell(text, cell);
+  CHECK(cell_of(text) == cell);
+}
+
+TEST_CASE("A cell that no engine can have come to has a flaw", "[report][cell]") {
+  Cell good;
+  good.queries = 50;
+  good.ns = {1.5, 1, 2, 1.75};
+  good.undecided = good.ill_posed = good.wrong_time = share_of(0, 50);
+  good.wrong = share_of(3, 50);
+  good.ulps = histogram_of({0, 1, 1e9});
+  CHECK(flaw_of(good, 50).empty());
+  CHECK_FALSE(flaw_of(good, 49).empty());
+  const std::vector<std::function<void(Cell&)>> edits{
+      [](Cell& c) { c.wrong.count = 4; },
+      [](Cell& c) { c.wrong.high = 0.5; },
+      [](Cell& c) { c.wrong = share_of(49, 50), c.error = 2; },
+      [](Cell& c) { c.unsupported = 51; },
+      [](Cell& c) { c.missing = ~std::size_t{0}; },
+      [](Cell& c) { c.ns.q1 = 1.6; },
+      [](Cell& c) { c.ns.mean = NAN; },
+      [](Cell& c) { c.instructions = -1; },
+      [](Cell& c) { c.mean_path = NAN; },
+      [](Cell& c) { c.ulps.exact = 49; },
+      [](Cell& c) { c.ulps.counts[1] = ~std::size_t{0}; },
+      [](Cell& c) { c.ulps.first = 1; },
+      [](Cell& c) { c.ulps.max = 1e8; },
+      [](Cell& c) { c.ulps.p99 = -1; },
+      [](Cell& c) { c.conditions.mean = 1; },
+      [](Cell& c) {
+        c.worst = Worst{"right", {}, "", ""};
+      }};
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    Cell bad = good;
+    edits[i](bad);
+    INFO("edit " << i);
+    CHECK_FALSE(flaw_of(bad, 50).empty());
+  }
 }

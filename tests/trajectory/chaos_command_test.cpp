@@ -1,8 +1,14 @@
 // lorentz lyapunov and lorentz diffusion as their users call them.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
+#include <lorentz/errors.hpp>
+#include "chaos/diffusion.hpp"
+#include "chaos/lyapunov.hpp"
 #include "tests/support/command_line.hpp"
 
+using namespace lorentz;
 using namespace lorentz::test;
 
 TEST_CASE("lorentz lyapunov: theory stands beside, and threads change nothing", "[chaos][chaos_command]") {
@@ -67,6 +73,76 @@ TEST_CASE("lorentz diffusion: no D where lattices leave corridors open that they
   const std::string tiny = what + scene("[[1.4142135623730951, 1e-11], [1e-11, 1.7320508]]") + " ";
   CHECK(contains(folder.lorentz(tiny).out, "\nwhether there is a D is not known\n"));
   CHECK(contains(folder.lorentz(tiny + "--json").out, R"("open":null,"D":)"));
+}
+
+TEST_CASE("Groups that were kept are gone on with, to the bit, and impossible ones are refused", "[chaos]") {
+  chaos::LyapunovPlan plan;
+  plan.scene = unit_scene(2, 0.3);
+  plan.seed = 9303, plan.collisions = 20'000;
+  chaos::DiffusionPlan other{plan.scene, flights::Ensemble::uniform, 9304, 700, 5};
+  const auto text = [&](const chaos::Work& work, bool lyapunov) {
+    if (!lyapunov) {
+      const chaos::Diffusion found = chaos::diffusion_of(other, work);
+      return fmt::format("{:a} {:a} {}", found.coefficient.value, found.coefficient.error, found.particles);
+    }
+    const chaos::Lyapunov found = chaos::lyapunov_of(plan, work);
+    return fmt::format("{:a} {:a} {}", found.map[0].value, found.map[0].error, found.collisions);
+  };
+  for (const bool lyapunov : {true, false}) {
+    std::vector<std::string> kept, added;
+    const auto keeping = [&](unsigned jobs) {
+      chaos::Work work;
+      work.jobs = jobs;
+      work.kept = {[&](const auto& read) {
+                     for (const std::string& one : kept) read(one);
+                   },
+                   [&](const std::string& one) { added.push_back(one); }};
+      return work;
+    };
+    const std::string whole = text(keeping(1), lyapunov);
+    CHECK(text({.jobs = 3}, lyapunov) == whole);
+    REQUIRE(added.size() == chaos::kGroups);
+    const std::vector<std::string> all = std::exchange(added, {});
+    for (std::size_t i = 0; i < all.size(); i += 3) kept.push_back(all[i]);
+    CHECK(text(keeping(2), lyapunov) == whole);
+    CHECK(added.size() == chaos::kGroups - kept.size());
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"\"group\":0,", "\"group\":64,"},
+             {"\"group\":0,", "\"group\":3,"},
+             {"\"values\":[", "\"values\":[0,"},
+             {"\"stopped\":0", "\"stopped\":18446744073709551615"},
+             {"\"stopped\":0", "\"stopped\":-1"},
+             {"\"collisions\":", "\"collision\":"},
+             {"\"particles\":", "\"particles\":9"}}) {
+      std::string bad = all[0];
+      REQUIRE(bad.find(from) != std::string::npos);
+      kept = {bad.replace(bad.find(from), from.size(), to), all[3]};
+      INFO(bad);
+      CHECK_THROWS_AS(text(keeping(1), lyapunov), InputError);
+    }
+  }
+}
+
+TEST_CASE("Statistics of trajectories: killed, they go on; the result is the same",
+          "[chaos][chaos_command]") {
+  const Folder folder;
+  for (const std::string what :
+       {"lyapunov --radius 0.3 --collisions 4e5", "diffusion --radius 0.3 --count 2e4 --time 30"}) {
+    const std::string whole = folder.lorentz(what).out, store = " --store " + folder.file("store");
+    folder.run("rm -f " + folder.file("store"));
+    for (int kills = 0; kills < 3; ++kills)  // each time when it has kept something more
+      folder.run("sh -c '" LORENTZ_PROGRAM " " + what + store + " & p=$!; n=$(wc -l <" +
+                 folder.file("store") + " || echo 1); while [ -d /proc/$p ] && ! [ \"$(wc -l <" +
+                 folder.file("store") +
+                 " || echo 0)\" -gt \"$n\" ]; do sleep 0.01; done; kill -9 $p; wait $p'");
+    CHECK(lines(folder.read("store")) > 3);
+    const Run rest = folder.lorentz(what + " --jobs 2" + store);
+    INFO(what << rest.err);
+    CHECK(rest.status == 0);
+    CHECK(rest.out == whole);
+    CHECK(lines(folder.read("store")) == 65);
+    CHECK(folder.lorentz(what + " --seed 1" + store).status == 2);
+  }
 }
 
 TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {

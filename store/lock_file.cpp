@@ -1,4 +1,4 @@
-#include "fuzz/campaign/lock_file.hpp"
+#include "store/lock_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -6,17 +6,35 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 
 #include <lorentz/errors.hpp>
 #include "src/problem/write_error.hpp"
 
-namespace lorentz::fuzz {
+namespace lorentz::store {
+
+namespace {
+
+// Also of a link to a file that is not there yet.
+std::string without_links(const std::string& file) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  fs::path place = file;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i)
+    place = place.parent_path() / fs::read_symlink(place, error);
+  place = fs::weakly_canonical(place, error);
+  return error ? file : place.string();
+}
+
+}  // namespace
 
 LockFile::LockFile(const std::string& file, bool writes, const std::string& busy)
-    : path_(file + ".lock"), writes_(writes) {
+    : path_(without_links(file) + ".lock"), writes_(writes) {
   do {
     close();
-    lock_ = ::open(path_.c_str(), writes_ ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0666);
+    const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
+    lock_ = ::open(path_.c_str(), flags, 0666);
     if (lock_ < 0 && !writes_) return;
     if (lock_ < 0) throw write_error(file, errno);
     if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
@@ -31,7 +49,7 @@ LockFile::~LockFile() {
   close();
 }
 
-// Not one that somebody took away between our opening and locking it.
+// Not one that another process removed between our opening and locking it.
 bool LockFile::is_the_one_there() const {
   struct stat ours {
   }, there{};
@@ -43,4 +61,4 @@ void LockFile::close() {
   lock_ = -1;
 }
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::store

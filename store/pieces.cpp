@@ -1,0 +1,126 @@
+#include "store/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <lorentz/exchange.hpp>
+#include "src/exchange/exchange_json.hpp"
+#include "store/check.hpp"
+
+namespace lorentz::store {
+namespace {
+
+constexpr std::string_view kCheck = ",\"check\":\"";
+
+// The checks of pieces begin with their header's, so that a piece of another run has another one.
+std::string with_check(const std::string& line, std::uint64_t begin) {
+  return fmt::format("{}{}{:016x}\"}}", line, kCheck, check_of(line, begin));
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError(what + kRemedy);
+}
+
+// A line without its check. Throws InputError if it has none, or another one.
+std::string_view checked(std::string_view line, std::uint64_t begin) {
+  const std::size_t at = line.rfind(kCheck);
+  if (at == std::string_view::npos)
+    refuse("has no checksum: the file is of another kind or version, or was cut off");
+  if (with_check(std::string(line.substr(0, at)), begin) != line)
+    refuse("is damaged: it is not what its checksum was made of");
+  return line.substr(0, at);
+}
+
+std::string header_of(std::string_view kind, const Plan& plan) {
+  std::string words;
+  for (const auto& [name, value] : plan)
+    words += fmt::format("{}{}:{}", words.empty() ? "" : ",", json_quoted(name), json_quoted(value));
+  return fmt::format("{{\"store\":{},\"format\":2,\"plan\":{{{}}}", json_quoted(kind), words);
+}
+
+// What is different in a header that is not the one of this kind and plan.
+std::string difference(std::string_view line, std::string_view kind, const Plan& plan) {
+  const simdjson::padded_string padded(line);
+  json::parser parser;
+  json::document document = parser.iterate(padded);
+  json::object header = document.get_object();
+  if (const std::string_view other = header["store"]; other != kind)
+    return fmt::format("is a store of `lorentz {}`", other);
+  std::size_t i = 0;
+  for (auto field : json::object(header["plan"])) {
+    const std::string_view name = field.unescaped_key();
+    const std::string_view value = json::value(field.value()).get_string();
+    if (i == plan.size() || name != plan[i].first) break;
+    if (value != plan[i].second)
+      return fmt::format("is of another run: its {} is {}, not {}", name, json_quoted(value),
+                         json_quoted(plan[i].second));
+    ++i;
+  }
+  return "is of another version of this program";
+}
+
+void check_header(std::string_view line, std::string_view kind, const Plan& plan) {
+  checked(line, kCheckOfNothing);
+  if (line == with_check(header_of(kind, plan), kCheckOfNothing)) return;
+  try {
+    throw InputError(difference(line, kind, plan) + "; give what it was begun with, or name another file");
+  } catch (const simdjson::simdjson_error&) {
+    refuse("is of another kind");
+  }
+}
+
+constexpr std::string_view kPiece = "{\"piece\":";
+
+std::string piece_in(std::string_view line, std::uint64_t begin) {
+  std::string_view piece = checked(line, begin);
+  try {
+    if (!piece.starts_with(kPiece)) refuse("is not a piece of a run");
+    piece.remove_prefix(kPiece.size());
+    const simdjson::padded_string padded(piece);
+    json::parser parser;
+    json::document document = parser.iterate(padded);
+    skip(document.get_value());
+    if (!ended(document)) refuse("is more than one piece");
+  } catch (const NotJson& error) {
+    refuse(std::string("is not JSON: ") + error.what());
+  } catch (const simdjson::simdjson_error& error) {
+    refuse(std::string("is not JSON: ") + error.what());
+  }
+  return std::string(piece);
+}
+
+}  // namespace
+
+std::string text_of(std::string_view kind, const Plan& plan, const std::vector<std::string>& pieces) {
+  const std::string header = with_check(header_of(kind, plan), kCheckOfNothing);
+  const std::uint64_t begin = check_of(header);
+  std::string text = header + '\n';
+  for (const std::string& piece : pieces) text += with_check(std::string(kPiece) + piece, begin) + '\n';
+  return text;
+}
+
+std::vector<std::string> pieces_in(std::string_view text, std::string_view kind, const Plan& plan) {
+  std::vector<std::string> pieces;
+  std::size_t number = 0;
+  std::uint64_t begin = kCheckOfNothing;
+  if (text.empty()) refuse("line 1 is missing");
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    ++number;
+    try {
+      if (end == text.size()) refuse("has no end: the file was cut off");
+      if (number == 1) {
+        check_header(line, kind, plan);
+        begin = check_of(line);
+      } else {
+        pieces.push_back(piece_in(line, begin));
+      }
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("line {} {}", number, error.what()));
+    }
+    text.remove_prefix(end + 1);
+  }
+  return pieces;
+}
+
+}  // namespace lorentz::store

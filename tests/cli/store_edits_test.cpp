@@ -1,0 +1,125 @@
+// Stores that something changed: refused with file, line and remedy, or the result is the same to the byte.
+#include <catch2/catch.hpp>
+
+#include "cases/random.hpp"
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20261201;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line + '\n');
+  return lines;
+}
+
+// One change, of a byte, a digit, a piece of text, or a line.
+std::string edited(const std::string& text, cases::Random& random) {
+  std::string out = text;
+  const auto at = [&](std::size_t size) { return static_cast<std::size_t>(random.below(size)); };
+  std::vector<std::string> lines = lines_of(text);
+  switch (random.below(8)) {
+    case 0:  // a bit
+      out[at(out.size())] ^= static_cast<char>(1 << random.below(8));
+      return out;
+    case 1:
+      return out.erase(at(out.size()), 1 + random.below(3));
+    case 2:
+      return out.insert(at(out.size()), 1, "0123456789abcdef,:[]{}\"-. \n"[random.below(27)]);
+    case 3:  // cut off
+      return out.substr(0, at(out.size()));
+    case 4: {  // a line twice
+      const std::string line = lines[at(lines.size())];
+      return out + line;
+    }
+    case 5: {  // a line less
+      const std::size_t gone = at(lines.size());
+      out.clear();
+      for (std::size_t i = 0; i < lines.size(); ++i) out += i == gone ? "" : lines[i];
+      return out;
+    }
+    default: {  // a digit
+      std::vector<std::size_t> digits;
+      for (std::size_t i = 0; i < out.size(); ++i)
+        if (std::isxdigit(static_cast<unsigned char>(out[i]))) digits.push_back(i);
+      char& digit = out[digits[at(digits.size())]];
+      digit = digit == '7' ? '3' : '7';
+      return out;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A store that was changed is refused, or the result is the same", "[cli][store]") {
+  INFO("seed " << kSeed);
+  const std::vector<std::string> runs{
+      "flights --count 2e5 --radius 0.3 --json", "lyapunov --collisions 1e4 --radius 0.3",
+      "diffusion --count 256 --time 3 --radius 0.3",
+      "bench --scene square --radius 0.3,0.2 -e reduction --count 40 --difficulty drawn --json"};
+  int refused = 0, same = 0;
+  for (const std::string& run : runs) {
+    const Folder folder;
+    const std::string command = run + " --store " + folder.file("store");
+    const auto without_seconds = [](std::string out) {
+      const std::size_t at = out.find(",\"seconds\":");
+      return at == std::string::npos ? out : out.substr(0, at);
+    };
+    REQUIRE(folder.lorentz(command).status == 0);
+    const std::string stored = folder.read("store"), whole = without_seconds(folder.lorentz(command).out);
+    CHECK(folder.read("store") == stored);
+    for (int i = 0; i < (run.starts_with("bench") ? 20 : 40); ++i) {
+      cases::Random random(kSeed, run, static_cast<std::uint64_t>(i));
+      const std::string text = edited(stored, random);
+      folder.write("store", text);
+      const Run again = folder.lorentz(command);
+      INFO(command << ", edit " << i << ":\n" << text.substr(0, 2000) << '\n' << again.err);
+      if (again.status == 0) {
+        ++same;
+        const bool is_measured = run.starts_with("bench");  // a missing cell is measured anew
+        if (!is_measured) CHECK(without_seconds(again.out) == whole);
+        if (!is_measured) CHECK(lines_of(folder.read("store")).size() == lines_of(stored).size());
+        CHECK((text == stored || lines(text) < lines(stored)));
+      } else {
+        ++refused;
+        CHECK(again.status == 2);
+        CHECK(again.out.empty());
+        CHECK(contains(again.err, folder.file("store") + ": line "));
+        CHECK(contains(again.err, "; "));
+        CHECK(folder.read("store") == text);
+      }
+    }
+  }
+  INFO(refused << " refused, " << same << " the same");
+  CHECK(refused > 100);
+  CHECK(same > 3);
+}
+
+TEST_CASE("A store is for one process at a time, by whatever name, and no longer than that lives",
+          "[cli][store]") {
+  const Folder folder;
+  fs::create_symlink(folder.file("store"), folder.file("link"));
+  for (const std::string run :
+       {"flights --count 1e12 --radius 0.3", "lyapunov --collisions 1e12", "diffusion --count 1e10"}) {
+    folder.run("rm -f " + folder.file("store"));
+    const std::string lock = folder.file("store.lock"), store = " --store " + folder.file("store");
+    const std::string script = folder.write(
+        "two.sh", LORENTZ_PROGRAM " " + run + store + " &\nfirst=$!\n" + "until [ -e " + lock +
+                      " ] && grep -q \":$(stat -c %i " + lock + ") \" /proc/locks; do sleep 0.02; done\n" +
+                      LORENTZ_PROGRAM " " + run + " --store " + folder.file("link") +
+                      "\nstatus=$?\nkill -9 $first\nwait $first\n[ -e " + lock + " ] && rm -f " +
+                      folder.file("store") + " && " + LORENTZ_PROGRAM " flights --count 1e3" + store +
+                      " >/dev/null && echo third && rm " + folder.file("store") + "\nexit $status\n");
+    const Run two = folder.run("sh " + script);
+    INFO(run << '\n' << two.out << two.err);
+    CHECK(two.status == 3);
+    CHECK(contains(two.err,
+                   "link: another process is writing this store; wait for it, stop it, or name another"));
+    CHECK(contains(two.out, "third"));
+  }
+}
