@@ -194,7 +194,8 @@ std::string reason_in(const fuzz::CaseText& text) {
            answer.outcome == Outcome::never;
   };
   if (!says_what(one.given) || !says_what(one.exact)) return "";
-  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given, "");
+  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given,
+                   decisive_of(one.scene, one.query, one.exact, one.given), "");
 }
 
 }  // namespace
