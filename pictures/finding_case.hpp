@@ -25,7 +25,7 @@ class FindingCase {
   /// `given` may be null; `decisive` is the obstacle that it is judged by, if that is known. All of it lives
   /// as long as this. Lengths, and times, are in units of 2^exponent.
   FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
-              const std::optional<ObstacleId>& decisive, int exponent = 0);
+              const std::optional<ObstacleId>& decisive = {}, int exponent = 0);
 
   const Scene& scene;
   const Query& query;

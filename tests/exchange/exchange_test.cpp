@@ -276,7 +276,6 @@ TEST_CASE("A bad answer line is refused, not guessed at", "[exchange]") {
   for (const char* text : {R"({"id":1})", R"({"id":1,"outcome":"maybe"})", R"({"id":1,"outcome":"hit"})",
                            R"({"id":1,"outcome":"hit","atom":0,"cell":[1,2],"time":1})",
                            R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[]})",
-                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[1,2],"time":-1})",
                            R"({"id":1,"outcome":"hit","lattice":-1,"atom":0,"cell":[1,2],"time":1})"}) {
     INFO(text);
     CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer, components), InputError);
