@@ -67,7 +67,7 @@ class Examination {
   /// A program that was given up may do another set; not if it never answered anything.
   bool is_worth_asking() {
     answerer_->try_again();
-    return !answerer_->given_up();
+    return !answerer_->is_hopeless();
   }
 
   SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {

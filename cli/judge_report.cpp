@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <lorentz/exchange.hpp>
 #include "cli/finding_json.hpp"
@@ -333,23 +334,32 @@ enum class RowState { asked, unsupported, no_time, given_up };
 constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up"};
 
 RowState state_of(const judge::Row& row, const JudgeReport& report) {
-  if (!row.given_up.empty()) return RowState::given_up;
-  if (row.asked() > 0)
-    return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
+  if (row.scenes_given_up > 0) return RowState::given_up;
+  if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
   const compare::Tally all = report.total();
   return row.is_exhausted && all.queries == all.unsupported ? RowState::unsupported : RowState::no_time;
 }
 
+// A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
+std::string given_up_lines(const JudgeReport& report) {
+  std::map<std::string, std::vector<std::string>> by_failure;
+  for (const judge::Row& row : report.rows)
+    if (row.scenes_given_up > 0)
+      by_failure[row.last_failure].push_back(fmt::format("{} ({})", row.name, row.scenes_given_up));
+  std::string text;
+  for (const auto& [failure, names] : by_failure)
+    text += fmt::format("given up in scenes of: {}; {}\n", fmt::join(names, ", "), failure);
+  return text;
+}
+
 std::string table_of(const JudgeReport& report) {
   Table table(kColumns);
   std::vector<std::string> unsupported, no_time;
-  std::string given_up;
   for (const judge::Row& row : report.rows) {
     const RowState state = state_of(row, report);
     if (state == RowState::unsupported) unsupported.push_back(row.name);
     if (state == RowState::no_time) no_time.push_back(row.name);
-    if (state == RowState::given_up) given_up += fmt::format("given up: {}, {}\n", row.name, row.given_up);
     if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense));
   }
   compare::Tally total = report.total();
@@ -358,19 +368,20 @@ std::string table_of(const JudgeReport& report) {
   std::string text = table.text();
   if (!unsupported.empty()) text += fmt::format("unsupported: {}\n", fmt::join(unsupported, ", "));
   if (!no_time.empty()) text += fmt::format("not asked, no time: {}\n", fmt::join(no_time, ", "));
-  return text + given_up;
+  return text + given_up_lines(report);
 }
 
 std::string json_of(const judge::Row& row, const JudgeReport& report) {
   const compare::Tally& t = row.tally;
   return fmt::format(
-      "{{\"name\":{},\"explanation\":{},\"state\":\"{}\",\"why\":{},\"queries\":{},\"agree\":{},"
+      "{{\"name\":{},\"explanation\":{},\"state\":\"{}\",\"scenes_given_up\":{},\"why\":{},\"queries\":{},"
+      "\"agree\":{},"
       "\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},"
       "\"missing\":{},\"nonsense\":{},\"max_ulp\":{},\"ns_per_query\":{}}}",
       json_quoted(row.name), json_quoted(row.explanation),
-      kRowStates[static_cast<int>(state_of(row, report))],
-      row.given_up.empty() ? "null" : json_quoted(row.given_up), t.queries, t.agree, t.ill_posed, t.wrong,
-      t.wrong_time, t.undecided, t.unsupported, t.error, t.missing, row.nonsense,
+      kRowStates[static_cast<int>(state_of(row, report))], row.scenes_given_up,
+      row.scenes_given_up == 0 ? "null" : json_quoted(row.last_failure), t.queries, t.agree, t.ill_posed,
+      t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error, t.missing, row.nonsense,
       number_or_null(t.timed_hits ? std::optional(t.max_ulp) : std::nullopt),
       number_or_null(t.ns_per_query > 0 ? std::optional(t.ns_per_query) : std::nullopt));
 }
@@ -400,7 +411,7 @@ std::size_t JudgeReport::nonsense() const {
 
 std::size_t JudgeReport::rows_given_up() const {
   return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const judge::Row& row) { return !row.given_up.empty(); }));
+      std::count_if(rows.begin(), rows.end(), [](const judge::Row& row) { return row.scenes_given_up > 0; }));
 }
 
 bool JudgeReport::is_broken() const {

@@ -81,7 +81,10 @@ class Answerer {
   /// True if it broke so often that it is no longer asked about this scene.
   virtual bool given_up() const { return false; }
 
-  /// Asks it again although it was given up, as if nothing had happened; not if it never answered anything.
+  /// True if it was given up and never answered anything: it is not asked about other scenes either.
+  virtual bool is_hopeless() const { return false; }
+
+  /// Asks it again although it was given up, as if nothing had happened, unless it is hopeless.
   virtual void try_again() {}
 
  protected:

@@ -467,7 +467,7 @@ void CommandEngine::give_up() {
 }
 
 void CommandEngine::try_again() {
-  if (!given_up_in_ || !ever_answered_) return;
+  if (!given_up() || is_hopeless()) return;
   given_up_in_.reset();
   failures_in_row_ = 0;
 }

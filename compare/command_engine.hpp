@@ -41,6 +41,7 @@ class CommandEngine final : public Answerer {
   bool idle(int descriptor) override;
   bool failed() const override { return failed_; }
   bool given_up() const override { return given_up_in_ != nullptr; }
+  bool is_hopeless() const override { return given_up() && !ever_answered_; }
   void try_again() override;
 
  private:

@@ -1,11 +1,8 @@
 #include "judge/examination.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
-#include "compare/command_engine.hpp"
 #include "compare/registry.hpp"
 
 namespace lorentz::judge {
@@ -104,7 +101,7 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
   double asking = 0;
   std::size_t compared = 0, at_once = kFewestAtOnce;
   std::vector<Question> questions;
-  while (!row.is_exhausted && row.given_up.empty() && !is_over() && seconds_since(start) < seconds) {
+  while (!row.is_exhausted && !is_over() && seconds_since(start) < seconds) {
     questions.clear();
     while (questions.size() < at_once && !stop_ && seconds_since(start) < seconds) {
       std::optional<Question> next = source();
@@ -120,7 +117,8 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
       take(questions[i], answers_[i], row, compared);
       if (look && answers_[i].was_asked()) look(questions[i], answers_[i].answer);
     }
-    if (answerer_->given_up()) row.given_up = why_given_up();
+    if (answerer_->given_up() && setting_) leave(*setting_, row);
+    if (answerer_->is_hopeless()) break;
   }
   if (row.tally.queries > 0) row.tally.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
   rows_.push_back(std::move(row));
@@ -133,16 +131,19 @@ void Examination::take_over(const Examination& other) {
   const double ns = time(its) + time(more);
   its.add(more);
   rows_.back().nonsense += other.rows_.back().nonsense;
-  if (rows_.back().given_up.empty()) rows_.back().given_up = other.rows_.back().given_up;
+  rows_.back().scenes_given_up += other.rows_.back().scenes_given_up;
+  if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
   if (its.queries > 0) its.ns_per_query = ns / static_cast<double>(its.queries);
   findings_.add(other.findings_);
   calls_.add(other.calls_);
   failed_ |= other.failed();
 }
 
-std::string Examination::why_given_up() const {
-  return fmt::format("after {} failures in a row, the last: {}", compare::CommandEngine::kMaxFailuresInRow,
-                     last_fault_);
+void Examination::leave(Setting& setting, Row& row) const {
+  if (setting.is_given_up()) return;
+  setting.give_up();
+  ++row.scenes_given_up;
+  row.last_failure = last_fault_;
 }
 
 Judgement Examination::judgement_of(const Question& question, const Given& given) const {
@@ -164,10 +165,7 @@ std::optional<Example> Examination::departing(const Question& question, const Gi
 }
 
 void Examination::take(const Question& question, const Given& given, Row& row, std::size_t& compared) {
-  if (!given.was_asked()) {
-    row.given_up = why_given_up();
-    return;
-  }
+  if (!given.was_asked()) return leave(*question.setting, row);
   const Judgement judgement = judgement_of(question, given);
   if (given.origin == Origin::fault) last_fault_ = given.answer.message;
   const auto diagnosis = diagnosis_of(question, given.answer, judgement);

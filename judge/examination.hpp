@@ -28,8 +28,9 @@ struct Row {
   compare::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
   /// Invalid questions that were answered as if they were valid; these are not in the tally.
   std::size_t nonsense = 0;
-  bool is_exhausted = false;  ///< its source had no more questions that the engine does
-  std::string given_up = {};  ///< why another program was asked no further; empty: it was not given up
+  bool is_exhausted = false;        ///< its source had no more questions that the engine does
+  std::size_t scenes_given_up = 0;  ///< in which another program failed until it was asked no further
+  std::string last_failure = {};    ///< of the last of these
 
   std::size_t asked() const { return tally.queries + nonsense; }
 };
@@ -57,7 +58,7 @@ class Examination {
   Start warm_up();
 
   /// Asks for so many seconds at the most (beyond that only what was asked already), or until there is no
-  /// more, or another program is given up; in the next row it is asked again.
+  /// more. A scene in which another program is given up is left.
   void run(Row row, const Source& source, double seconds, const Look& look = {});
 
   /// Takes over what another examination of the same engine came to in its last row, and adds that to the
@@ -99,7 +100,7 @@ class Examination {
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
   void take(const Question& question, const Given& given, Row& row, std::size_t& compared);
-  std::string why_given_up() const;
+  void leave(Setting& setting, Row& row) const;
   oracle::Judgement judgement_of(const Question& question, const Given& given) const;
   std::optional<Example> departing(const Question& question, const Given& given) const;
 

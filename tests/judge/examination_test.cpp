@@ -23,15 +23,17 @@ std::string tolerant(const std::string& fault) {
   return "cmd:exec " LORENTZ_TOLERANT_ENGINE " " + fault;
 }
 
-// Drawn questions in the square or cubic lattice.
-Source questions(int dimension, std::size_t number) {
-  const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
-  const auto queries = std::make_shared<std::vector<Query>>(
-      compare::draw_queries(setting->scene(), setting->oracle(), kSeed, number));
+// Drawn questions of each of these scenes in turn, in the square or cubic lattice.
+Source questions(std::vector<int> dimensions, std::size_t number) {
+  const auto all = std::make_shared<std::vector<Question>>();
+  for (const int dimension : dimensions) {
+    const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+    for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), kSeed, number))
+      all->push_back({setting, query, setting->oracle().first_hit(query), "here", ""});
+  }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
-    if (next == queries->size()) return std::nullopt;
-    const Query& query = (*queries)[next++];
-    return Question{setting, query, setting->oracle().first_hit(query), "here", ""};
+    while (next < all->size() && (*all)[next].setting->is_beyond_engine()) ++next;
+    return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
   };
 }
 
@@ -54,32 +56,45 @@ class Flagging final : public compare::Answerer {
 
 }  // namespace
 
-TEST_CASE("A program is given up for a row, not for the run, and the row says why", "[judge][examination]") {
+TEST_CASE("A program is given up for a scene, not for the run, and the row says why",
+          "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination examination(tolerant("dies-in 3"), {}, 4, stop);
-  examination.run({"plane", ""}, questions(2, 20), kForEver);
-  examination.run({"space", ""}, questions(3, 20), kForEver);
-  examination.run({"plane again", ""}, questions(2, 20), kForEver);
-  examination.run({"space again", ""}, questions(3, 20), kForEver);
+  examination.run({"plane", ""}, questions({2}, 20), kForEver);
+  examination.run({"space", ""}, questions({3}, 20), kForEver);
+  examination.run({"plane again", ""}, questions({2}, 20), kForEver);
+  examination.run({"both", ""}, questions({3, 2, 3}, 20), kForEver);
   examination.finish();
-  REQUIRE(examination.rows().size() == 4);
+  const std::vector<Row>& rows = examination.rows();
+  REQUIRE(rows.size() == 4);
   for (const std::size_t i : {0, 2}) {
-    const Row& row = examination.rows()[i];
-    CHECK(row.tally.agree == 20);
-    CHECK(row.given_up.empty());
-    CHECK(row.is_exhausted);
+    CHECK(rows[i].tally.agree == 20);
+    CHECK(rows[i].scenes_given_up == 0);
+    CHECK(rows[i].is_exhausted);
   }
-  for (const std::size_t i : {1, 3}) {
-    const Row& row = examination.rows()[i];
-    CHECK(row.tally.queries == 5);  // what was not asked is not counted
-    CHECK(row.tally.missing == 5);
-    CHECK(row.tally.error == 0);
-    CHECK(row.given_up == "after 5 failures in a row, the last: cmd died (exit 3) on this query");
-  }
+  CHECK(rows[1].tally.queries == 5);  // what was not asked is not counted
+  CHECK(rows[1].tally.missing == 5);
+  CHECK(rows[1].tally.error == 0);
+  CHECK(rows[1].scenes_given_up == 1);
+  CHECK(rows[1].last_failure == "cmd died (exit 3) on this query");
+  CHECK(rows[3].tally.agree == 20);
+  CHECK(rows[3].tally.missing == 10);
+  CHECK(rows[3].scenes_given_up == 2);
   const std::vector<Finding> findings = examination.findings();
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].cause() == Cause::no_answer);
-  CHECK(findings[0].count == 10);
+  CHECK(findings[0].count == 15);
+}
+
+TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  Examination examination("cmd:exit 3", {}, 4, stop);
+  examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
+  examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
+  examination.finish();
+  CHECK(examination.rows()[0].tally.missing == 5);
+  CHECK(examination.rows()[1].tally.queries == 0);
+  CHECK(examination.rows()[1].scenes_given_up > 0);
 }
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
@@ -87,8 +102,8 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
   const compare::GuestEngine guest(
       "flagging", [&](const compare::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
   Examination examination("flagging", {}, 4, stop);
-  examination.run({"asked", ""}, questions(2, 1000), kForEver);
-  examination.run({"not asked", ""}, questions(2, 1000), kForEver);
+  examination.run({"asked", ""}, questions({2}, 1000), kForEver);
+  examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
   const std::size_t asked = examination.rows()[0].tally.queries;
   CHECK(asked >= 30);
   CHECK(asked < 30 + 32);  // those that were asked together with it
@@ -103,7 +118,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     over = true;
   });
-  silent.run({"silent", ""}, questions(2, 1000), kForEver);
+  silent.run({"silent", ""}, questions({2}, 1000), kForEver);
   silent.finish();
   clock.join();
   CHECK(silent.rows()[0].tally.queries == 0);
@@ -111,7 +126,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
 
 TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[judge][repetition]") {
   const std::atomic<bool> stop = false, stopped = true;
-  const Question question = *questions(2, 1)();
+  const Question question = *questions({2}, 1)();
   Finding finding{
       {question, Answer::error("cmd died"), {}, {Cause::no_answer, Severity::error}}, "here", 1, {}};
   const auto recheck_of = [&](const std::string& fault, const std::atomic<bool>& over) {

@@ -123,11 +123,11 @@ TEST_CASE("What was unsupported, what there was no time for, and what was given 
   name(1, "ellipses"), name(2, "ties"), name(3, "far starts");
   turn(report.rows[1], &compare::Tally::unsupported, 30);
   turn(report.rows[3], &compare::Tally::missing, 5);
-  report.rows[3].given_up = "after 5 failures in a row, the last: cmd died (exit 3) on this query";
-  CHECK(contains(
-      report.text(),
-      "\nunsupported: ellipses\nnot asked, no time: ties\n"
-      "given up: far starts, after 5 failures in a row, the last: cmd died (exit 3) on this query\n"));
+  report.rows[3].scenes_given_up = 2;
+  report.rows[3].last_failure = "cmd died (exit 3) on this query";
+  CHECK(contains(report.text(),
+                 "\nunsupported: ellipses\nnot asked, no time: ties\n"
+                 "given up in scenes of: far starts (2); cmd died (exit 3) on this query\n"));
   CHECK(report.line() ==
         "right: no wrong answer in 1002; 5 of 1037 answers missing; given up in 1 of 4 rows");
   for (const char* state : {"asked", "unsupported", "no time", "given up"})

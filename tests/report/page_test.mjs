@@ -194,7 +194,7 @@ test("What was unsupported, what there was no time for, and what was given up ar
     assert.deepEqual(await page.locator("#difficulties .left-out li").allInnerTexts(), [
       "Unsupported: golden ellipsoids",
       "Not asked, no time: golden ties",
-      "Given up: golden far starts (after 5 failures in a row, the last: cmd died (exit 3) on this query)",
+      "Given up in scenes of: golden far starts (2); cmd died (exit 3) on this query",
     ]);
     const table = await page.locator("#difficulties tbody").innerText();
     assert.match(table, /golden far starts/); // what it was asked before

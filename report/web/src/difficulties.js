@@ -19,16 +19,16 @@ const COUNTS = [
 
 // What was not asked, or not to the end, and why: three states that are not the same.
 function leftOut(rows) {
-  const named = (state, say) => {
-    const its = rows.filter((r) => r.state === state);
-    return its.length ? h("li", {}, h("b", {}, `${say}: `), its.map(told).join("; ")) : null;
-  };
-  const told = (row) => (row.why ? `${row.name} (${row.why})` : row.name);
+  const told = (row) => (row.scenes_given_up ? `${row.name} (${row.scenes_given_up})` : row.name);
+  const named = (state, say) =>
+    [...Map.groupBy(rows.filter((r) => r.state === state), (r) => r.why ?? "")].map(([why, its]) =>
+      h("li", {}, h("b", {}, `${say}: `), its.map(told).join(", "), why && `; ${why}`),
+    );
   const items = [
-    named("unsupported", "Unsupported"),
-    named("no time", "Not asked, no time"),
-    named("given up", "Given up"),
-  ].filter(Boolean);
+    ...named("unsupported", "Unsupported"),
+    ...named("no time", "Not asked, no time"),
+    ...named("given up", "Given up in scenes of"),
+  ];
   return items.length ? h("ul", { class: "left-out" }, items) : null;
 }
 
