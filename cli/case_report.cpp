@@ -27,7 +27,8 @@ std::vector<std::string> commands_of(const CaseReport& report) {
 std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Margins& margins) {
   std::vector<std::string> lines;
   if (report.given) {
-    lines = lines_of(reason_of(margins, report.scene, report.query, report.exact, *report.given, ""));
+    lines = lines_of(
+        reason_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive, ""));
   } else if (const auto decision = margins.hardest_decision(report.query, report.exact)) {
     lines.push_back(decision_text(*decision, report.scene.dimension));
   }
@@ -37,7 +38,8 @@ std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Ma
 
 std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& margins) {
   if (!report.given) return std::nullopt;
-  const auto dispute = dispute_of(margins, report.scene, report.query, report.exact, *report.given);
+  const auto dispute =
+      dispute_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive);
   return dispute ? std::optional(dispute->radii) : std::nullopt;
 }
 
@@ -61,7 +63,8 @@ std::string finding_of(const CaseReport& report) {
 }  // namespace
 
 std::string drawing_of(const CaseReport& report) {
-  return report.given ? pictures::finding_drawing(report.scene, report.query, *report.given, report.exact)
+  return report.given ? pictures::finding_drawing(report.scene, report.query, *report.given, report.exact,
+                                                  report.decisive)
                       : pictures::finding_drawing(report.scene, report.query, report.exact);
 }
 

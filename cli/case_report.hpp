@@ -21,9 +21,10 @@ struct CaseReport {
   Query query;
   std::optional<Answer> given;
   Answer exact;
-  std::optional<double> by_ulps;  ///< the inputs must move for the answer to be right
-  std::vector<std::string> more;  ///< lines that are said after the reason
-  std::string engine;             ///< whose answer it is; empty: nobody's
+  std::optional<ObstacleId> decisive;  ///< that the answer given is judged by
+  std::optional<double> by_ulps;       ///< the inputs must move for the answer to be right
+  std::vector<std::string> more;       ///< lines that are said after the reason
+  std::string engine;                  ///< whose answer it is; empty: nobody's
 };
 
 /// The drawing, or an empty text if there is nothing to be drawn.

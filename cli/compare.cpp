@@ -251,8 +251,9 @@ class Departures {
     file_.add(one, exact, name, given, judgement);
     if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
     const Scene& scene = set_.scenes[one.scene];
-    text_[name] += description(one, exact, given, scene) +
-                   reason_of(oracle::Margins(scene), scene, one.query, exact, given, "    ");
+    text_[name] +=
+        description(one, exact, given, scene) +
+        reason_of(oracle::Margins(scene), scene, one.query, exact, given, judgement.obstacle, "    ");
   }
 
   /// The first wrong answers of an engine, for people; empty if there are none.

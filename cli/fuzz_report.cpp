@@ -197,8 +197,9 @@ std::string reason_in(const fuzz::CaseText& text) {
     return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
            answer.outcome == Outcome::never;
   };
-  if (!says_what(one.given) || !says_what(one.exact) || !fuzz::is_in(one.scene, one.given)) return "";
-  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given, "");
+  if (!says_what(one.given) || !says_what(one.exact)) return "";
+  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given,
+                   decisive_of(one.scene, one.query, one.exact, one.given), "");
 }
 
 }  // namespace

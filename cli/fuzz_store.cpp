@@ -114,10 +114,9 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.query = read.query;
   report.given = read.given;
   report.exact = read.exact;
-  const auto dispute =
-      fuzz::is_in(report.scene, *report.given)
-          ? dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact, *report.given)
-          : std::nullopt;
+  report.decisive = decisive_of(report.scene, report.query, report.exact, *report.given);
+  const auto dispute = dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact,
+                                  *report.given, report.decisive);
   if (dispute) report.explanation = dispute->text;
   if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;

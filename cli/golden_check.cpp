@@ -47,17 +47,9 @@ struct SetTally {
   std::vector<std::pair<std::string, std::string>> notes;  // on the tags
   Tally all;
   std::map<std::string, Tally> by_tag;
-  bool failed = false;    // the program broke
-  bool given_up = false;  // so often that the sets after this one are not asked
+  bool failed = false;        // the program broke
+  std::size_t not_asked = 0;  // records, for it was given up
 };
-
-// The right answer to an invalid query is `error`.
-oracle::Judgement judge_error(const Answer& given) {
-  if (given.outcome == Outcome::undecided) return {oracle::Verdict::undecided};
-  if (given.outcome == Outcome::error)
-    return {given.unsupported ? oracle::Verdict::unsupported : oracle::Verdict::agree};
-  return {oracle::Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
-}
 
 // Asks an engine the questions of a set and judges the answers as they come.
 class Examination {
@@ -70,6 +62,12 @@ class Examination {
         most_failures_(most_failures),
         answerer_(make_answerer(engine_, {{}, timeout, terminal(), strict})) {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
+  }
+
+  /// A program that was given up may do another set; not if it never answered anything.
+  bool is_worth_asking() {
+    answerer_->try_again();
+    return !answerer_->is_hopeless();
   }
 
   SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
@@ -99,7 +97,6 @@ class Examination {
     }
     answerer_->drain();
     tally_.failed = answerer_->failed();
-    tally_.given_up = answerer_->given_up();
     return std::move(tally_);
   }
 
@@ -124,9 +121,14 @@ class Examination {
   void take(Answer& given) {
     const Open open = std::move(open_.front());
     open_.pop_front();
+    if (answerer_->origin() == Answerer::Origin::not_asked) {
+      ++tally_.not_asked;
+      return;
+    }
     const golden::Record& record = open.record;
     const oracle::Judgement judgement =
-        open.query ? open.bench->judge.judge(*open.query, record.expect, given, ulps_) : judge_error(given);
+        open.query ? open.bench->judge.judge(*open.query, record.expect, given, ulps_)
+                   : judgement_of_invalid(given);
     tally_.all.count(judgement);
     for (const std::string& tag : record.tags) tally_.by_tag[tag].count(judgement);
     const bool failed = judgement.verdict == oracle::Verdict::wrong ||
@@ -136,8 +138,8 @@ class Examination {
     failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_, judgement,
                          record.margin, record.expect, given, scene.dimension, ""});
     if (open.query && judgement.verdict == oracle::Verdict::wrong)
-      failures_.back().reason =
-          reason_of(open.bench->margins, scene, *open.query, record.expect, given, "    ");
+      failures_.back().reason = reason_of(open.bench->margins, scene, *open.query, record.expect, given,
+                                          judgement.obstacle, "    ");
   }
 
   const std::string engine_;
@@ -210,8 +212,8 @@ std::string json_of(const std::string& engine, const std::vector<SetTally>& tall
         t.queries, t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error);
   };
   for (const SetTally& set : tallies) {
-    out += fmt::format("{}{{\"set\":{},{},\"tags\":{{", &set == &tallies.front() ? "" : ",",
-                       json_quoted(set.all.name), counts(set.all));
+    out += fmt::format("{}{{\"set\":{},{},\"not_asked\":{},\"tags\":{{", &set == &tallies.front() ? "" : ",",
+                       json_quoted(set.all.name), counts(set.all), set.not_asked);
     bool first = true;
     for (const auto& [tag, tally] : set.by_tag) {
       out += fmt::format("{}{}:{{{}}}", first ? "" : ",", json_quoted(tag), counts(tally));
@@ -330,12 +332,15 @@ int act(const Options& options) {
     Examination examination(engine, ulps, options.times, options.strict, timeout, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
-      tallies.push_back(examination.run(file, options.id, first));
-      records += tallies.back().all.queries;
-      if (!tallies.back().given_up) continue;
-      if (tallies.size() < files.size())
+      if (!examination.is_worth_asking()) {
         say("{}: given up; {} sets were not asked", engine, files.size() - tallies.size());
-      break;
+        break;
+      }
+      tallies.push_back(examination.run(file, options.id, first));
+      const SetTally& its = tallies.back();
+      records += its.all.queries + its.not_asked;
+      if (its.not_asked > 0)
+        say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.not_asked);
     }
     examination.finish();
     status = std::max(status, status_of(tallies, options.strict, options.times));

@@ -25,9 +25,9 @@ struct Options {
 
 int exit_status(const JudgeReport& report, const Options& options) {
   const compare::Tally t = report.total();
-  if (report.failed) return kFailed;
-  if (t.wrong + t.error + t.missing > 0 || (options.times && t.wrong_time > 0) ||
-      (options.strict && t.ill_posed + t.undecided > 0))
+  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
+  if (t.wrong + t.error > 0 || (options.times && t.wrong_time > 0) ||
+      (options.strict && t.ill_posed + t.undecided + t.missing + report.nonsense() > 0))
     return kDisagreement;
   return kDone;
 }
@@ -54,6 +54,7 @@ std::string command_of(const Options& o) {
   if (o.ulps) command += " --ulps " + *o.ulps;
   if (o.timeout) command += " --timeout " + *o.timeout;
   if (o.times) command += " --times";
+  if (o.strict) command += " --strict";
   return command;
 }
 
@@ -68,6 +69,7 @@ JudgeOrder order_of(const Options& options) {
   order.ulps = tolerance(options.ulps);
   order.timeout = positive_number(options.timeout, "--timeout");
   order.times = options.times;
+  order.strict = options.strict;
   order.listener = terminal();
   return order;
 }
@@ -123,11 +125,13 @@ void add_judge(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON object instead of tables");
   command->add_flag("--times", options->times, "wrong times count: in the verdict, and exit status 1");
-  command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
+  command->add_flag("--strict", options->strict,
+                    "answers to invalid questions count in the verdict; exit status 1 also for these, and "
+                    "for ill-posed, undecided and missing answers");
   command->footer(
       "docs/judge.md says what is asked, and what the verdict means. Exit status 1: an answer is wrong, or "
       "an "
-      "error;\n3: a cmd: engine broke.\n"
+      "error;\n3: a cmd: engine broke, or was given up somewhere.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'");
   command->callback([options, &action] { action = [options] { return act(*options); }; });
 }

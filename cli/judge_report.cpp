@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <lorentz/exchange.hpp>
 #include "cli/finding_json.hpp"
@@ -19,6 +20,7 @@ namespace lorentz::cli {
 using judge::Cause;
 using judge::Example;
 using judge::Finding;
+using judge::Recheck;
 using judge::Severity;
 
 namespace {
@@ -27,7 +29,7 @@ int dimension_of(const Example& example) {
   return example.question.setting->scene().dimension;
 }
 
-// What is no question stands as it was asked.
+// An invalid question stands as it was asked.
 std::string members_of(const Example& example) {
   return example.question.is_query() ? query_members(example.question.query, dimension_of(example))
                                      : example.question.text;
@@ -63,8 +65,8 @@ std::string lines_of_question(const Finding& finding) {
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
-  if (compare::is_guest(report.engine)) return {};        // a function in somebody's program has no command
-  if (finding.repetitions == 0) return {report.command};  // the question alone does not show it
+  if (compare::is_guest(report.engine)) return {};  // a function in somebody's program has no command
+  if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine);
   if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.timeout);
@@ -72,7 +74,7 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}", lines, engine,
                         option_for(finding.severity())),
             fmt::format("{} | lorentz first-hit --engine {}", lines, engine)};
-  // Lines that are no question only golden sets hand on; a program reads them by itself.
+  // Invalid questions only golden sets hand on; a program reads them by itself.
   if (!compare::is_command(report.engine)) return {};
   return {fmt::format("{} | sh -c {}", lines,
                       shell_quoted(report.engine.substr(std::string_view("cmd:").size())))};
@@ -83,10 +85,12 @@ std::vector<std::string> lines_of_dispute(const Example& example) {
   const judge::Setting& setting = *example.question.setting;
   std::vector<std::string> lines;
   if (const auto dispute = dispute_of(setting.margins(), setting.scene(), example.question.query,
-                                      example.question.exact, example.given))
+                                      example.question.exact, example.given, example.judgement.obstacle))
     lines.push_back(dispute->text);
   const double departs = example.judgement.departs;
-  if (example.diagnosis.severity == Severity::ill_posed)
+  if (example.diagnosis.severity == Severity::ill_posed && departs == 0)
+    lines.push_back("inputs moved by however little would make it right");
+  else if (example.diagnosis.severity == Severity::ill_posed)
     lines.push_back(fmt::format("inputs moved by {:.3g} ulps would make it right", departs));
   else if (std::isfinite(departs))
     lines.push_back(fmt::format(
@@ -100,19 +104,21 @@ std::vector<std::string> reason_lines(const Finding& finding) {
   const Example& example = finding.simplest;
   std::vector<std::string> lines;
   if (!example.question.is_query())
-    lines = {"the question is none; the answer is an error"};
+    lines = {"the question is invalid: the right answer is an error"};
   else if (finding.severity() == Severity::error)
-    lines = {"the question is a good one"};
+    lines = {"the question is a valid one"};
   else if (example.judgement.wrong_time || finding.cause() == Cause::other_quantity)
     lines = {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
                          example.judgement.departs)};
   else
     lines = lines_of_dispute(example);
-  if (finding.repetitions == 0)
+  if (finding.recheck == Recheck::passes)
     lines.push_back(
         fmt::format("asked alone, or {} times in a row, it is answered otherwise: this takes the questions "
                     "before it, or chance",
                     judge::kMostRepetitions));
+  else if (finding.recheck == Recheck::no_time)
+    lines.push_back("not asked again: no time; whether it goes wrong by itself is not known");
   else if (finding.repetitions > 1)
     lines.push_back(fmt::format(
         "asked alone it is answered otherwise; asked again and again, this comes at the {}th time",
@@ -121,7 +127,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
 }
 
 const char* name_of(Severity severity) {
-  constexpr const char* kNames[] = {"wrong", "error", "wrong-time", "ill-posed"};
+  constexpr const char* kNames[] = {"wrong", "error", "wrong-time", "ill-posed", "nonsense"};
   return kNames[static_cast<int>(severity)];
 }
 
@@ -131,8 +137,7 @@ std::string often(const Finding& finding, const JudgeReport& report) {
   std::vector<std::pair<double, std::string>> shares;
   for (const judge::Row& row : report.rows)
     if (const auto its = finding.by_row.find(row.name); its != finding.by_row.end())
-      shares.emplace_back(static_cast<double>(its->second) / static_cast<double>(row.tally.queries),
-                          row.name);
+      shares.emplace_back(static_cast<double>(its->second) / static_cast<double>(row.asked()), row.name);
   std::stable_sort(shares.begin(), shares.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
@@ -158,11 +163,12 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
   return text;
 }
 
-// Nothing is drawn of what is no question, nor where nothing can be.
+// Nothing is drawn of an invalid question, nor where nothing can be.
 std::string drawing_of(const Example& example) {
   if (!example.question.is_query()) return "null";
-  const std::string drawing = pictures::finding_drawing(
-      example.question.setting->scene(), example.question.query, example.given, example.question.exact);
+  const std::string drawing =
+      pictures::finding_drawing(example.question.setting->scene(), example.question.query, example.given,
+                                example.question.exact, example.judgement.obstacle);
   return drawing.empty() ? "null" : json_quoted(drawing);
 }
 
@@ -244,8 +250,15 @@ std::string speed_text(const JudgeReport& report) {
 }
 
 bool condemns(const Finding& finding, const JudgeReport& report) {
-  return finding.severity() != Severity::ill_posed && finding.cause() != Cause::no_answer &&
-         (finding.severity() != Severity::wrong_time || report.times);
+  if (finding.cause() == Cause::no_answer) return false;
+  switch (finding.severity()) {
+    case Severity::wrong_time:
+      return report.times;
+    case Severity::nonsense:
+      return report.strict;
+    default:
+      return finding.severity() != Severity::ill_posed;
+  }
 }
 
 // The kinds of fault that condemn, and the first of them: the worst, of these the most frequent.
@@ -259,24 +272,13 @@ std::string faults_text(const JudgeReport& report) {
                     : fmt::format("{} kinds of fault, above all: {}", kinds, main->summary());
 }
 
-std::size_t unread_answers(const JudgeReport& report) {
-  std::size_t number = 0;
-  for (const Finding& finding : report.findings)
-    if (finding.cause() == Cause::no_answer) number += finding.count;
-  return number;
-}
-
 std::string heading(const JudgeReport& report) {
   const compare::Tally total = report.total();
   const std::string verdict = report.verdict(), faults = faults_text(report);
-  if (verdict == "broken") {
-    const std::size_t unread = unread_answers(report);
-    const std::string text =
-        unread > 0 ? fmt::format("broken: {} of {} {} without an answer that could be read", unread,
-                                 total.queries, total.queries == 1 ? "query" : "queries")
-                   : "broken: it died, fell silent, or wrote what is no answer";
-    return text + (faults.empty() ? "" : "; wrong: " + faults);
-  }
+  if (verdict == "broken")
+    return fmt::format("broken: {} of {} {} without an answer that could be read", total.missing,
+                       total.queries, total.queries == 1 ? "query" : "queries") +
+           (faults.empty() ? "" : "; wrong: " + faults);
   if (verdict == "wrong") return "wrong: " + faults;
   if (verdict == "ill-posed")
     return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
@@ -287,13 +289,31 @@ std::string heading(const JudgeReport& report) {
   return fmt::format("right: no wrong answer in {}", answers(total));
 }
 
+// What it was asked and did not answer, and what it was not asked; nothing if there is nothing.
+std::string missing_text(const JudgeReport& report) {
+  const compare::Tally total = report.total();
+  std::string text;
+  if (total.missing > 0 && !report.is_broken())
+    text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
+  if (const std::size_t rows = report.rows_given_up(); rows > 0)
+    text += fmt::format("; given up in {} of {} rows", rows, report.rows.size());
+  return text;
+}
+
+std::string nonsense_text(const JudgeReport& report) {
+  const std::size_t number = report.nonsense();
+  return number == 0
+             ? ""
+             : fmt::format("; {} invalid {} answered", number, number == 1 ? "question" : "questions");
+}
+
 constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line
 
-const std::vector<std::string> kColumns{"questions", "number",     "agree",     "ill-posed",
-                                        "wrong",     "wrong time", "undecided", "unsupported",
-                                        "error",     "max ulp",    "ns/query"};
+const std::vector<std::string> kColumns{"questions",  "number",    "agree",       "ill-posed", "wrong",
+                                        "wrong time", "undecided", "unsupported", "error",     "missing",
+                                        "nonsense",   "max ulp",   "ns/query"};
 
-std::vector<std::string> cells_of(const compare::Tally& t) {
+std::vector<std::string> cells_of(const compare::Tally& t, std::size_t nonsense) {
   const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
   return {t.name,
           std::to_string(t.queries),
@@ -304,32 +324,64 @@ std::vector<std::string> cells_of(const compare::Tally& t) {
           number(t.undecided),
           number(t.unsupported),
           number(t.error),
+          number(t.missing),
+          number(nonsense),
           t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
           t.ns_per_query > 0 ? fmt::format("{:.0f}", t.ns_per_query) : "-"};
 }
 
-std::string table_of(const JudgeReport& report) {
-  Table table(kColumns);
-  std::string beyond;
-  for (const judge::Row& row : report.rows)
-    if (row.tally.unsupported == row.tally.queries)
-      beyond += (beyond.empty() ? "" : ", ") + row.name;
-    else
-      table.add(cells_of(row.tally));
-  compare::Tally total = report.total();
-  total.name = "all";
-  table.add(cells_of(total));
-  return table.text() + (beyond.empty() ? "" : "unsupported, or not asked: " + beyond + '\n');
+enum class RowState { asked, unsupported, no_time, given_up };
+constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up"};
+
+RowState state_of(const judge::Row& row, const JudgeReport& report) {
+  if (row.scenes_given_up > 0) return RowState::given_up;
+  if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
+  // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
+  const compare::Tally all = report.total();
+  return row.is_exhausted && all.queries == all.unsupported ? RowState::unsupported : RowState::no_time;
 }
 
-std::string json_of(const judge::Row& row) {
+// A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
+std::string given_up_lines(const JudgeReport& report) {
+  std::map<std::string, std::vector<std::string>> by_failure;
+  for (const judge::Row& row : report.rows)
+    if (row.scenes_given_up > 0)
+      by_failure[row.last_failure].push_back(fmt::format("{} ({})", row.name, row.scenes_given_up));
+  std::string text;
+  for (const auto& [failure, names] : by_failure)
+    text += fmt::format("given up in scenes of: {}; {}\n", fmt::join(names, ", "), failure);
+  return text;
+}
+
+std::string table_of(const JudgeReport& report) {
+  Table table(kColumns);
+  std::vector<std::string> unsupported, no_time;
+  for (const judge::Row& row : report.rows) {
+    const RowState state = state_of(row, report);
+    if (state == RowState::unsupported) unsupported.push_back(row.name);
+    if (state == RowState::no_time) no_time.push_back(row.name);
+    if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense));
+  }
+  compare::Tally total = report.total();
+  total.name = "all";
+  table.add(cells_of(total, report.nonsense()));
+  std::string text = table.text();
+  if (!unsupported.empty()) text += fmt::format("unsupported: {}\n", fmt::join(unsupported, ", "));
+  if (!no_time.empty()) text += fmt::format("not asked, no time: {}\n", fmt::join(no_time, ", "));
+  return text + given_up_lines(report);
+}
+
+std::string json_of(const judge::Row& row, const JudgeReport& report) {
   const compare::Tally& t = row.tally;
   return fmt::format(
-      "{{\"name\":{},\"explanation\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},"
-      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":{},"
-      "\"ns_per_query\":{}}}",
-      json_quoted(row.name), json_quoted(row.explanation), t.queries, t.agree, t.ill_posed, t.wrong,
-      t.wrong_time, t.undecided, t.unsupported, t.error, t.missing,
+      "{{\"name\":{},\"explanation\":{},\"state\":\"{}\",\"scenes_given_up\":{},\"why\":{},\"queries\":{},"
+      "\"agree\":{},"
+      "\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},"
+      "\"missing\":{},\"nonsense\":{},\"max_ulp\":{},\"ns_per_query\":{}}}",
+      json_quoted(row.name), json_quoted(row.explanation),
+      kRowStates[static_cast<int>(state_of(row, report))], row.scenes_given_up,
+      row.scenes_given_up == 0 ? "null" : json_quoted(row.last_failure), t.queries, t.agree, t.ill_posed,
+      t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error, t.missing, row.nonsense,
       number_or_null(t.timed_hits ? std::optional(t.max_ulp) : std::nullopt),
       number_or_null(t.ns_per_query > 0 ? std::optional(t.ns_per_query) : std::nullopt));
 }
@@ -351,18 +403,34 @@ compare::Tally JudgeReport::total() const {
   return total;
 }
 
+std::size_t JudgeReport::nonsense() const {
+  std::size_t number = 0;
+  for (const judge::Row& row : rows) number += row.nonsense;
+  return number;
+}
+
+std::size_t JudgeReport::rows_given_up() const {
+  return static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const judge::Row& row) { return row.scenes_given_up > 0; }));
+}
+
+bool JudgeReport::is_broken() const {
+  const compare::Tally t = total();
+  return 100 * t.missing > t.queries;
+}
+
 std::string JudgeReport::verdict() const {
   const compare::Tally t = total();
-  if (failed) return "broken";
-  if (t.wrong + t.error + t.missing > 0 || (times && t.wrong_time > 0)) return "wrong";
+  if (is_broken()) return "broken";
+  if (t.wrong + t.error > 0 || (times && t.wrong_time > 0) || (strict && nonsense() > 0)) return "wrong";
   if (t.agree + t.ill_posed <= t.undecided) return "undecided";
   return t.ill_posed > 0 ? "ill-posed" : "right";
 }
 
 std::string JudgeReport::line() const {
-  return heading(*this) + share_text("ill-posed", rows, &compare::Tally::ill_posed) +
+  return heading(*this) + missing_text(*this) + share_text("ill-posed", rows, &compare::Tally::ill_posed) +
          share_text("undecided", rows, &compare::Tally::undecided) + times_text(rows) + paths_text(flown) +
-         speed_text(*this);
+         speed_text(*this) + nonsense_text(*this);
 }
 
 std::string JudgeReport::text() const {
@@ -371,6 +439,8 @@ std::string JudgeReport::text() const {
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)
     text += fmt::format("Start: {:.2g} s until the first answer, which is in no other figure.\n", start_up);
+  if (misbehaved && total().missing == 0)
+    text += "It did what it should not, and lost no answer by it: stderr has it.\n";
   int number = 0;
   for (const Finding& finding : findings) text += text_of(finding, *this, ++number);
   return text + '\n' + line() + '\n';
@@ -383,12 +453,13 @@ std::string JudgeReport::json() const {
   report::append_manifest(out, report::manifest_of(seed, command));
   out += fmt::format(
       ",\"engine\":{},\"verdict\":\"{}\",\"line\":{},\"queries\":{},\"wrong\":{},\"ill_posed\":{},"
-      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"ns_per_query\":{},"
+      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"nonsense\":{},"
+      "\"ns_per_query\":{},"
       "\"ns_of_reduction\":{},\"start_up_seconds\":{},\"difficulties\":[",
       json_quoted(engine), verdict(), json_quoted(line()), t.queries, t.wrong, t.ill_posed, t.wrong_time,
-      t.undecided, t.unsupported, t.error, number_or_null(ns_per_query), number_or_null(ns_of_reduction),
-      number_or_null(start_up));
-  for (const judge::Row& row : rows) out += (&row == &rows.front() ? "" : ",") + json_of(row);
+      t.undecided, t.unsupported, t.error, t.missing, nonsense(), number_or_null(ns_per_query),
+      number_or_null(ns_of_reduction), number_or_null(start_up));
+  for (const judge::Row& row : rows) out += (&row == &rows.front() ? "" : ",") + json_of(row, *this);
   out += "],\"findings\":[";
   for (const Finding& finding : findings)
     out += (&finding == &findings.front() ? "" : ",") + json_of(finding, *this);

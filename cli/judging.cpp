@@ -157,20 +157,33 @@ struct Terms {
   }
 };
 
-// The simplest case of each; and of another program, whether that case goes wrong by itself.
-void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
-              double seconds) {
-  const bool by_itself = compare::is_command(terms.engine);
-  Shares shares(seconds, (by_itself ? 2 : 1) * findings.size());
-  for (judge::Finding& finding : findings) {
+void find_simplest(std::vector<judge::Finding>& findings, Examination& examination, double seconds) {
+  examination.limit(seconds);  // also if the questions took longer than they should
+  Shares shares(seconds, findings.size());
+  for (judge::Finding& finding : findings)
     finding.simplest = judge::simplest(finding, examination, shares.next());
-    if (!by_itself) continue;
-    const double share = shares.next();
-    if (finding.severity() == judge::Severity::ill_posed) continue;
-    finding.repetitions = judge::repetitions_to_fail(
-                              finding, [&] { return terms.silent_examination(); }, share)
-                              .value_or(0);
-  }
+}
+
+// Does another program go wrong with a simplest case by itself? Besides its share of the time a new start of
+// it has what the first one took until it answered, several times over; all starts together have that kMost
+// times.
+void recheck(std::vector<judge::Finding>& findings, const Terms& terms, double seconds, double first_answer) {
+  constexpr double kForOne = 4, kMost = 10;
+  const Countdown all(seconds + kMost * first_answer);
+  Shares shares(seconds, 2 * findings.size());
+  for (judge::Finding& finding : findings)
+    if (finding.severity() != judge::Severity::ill_posed)
+      judge::recheck(
+          finding, [&] { return terms.silent_examination(); },
+          std::min(shares.next() + kForOne * first_answer, all.left()));
+}
+
+// The simplest case of each.
+void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
+              double seconds, double first_answer) {
+  if (!compare::is_command(terms.engine)) return find_simplest(findings, examination, seconds);
+  find_simplest(findings, examination, seconds / 2);
+  recheck(findings, terms, seconds / 2, first_answer);
 }
 
 // ---- Speed
@@ -221,7 +234,6 @@ void race(JudgeReport& report, const std::vector<Place>& places, const Terms& te
   options.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
                                                                {}, {report.engine, "reduction"}, {}, options);
-  report.failed |= tallies[0].failed;
   const bool is_cut = compare::is_command(report.engine) && options.enough();
   if (tallies[0].failed || is_cut) return;
   report.ns_per_query = tallies[0].ns_per_query;
@@ -260,8 +272,7 @@ std::vector<Place> examine(Examination& examination, const Terms& terms, const P
   report.rows = examination.rows();
   report.findings = examination.findings();
   report.calls = examination.calls();
-  examination.limit(plan.simplest + plan.speed);  // also if the questions took longer than they should
-  if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest);
+  if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest, report.first_answer);
   return places;
 }
 
@@ -283,19 +294,20 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.engine = order.engine;
   report.command = order.command;
   report.times = order.times;
+  report.strict = order.strict;
   report.seed = order.seed;
   report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
   examination->on_progress(order.on_progress);
   examination->limit(plan.seconds());
-  report.start_up = examination->warm_up();
+  const Examination::Start start = examination->warm_up();
+  report.start_up = start.start_up, report.first_answer = start.first_answer;
   if (!examination->is_over()) examination->limit(plan.seconds());
   const std::vector<Place> places = examine(*examination, terms, plan, order.jobs, report);
-  report.failed = examination->failed();
-  const bool is_over = examination->is_over();
+  report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();
-  if (!is_over) race(report, places, terms, plan.speed);
+  if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
   return report;
 }
 

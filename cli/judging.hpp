@@ -23,6 +23,7 @@ struct JudgeOrder {
   double ulps = oracle::kDefaultUlps;
   std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time
   bool times = false;             ///< wrong times count
+  bool strict = false;            ///< answers to invalid questions count
   compare::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with what is asked
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <lorentz/verdict.hpp>
+
 namespace lorentz::cli {
 namespace {
 
@@ -54,33 +56,51 @@ std::string decision_text(const oracle::HardestDecision& decision, int dimension
   return "";
 }
 
+namespace {
+
+// The answer names another obstacle than the exact one, and that is why it is wrong.
+std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
+                                   const std::string& name) {
+  if (given.outcome == Outcome::inside)
+    return approach.start_gap >= 0 ? std::optional(about_start(approach, given.obstacle, name))
+                                   : std::nullopt;
+  if (approach.start_gap >= 0 && !approach.ahead)
+    return Dispute{given.obstacle, approach.start_gap, name + " lies behind the start"};
+  return approach.gap >= 0 ? std::optional(about_line(approach, given.obstacle, name, "")) : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                                  const Answer& exact, const Answer& given) {
-  const auto exists = [&](const ObstacleId& id) { return !flaw_of(Query{query.x, query.v, id}, scene); };
-  if (names_obstacle(given) && exists(given.obstacle) &&
-      (given.outcome != exact.outcome || given.obstacle != exact.obstacle)) {
-    const oracle::Approach approach = margins.approach(query, given.obstacle);
-    const std::string name = name_of(given.obstacle, scene.dimension);
-    if (given.outcome == Outcome::inside && approach.start_gap >= 0)
-      return about_start(approach, given.obstacle, name);
-    if (given.outcome == Outcome::hit && approach.gap >= 0)
-      return about_line(approach, given.obstacle, name, "");
-    if (given.outcome == Outcome::hit && approach.start_gap >= 0 && !approach.ahead)
-      return Dispute{given.obstacle, approach.gap, name + " lies behind the start"};
-  }
-  if (!names_obstacle(exact) ||
-      (names_obstacle(given) && given.outcome == exact.outcome && given.obstacle == exact.obstacle))
-    return std::nullopt;
-  const oracle::Approach approach = margins.approach(query, exact.obstacle);
-  const std::string name = name_of(exact.obstacle, scene.dimension);
-  if (exact.outcome == Outcome::inside) return about_start(approach, exact.obstacle, name);
+                                  const Answer& exact, const Answer& given,
+                                  const std::optional<ObstacleId>& decisive) {
+  const bool names = names_obstacle(given) && !flaw_of(Query{query.x, query.v, given.obstacle}, scene);
+  if (names && given.outcome == exact.outcome && given.obstacle == exact.obstacle) return std::nullopt;
+  if (names && decisive.value_or(given.obstacle) == given.obstacle)
+    if (auto dispute = about_named(margins.approach(query, given.obstacle), given,
+                                   name_of(given.obstacle, scene.dimension)))
+      return dispute;
+  if (!names_obstacle(exact)) return std::nullopt;
+  const ObstacleId& obstacle = decisive ? *decisive : exact.obstacle;
+  const oracle::Approach approach = margins.approach(query, obstacle);
+  const std::string name = name_of(obstacle, scene.dimension);
+  if (exact.outcome == Outcome::inside && approach.start_gap < 0)
+    return about_start(approach, obstacle, name);
   const bool later = given.outcome == Outcome::hit;
-  return about_line(approach, exact.obstacle, name, later ? ", and enters it first" : "");
+  const char* before = obstacle == exact.obstacle ? ", and enters it first" : ", and enters it earlier";
+  return about_line(approach, obstacle, name, later ? before : "");
+}
+
+std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
+                                      const Answer& given) {
+  if (!names_obstacle(exact)) return std::nullopt;
+  return oracle::Judge(scene).judge(query, exact, given).obstacle;
 }
 
 std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                      const Answer& exact, const Answer& given, const std::string& indent) {
-  const auto dispute = dispute_of(margins, scene, query, exact, given);
+                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
+                      const std::string& indent) {
+  const auto dispute = dispute_of(margins, scene, query, exact, given, decisive);
   if (!dispute) return "";
   std::string text = indent + dispute->text + '\n';
   if (const auto decision = margins.hardest_decision(query, exact))

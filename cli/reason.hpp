@@ -24,12 +24,20 @@ struct Dispute {
   std::string text;  ///< a sentence
 };
 
-/// Nothing if the two agree but for a time, or if an answer names no obstacle of the scene.
+/// Nothing if the two agree but for a time, or if an answer names no obstacle of the scene. `decisive` is the
+/// obstacle that the judgement rests on (Judgement::obstacle), the exact one if it is not known.
 std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                                  const Answer& exact, const Answer& given);
+                                  const Answer& exact, const Answer& given,
+                                  const std::optional<ObstacleId>& decisive);
+
+/// The obstacle that such an answer is judged by, with the usual tolerance; nothing if the exact answer names
+/// none.
+std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
+                                      const Answer& given);
 
 /// The dispute, and the decision that is hard, a line each; both lines end. Empty if the two agree.
 std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                      const Answer& exact, const Answer& given, const std::string& indent);
+                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
+                      const std::string& indent);
 
 }  // namespace lorentz::cli

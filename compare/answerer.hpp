@@ -41,8 +41,15 @@ class Answerer {
   /// may take the answer, and must ask nothing.
   using OnAnswer = std::function<void(Answer&)>;
 
+  /// Whose an answer is. Another program's faults, and the queries that it was not asked, get an `error` from
+  /// us, which tells what it did instead.
+  enum class Origin { engine, fault, not_asked };
+
   virtual ~Answerer() = default;
   void on_answer(OnAnswer callback) { on_answer_ = std::move(callback); }
+
+  /// Of the answer that is being delivered.
+  Origin origin() const { return origin_; }
 
   /// The scene, without flaws, of the queries that follow.
   virtual void set_scene(const Scene& scene) = 0;
@@ -74,10 +81,20 @@ class Answerer {
   /// True if it broke so often that it is no longer asked about this scene.
   virtual bool given_up() const { return false; }
 
+  /// True if it was given up and never answered anything: it is not asked about other scenes either.
+  virtual bool is_hopeless() const { return false; }
+
+  /// Asks it again although it was given up, as if nothing had happened, unless it is hopeless.
+  virtual void try_again() {}
+
  protected:
-  void deliver(Answer& answer) { on_answer_(answer); }
+  void deliver(Answer& answer, Origin origin = Origin::engine) {
+    origin_ = origin;
+    on_answer_(answer);
+  }
 
  private:
+  Origin origin_ = Origin::engine;
   OnAnswer on_answer_ = [](Answer&) {};
 };
 

@@ -344,7 +344,7 @@ void CommandEngine::pass_over() {
   open_.front().passed_over = true;
   --run.outstanding;
   Answer answer = Answer::error("cmd " + what);
-  deliver_first(answer);
+  deliver_first(answer, Origin::fault);
 }
 
 std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
@@ -353,16 +353,12 @@ std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t comp
   if (components != static_cast<std::size_t>(scene.dimension))
     return fmt::format("gave a cell of {} components in a scene of dimension {}", components,
                        scene.dimension);
-  const auto [lattice, atom, cell] = answer.obstacle;
-  if (static_cast<std::size_t>(lattice) >= scene.lattices.size() ||
-      static_cast<std::size_t>(atom) >= scene.lattices[lattice].atoms.size())
-    return fmt::format("named an obstacle that the scene does not have (lattice {}, atom {})", lattice, atom);
   if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
     return "gave a hit without its time, which --max-time needs";
   return {};
 }
 
-void CommandEngine::answer_first(Answer& answer) {
+void CommandEngine::answer_first(Answer& answer, Origin origin) {
   Run& run = *run_;
   --run.outstanding;
   ++run.answers;
@@ -379,21 +375,21 @@ void CommandEngine::answer_first(Answer& answer) {
   if (manner_ == Manner::line_by_line) run.greeting = false;
   if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
   if (options_.request.detail) add_detail(open_.front().query, *open_.front().scene, answer);
-  deliver_first(answer);
+  deliver_first(answer, origin);
 }
 
 void CommandEngine::answer_first_with_error(const std::string& what) {
   complain(what, &open_.front());
   Answer answer = Answer::error("cmd " + what);
-  answer_first(answer);
+  answer_first(answer, Origin::fault);
 }
 
-void CommandEngine::deliver_first(Answer& answer) {
+void CommandEngine::deliver_first(Answer& answer, Origin origin) {
   recent_.push_back(std::move(open_.front()));
   if (recent_.size() > kRecent) recent_.pop_front();
   open_.pop_front();
   ++first_number_;
-  deliver(answer);
+  deliver(answer, origin);
 }
 
 // ---- its end
@@ -447,7 +443,7 @@ void CommandEngine::run_failed(const std::string& what) {
   complain(all, &open_.front());
   open_.front().passed_over = true;
   Answer answer = Answer::error("cmd " + all);
-  deliver_first(answer);
+  deliver_first(answer, Origin::fault);
   if (limit_ != kNoLimit) limit_ = 1;
   if (++failures_in_row_ < kMaxFailuresInRow) return;
   tell(fmt::format("is given up after {} failures in a row without an answer", kMaxFailuresInRow));
@@ -466,8 +462,14 @@ void CommandEngine::give_up() {
     }
     Answer answer = Answer::error(fmt::format(
         "cmd was given up after {} failures in a row; this query was not asked", kMaxFailuresInRow));
-    deliver_first(answer);
+    deliver_first(answer, Origin::not_asked);
   }
+}
+
+void CommandEngine::try_again() {
+  if (!given_up() || is_hopeless()) return;
+  given_up_in_.reset();
+  failures_in_row_ = 0;
 }
 
 void CommandEngine::tell(const std::string& what) const {

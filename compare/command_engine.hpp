@@ -41,6 +41,8 @@ class CommandEngine final : public Answerer {
   bool idle(int descriptor) override;
   bool failed() const override { return failed_; }
   bool given_up() const override { return given_up_in_ != nullptr; }
+  bool is_hopeless() const override { return given_up() && !ever_answered_; }
+  void try_again() override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -96,9 +98,9 @@ class CommandEngine final : public Answerer {
   void take_unasked(std::uint64_t number);
   void pass_over();
   std::string flaw_of_answer(const Answer& answer, std::size_t components) const;
-  void answer_first(Answer& answer);
+  void answer_first(Answer& answer, Origin origin = Origin::engine);
   void answer_first_with_error(const std::string& what);
-  void deliver_first(Answer& answer);
+  void deliver_first(Answer& answer, Origin origin);
 
   void run_is_over();
   void learn_from_run();

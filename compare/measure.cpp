@@ -70,6 +70,13 @@ double Tally::ulp_at(double share) const {
   return quantile(ulps, share);
 }
 
+oracle::Judgement judgement_of_invalid(const Answer& given) {
+  using oracle::Verdict;
+  if (given.outcome == Outcome::undecided) return {Verdict::undecided};
+  if (given.outcome == Outcome::error) return {given.unsupported ? Verdict::unsupported : Verdict::agree};
+  return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
+}
+
 bool departs(const oracle::Judgement& judgement) {
   return judgement.wrong_time || judgement.verdict == oracle::Verdict::wrong ||
          judgement.verdict == oracle::Verdict::ill_posed;
@@ -146,21 +153,23 @@ Round run_round(const CaseSet& set, std::size_t count, const std::string& name,
     instructions.pause();
     round.total_ns += ns;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
-    for (std::size_t i = begin; i < end; ++i) look(i, answers[i - begin]);
+    for (std::size_t i = begin; i < end; ++i) look(i, &answers[i - begin]);
     report(listener, name, end, count);
   }
   round.instructions = instructions.count();
   return round;
 }
 
-// The same of who has many queries at a time: another program, a batch engine.
+// The same of who has many queries at a time: another program, a batch engine. Queries that it was not asked,
+// for it was given up, have no answer.
 template <class Look>
 Round run_round(const CaseSet& set, std::size_t count, const std::string& name, Answerer& program,
                 const Listener& listener, Look look) {
-  std::vector<Answer> answers;
+  std::vector<std::optional<Answer>> answers;
   answers.reserve(count);
   program.on_answer([&](Answer& answer) {
-    answers.push_back(std::move(answer));
+    answers.emplace_back(std::move(answer));
+    if (program.origin() == Answerer::Origin::not_asked) answers.back().reset();
     report(listener, name, answers.size(), count);
   });
   const auto start = Clock::now();
@@ -171,7 +180,7 @@ Round run_round(const CaseSet& set, std::size_t count, const std::string& name, 
   }
   program.drain();
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-  for (std::size_t i = 0; i < answers.size(); ++i) look(i, answers[i]);
+  for (std::size_t i = 0; i < answers.size(); ++i) look(i, answers[i] ? &*answers[i] : nullptr);
   return {ns, {ns / static_cast<double>(std::max<std::size_t>(answers.size(), 1))}};
 }
 
@@ -228,16 +237,18 @@ class Examination {
     for (const Scene& scene : set.scenes) judges_.emplace_back(scene);
   }
 
-  void judge(std::size_t name, std::size_t i, const Answer& given, Tally& tally) const {
+  // No answer: it is missing.
+  void judge(std::size_t name, std::size_t i, const Answer* given, Tally& tally) const {
     if (exact_.empty()) {
       ++tally.queries;
       return;
     }
     const Case& one = set_.cases[i];
-    const oracle::Judgement judgement = judges_[one.scene].judge(one.query, exact_[i], given, ulps_);
+    const oracle::Judgement judgement =
+        given ? judges_[one.scene].judge(one.query, exact_[i], *given, ulps_) : oracle::Judgement{};
     tally.count(judgement);
     if (on_judged_) on_judged_(name, i, judgement);
-    if (on_wrong_ && departs(judgement)) on_wrong_(one, exact_[i], tally.name, given, judgement);
+    if (on_wrong_ && departs(judgement)) on_wrong_(one, exact_[i], tally.name, *given, judgement);
   }
 
  private:
@@ -256,7 +267,7 @@ void run_rounds(const CaseSet& set, std::vector<Entrant>& entrants, const Examin
   for (int r = 0; r < options.rounds; ++r) {
     for (std::size_t name = 0; name < entrants.size(); ++name)
       if (Entrant& entrant = entrants[name]; !entrant.failed())
-        entrant.run(set, options.listener, [&](std::size_t i, const Answer& given) {
+        entrant.run(set, options.listener, [&](std::size_t i, const Answer* given) {
           if (r == 0) examination.judge(name, i, given, entrant.tally);
         });
     if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;

@@ -53,6 +53,9 @@ struct Tally {
   double mean_ulp() const { return timed_hits ? sum_ulp / static_cast<double>(timed_hits) : 0; }
 };
 
+/// What an answer to an invalid query is worth: the right one is `error`.
+oracle::Judgement judgement_of_invalid(const Answer& given);
+
 /// Is it an answer to be told of: wrong, ill-posed or wrong in time?
 bool departs(const oracle::Judgement& judgement);
 

@@ -73,7 +73,7 @@ FirstHit make_first_hit(const std::string& name, const Scene& scene);
 /// Many at a time, whoever it is.
 std::unique_ptr<Answerer> make_answerer(const std::string& name, const AnswererOptions& options);
 
-/// Adds the detail to a hit with a time, where binary64 can compute it.
+/// Adds the detail to a hit of an obstacle of the scene, with a time, where binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer);
 
 }  // namespace lorentz::compare

@@ -17,11 +17,6 @@ bool exists(const Question& question, const ObstacleId& obstacle) {
   return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.setting->scene());
 }
 
-// Another program's faults are told in messages that compare/command_engine.cpp begins like this.
-bool is_of_broken_program(const Answer& given) {
-  return given.message.starts_with("cmd ");
-}
-
 struct Fault {
   Cause cause;
   std::optional<double> by_radii = {};
@@ -31,40 +26,52 @@ Fault graded(Cause grazing, Cause gross, double gap) {
   return {std::fabs(gap) < kGrazing ? grazing : gross, std::fabs(gap)};
 }
 
+// In what follows `decisive` is the obstacle that the judgement rests on.
+
 // The answer says that x lies in an obstacle, which must exist.
-Fault of_false_inside(const Question& question, const Answer& given) {
+Fault of_false_inside(const Question& question, const Answer& given, const ObstacleId& decisive) {
   const double gap = question.setting->margins().approach(question.query, given.obstacle).start_gap;
-  if (question.exact.outcome == Outcome::inside && gap < 0) return {Cause::inside_another};
+  if (question.exact.outcome == Outcome::inside && (gap < 0 || decisive != given.obstacle))
+    return {Cause::inside_another};
   return {Cause::inside_not_so, std::fabs(gap)};
 }
 
 // The answer says that another obstacle is hit than the exact one, or that one is where none is.
-Fault of_false_hit(const Question& question, const Answer& given) {
-  const oracle::Approach named = question.setting->margins().approach(question.query, given.obstacle);
-  if (named.gap >= 0) return graded(Cause::false_hit_grazing, Cause::false_hit, named.gap);
-  if (!named.ahead && named.start_gap >= 0) return {Cause::behind};
-  if (question.exact.outcome != Outcome::hit) return {Cause::false_hit, std::fabs(named.gap)};
-  if (fuzz::is_tie(question.setting->scene(), question.setting->judge(), question.query, question.exact,
-                   given))
+Fault of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
+  const judge::Setting& setting = *question.setting;
+  const oracle::Approach approach = setting.margins().approach(question.query, decisive);
+  if (decisive == given.obstacle) {
+    if (!approach.ahead && approach.start_gap >= 0) return {Cause::behind};
+    return graded(Cause::false_hit_grazing, Cause::false_hit, approach.gap);
+  }
+  if (fuzz::is_tie(setting.scene(), setting.judge(), question.query, question.exact, given))
     return {Cause::tie};
-  const double gap = question.setting->margins().approach(question.query, question.exact.obstacle).gap;
-  return graded(Cause::passed_over_grazing, Cause::passed_over, gap);
+  return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 
-Fault of_another_answer(const Question& question, const Answer& given) {
+// Is the obstacle that is said to be hit only touched, or not ahead?
+bool is_not_entered(const Question& question, const Answer& given) {
+  if (given.outcome != Outcome::hit) return false;
+  const oracle::Approach named = question.setting->margins().approach(question.query, given.obstacle);
+  return named.gap >= 0 || (!named.ahead && named.start_gap >= 0);
+}
+
+Fault of_another_answer(const Question& question, const Answer& given,
+                        const std::optional<ObstacleId>& needed) {
   const Query& query = question.query;
   const Answer& exact = question.exact;
   if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_such_obstacle};
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
-  if (given.outcome == Outcome::inside) return of_false_inside(question, given);
-  if (exact.outcome == Outcome::inside)
-    return {Cause::inside_not_seen,
-            std::fabs(question.setting->margins().approach(query, exact.obstacle).start_gap)};
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
     return {Cause::other_quantity};
-  if (given.outcome == Outcome::hit) return of_false_hit(question, given);
-  return graded(Cause::never_for_grazing, Cause::never_for_hit,
-                question.setting->margins().approach(query, exact.obstacle).gap);
+  const bool is_about_exact = names_obstacle(exact) && !is_not_entered(question, given);
+  const ObstacleId& decisive = needed ? *needed : is_about_exact ? exact.obstacle : given.obstacle;
+  if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
+  const oracle::Approach approach = question.setting->margins().approach(query, decisive);
+  if (exact.outcome == Outcome::inside && approach.start_gap < 0)
+    return {Cause::inside_not_seen, std::fabs(approach.start_gap)};
+  if (given.outcome == Outcome::hit) return of_false_hit(question, given, decisive);
+  return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
 
 constexpr std::array<std::string_view, kCauses> kNames{"passed-over-grazing",
@@ -92,12 +99,12 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
                                       const oracle::Judgement& judgement) {
   using oracle::Verdict;
   if (judgement.wrong_time) return Diagnosis{Cause::wrong_time, Severity::wrong_time};
-  if (judgement.verdict == Verdict::error || judgement.verdict == Verdict::missing)
-    return Diagnosis{is_of_broken_program(given) ? Cause::no_answer : Cause::refused, Severity::error};
+  if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
+  if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
   const bool wrong = judgement.verdict == Verdict::wrong;
   if (!wrong && judgement.verdict != Verdict::ill_posed) return std::nullopt;
-  if (!question.is_query()) return Diagnosis{Cause::answered_nonsense, Severity::wrong};
-  const Fault fault = of_another_answer(question, given);
+  if (!question.is_query()) return Diagnosis{Cause::answered_nonsense, Severity::nonsense};
+  const Fault fault = of_another_answer(question, given, judgement.obstacle);
   return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
 }
 
@@ -153,9 +160,9 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
     case Cause::refused:
       return "calls a valid question an error";
     case Cause::no_answer:
-      return "gives no answer: it dies, falls silent, or writes what is none";
+      return "gives no answer: it dies, falls silent, or writes something that is no answer";
     case Cause::answered_nonsense:
-      return "answers what is no valid question, where error is right";
+      return "answers invalid questions, where error is right";
   }
   return "";
 }

@@ -30,15 +30,15 @@ enum class Cause {
   wrong_time,         ///< the right obstacle, and a time that is off by more than rounding explains
   refused,            ///< a valid question is called an error
   no_answer,          ///< another program died, fell silent, or wrote what is no answer
-  answered_nonsense   ///< what is no question was answered
+  answered_nonsense   ///< an invalid question was answered
 };
 inline constexpr int kCauses = 18;
 
 /// Below this part of an obstacle's radius it is only just met or missed.
 inline constexpr double kGrazing = 1e-6;
 
-/// How much it matters, the worst first.
-enum class Severity { wrong, error, wrong_time, ill_posed };
+/// How much it matters, the worst first. `nonsense`: the question is invalid.
+enum class Severity { wrong, error, wrong_time, ill_posed, nonsense };
 
 struct Diagnosis {
   Cause cause{};
@@ -48,7 +48,8 @@ struct Diagnosis {
   std::optional<double> by_radii = {};
 };
 
-/// Of an answer that departs from the exact one, or has a wrong time, or is an error; else nothing.
+/// Of an answer that departs from the exact one, or has a wrong time, or is an error, or missing; else
+/// nothing. Where several obstacles are in question it is about the one that the judgement rests on.
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement);
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 #include "compare/registry.hpp"
 
 namespace lorentz::judge {
 namespace {
 
+using Origin = compare::Answerer::Origin;
 using oracle::Judgement;
 using oracle::Verdict;
 
@@ -40,13 +40,6 @@ bool is_exact(const Answer& exact, const Answer& given) {
   return exact.outcome == Outcome::hit && given.obstacle == exact.obstacle && given.time == exact.time;
 }
 
-// The right answer to what is no question is `error`.
-Judgement judgement_of_nonsense(const Answer& given) {
-  if (given.outcome == Outcome::undecided) return {Verdict::undecided};
-  if (given.outcome == Outcome::error) return {given.unsupported ? Verdict::unsupported : Verdict::agree};
-  return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
-}
-
 }  // namespace
 
 Examination::Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
@@ -54,17 +47,19 @@ Examination::Examination(const std::string& engine, compare::AnswererOptions opt
     : ulps_(ulps), stop_(stop), is_command_(compare::is_command(engine)) {
   options.enough = [this] { return is_enough(); };
   answerer_ = compare::make_answerer(engine, options);
-  answerer_->on_answer([this](Answer& answer) { answers_.push_back(std::move(answer)); });
+  answerer_->on_answer([this](Answer& answer) {
+    answers_.push_back({std::move(answer), answerer_->origin()});
+  });
 }
 
 void Examination::limit(double seconds) {
   end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-double Examination::warm_up() {
+Examination::Start Examination::warm_up() {
   constexpr int kTries = 3;
   constexpr double kFast = 0.05;  // seconds
-  if (!is_command_) return 0;
+  if (!is_command_) return {};
   const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
   const Question question{setting, along, setting->oracle().first_hit(along), "the first question", ""};
@@ -74,12 +69,13 @@ double Examination::warm_up() {
     if (!answerer_->failed()) continue;
     Row row{"first question", "an empty place in the square lattice, before anything else"};
     std::size_t compared = 0;
-    if (answers_.empty()) answers_.push_back(Answer::error("cmd gave no answer while there was time"));
+    if (answers_.empty())
+      answers_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
     take(question, answers_[0], row, compared);
     rows_.push_back(std::move(row));
     break;
   }
-  return longest - last;
+  return {longest, longest - last};
 }
 
 // Returns how long it took.
@@ -94,21 +90,22 @@ double Examination::ask(const std::vector<Question>& questions) {
       answerer_->ask_text("null", question.text);
   }
   answerer_->drain();
-  given_up_ |= answerer_->given_up();
   return seconds_since(start);
 }
 
 void Examination::run(Row row, const Source& source, double seconds, const Look& look) {
   const auto start = Clock::now();
   row.tally.name = row.name;
+  setting_.reset();
+  answerer_->try_again();
   double asking = 0;
   std::size_t compared = 0, at_once = kFewestAtOnce;
   std::vector<Question> questions;
-  for (bool more = true; more && !is_over() && seconds_since(start) < seconds;) {
+  while (!row.is_exhausted && !is_over() && seconds_since(start) < seconds) {
     questions.clear();
     while (questions.size() < at_once && !stop_ && seconds_since(start) < seconds) {
       std::optional<Question> next = source();
-      if (!(more = next.has_value())) break;
+      if ((row.is_exhausted = !next)) break;
       questions.push_back(std::move(*next));
     }
     if (tell_) tell_(row.name);
@@ -118,8 +115,10 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
     for (std::size_t i = 0; i < answers_.size(); ++i) {
       questions[i].setting->note_time(took / static_cast<double>(answers_.size()));
       take(questions[i], answers_[i], row, compared);
-      if (look) look(questions[i], answers_[i]);
+      if (look && answers_[i].was_asked()) look(questions[i], answers_[i].answer);
     }
+    if (answerer_->given_up() && setting_) leave(*setting_, row);
+    if (answerer_->is_hopeless()) break;
   }
   if (row.tally.queries > 0) row.tally.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
   rows_.push_back(std::move(row));
@@ -131,34 +130,52 @@ void Examination::take_over(const Examination& other) {
   const auto time = [](const compare::Tally& t) { return t.ns_per_query * static_cast<double>(t.queries); };
   const double ns = time(its) + time(more);
   its.add(more);
+  rows_.back().nonsense += other.rows_.back().nonsense;
+  rows_.back().scenes_given_up += other.rows_.back().scenes_given_up;
+  if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
   if (its.queries > 0) its.ns_per_query = ns / static_cast<double>(its.queries);
   findings_.add(other.findings_);
   calls_.add(other.calls_);
   failed_ |= other.failed();
 }
 
-Judgement Examination::judgement_of(const Question& question, const Answer& given) const {
-  if (!question.is_query()) return judgement_of_nonsense(given);
-  if (is_exact(question.exact, given)) {
+void Examination::leave(Setting& setting, Row& row) const {
+  if (setting.is_given_up()) return;
+  setting.give_up();
+  ++row.scenes_given_up;
+  row.last_failure = last_fault_;
+}
+
+Judgement Examination::judgement_of(const Question& question, const Given& given) const {
+  if (given.origin == Origin::fault) return {Verdict::missing};
+  if (!question.is_query()) return compare::judgement_of_invalid(given.answer);
+  if (is_exact(question.exact, given.answer)) {
     Judgement agrees{Verdict::agree};
-    if (given.outcome == Outcome::hit) agrees.ulps = 0;
+    if (given.answer.outcome == Outcome::hit) agrees.ulps = 0;
     return agrees;
   }
-  return question.setting->judge().judge(question.query, question.exact, given, ulps_);
+  return question.setting->judge().judge(question.query, question.exact, given.answer, ulps_);
 }
 
-std::optional<Example> Examination::departing(const Question& question, const Answer& given) const {
+std::optional<Example> Examination::departing(const Question& question, const Given& given) const {
+  if (!given.was_asked()) return std::nullopt;
   const Judgement judgement = judgement_of(question, given);
-  const auto diagnosis = diagnosis_of(question, given, judgement);
-  return diagnosis ? std::optional(Example{question, given, judgement, *diagnosis}) : std::nullopt;
+  const auto diagnosis = diagnosis_of(question, given.answer, judgement);
+  return diagnosis ? std::optional(Example{question, given.answer, judgement, *diagnosis}) : std::nullopt;
 }
 
-void Examination::take(const Question& question, const Answer& given, Row& row, std::size_t& compared) {
+void Examination::take(const Question& question, const Given& given, Row& row, std::size_t& compared) {
+  if (!given.was_asked()) return leave(*question.setting, row);
   const Judgement judgement = judgement_of(question, given);
-  row.tally.count(judgement);
+  if (given.origin == Origin::fault) last_fault_ = given.answer.message;
+  const auto diagnosis = diagnosis_of(question, given.answer, judgement);
+  const bool is_nonsense = diagnosis && diagnosis->severity == Severity::nonsense;
+  if (is_nonsense)
+    ++row.nonsense;
+  else
+    row.tally.count(judgement);
   question.setting->note(judgement.verdict == Verdict::unsupported);
-  const auto diagnosis = diagnosis_of(question, given, judgement);
-  if (diagnosis) findings_.add({question, given, judgement, *diagnosis}, row.name);
+  if (diagnosis) findings_.add({question, given.answer, judgement, *diagnosis}, row.name);
   if (!question.is_query() || compared++ >= kCompared) return;
   const Features features = features_of(question);
   if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
@@ -168,24 +185,25 @@ void Examination::take(const Question& question, const Answer& given, Row& row, 
 std::vector<Finding> Examination::findings() const {
   Asked asked;
   for (const Row& row : rows_)
-    asked[row.name] = {asked[row.name].number + row.tally.queries - row.tally.unsupported, row.is_hard};
+    asked[row.name] = {asked[row.name].number + row.asked() - row.tally.unsupported, row.is_hard};
   return findings_.all(asked);
 }
 
 std::optional<Example> Examination::example_of(const Question& question) {
+  answerer_->try_again();
   ask({question});
   return answers_.empty() ? std::nullopt : departing(question, answers_[0]);
 }
 
-std::optional<std::size_t> Examination::first_to_fail(const Question& question, std::size_t copies,
-                                                      Diagnosis like) {
+Examination::Repeated Examination::repeat(const Question& question, std::size_t copies, Diagnosis like) {
   ask(std::vector<Question>(copies, question));
-  for (std::size_t i = 0; i < answers_.size(); ++i) {
+  Repeated repeated{{}, answers_.size() == copies};
+  for (std::size_t i = 0; i < answers_.size() && !repeated.failed; ++i) {
     const auto example = departing(question, answers_[i]);
     if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)
-      return i + 1;
+      repeated.failed = i + 1;
   }
-  return std::nullopt;
+  return repeated;
 }
 
 }  // namespace lorentz::judge

@@ -26,6 +26,13 @@ struct Row {
   std::string name, explanation;
   bool is_hard = true;        ///< chosen to be difficult: no flights as they are drawn
   compare::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
+  /// Invalid questions that were answered as if they were valid; these are not in the tally.
+  std::size_t nonsense = 0;
+  bool is_exhausted = false;        ///< its source had no more questions that the engine does
+  std::size_t scenes_given_up = 0;  ///< in which another program failed until it was asked no further
+  std::string last_failure = {};    ///< of the last of these
+
+  std::size_t asked() const { return tally.queries + nonsense; }
 };
 
 class Examination {
@@ -42,13 +49,16 @@ class Examination {
   /// Is called often while rows run, with the name of the row.
   void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
+  /// Seconds that another program took to its first answer, and more than to the next; 0 of an engine here.
+  struct Start {
+    double first_answer = 0, start_up = 0;
+  };
   /// Has another program start: asks it a plain question until the answer comes as fast as the one before,
-  /// and counts that nowhere, but if there is none. Returns the seconds that the start took; 0 of an engine
-  /// here.
-  double warm_up();
+  /// and counts that nowhere, but if there is none.
+  Start warm_up();
 
   /// Asks for so many seconds at the most (beyond that only what was asked already), or until there is no
-  /// more.
+  /// more. A scene in which another program is given up is left.
   void run(Row row, const Source& source, double seconds, const Look& look = {});
 
   /// Takes over what another examination of the same engine came to in its last row, and adds that to the
@@ -59,9 +69,12 @@ class Examination {
   /// way.
   std::optional<Example> example_of(const Question& question);
 
-  /// The same of so many copies of it, one after the other: the number of the first whose answer goes wrong
-  /// with this cause and severity, from 1 on.
-  std::optional<std::size_t> first_to_fail(const Question& question, std::size_t copies, Diagnosis like);
+  /// The same of so many copies of it, one after the other.
+  struct Repeated {
+    std::optional<std::size_t> failed;  ///< the number of the first whose answer goes wrong like this, from 1
+    bool all_answered = false;          ///< there was time for all
+  };
+  Repeated repeat(const Question& question, std::size_t copies, Diagnosis like);
 
   const std::vector<Row>& rows() const { return rows_; }
   /// As Findings::all; what was unsupported was not asked.
@@ -69,29 +82,38 @@ class Examination {
   /// Of the first questions of each row, so many that rows weigh alike.
   const Calls& calls() const { return calls_; }
 
-  /// Another program broke at least once; or so often that it is not asked any more.
+  /// Another program broke, or did what it should not, at least once.
   bool failed() const { return failed_ || answerer_->failed(); }
-  bool is_over() const { return given_up_ || is_enough(); }
+  bool is_over() const { return is_enough(); }
   void finish() { answerer_->finish(); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  // With whose it is.
+  struct Given {
+    Answer answer;
+    compare::Answerer::Origin origin = compare::Answerer::Origin::engine;
+    bool was_asked() const { return origin != compare::Answerer::Origin::not_asked; }
+  };
+
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
-  void take(const Question& question, const Answer& given, Row& row, std::size_t& compared);
-  oracle::Judgement judgement_of(const Question& question, const Answer& given) const;
-  std::optional<Example> departing(const Question& question, const Answer& given) const;
+  void take(const Question& question, const Given& given, Row& row, std::size_t& compared);
+  void leave(Setting& setting, Row& row) const;
+  oracle::Judgement judgement_of(const Question& question, const Given& given) const;
+  std::optional<Example> departing(const Question& question, const Given& given) const;
 
   const double ulps_;
   const std::atomic<bool>& stop_;
   std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
-  bool given_up_ = false, failed_ = false;  // failed_: of those that were taken over
+  bool failed_ = false;  // of those that were taken over
   const bool is_command_;
   std::unique_ptr<compare::Answerer> answerer_;
   std::shared_ptr<Setting> setting_;  // that the answerer is in
-  std::vector<Answer> answers_;
+  std::vector<Given> answers_;
+  std::string last_fault_;
   std::vector<Row> rows_;
   Findings findings_;
   Calls calls_;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kMostFeatures = 2000;
 
-// What is no question has no numbers: the shortest text is the simplest.
-long complexity_of(const Question& question) {
-  return question.is_query() ? fuzz::complexity(question.setting->scene(), question.query)
-                             : static_cast<long>(question.text.size());
+// Valid questions before invalid ones, which have no numbers: of these the shortest text.
+std::pair<bool, long> complexity_of(const Question& question) {
+  if (!question.is_query()) return {true, static_cast<long>(question.text.size())};
+  return {false, fuzz::complexity(question.setting->scene(), question.query)};
 }
 
 // Of all that was asked in the rows that are hard, or in the others.

@@ -19,6 +19,13 @@ struct Example {
   Diagnosis diagnosis;
 };
 
+/// What a new start of a program made of a finding's simplest case.
+enum class Recheck {
+  fails,   ///< it went wrong in the same way; of an engine that always answers the same this is known
+  passes,  ///< it did not, asked alone or kMostRepetitions times in a row
+  no_time  ///< there was no time to see
+};
+
 /// All answers that went wrong in one way.
 struct Finding {
   Example simplest;                                ///< by fuzz::complexity
@@ -30,8 +37,8 @@ struct Finding {
          share_of_hard = 0;             ///< of all the plain flights that were asked; of the hard ones
   std::vector<Features> features = {};  ///< of the questions, the first of them
   std::optional<Circumstance> circumstance = {};
-  /// Asked so often in a row, from the start of a program on, the simplest case goes wrong; 0: not even if it
-  /// is asked kMostRepetitions times.
+  Recheck recheck = Recheck::fails;
+  /// If it fails: the number of times that a new start must be asked the simplest case until it does.
   std::size_t repetitions = 1;
 
   Cause cause() const { return simplest.diagnosis.cause; }

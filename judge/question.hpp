@@ -26,12 +26,17 @@ class Setting {
   void note(bool is_unsupported) { ++asked_, unsupported_ += is_unsupported; }
   void note_time(double seconds) { seconds_ += seconds; }
 
-  /// The engine did none of the first questions here, or took very long: it is asked no more of them.
+  /// The engine is another program, which failed here again and again.
+  void give_up() { given_up_ = true; }
+  bool is_given_up() const { return given_up_; }
+
+  /// The engine did none of the first questions here, or took very long, or was given up: it is asked no more
+  /// of them.
   bool is_beyond_engine() const {
-    return asked_ >= kEnough &&
-           (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_));
+    return given_up_ || (asked_ >= kEnough &&
+                         (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_)));
   }
-  bool was_answered() const { return unsupported_ < asked_; }
+  bool was_answered() const { return !given_up_ && unsupported_ < asked_; }
 
  private:
   static constexpr std::size_t kEnough = 4;
@@ -48,6 +53,7 @@ class Setting {
   mutable std::optional<oracle::Judge> judge_;
   mutable std::optional<oracle::Margins> margins_;
   std::size_t asked_ = 0, unsupported_ = 0;
+  bool given_up_ = false;
   double seconds_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// How often a program must be asked a question before it goes wrong: some fail by a count, not by a question.
+// Does a program answer a question wrong by itself, or by a count, or not again?
 #pragma once
 
 #include <functional>
@@ -11,11 +11,9 @@ namespace lorentz::judge {
 /// Questions in a row, at the most.
 inline constexpr std::size_t kMostRepetitions = 1000;
 
-/// The number of times that a new start of the program must be asked the finding's simplest question until it
-/// goes wrong in the finding's way: 1 if it does so at once. Nothing if it does not within kMostRepetitions,
-/// or in so many seconds. `start` makes an examination that has asked nothing yet.
-std::optional<std::size_t> repetitions_to_fail(const Finding& finding,
-                                               const std::function<std::unique_ptr<Examination>()>& start,
-                                               double seconds);
+/// Asks new starts of the program the finding's simplest question, alone and then kMostRepetitions times in a
+/// row, each for so many seconds at the most, and notes in the finding what came of it. `start` makes an
+/// examination that has asked nothing yet.
+void recheck(Finding& finding, const std::function<std::unique_ptr<Examination>()>& start, double seconds);
 
 }  // namespace lorentz::judge

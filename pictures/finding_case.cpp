@@ -21,7 +21,7 @@ Vec unit(const Vec& a) {
 }
 
 FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const Answer* its_given,
-                         const Answer& its_exact, int its_exponent)
+                         const Answer& its_exact, const std::optional<ObstacleId>& decisive, int its_exponent)
     : scene(its_scene),
       query(its_query),
       given(its_given),
@@ -30,7 +30,7 @@ FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const A
       margins(its_scene),
       surroundings(its_scene),
       along(unit(its_query.v)) {
-  find_issue();
+  find_issue(decisive);
 }
 
 bool FindingCase::names_obstacle(const Answer& answer) const {
@@ -60,46 +60,49 @@ double FindingCase::in_radii(double way) const {
   return way * length(mapped(to_ball(atom_of(obstacle), scene.dimension), along));
 }
 
-void FindingCase::find_issue() {
-  if (given) compare_answers();
+void FindingCase::find_issue(const std::optional<ObstacleId>& decisive) {
+  if (given) compare_answers(decisive);
   if (issue == Issue::none) take_hardest_decision();
 }
 
-void FindingCase::compare_answers() {
-  const bool exact_names = names_obstacle(exact);
-  if (names_obstacle(*given)) {
-    const bool same = exact_names && given->obstacle == exact.obstacle && given->outcome == exact.outcome;
-    if (same) {
-      if (exact.outcome == Outcome::hit && given->time && std::isfinite(*given->time) &&
-          given->time != exact.time)
-        about_time(*given->time);
-      return;
-    }
-    const Approach approach = margins.approach(query, given->obstacle);
-    if (given->outcome == Outcome::inside && approach.start_gap >= 0)
-      return about_start(given->obstacle, approach);
-    if (given->outcome == Outcome::hit && approach.gap >= 0) return about_line(given->obstacle, approach);
-    if (given->outcome == Outcome::hit && query.from == given->obstacle) {
-      about_start(given->obstacle, approach);
-      words = name_of(obstacle) + " is the obstacle that the flight leaves";
-      return;
-    }
-    if (given->outcome == Outcome::hit && approach.start_gap >= 0 && !approach.ahead) {
-      about_start(given->obstacle, approach);
-      words = name_of(obstacle) + " lies behind the start";
-      return;
-    }
+void FindingCase::compare_answers(const std::optional<ObstacleId>& decisive) {
+  const bool given_names = names_obstacle(*given), exact_names = names_obstacle(exact);
+  if (given_names && exact_names && given->obstacle == exact.obstacle && given->outcome == exact.outcome) {
+    if (exact.outcome == Outcome::hit && given->time && std::isfinite(*given->time) &&
+        given->time != exact.time)
+      about_time(*given->time);
+    return;
   }
+  if (given_names && decisive.value_or(given->obstacle) == given->obstacle && compare_named()) return;
   if (!exact_names || given->outcome == Outcome::undecided || given->outcome == Outcome::error ||
       given->outcome == Outcome::later)
     return;
-  const Approach approach = margins.approach(query, exact.obstacle);
-  if (exact.outcome == Outcome::inside) return about_start(exact.obstacle, approach);
-  if (given->outcome == Outcome::hit && names_obstacle(*given)) {
-    about_order(exact.obstacle, given->obstacle);
+  const ObstacleId& passed = decisive ? *decisive : exact.obstacle;
+  const Approach approach = margins.approach(query, passed);
+  if (exact.outcome == Outcome::inside && approach.start_gap < 0) return about_start(passed, approach);
+  if (given->outcome == Outcome::hit && given_names) {
+    about_order(passed, given->obstacle);
     if (distance < std::fabs(approach.gap)) return;  // a matter of order more than of meeting it
   }
-  about_line(exact.obstacle, approach);
+  about_line(passed, approach);
+}
+
+// Is it the obstacle that is named that makes the answer wrong?
+bool FindingCase::compare_named() {
+  const Approach approach = margins.approach(query, given->obstacle);
+  const bool is_hit = given->outcome == Outcome::hit;
+  const bool is_left = is_hit && query.from == given->obstacle;
+  const bool is_behind = is_hit && approach.start_gap >= 0 && !approach.ahead;
+  if (is_left || is_behind || (!is_hit && approach.start_gap >= 0)) {
+    about_start(given->obstacle, approach);
+    if (is_left || is_behind)
+      words = name_of(obstacle) +
+              (is_left ? " is the obstacle that the flight leaves" : " lies behind the start");
+    return true;
+  }
+  if (!is_hit || approach.gap < 0) return false;
+  about_line(given->obstacle, approach);
+  return true;
 }
 
 void FindingCase::take_hardest_decision() {

@@ -22,9 +22,10 @@ enum class Issue {
 /// One question with its exact answer and perhaps another one.
 class FindingCase {
  public:
-  /// `given` may be null. All of it lives as long as this. Lengths, and times, are in units of 2^exponent.
+  /// `given` may be null; `decisive` is the obstacle that it is judged by, if that is known. All of it lives
+  /// as long as this. Lengths, and times, are in units of 2^exponent.
   FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
-              int exponent = 0);
+              const std::optional<ObstacleId>& decisive = {}, int exponent = 0);
 
   const Scene& scene;
   const Query& query;
@@ -60,8 +61,9 @@ class FindingCase {
   std::string name_of(const ObstacleId& id) const;
 
  private:
-  void find_issue();
-  void compare_answers();
+  void find_issue(const std::optional<ObstacleId>& decisive);
+  void compare_answers(const std::optional<ObstacleId>& decisive);
+  bool compare_named();
   void take_hardest_decision();
   void about_line(const ObstacleId& id, const oracle::Approach& approach);
   void about_start(const ObstacleId& id, const oracle::Approach& approach);

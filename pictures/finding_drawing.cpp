@@ -186,29 +186,31 @@ Answer scaled_answer(Answer answer, int exponent) {
   return answer;
 }
 
-std::string drawing(const Scene& scene, const Query& query, const Answer* given, const Answer& exact) {
+std::string drawing(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
+                    const std::optional<ObstacleId>& decisive) {
   if (!can_be_drawn(scene, query, exact)) return "";
   Scene its_scene = scene;
   Query its_query = query;
   int exponent = length_exponent(scene);
   if (exponent == 0 || !scale_lengths(exponent, its_scene, its_query))
-    return draw_sheet(FindingCase(scene, query, given, exact), given, exact);
+    return draw_sheet(FindingCase(scene, query, given, exact, decisive), given, exact);
   const Answer its_exact = scaled_answer(exact, exponent);
   const std::optional<Answer> its_given =
       given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
-  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, exponent);
+  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, decisive,
+                            exponent);
   return draw_sheet(finding, given, exact);
 }
 
 }  // namespace
 
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given,
-                            const Answer& exact) {
-  return drawing(scene, query, &given, exact);
+std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact,
+                            const std::optional<ObstacleId>& decisive) {
+  return drawing(scene, query, &given, exact, decisive);
 }
 
 std::string finding_drawing(const Scene& scene, const Query& query, const Answer& exact) {
-  return drawing(scene, query, nullptr, exact);
+  return drawing(scene, query, nullptr, exact, std::nullopt);
 }
 
 }  // namespace lorentz::pictures

@@ -2,6 +2,7 @@
 // magnified until one sees by how much it is met or missed.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <lorentz/problem.hpp>
@@ -15,8 +16,10 @@ namespace lorentz::pictures {
 ///
 /// Distances in the inset are exact ones, rounded to 52 bits: 1e-15 of a radius is drawn as well as a tenth.
 /// `exact` is the oracle's answer: hit, inside or never. Empty if scene, query or `exact` is none to be drawn
-/// (flaw_of). `given` may be anything.
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact);
+/// (flaw_of). `given` may be anything. `decisive`: the obstacle that it is judged by (Judgement::obstacle),
+/// and that is shown therefore; the exact one if it is not known.
+std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact,
+                            const std::optional<ObstacleId>& decisive = {});
 
 /// The same of the exact answer alone, with the decision that it rests on with the smallest margin.
 std::string finding_drawing(const Scene& scene, const Query& query, const Answer& exact);

@@ -61,9 +61,11 @@ class FunctionAnswerer final : public compare::Answerer {
   void drain() override {
     if (queries_.empty()) return;
     std::vector<Answer> answers = run_.stop ? std::vector<Answer>() : answered();
+    const std::size_t asked = answers.size();
     answers.resize(queries_.size(), Answer::error("not asked"));
     queries_.clear();
-    for (Answer& answer : answers) deliver(answer);
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      deliver(answers[i], i < asked ? Origin::engine : Origin::not_asked);
   }
   void finish() override { drain(); }
 

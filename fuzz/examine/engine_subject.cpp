@@ -1,6 +1,9 @@
 // Engines as the subjects of campaigns.
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <lorentz/certified.hpp>
 #include <lorentz/engine.hpp>
@@ -18,27 +21,54 @@ using namespace compare;
 
 namespace {
 
-// Whoever answers. Another program gets many queries before its answers are waited for.
+// Any answerer. Another program gets many queries before its answers are waited for. Those that it was not
+// asked, for it had been given up, it is asked again one at a time: it is no error of a query that it was not
+// asked.
 class AnswererSubject final : public Subject {
  public:
   AnswererSubject(const std::string& engine, const AnswererOptions& options)
       : answerer_(make_answerer(engine, options)), is_command_(is_command(engine)) {
-    answerer_->on_answer([this](Answer& answer) { replies_.push_back({answer}); });
+    answerer_->on_answer([this](Answer& answer) {
+      if (answerer_->origin() == Answerer::Origin::not_asked) not_asked_.push_back(replies_.size());
+      replies_.push_back({answer});
+    });
   }
 
-  void ask(const Query& query) override { answerer_->ask("null", query); }
+  void ask(const Query& query) override {
+    asked_.emplace_back(scene_, query);
+    answerer_->ask("null", query);
+  }
   std::vector<Reply> replies() override {
     answerer_->drain();
+    for (const std::size_t i : std::exchange(not_asked_, {})) ask_again(i);
+    asked_.clear();
     return std::exchange(replies_, {});
   }
   std::uint64_t batch_size() const override { return is_command_ ? 256 : Subject::batch_size(); }
   bool failed() const override { return answerer_->failed(); }
 
  private:
-  void change_scene(const Scene& scene) override { answerer_->set_scene(scene); }
+  void change_scene(const Scene& scene) override {
+    scene_ = std::make_shared<const Scene>(scene);
+    answerer_->set_scene(scene);
+  }
+
+  void ask_again(std::size_t i) {
+    if (answerer_->is_hopeless()) return;
+    answerer_->try_again();
+    answerer_->set_scene(*asked_[i].first);
+    answerer_->ask("null", asked_[i].second);
+    answerer_->drain();
+    replies_[i] = std::move(replies_.back());
+    replies_.pop_back();
+    answerer_->set_scene(*scene_);
+  }
 
   std::unique_ptr<Answerer> answerer_;
   bool is_command_;
+  std::shared_ptr<const Scene> scene_;
+  std::vector<std::pair<std::shared_ptr<const Scene>, Query>> asked_;  // a reply to each is due
+  std::vector<std::size_t> not_asked_;                                 // of these, by number
   std::vector<Reply> replies_;
 };
 

@@ -38,6 +38,10 @@ struct Judgement {
   /// condition.
   double departs = 0;
   bool wrong_time = false;  ///< of `agree`: the obstacle is right, the time is beyond its tolerance
+  /// Of ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
+  /// is passed over, or that contains x). Nothing if the scene does not have the obstacle that was named, and
+  /// where nothing needs to move (a tie that was decided the other way).
+  std::optional<ObstacleId> obstacle = {};
 };
 
 /// Judges answers to the queries of one scene.

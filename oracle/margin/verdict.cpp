@@ -13,15 +13,20 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHuge = 1e300;  // reported for what is more
 
-// By how many ulps the inputs must move for an answer to be right, computed until it is certain that they are
-// more than the tolerance.
+struct Departure {
+  double ulps = 0;
+  std::optional<ObstacleId> obstacle = {};  // that needs so much
+};
+
+// By how many ulps the inputs must move for an answer to be right, and for which obstacle's sake; computed
+// until it is certain that they are more than the tolerance.
 template <std::size_t D>
 class DepartureBound {
  public:
   DepartureBound(const PerturbedQuery<D>& perturbed, const Answer& exact, double ulps)
       : query_(perturbed), exact_(exact), ulps_(ulps) {}
 
-  double departure(const Answer& given) {
+  Departure of(const Answer& given) {
     switch (given.outcome) {
       case Outcome::hit:
         bound_hit(given.obstacle);
@@ -32,23 +37,30 @@ class DepartureBound {
       default:
         bound_never();
     }
-    return departs_;
+    return needed_;
   }
 
  private:
-  bool exceeds_tolerance() const { return departs_ > ulps_; }
-  void needs(const Real& margin) { departs_ = std::max(departs_, to_double(margin, kHuge)); }
+  bool exceeds_tolerance() const { return needed_.ulps > ulps_; }
+  void needs(double margin, const ObstacleId& obstacle) {
+    if (margin > needed_.ulps) needed_ = {margin, obstacle};
+  }
+  void needs(const Real& margin, const Uncertain<D>& atom, const Centre<D>& centre) {
+    const double ulps = to_double(margin, kHuge);
+    if (ulps > needed_.ulps) needed_ = {ulps, query_.id_of(atom, centre.point.n)};
+  }
 
   // X is entered, or missed by no more than k; nothing contains x or is entered earlier with more than k to
   // spare.
   void bound_hit(const ObstacleId& id) {
+    bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
+    if (exceeds_tolerance()) return;
     const Uncertain<D>& atom = query_.atom_of(id);
     const Centre<D> centre = query_.centre_of(id);
-    if (query_.is_from(atom, centre.point.n)) departs_ = kInfinity;
-    if (centre.h2 >= atom.rho2()) needs(atom.margin_of_meeting(centre));
-    if (centre.c2 < atom.view().radius2) needs(atom.margin_of_containing(centre));
-    if (centre.s <= 0) needs(atom.margin_of_ahead(centre));
-    if (!exceeds_tolerance()) bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
+    if (query_.is_from(atom, centre.point.n)) needs(kInfinity, id);
+    if (centre.h2 >= atom.rho2()) needs(atom.margin_of_meeting(centre), atom, centre);
+    if (centre.c2 < atom.view().radius2) needs(atom.margin_of_containing(centre), atom, centre);
+    if (centre.s <= 0) needs(atom.margin_of_ahead(centre), atom, centre);
     if (!exceeds_tolerance() && exact_.outcome == Outcome::hit)
       bound_earlier(atom, centre, query_.atom_of(exact_.obstacle), query_.centre_of(exact_.obstacle));
     for (const Uncertain<D>& other : query_.atoms())
@@ -59,8 +71,8 @@ class DepartureBound {
   void bound_inside(const ObstacleId& id) {
     const Uncertain<D>& atom = query_.atom_of(id);
     const Centre<D> centre = query_.centre_of(id);
-    if (query_.is_from(atom, centre.point.n)) departs_ = kInfinity;
-    if (centre.c2 >= atom.view().radius2) needs(atom.margin_of_containing(centre));
+    if (query_.is_from(atom, centre.point.n)) needs(kInfinity, id);
+    if (centre.c2 >= atom.view().radius2) needs(atom.margin_of_containing(centre), atom, centre);
     if (exceeds_tolerance()) return;
     const auto key = std::tuple(id.lattice, id.atom, centre.point.n);
     bound_containing([&](const Uncertain<D>& other, const ZVec<D>& n) {
@@ -72,8 +84,18 @@ class DepartureBound {
   // direction is within k ulps of v.
   void bound_never() {
     bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
-    if (!exceeds_tolerance() && exact_.outcome != Outcome::never && !open_near(query_, ulps_))
-      departs_ = kInfinity;
+    if (exceeds_tolerance() || exact_.outcome == Outcome::never) return;
+    needs(open_near(query_, ulps_) ? ulps_to_open_way() : kInfinity, exact_.obstacle);
+  }
+
+  // The tolerance is enough. How much of it is, to 1 part in 1000?
+  double ulps_to_open_way() const {
+    double too_few = 0, enough = ulps_;
+    for (int halvings = 0; halvings < 10; ++halvings) {
+      const double between = (too_few + enough) / 2;
+      (open_near(query_, between) ? enough : too_few) = between;
+    }
+    return enough;
   }
 
   // The obstacles that contain x, of those that count.
@@ -85,8 +107,9 @@ class DepartureBound {
       visit_ball<D>(view.basis, view.offset, view.radius2,
                     [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
                       visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-                        if (!query_.is_from(atom, point.n) && counts(atom, point.n))
-                          needs(atom.margin_of_containing(Centre<D>(view.velocity, point)));
+                        if (query_.is_from(atom, point.n) || !counts(atom, point.n)) return;
+                        const Centre<D> centre(view.velocity, point);
+                        needs(atom.margin_of_containing(centre), atom, centre);
                       });
                       return exceeds_tolerance();
                     });
@@ -122,19 +145,19 @@ class DepartureBound {
                         target.view().velocity.v2) > 0)
       return;
     Real spare = atom.margin_of_meeting(centre);
-    if (spare <= ulps_) return;
+    if (to_double(spare, kHuge) <= needed_.ulps) return;
     if (chord2 > 0)
       spare = std::min(spare, margin_of_order(query_.ulps(), atom, centre, target, hit));
     else
       spare = std::min(spare, Real((target.time_of(hit) - atom.time_of(centre)) /
                                    largest_change(query_.ulps(), atom, atom.arrival(centre))));
-    needs(spare);
+    needs(spare, atom, centre);
   }
 
   const PerturbedQuery<D>& query_;
   const Answer& exact_;
   const double ulps_;
-  double departs_ = 0;
+  Departure needed_;
 };
 
 }  // namespace
@@ -200,13 +223,13 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
   if (given.outcome == exact.outcome && (!names_obstacle || given.obstacle == exact.obstacle))
     return given.outcome == Outcome::hit ? impl_->judge_time(query, exact, given, ulps)
                                          : Judgement{Verdict::agree};
-  double departs = kInfinity;
+  Departure needed{kInfinity};
   if (!names_obstacle || !flaw_of(Query{query.x, query.v, given.obstacle}, impl_->scene.scene()))
-    departs = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      return DepartureBound<D>(perturbed, exact, ulps).departure(given);
+    needed = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      return DepartureBound<D>(perturbed, exact, ulps).of(given);
     });
-  const bool forgiven = ulps > 0 && departs <= ulps;  // not a tie either, where nothing is forgiven
-  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, departs};
+  const bool forgiven = ulps > 0 && needed.ulps <= ulps;  // not a tie either, where nothing is forgiven
+  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, needed.obstacle};
 }
 
 }  // namespace lorentz::oracle

@@ -30,7 +30,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             `inside`, `undecided`, `unsupported`. An exception is an error of the engine, and so counted.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
             or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
-            ``cell`` (N, d), ``time``, and ``lattice``, ``atom`` where these are not all 0.
+            ``cell`` (N, d), ``time``, ``lattice``, ``atom`` where these are not all 0, and ``reasons``, as
+            `Answers` has them: why a row is an error, and whether only unsupported.
         name: what the report calls it; else the function's own name.
         quick: 20 seconds instead of two minutes.
         time: about so many seconds instead.
@@ -124,13 +125,13 @@ def _line(function: FirstHitFunction, scene: Scene, x: Any, v: Any, start_from: 
 
 def _answers(given: Any) -> Iterable[Answer]:
     if isinstance(given, Answers):
-        columns = {name: getattr(given, name) for name in ("outcome", "lattice", "atom", "time")}
+        columns = {name: getattr(given, name) for name in ("outcome", "lattice", "atom", "time", "reasons")}
         large = given.large_cells
         return _answers(columns | {"cell": [large.get(i, cell) for i, cell in enumerate(given.cell.tolist())]})
     if isinstance(given, dict):
         count = len(given["outcome"])
         for name, column in given.items():
-            if len(column) != count:
+            if name != "reasons" and len(column) != count:
                 raise Error(f"{name}: has {len(column)} rows, outcome has {count}")
         return [_answer(given, i, Outcome(int(code))) for i, code in enumerate(given["outcome"])]
     return list(given)
@@ -138,7 +139,8 @@ def _answers(given: Any) -> Iterable[Answer]:
 
 def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
     if outcome is Outcome.ERROR:
-        return Answer("error", message="")
+        message, unsupported = columns.get("reasons", {}).get(i, ("", False))
+        return Answer("error", message=message, unsupported=unsupported)
     if outcome not in (Outcome.HIT, Outcome.INSIDE):
         return Answer(outcome.name.lower())
     lattice, atom = (integer(columns[name][i], name) if name in columns else 0 for name in ("lattice", "atom"))

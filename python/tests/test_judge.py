@@ -85,6 +85,22 @@ def test_an_exception_is_an_error_of_that_query(vectorized):
     assert all(row["error"] == row["queries"] for row in report["difficulties"] if row["name"] == "drawn cubic")
 
 
+def test_reasons_of_answers_reach_the_judge():
+    def batch(scene, x, v, start_from):  # which does no ellipses, and says so
+        return lorentz.first_hit(scene, x, v, start_from=start_from)
+
+    def columns(scene, x, v, start_from):
+        answers = batch(scene, x, v, start_from)
+        return {name: getattr(answers, name) for name in ("outcome", "lattice", "atom", "cell", "time", "reasons")}
+
+    for function in (batch, columns):
+        report = lorentz.judge(function, vectorized=True, time=SHORT)
+        assert report["verdict"] == lorentz.judge("batch", time=SHORT)["verdict"] == "right"
+        assert report["unsupported"] > 0 and report["error"] == 0 and report["findings"] == []
+        states = {row["name"]: row["state"] for row in report["difficulties"]}
+        assert states["drawn ellipse"] == "unsupported" and states["drawn square"] == "asked"
+
+
 def test_of_many_only_the_guilty_queries_fail():
     certified = Certified()
 

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <thread>
 
 #include "tests/support/command_line.hpp"
 
@@ -59,21 +58,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Does a process go on running? One that was killed may take a moment to die, and may stay a zombie, which a
-// signal would reach.
-bool goes_on_running(const std::string& pid_file) {
-  int pid = 0;
-  std::ifstream(pid_file) >> pid;
-  REQUIRE(pid > 0);
-  for (int i = 0; i < 100; ++i) {
-    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-    std::string number, name, state;
-    if (!(stat >> number >> name >> state) || state == "Z") return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("A program may answer line by line, in blocks, or when its input ends",
@@ -113,8 +97,6 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
       {"skips", "cmd gave no answer to this query before that to a later one",
        "gave no answer to this query"},
       {"dimension", "cmd gave a cell of 3 components in a scene of dimension 2", "3 components"},
-      {"no-such-lattice", "cmd named an obstacle that the scene does not have", "(lattice 1, atom 0)"},
-      {"no-such-atom", "cmd named an obstacle that the scene does not have", "(lattice 0, atom 7)"},
       {"twice", "", "answered this query again"},
   }));
   const Run run = folder.lorentz("first-hit --engine " + odd(fault.name) + " " + queries);
@@ -126,6 +108,44 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
   if (fault.name != "dies-buffered")
     CHECK(contains(run.err, ":\n" + kScene + "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
   CHECK(contains(run.err, "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
+}
+
+TEST_CASE("An obstacle that the scene does not have is an answer, and a wrong one, whoever is asked",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream(6));
+  for (const char* fault : {"no-such-lattice", "no-such-atom"}) {
+    const Run run = folder.lorentz("first-hit --detail --engine " + odd(fault) + " " + queries);
+    INFO(fault << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    const bool lattice = std::string(fault) == "no-such-lattice";
+    CHECK(contains(run.out, std::string(R"("q5","outcome":"hit",)") +
+                                (lattice ? R"("lattice":1,"atom":0)" : R"("lattice":0,"atom":7)")));
+    const Run compared = folder.lorentz("compare --json --queries " + queries + " --engine " + odd(fault) +
+                                        " --answers logged=" + folder.write("a", run.out));
+    INFO(compared.out << compared.err);
+    CHECK(compared.status == 1);
+    const std::string counts = R"(","queries":6,"agree":0,"ill_posed":0,"wrong":6,)";
+    CHECK(contains(compared.out, "logged" + counts));
+    CHECK(contains(compared.out, fault + counts));
+  }
+}
+
+TEST_CASE("A time below zero is an answer, judged as any other", "[compare][command_engine]") {
+  const Folder folder;
+  // It starts on a disc, and moves into it: the time is 0.
+  const auto queries = folder.write("q", kScene + R"({"id":1,"x":[-0.25,0],"v":[1,0]})"
+                                                  "\n");
+  const auto compared = [&](const char* time) {
+    return folder.lorentz(
+        "compare --json --times --queries " + queries + " --answers logged=" +
+        folder.write("a", R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":)" +
+                              std::string(time) + "}\n"));
+  };
+  CHECK(compared("-4e-19").status == 0);
+  CHECK(contains(compared("-4e-19").out, R"("agree":1,)"));
+  CHECK(compared("-1e-3").status == 1);
 }
 
 TEST_CASE("An answer after the last query, and one too few", "[compare][command_engine]") {

@@ -460,6 +460,16 @@ TEST_CASE("The exit status where an engine only errs, or is wrong in times only"
   CHECK(strict.status == 1);
 }
 
+TEST_CASE("No query is an error that a program was not asked", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz("fuzz -t grazing --count 300 --mutate 0 --json --engine 'cmd:exec " +
+                                 std::string(LORENTZ_TOLERANT_ENGINE) + " dies-in 3'");
+  INFO(run.out << run.err);
+  CHECK(run.status == 3);
+  CHECK(contains(run.out, "cmd died (exit 3) on this query"));
+  CHECK_FALSE(contains(run.out, "not asked"));
+}
+
 TEST_CASE("A program that breaks is reported, and is no reason to stop", "[fuzz][fuzz_command]") {
   const Folder folder;
   const Run run =

@@ -129,6 +129,17 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   CHECK(dead.status == 3);
   CHECK(contains(dead.err, "given up; 1 sets were not asked"));
   CHECK(contains(dead.out, "\"not_asked\":1}"));
+  // One set kills it: the others are asked.
+  const std::string fragile = "cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 2";
+  const Run some = folder.lorentz("golden check --json --engine '" + fragile +
+                                  "' generic-3d generic-2d tricylinder --first 20");
+  INFO(some.out << some.err);
+  CHECK(some.status == 3);
+  CHECK(contains(some.out, R"("set":"generic-2d","records":5,"agree":0,)"));
+  CHECK(contains(some.out, R"("error":5,"not_asked":15,)"));
+  CHECK(contains(some.err, " given up in generic-2d: 15 records were not asked"));
+  CHECK(contains(some.out, R"("set":"tricylinder","records":20,"agree":20,)"));
+  CHECK(contains(some.out, "\"not_asked\":0}"));
   // One bad line is an error, and no reason to ask no further.
   const Run once = checked("a = {'id': a['id'], 'outcome': 'nonsense'} if str(a['id']) == '3' else a",
                            set + " ties --first 40");

@@ -49,7 +49,11 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
   CHECK(cause(along, Answer::hit(disc(1, 0), 0.75)) == "not-the-time");
   CHECK(cause(along, Answer::hit(disc(1, 0), 0.25 + 1e-11)) == "wrong-time");
   CHECK(cause(along, Answer::error("no")) == "refused");
-  CHECK(cause(along, Answer::error("cmd died (signal 11) on this query")) == "no-answer");
+  CHECK(cause(along, Answer::error("cmd is what its message begins with")) == "refused");
+  CHECK(diagnosis_of(along, Answer::error("no"), {oracle::Verdict::missing})->cause == Cause::no_answer);
+  // Behind the start, far or near, whether the line that goes on backwards meets it or not.
+  CHECK(cause(along, Answer::hit(disc(-7, 0), 6)) == "behind");
+  CHECK(cause(along, Answer::hit(disc(-7, 1), 6)) == "behind");
   CHECK(diagnosed(along, Answer::hit(disc(1, 1), 0.5))->by_radii == Approx(3));
   CHECK(diagnosed(along, Answer::inside(disc(1, 0)))->by_radii == Approx(1));
 
@@ -66,7 +70,9 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
 
   Question nonsense = along;
   nonsense.text = R"("x":[0.5,0],"v":[0,0])";
-  CHECK(diagnosis_of(nonsense, Answer::never(), {oracle::Verdict::wrong})->cause == Cause::answered_nonsense);
+  const auto its = diagnosis_of(nonsense, Answer::never(), {oracle::Verdict::wrong});
+  CHECK(its->cause == Cause::answered_nonsense);
+  CHECK(its->severity == Severity::nonsense);
 }
 
 TEST_CASE("What is only just met or missed is told apart, with the power of ten above it",
@@ -81,6 +87,28 @@ TEST_CASE("What is only just met or missed is told apart, with the power of ten 
   CHECK(cause(within_rounding, Answer::never()) == "~never-for-grazing");
   CHECK(sentence_of(Cause::passed_over_grazing, 3e-10) ==
         "passes over obstacles that the line enters by less than 1e-09 of their radii");
+}
+
+TEST_CASE("The obstacle that is told of is the one that condemns", "[judge][diagnosis]") {
+  // The disc (0, 0) is entered by a rounding, (1, 0) by more than any, and (2, 0) is named. The line rises.
+  const Question two = asked(0.25, {-0.5, -0.25 - 0x1p-31 + 0x1p-54, 0}, {1, 0x1p-30, 0});
+  REQUIRE(two.exact.obstacle == disc(0, 0));
+  const Answer given = Answer::hit(disc(2, 0), 2.3);
+  const auto judgement = two.setting->judge().judge(two.query, two.exact, given);
+  REQUIRE(judgement.verdict == oracle::Verdict::wrong);
+  CHECK(judgement.obstacle == disc(1, 0));
+  const auto diagnosis = diagnosis_of(two, given, judgement);
+  REQUIRE(diagnosis);
+  const double depth = -two.setting->margins().approach(two.query, disc(1, 0)).gap;
+  CHECK(diagnosis->by_radii == Approx(depth));
+  CHECK(judgement.departs > 4);
+  // What rounding forgives is told with the rounding that it takes.
+  const Answer next = Answer::hit(disc(1, 0), *two.exact.time + 1);
+  const auto forgiven = two.setting->judge().judge(two.query, two.exact, next);
+  CHECK(forgiven.verdict == oracle::Verdict::ill_posed);
+  CHECK(forgiven.obstacle == disc(0, 0));
+  CHECK(forgiven.departs > 0);
+  CHECK(forgiven.departs <= 4);
 }
 
 TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[judge][circumstance]") {

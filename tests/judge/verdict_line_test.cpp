@@ -94,10 +94,42 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
   CHECK(report.line() == "wrong: " + main);
   report.times = true;
   CHECK(report.line() == "wrong: 2 kinds of fault, above all: " + main);
-  report.failed = true;
-  turn(report.rows[1], &compare::Tally::error, 3);  // two of them questions that it called errors
+  turn(report.rows[1], &compare::Tally::missing, 13);
+  CHECK(report.verdict() == "wrong");
+  CHECK(report.line() == "wrong: 2 kinds of fault, above all: " + main + "; 13 of 1300 answers missing");
+  turn(report.rows[1], &compare::Tally::missing, 1);
+  CHECK(report.verdict() == "broken");
   CHECK(report.line() ==
-        "broken: 1 of 1300 queries without an answer that could be read; wrong: 2 kinds of fault, "
+        "broken: 14 of 1300 queries without an answer that could be read; wrong: 2 kinds of fault, "
         "above all: " +
             main);
+}
+
+TEST_CASE("Answers to invalid questions are counted apart, told last, and count if they are to",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 300)});
+  report.rows[1].nonsense = 115;
+  CHECK(report.line() == "right: no wrong answer in 1300; 115 invalid questions answered");
+  CHECK(contains(report.json(), R"("queries":1300,"wrong":0,)"));
+  CHECK(contains(report.json(), R"("missing":0,"nonsense":115,)"));
+  report.strict = true;
+  CHECK(report.verdict() == "wrong");
+}
+
+TEST_CASE("What was unsupported, what there was no time for, and what was given up are three lists",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 30), row(true, 0), row(true, 7)});
+  const auto name = [&](std::size_t i, const char* text) { report.rows[i].name = text; };
+  name(1, "ellipses"), name(2, "ties"), name(3, "far starts");
+  turn(report.rows[1], &compare::Tally::unsupported, 30);
+  turn(report.rows[3], &compare::Tally::missing, 5);
+  report.rows[3].scenes_given_up = 2;
+  report.rows[3].last_failure = "cmd died (exit 3) on this query";
+  CHECK(contains(report.text(),
+                 "\nunsupported: ellipses\nnot asked, no time: ties\n"
+                 "given up in scenes of: far starts (2); cmd died (exit 3) on this query\n"));
+  CHECK(report.line() ==
+        "right: no wrong answer in 1002; 5 of 1037 answers missing; given up in 1 of 4 rows");
+  for (const char* state : {"asked", "unsupported", "no time", "given up"})
+    CHECK(contains(report.json(), R"("state":")" + std::string(state) + '"'));
 }

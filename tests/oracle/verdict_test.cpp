@@ -53,6 +53,35 @@ TEST_CASE("Each answer gets its verdict", "[oracle][verdict]") {
   CHECK(judged(kScene, {{0.125, 0}, {1, 0}, {}}, Answer::inside(at(1, 0))).verdict == Verdict::wrong);
 }
 
+TEST_CASE("What an ill-posed answer departs by is the tolerance from which on it is one, and an obstacle's",
+          "[oracle][verdict]") {
+  // Rising lines that enter the disc (1, 0) by some roundings, and (2, 0) by more than any.
+  std::size_t forgiven = 0;
+  for (int roundings = 1; roundings <= 40; ++roundings) {
+    const Query query{{0.5, -0.25 - 0x1p-31 + roundings * 0x1p-54}, {1, 0x1p-30}, {}};
+    for (const Answer& given : {Answer::hit(at(2, 0), 1.5), Answer::never()}) {
+      const oracle::Judgement judgement = judged(kScene, query, given);
+      INFO(roundings << " " << static_cast<int>(given.outcome) << " " << judgement.departs);
+      REQUIRE(judgement.obstacle);
+      if (judgement.verdict != Verdict::ill_posed) continue;
+      ++forgiven;
+      CHECK(judgement.obstacle == at(1, 0));
+      CHECK(judgement.departs > 0);
+      CHECK(judged(kScene, query, given, 0.99 * judgement.departs).verdict == Verdict::wrong);
+      CHECK(judged(kScene, query, given, 1.01 * judgement.departs).verdict == Verdict::ill_posed);
+    }
+  }
+  CHECK(forgiven > 10);
+  // And `never`, along the edge of a corridor.
+  const oracle::Judgement never = judged(kScene, level(0.25 - 0x1p-52), Answer::never());
+  CHECK(never.verdict == Verdict::ill_posed);
+  CHECK(never.obstacle == at(1, 0));
+  CHECK(never.departs > 0);
+  CHECK(judged(kScene, level(0.25 - 0x1p-52), Answer::never(), 0.99 * never.departs).verdict ==
+        Verdict::wrong);
+  CHECK_FALSE(judged(kScene, level(0), Answer::hit({1, 0, {}}, 1)).obstacle);  // there is none
+}
+
 TEST_CASE("Where the query is none nobody is wrong", "[oracle][verdict]") {
   CHECK(oracle::Judge(kScene).judge(level(0), Answer::error("v is zero"), Answer::hit(at(0, 0), 1)).verdict ==
         Verdict::error);

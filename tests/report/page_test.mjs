@@ -189,6 +189,22 @@ test("The verdict is at the top, and the first finding tells what is wrong", asy
   });
 });
 
+test("What was unsupported, what there was no time for, and what was given up are three lists", async () => {
+  await open("judge", {}, async (page) => {
+    assert.deepEqual(await page.locator("#difficulties .left-out li").allInnerTexts(), [
+      "Unsupported: golden ellipsoids",
+      "Not asked, no time: golden ties",
+      "Given up in scenes of: golden far starts (2); cmd died (exit 3) on this query",
+    ]);
+    const table = await page.locator("#difficulties tbody").innerText();
+    assert.match(table, /golden far starts/); // what it was asked before
+    assert.doesNotMatch(table, /golden ties/);
+    const tiles = await page.locator(".tiles").innerText();
+    assert.match(tiles, /missing\s+5/);
+    assert.match(tiles, /nonsense\s+115/);
+  });
+});
+
 test("Right obstacles at wrong times are no praise, rows that were not asked do not count, free paths are compared", async () => {
   await open("timed", {}, async (page) => {
     assert.match(

@@ -4,12 +4,14 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 namespace lorentz::test {
 
@@ -47,6 +49,21 @@ class Folder {
  private:
   fs::path path_;
 };
+
+// Does a process go on running? One that was killed may take a moment to die, and may stay a zombie, which a
+// signal would reach.
+inline bool goes_on_running(const std::string& pid_file) {
+  int pid = 0;
+  std::ifstream(pid_file) >> pid;
+  if (pid <= 0) return true;  // nobody wrote it
+  for (int i = 0; i < 100; ++i) {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    if (!(stat >> number >> name >> state) || state == "Z") return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

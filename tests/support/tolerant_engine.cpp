@@ -4,6 +4,7 @@
 //   dies N      it dies at its Nth question
 //   hangs N     it falls silent there
 //   starts N    it takes N ms to start, and has no fault
+//   dies-in N   it dies of every question in N dimensions
 //   cuts N      it says never of flights longer than N
 #include <chrono>
 #include <cstdio>
@@ -42,7 +43,8 @@ struct Fault {
 };
 
 // What is not an answer.
-void misbehave(const Fault& fault, long question) {
+void misbehave(const Fault& fault, long question, const std::optional<Scene>& scene) {
+  if (fault.what == "dies-in" && scene && scene->dimension == fault.at) std::_Exit(3);
   if (question != fault.at) return;
   if (fault.what == "dies") std::_Exit(3);
   if (fault.what == "hangs") std::this_thread::sleep_for(std::chrono::hours(1));
@@ -75,7 +77,7 @@ int main(int argc, char** argv) {
       scene = item.scene, oracle.emplace(item.scene), margins.emplace(item.scene);
       continue;
     }
-    misbehave(fault, ++questions);
+    misbehave(fault, ++questions, scene);
     if (item.kind == StreamItem::Kind::query) answer = answer_of(fault, *oracle, *margins, item.query);
     std::string text;
     append_answer_line(text, item.id, answer, scene ? scene->dimension : 2);

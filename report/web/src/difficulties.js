@@ -12,13 +12,30 @@ const COUNTS = [
   ["unsupported", "unsupported"],
   ["error", "errors"],
   ["missing", "missing"],
+  ["nonsense", "nonsense"],
   ["agree", "agree"],
   ["queries", "queries"],
 ];
 
+// What was not asked, or not to the end, and why: three states that are not the same.
+function leftOut(rows) {
+  const told = (row) => (row.scenes_given_up ? `${row.name} (${row.scenes_given_up})` : row.name);
+  const named = (state, say) =>
+    [...Map.groupBy(rows.filter((r) => r.state === state), (r) => r.why ?? "")].map(([why, its]) =>
+      h("li", {}, h("b", {}, `${say}: `), its.map(told).join(", "), why && `; ${why}`),
+    );
+  const items = [
+    ...named("unsupported", "Unsupported"),
+    ...named("no time", "Not asked, no time"),
+    ...named("given up", "Given up in scenes of"),
+  ];
+  return items.length ? h("ul", { class: "left-out" }, items) : null;
+}
+
 export function difficultiesSection(report) {
-  const rows = report.difficulties ?? [];
-  if (!rows.length) return null;
+  const all = report.difficulties ?? [];
+  if (!all.length) return null;
+  const rows = all.filter((r) => !["unsupported", "no time"].includes(r.state));
   const always = new Set(["queries", "agree", "wrong"]);
   const columns = [
     {
@@ -53,5 +70,6 @@ export function difficultiesSection(report) {
     "A row that is chosen is marked in the chart, and a mark there in the table.",
     difficultiesChart(report),
     choosableTable({ label: "Kinds of difficulty", columns, rows, size: 50 }).element,
+    leftOut(all),
   );
 }

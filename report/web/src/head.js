@@ -94,6 +94,9 @@ function figures(report) {
         ),
       );
     }
+  for (const key of ["missing", "nonsense"])
+    if (report[key] > 0)
+      tiles.push(tile(count(report[key]), verdictOf(key).word, MEANINGS[key], verdictOf(key).colour));
   if (isNumber(report.ns_per_query)) tiles.push(tile(duration(report.ns_per_query), "time a query"));
   if (!tiles.length && report.cells?.length) {
     tiles.push(

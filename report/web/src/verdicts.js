@@ -8,6 +8,8 @@ export const VERDICTS = {
   "ill-posed": { word: "ill-posed", sign: "≈", colour: "var(--ill-posed)", symbol: "diamond" },
   "wrong-time": { word: "wrong time", sign: "◷", colour: "var(--wrong-time)", symbol: "triangle" },
   undecided: { word: "undecided", sign: "?", colour: "var(--undecided)", symbol: "square" },
+  missing: { word: "missing", sign: "–", colour: "var(--undecided)", symbol: "cross" },
+  nonsense: { word: "nonsense", sign: "–", colour: "var(--undecided)", symbol: "cross" },
 };
 
 export const MEANINGS = {
@@ -15,6 +17,8 @@ export const MEANINGS = {
   "ill-posed": "another answer than the exact one, but a change of the input by its last bits gives it",
   "wrong-time": "the right obstacle, at a time that is off by more than the input's condition explains",
   undecided: "the engine says that it cannot know",
+  missing: "asked, and no answer came: the program died, fell silent, or wrote something that is no answer",
+  nonsense: "an invalid question was answered, where error is right; counted apart from the queries",
 };
 
 export const verdictOf = (name) =>

@@ -1,0 +1,145 @@
+// What becomes of the questions when an engine breaks, and when the time is over. No clock decides here: the
+// time is over when the test says so.
+#include "judge/examination.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <thread>
+
+#include "compare/registry.hpp"
+#include "compare/sampling.hpp"
+#include "judge/repetition.hpp"
+
+using namespace lorentz;
+using namespace lorentz::judge;
+
+namespace {
+
+constexpr double kForEver = 1e9;
+constexpr std::uint64_t kSeed = 20161115;
+
+std::string tolerant(const std::string& fault) {
+  return "cmd:exec " LORENTZ_TOLERANT_ENGINE " " + fault;
+}
+
+// Drawn questions of each of these scenes in turn, in the square or cubic lattice.
+Source questions(std::vector<int> dimensions, std::size_t number) {
+  const auto all = std::make_shared<std::vector<Question>>();
+  for (const int dimension : dimensions) {
+    const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+    for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), kSeed, number))
+      all->push_back({setting, query, setting->oracle().first_hit(query), "here", ""});
+  }
+  return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
+    while (next < all->size() && (*all)[next].setting->is_beyond_engine()) ++next;
+    return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
+  };
+}
+
+// An engine of ours that answers exactly, and sets a flag at its `at`-th question.
+class Flagging final : public compare::Answerer {
+ public:
+  Flagging(std::atomic<bool>& flag, long at) : flag_(flag), left_(at) {}
+  void set_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  void ask(const Id&, const Query& query) override {
+    if (--left_ <= 0) flag_ = true;
+    Answer answer = oracle_->first_hit(query);
+    deliver(answer);
+  }
+
+ private:
+  std::atomic<bool>& flag_;
+  long left_;
+  std::optional<oracle::Oracle> oracle_;
+};
+
+}  // namespace
+
+TEST_CASE("A program is given up for a scene, not for the run, and the row says why",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  Examination examination(tolerant("dies-in 3"), {}, 4, stop);
+  examination.run({"plane", ""}, questions({2}, 20), kForEver);
+  examination.run({"space", ""}, questions({3}, 20), kForEver);
+  examination.run({"plane again", ""}, questions({2}, 20), kForEver);
+  examination.run({"both", ""}, questions({3, 2, 3}, 20), kForEver);
+  examination.finish();
+  const std::vector<Row>& rows = examination.rows();
+  REQUIRE(rows.size() == 4);
+  for (const std::size_t i : {0, 2}) {
+    CHECK(rows[i].tally.agree == 20);
+    CHECK(rows[i].scenes_given_up == 0);
+    CHECK(rows[i].is_exhausted);
+  }
+  CHECK(rows[1].tally.queries == 5);  // what was not asked is not counted
+  CHECK(rows[1].tally.missing == 5);
+  CHECK(rows[1].tally.error == 0);
+  CHECK(rows[1].scenes_given_up == 1);
+  CHECK(rows[1].last_failure == "cmd died (exit 3) on this query");
+  CHECK(rows[3].tally.agree == 20);
+  CHECK(rows[3].tally.missing == 10);
+  CHECK(rows[3].scenes_given_up == 2);
+  const std::vector<Finding> findings = examination.findings();
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].cause() == Cause::no_answer);
+  CHECK(findings[0].count == 15);
+}
+
+TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  Examination examination("cmd:exit 3", {}, 4, stop);
+  examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
+  examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
+  examination.finish();
+  CHECK(examination.rows()[0].tally.missing == 5);
+  CHECK(examination.rows()[1].tally.queries == 0);
+  CHECK(examination.rows()[1].scenes_given_up > 0);
+}
+
+TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
+  std::atomic<bool> stop = false;
+  const compare::GuestEngine guest(
+      "flagging", [&](const compare::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
+  Examination examination("flagging", {}, 4, stop);
+  examination.run({"asked", ""}, questions({2}, 1000), kForEver);
+  examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
+  const std::size_t asked = examination.rows()[0].tally.queries;
+  CHECK(asked >= 30);
+  CHECK(asked < 30 + 32);  // those that were asked together with it
+  CHECK(examination.rows()[1].tally.queries == 0);
+  CHECK_FALSE(examination.rows()[1].is_exhausted);
+  // A program that never answers, and would be waited for for years.
+  std::atomic<bool> over = false;
+  compare::AnswererOptions options;
+  options.timeout = kForEver;
+  Examination silent(tolerant("hangs 1"), options, 4, over);
+  std::thread clock([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    over = true;
+  });
+  silent.run({"silent", ""}, questions({2}, 1000), kForEver);
+  silent.finish();
+  clock.join();
+  CHECK(silent.rows()[0].tally.queries == 0);
+}
+
+TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[judge][repetition]") {
+  const std::atomic<bool> stop = false, stopped = true;
+  const Question question = *questions({2}, 1)();
+  Finding finding{
+      {question, Answer::error("cmd died"), {}, {Cause::no_answer, Severity::error}}, "here", 1, {}};
+  const auto recheck_of = [&](const std::string& fault, const std::atomic<bool>& over) {
+    recheck(
+        finding,
+        [&] { return std::make_unique<Examination>(tolerant(fault), compare::AnswererOptions{}, 4, over); },
+        kForEver);
+    return finding.recheck;
+  };
+  CHECK(recheck_of("dies 1", stop) == Recheck::fails);
+  CHECK(finding.repetitions == 1);
+  CHECK(recheck_of("dies 7", stop) == Recheck::fails);
+  CHECK(finding.repetitions >= 7);  // a program that is slow to start is started twice
+  CHECK(recheck_of("starts 0", stop) == Recheck::passes);
+  CHECK(recheck_of("dies 1", stopped) == Recheck::no_time);
+}
