@@ -7,6 +7,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/completion.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/manual.hpp"
 #include "cli/messages.hpp"
 #include "cli/signals.hpp"
@@ -79,6 +80,7 @@ void parse(CLI::App& app, int argc, char** argv) {
                                  options.empty() ? in_words(error.what()) : "no such option: " + options,
                                  command.name));
   }
+  check_files(command.app);
 }
 
 std::string& called() {
