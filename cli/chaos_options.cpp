@@ -42,7 +42,8 @@ void with_work(const ChaosOptions& options, const std::function<void(const chaos
     Progress progress("flying, part", chaos::kGroups, 1);
     run({jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }});
   }
-  say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  say("{}{:.2f} s", Interrupt::came() ? Interrupt::what() + std::string(" after ") : "", seconds);
 }
 
 std::string name_with_radius(const std::string& name, const Scene& scene) {
