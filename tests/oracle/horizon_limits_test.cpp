@@ -102,7 +102,8 @@ TEST_CASE("Horizon: vectors skewed by 10^300 span the same lattice, and cost no 
     CHECK(*plane.tail_constant == Approx(*square.tail_constant).epsilon(1e-12));
     // Its own vectors name them: the corridor along e2 is u2 - skew u1.
     bool named = false;
-    for (const auto& channel : plane.channels) named |= std::fabs(channel.vector[1]) == 1 && channel.width == 0.8;
+    for (const auto& channel : plane.channels)
+      named |= std::fabs(channel.vector[1]) == 1 && channel.width == 0.8;
     CHECK(named);
     for (const double radius : {0.25, 0.45}) {
       const Horizon cubic = horizon_of(unit_scene(3, radius));
