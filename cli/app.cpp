@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <iostream>
 
 #include <lorentz/exchange.hpp>
@@ -127,8 +128,11 @@ int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     say("out of memory");
     return kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {  // its own text is for programmers
+    say("{}: {}", error.path1().string(), error.code().message());
+    return kFailed;
   } catch (const std::exception& error) {
-    say("{}", error.what());
+    say_text(error.what(), Lines::kept);
     return kFailed;
   }
 }

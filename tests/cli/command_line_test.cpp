@@ -21,6 +21,20 @@ TEST_CASE("Files that are not there, folders, empty files, a full disk", "[cli][
   CHECK(WEXITSTATUS(status) == 3);
 }
 
+TEST_CASE("What the system says of a file is said with its name, and in no function's words",
+          "[cli][command_line]") {
+  const Folder folder;
+  std::filesystem::create_symlink("loop", folder.file("loop"));
+  for (const std::string& name : {folder.file("loop"), folder.file(std::string(300, 'x'))})
+    for (const char* command : {"flights --count 1 --add ", "golden verify ", "bench --store "}) {
+      const Run run = folder.lorentz(command + name);
+      INFO(command << name << "\n" << run.err);
+      CHECK(run.status == 3);
+      CHECK(contains(run.err, name));
+      for (const char* word : {"filesystem", "std::", "basic_", "stat"}) CHECK_FALSE(contains(run.err, word));
+    }
+}
+
 TEST_CASE("Bad usage", "[cli][command_line]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood);
