@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -16,7 +17,11 @@ void append_escape(std::string& out, char32_t code) {
 }  // namespace
 
 std::string json_quoted(std::string_view text) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+  const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();  // mostly all of it
   std::string out = "\"";
+  out += text.substr(0, plain);
+  text.remove_prefix(plain);
   while (!text.empty()) {
     const Character c = first_character(text);
     if (c.code == '"' || c.code == '\\') out += '\\';

@@ -1,8 +1,10 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
 #include "tests/support/command_line.hpp"
+#include "cli/messages.hpp"
 
 #include <catch2/catch.hpp>
 
+using namespace lorentz;
 using namespace lorentz::test;
 
 TEST_CASE("Files that are not there, folders, empty files, a full disk", "[cli][command_line]") {
@@ -33,6 +35,17 @@ TEST_CASE("What the system says of a file is said with its name, and in no funct
       CHECK(contains(run.err, name));
       for (const char* word : {"filesystem", "std::", "basic_", "stat"}) CHECK_FALSE(contains(run.err, word));
     }
+}
+
+TEST_CASE("Words in quotes are what bash makes of them, and act on no terminal", "[cli][command_line]") {
+  const Folder folder;
+  for (const std::string word : {"plain", "two words", "it's", "$(rm -rf x)", "\x1b[31m'\\n",
+                                 "\u009b\u202e\u00fc", "two\nlines", "\x9b\x7f"}) {
+    const std::string quoted = cli::shell_quoted(word);
+    INFO(quoted);
+    CHECK(printable(quoted, Lines::kept) == quoted);
+    CHECK(folder.run("bash " + folder.write("script", "printf %s " + quoted)).out == word);
+  }
 }
 
 TEST_CASE("Bad usage", "[cli][command_line]") {
