@@ -61,9 +61,9 @@ bool is_possible(const Sums& sums, Share share) {
          sums.particles == share.last - share.first - sums.stopped;
 }
 
-// The particles [first, last), to the time T.
+// The particles [first, last), to the time T, or until the work is stopped: then the sums are no use.
 void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& starts, Share share,
-         const std::vector<double>& times, Sums& sums) {
+         const std::vector<double>& times, const Work& work, Sums& sums) {
   Particles particles(engine, plan.scene);
   add_free_starts(starts, engine.one_at_a_time(), share.first, share.last, particles);
   std::vector<Way> ways(particles.size());
@@ -72,7 +72,7 @@ void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& 
     ways[i].fly(collision.arriving, particle.time, times);
     return true;
   };
-  while (particles.advance(plan.time, visit) > 0) continue;
+  while (!work.is_stopped() && particles.advance(plan.time, visit) > 0) continue;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     sums.collisions += particles[i].collisions;
     if (particles.stop(i) != Stop::time) {
@@ -157,7 +157,7 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
         Share share = share_of(group, plan.count);
         for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
           fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times,
-              sums);
+              work, sums);
         return sums;
       },
       [&](std::uint64_t group, const Sums& sums) { return is_possible(sums, share_of(group, plan.count)); });

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <iostream>
 
 #include <lorentz/exchange.hpp>
 #include "cli/completion.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/manual.hpp"
 #include "cli/messages.hpp"
 #include "cli/signals.hpp"
@@ -79,6 +81,7 @@ void parse(CLI::App& app, int argc, char** argv) {
                                  options.empty() ? in_words(error.what()) : "no such option: " + options,
                                  command.name));
   }
+  check_files(command.app);
 }
 
 std::string& called() {
@@ -125,8 +128,11 @@ int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     say("out of memory");
     return kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {  // its own text is for programmers
+    say("{}: {}", error.path1().string(), error.code().message());
+    return kFailed;
   } catch (const std::exception& error) {
-    say("{}", error.what());
+    say_text(error.what(), Lines::kept);
     return kFailed;
   }
 }

@@ -9,6 +9,7 @@
 #include "cli/bench_report.hpp"
 #include "cli/bench_store.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
@@ -76,7 +77,6 @@ BenchPlan plan_of(const Options& options) {
 }
 
 int act(const Options& options) {
-  check_apart({{"--csv", options.csv}, {"--html", options.html}, {"--store", options.store}});
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());
@@ -134,15 +134,11 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the queries")->capture_default_str()->type_name("N");
   command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
-  command
-      ->add_option("--store", options->store,
-                   "keep the cells that are done in this file, and go on from there when called again")
-      ->type_name("FILE");
+  add_output(*command, "--store", options->store,
+             "keep the cells that are done in this file, and go on from there when called again");
   command->add_flag("--json", options->json, "the report as one JSON object instead of a table");
-  command->add_option("--csv", options->csv, "write the figures there too, one line a cell")
-      ->type_name("FILE");
-  command->add_option("--html", options->html, "write the report there too, as a page that opens offline")
-      ->type_name("FILE");
+  add_output(*command, "--csv", options->csv, "write the figures there too, one line a cell");
+  add_output(*command, "--html", options->html, "write the report there too, as a page that opens offline");
   command->footer(
       "drawn: uniform starts, isotropic directions. near-rational: directions a few ulps from small "
       "integers.\n"

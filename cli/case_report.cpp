@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
+#include "cli/file_options.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
@@ -76,11 +77,9 @@ std::string json_of(const CaseReport& report) {
 }
 
 void CaseFiles::add_options(CLI::App& command) {
-  command
-      .add_option("--html", html,
-                  "write a page, whole or not at all: the flight drawn, what decides it, commands")
-      ->type_name("FILE");
-  command.add_option("--svg", svg, "write the drawing alone")->type_name("FILE");
+  add_output(command, "--html", html,
+             "write a page, whole or not at all: the flight drawn, what decides it, commands");
+  add_output(command, "--svg", svg, "write the drawing alone");
 }
 
 std::string CaseFiles::as_typed() const {
@@ -88,7 +87,6 @@ std::string CaseFiles::as_typed() const {
 }
 
 void CaseFiles::write(const CaseReport& report) const {
-  check_apart({{"--html", html}, {"--svg", svg}});
   const auto text_for = [&](bool page) {
     if (page) return report::page(json_of(report));
     std::string drawing = drawing_of(report);

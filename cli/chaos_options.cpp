@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -24,8 +25,7 @@ void add_chaos_options(CLI::App& command, ChaosOptions& options) {
   command.add_option("--jobs", options.jobs, "threads; the result is the same")
       ->capture_default_str()
       ->type_name("N");
-  command.add_option("--store", options.store, "where parts that are done are kept, and gone on from")
-      ->type_name("FILE");
+  add_output(command, "--store", options.store, "where parts that are done are kept, and gone on from");
   command.add_flag("--json", options.json, "one JSON object instead of a table");
 }
 
@@ -55,7 +55,7 @@ void with_work(const ChaosOptions& options, const std::string& kind, const store
   }
   say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (Interrupt::came())
-    say("interrupted; {}",
+    say("{}; {}", Interrupt::what(),
         store ? "the same command goes on" : "without --store nothing is kept to go on with");
 }
 

@@ -8,6 +8,7 @@
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
@@ -380,10 +381,8 @@ void add_compare(CLI::App& app, Action& action) {
       ->type_name("N")
       ->excludes(queries);
   command->add_option("--seed", options->seed, "of the drawn queries")->capture_default_str()->type_name("N");
-  command
-      ->add_option("--disagreements", options->disagreements,
-                   "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream")
-      ->type_name("FILE");
+  add_output(*command, "--disagreements", options->disagreements,
+             "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream");
   command
       ->add_option(
           "--ulps", options->ulps,

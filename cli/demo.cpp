@@ -2,9 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
@@ -23,8 +25,9 @@ CaseSet paper_example() {
   set.scenes.push_back(unit_scene(2, 0.1));
   for (int degrees = 1; degrees < 90; ++degrees) {
     const double angle = degrees * std::numbers::pi / 180;
-    set.cases.push_back(
-        {fmt::format("paper/{}", degrees), 0, {{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}}});
+    set.cases.push_back({json_quoted(fmt::format("paper/{}", degrees)),
+                         0,
+                         {{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}}});
   }
   return set;
 }
@@ -34,7 +37,8 @@ CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
   CaseSet set;
   set.scenes.push_back(unit_scene(dimension, radius));
   for (const Query& query : draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count))
-    set.cases.push_back({fmt::format("leaving-{}d/{}/{}", dimension, radius, set.cases.size()), 0, query});
+    set.cases.push_back(
+        {json_quoted(fmt::format("leaving-{}d/{}/{}", dimension, radius, set.cases.size())), 0, query});
   return set;
 }
 
@@ -43,7 +47,8 @@ CaseSet drawn(int dimension, double radius, std::size_t count) {
   set.scenes.push_back(unit_scene(dimension, radius));
   for (const Query& query :
        draw_queries(set.scenes[0], oracle::Oracle(set.scenes[0]), kDefaultSeed, count, terminal()))
-    set.cases.push_back({fmt::format("drawn-{}d/{}/{}", dimension, radius, set.cases.size()), 0, query});
+    set.cases.push_back(
+        {json_quoted(fmt::format("drawn-{}d/{}/{}", dimension, radius, set.cases.size())), 0, query});
   return set;
 }
 
@@ -125,8 +130,7 @@ void add_demo(CLI::App& app, Action& action) {
       "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
       "classical");
   auto disagreements = std::make_shared<std::optional<std::string>>();
-  command->add_option("--disagreements", *disagreements, "write each wrong answer there, as a query stream")
-      ->type_name("FILE");
+  add_output(*command, "--disagreements", *disagreements, "write each wrong answer there, as a query stream");
   command->callback([disagreements, &action] { action = [disagreements] { return act(*disagreements); }; });
 }
 

@@ -6,6 +6,7 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -143,7 +144,6 @@ int act(const Options& options) {
   report.plan = {scene_of(options), ensemble_of(options.from), seed_of(options),
                  whole_number(options.count, "--count", 1, std::uint64_t{1} << 52),
                  positive_number(options.time, "--time").value_or(100)};
-  check_apart({{"--store", options.store}, {"--csv", options.csv}});
   RequestedFile csv(options.csv);
   const store::Plan words{{"count", std::to_string(report.plan.count)},
                           {"time", fmt::format("{}", report.plan.time)},
@@ -159,9 +159,8 @@ int act(const Options& options) {
   report.random_walk = chaos::machta_zwanzig(report.plan.scene);
   report.tail = flights::tail_of_long_paths(report.plan.scene, Ensemble::uniform);
   print(options.json ? report.json() : report.table());
-  if (!report.found.is_whole) return kFailed;
   csv.write([&] { return report.csv(); });
-  return kDone;
+  return report.found.is_whole ? kDone : kFailed;
 }
 
 }  // namespace
@@ -179,7 +178,7 @@ void add_diffusion(CLI::App& app, Action& action) {
                    "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)")
       ->capture_default_str()
       ->type_name("uniform|surface");
-  command->add_option("--csv", options->csv, "the displacements to a file")->type_name("FILE");
+  add_output(*command, "--csv", options->csv, "the displacements to a file");
   command->footer(
       "docs/chaos.md: what is measured, how, and what theory knows.\n"
       "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2");

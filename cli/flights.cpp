@@ -4,6 +4,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/flights_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
@@ -203,32 +204,25 @@ class Files {
   RequestedFile csv_, svg_, density_svg_, html_;
 };
 
-// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is, and the files.
+// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
 int fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const Options& options,
             flights::Ranks* ranks) {
   Files files(options);
   std::vector<FlightsReport> reports;
   for (const Task& task : tasks) {
     FlightsReport report = fly(task, bounds, options, ranks);
-    if (Interrupt::came() && !reports.empty() && report.account.done.size() == 0) continue;
+    if (Interrupt::came() && report.account.done.size() == 0) continue;
     print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
     reports.push_back(std::move(report));
   }
-  if (Interrupt::came()) {
-    say("interrupted; {}",
-        options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
-    return kFailed;
-  }
-  files.write(reports);
-  return kDone;
+  if (!reports.empty()) files.write(reports);
+  if (!Interrupt::came()) return kDone;
+  say("{}; {}{}", Interrupt::what(), reports.empty() ? "there is nothing to report; " : "",
+      options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
+  return kFailed;
 }
 
 int act(const Options& options) {
-  check_apart({{"--store", options.store},
-               {"--csv", options.csv},
-               {"--svg", options.svg},
-               {"--density-svg", options.density_svg},
-               {"--html", options.html}});
   if (options.html && !report::has_page()) report::page("");  // says why
   const std::vector<Task> tasks = tasks_of(options);
   flights::Bounds bounds = bounds_of(options);
@@ -286,8 +280,8 @@ void add_flights(CLI::App& app, Action& action) {
                    "cells of the box in which the starts of superposed lattices lie")
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--store", options->store, "where counts are kept every few seconds, and gone on from")
-      ->type_name("FILE");
+  add_output(*command, "--store", options->store,
+             "where counts are kept every few seconds, and gone on from");
   command
       ->add_option("--add", options->parts, "stores of other shards of the same run, whose counts are added")
       ->type_name("FILE");
@@ -296,24 +290,16 @@ void add_flights(CLI::App& app, Action& action) {
                    "only the blocks of flights I modulo N, into --store; --add joins them")
       ->capture_default_str()
       ->type_name("I/N");
-  command
-      ->add_option("--csv", options->csv,
-                   "the histograms, and theory, to a file; of several radii one file, its first column the "
-                   "radius: rows are what one filters and plots by")
-      ->type_name("FILE");
-  command
-      ->add_option("--svg", options->svg,
-                   "the picture: P(free path > t), theory drawn in; several radii in one")
-      ->type_name("FILE");
-  command
-      ->add_option("--density-svg", options->density_svg,
-                   "the picture of the density in linear bins, theory drawn in; several radii in one, in "
-                   "units of the mean free path")
-      ->type_name("FILE");
-  command
-      ->add_option("--html", options->html,
-                   "a page that opens offline: P(free path > t) and theory, with numbers on hover")
-      ->type_name("FILE");
+  add_output(*command, "--csv", options->csv,
+             "the histograms, and theory, to a file; of several radii one file, its first column the "
+             "radius: rows are what one filters and plots by");
+  add_output(*command, "--svg", options->svg,
+             "the picture: P(free path > t), theory drawn in; several radii in one");
+  add_output(*command, "--density-svg", options->density_svg,
+             "the picture of the density in linear bins, theory drawn in; several radii in one, in "
+             "units of the mean free path");
+  add_output(*command, "--html", options->html,
+             "a page that opens offline: P(free path > t) and theory, with numbers on hover");
   command->add_flag("--json", options->json,
                     "one JSON object a line instead of a table; of several radii one a radius");
   command->footer(

@@ -32,9 +32,9 @@ int exit_status(const FuzzReport& report, bool times, bool subject_failed) {
 
 void say_how_to_go_on(const FuzzOptions& options) {
   if (options.store)
-    say("interrupted; this goes on: {}", command_of(options));
+    say("{}; this goes on: {}", Interrupt::what(), command_of(options));
   else
-    say("interrupted; without --store nothing is kept to go on with");
+    say("{}; without --store nothing is kept to go on with", Interrupt::what());
 }
 
 // A campaign in its store, as far as it is.

@@ -5,6 +5,7 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
+#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
@@ -199,8 +200,7 @@ void add_options(CLI::App* command, FuzzOptions& options) {
                    "threads (of each process, under mpirun); the findings are the same")
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--store", options.store, "where findings are kept and campaigns gone on with")
-      ->type_name("FILE");
+  add_output(*command, "--store", options.store, "where findings are kept and campaigns gone on with");
   command->add_option("--shard", options.shard, "only the indices I modulo N")
       ->capture_default_str()
       ->type_name("I/N");

@@ -1,17 +1,17 @@
 // lorentz fuzz list, show, merge: what a store holds.
-#include <unistd.h>
-
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
+#include "cli/beside.hpp"
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
-#include "cli/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -105,8 +105,8 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   fuzz::ReadCase read = fuzz::case_in(finding.shrunk);
   CaseReport report;
   report.title = "finding " + one.label();
-  report.command = fmt::format("lorentz fuzz show {} --store {}{}", one.label(), shell_quoted(store.path()),
-                               files.as_typed());
+  report.command = fmt::format("lorentz fuzz show {} --store {}{}", shell_quoted(one.label()),
+                               shell_quoted(store.path()), files.as_typed());
   report.cause = finding.cause;
   report.where = "campaign target " + finding.target;
   report.verdict = finding.kind == "wrong time" ? "wrong-time" : finding.kind;
@@ -126,7 +126,6 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
 }
 
 int show(const Options& options, const std::string& id) {
-  check_apart({{"--store", options.store}, {"--html", options.files.html}, {"--svg", options.files.svg}});
   const Store store(options.store, Store::Access::read, say_left_out);
   for (const Stored& one : store.findings()) {
     if (one.label() != id) continue;
@@ -138,33 +137,17 @@ int show(const Options& options, const std::string& id) {
                                options.store, json_quoted(id)));
 }
 
-// Half a store would look like a whole one: it is made beside its place.
-class UnfinishedStore {
- public:
-  explicit UnfinishedStore(std::string path)
-      : path_(std::move(path)),
-        file_(path_),
-        ahead_(path_ + "-wal"),
-        shared_(path_ + "-shm"),
-        lock_(path_ + ".lock") {}
-  ~UnfinishedStore() {
-    std::error_code error;
-    for (const char* end : {"", "-wal", "-shm", ".lock"}) std::filesystem::remove(path_ + end, error);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  Unfinished file_, ahead_, shared_, lock_;
-};
-
 int merge_stores(const MergeOptions& options) {
   std::error_code error;
   if (std::filesystem::exists(options.output, error))
     throw InputError(options.output + ": is there already; merge into a new store");
-  const UnfinishedStore beside(fmt::format("{}.{}.new", options.output, getpid()));
+  // Half a store would look like a whole one: it is made beside its place.
+  const Beside folder(options.output, Beside::Kind::folder);
+  const std::string store = folder.path() + "/store";
+  std::deque<Unfinished> files;
+  for (const char* end : {"", "-wal", "-shm", ".lock"}) files.emplace_back(store + end);
   {
-    Store into(beside.path(), Store::Access::write);
+    Store into(store, Store::Access::write);
     fuzz::merge(options.stores, into);
     for (const fuzz::Campaign& campaign : into.campaigns())
       say("{}: campaign {} of {} merged from {} shards{}", options.output, campaign.id,
@@ -173,7 +156,7 @@ int merge_stores(const MergeOptions& options) {
               ? "; they are not all there, or not equally far: to be read, not gone on with"
               : "");
   }
-  std::filesystem::rename(beside.path(), options.output);
+  std::filesystem::rename(store, options.output);
   return kDone;
 }
 
@@ -210,7 +193,7 @@ void add_fuzz_store(CLI::App& fuzz, Action& action) {
   command->add_option("STORE", merging->stores, "stores of shards of one campaign")
       ->required()
       ->type_name("FILE");
-  command->add_option("-o,--output", merging->output, "the new store")->required()->type_name("FILE");
+  add_output(*command, "-o,--output", merging->output, "the new store")->required();
   command->footer("Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign");
   command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });
 }

@@ -18,6 +18,7 @@
 #include "compare/measure.hpp"
 #include "compare/registry.hpp"
 #include "golden/reader.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::cli {
 
@@ -176,13 +177,14 @@ std::string short_answer(const Answer& answer, int dimension) {
   append_answer_line(text, "0", answer, dimension);
   text = text.substr(8, text.size() - 10);
   constexpr std::size_t kLongest = 160;
-  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+  return shortened(text, kLongest);
 }
 
 std::string describe(const Failure& failure) {
-  std::string text = fmt::format("  {} {} ({}): expected {}, got {}\n    ", failure.set, failure.id,
-                                 failure.tags, short_answer(failure.expect, failure.dimension),
-                                 short_answer(failure.given, failure.dimension));
+  std::string text =
+      fmt::format("  {} {} ({}): expected {}, got {}\n    ", printable(failure.set), printable(failure.id),
+                  printable(failure.tags), short_answer(failure.expect, failure.dimension),
+                  short_answer(failure.given, failure.dimension));
   if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
   const bool of_time = failure.given.outcome == Outcome::hit && failure.expect.outcome == Outcome::hit &&
                        failure.given.obstacle == failure.expect.obstacle;
@@ -199,7 +201,7 @@ std::string describe(const Failure& failure) {
     text += "no error in the inputs explains it\n";
   return text + failure.reason +
          fmt::format("    again: lorentz golden check --engine {} --id {} {}\n", shell_quoted(failure.engine),
-                     failure.id, shell_quoted(failure.set));
+                     shell_quoted(failure.id), shell_quoted(failure.set));
 }
 
 std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies, std::size_t not_asked) {
@@ -263,14 +265,22 @@ std::string troubles(const Tally& t) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
+// A text of anybody's in a table's cell.
+std::string in_markdown(const std::string& text) {
+  std::string out;
+  for (const char c : printable(text)) out += c == '|' ? "\\|" : c == '<' ? "&lt;" : std::string(1, c);
+  return out;
+}
+
 std::string summary_page(const std::vector<std::string>& engines,
                          const std::vector<std::vector<SetTally>>& tallies) {
   std::string page = "| set | records |";
-  for (const std::string& engine : engines) page += fmt::format(" {} |", engine);
+  for (const std::string& engine : engines) page += fmt::format(" {} |", in_markdown(engine));
   page += "\n|---|---|" + fmt::format("{}", fmt::join(std::vector<std::string>(engines.size(), "---|"), "")) +
           '\n';
   for (std::size_t s = 0; s < tallies.front().size(); ++s) {
-    page += fmt::format("| {} | {} |", tallies.front()[s].all.name, tallies.front()[s].all.queries);
+    page +=
+        fmt::format("| {} | {} |", in_markdown(tallies.front()[s].all.name), tallies.front()[s].all.queries);
     for (const auto& of_engine : tallies) {
       const std::string text = s < of_engine.size() ? troubles(of_engine[s].all) : "not run";
       page += fmt::format(" {} |", text.empty() ? "all agree" : text);
@@ -288,10 +298,10 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
     for (const auto& [tag, note] : set.notes) {
       const auto found = set.by_tag.find(tag);
       if (found == set.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
-      rows += fmt::format("| {} | {} | {} | {} | {} |\n", set.all.name, tag, found->second.queries,
-                          troubles(found->second), note);
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n", in_markdown(set.all.name), in_markdown(tag),
+                          found->second.queries, troubles(found->second), in_markdown(note));
     }
-  std::string page = fmt::format("\n## {}\n\n", engine);
+  std::string page = fmt::format("\n## {}\n\n", in_markdown(engine));
   if (rows.empty()) return page + "No wrong answer.\n";
   page += "| set | tag | records | of these | what the tag is out to break |\n|---|---|---|---|---|\n" + rows;
   if (failures.empty()) return page;

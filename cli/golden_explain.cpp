@@ -67,7 +67,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
   const golden::Record& record = read.record;
   CaseReport report;
   report.title = fmt::format("golden record {} of {}", record.id, reader.header().name);
-  report.command = "lorentz golden explain " + record.id + files.as_typed();
+  report.command = "lorentz golden explain " + shell_quoted(record.id) + files.as_typed();
   report.where = "golden " + reader.header().name;
   report.verdict = "exact";
   for (const auto& [tag, note] : reader.header().tags)

@@ -5,6 +5,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -129,12 +130,9 @@ void add_golden_make(CLI::App& golden, Action& action) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the cases")->capture_default_str()->type_name("N");
   command->add_option("--jobs", options->jobs, "threads")->capture_default_str()->type_name("N");
-  command
-      ->add_option(
-          "-o,--output", options->output,
-          "file to write (- is standard output); killed in between, the same command goes on where it was")
-      ->capture_default_str()
-      ->type_name("FILE");
+  add_output(*command, "-o,--output", options->output,
+             "file to write (- is standard output); killed in between, the same command goes on where it was")
+      ->capture_default_str();
   command
       ->add_option("--all", options->folder,
                    "make all sets in this folder as they are committed, and SHA256SUMS")

@@ -1,34 +1,55 @@
-// Ctrl-C as a wish to come to an end.
+// Ctrl-C, SIGTERM and SIGHUP as a wish to come to an end.
 #pragma once
 
 #include <signal.h>
 
+#include <array>
 #include <atomic>
+
+#include "compare/process.hpp"
 
 namespace lorentz::cli {
 
-/// While one of these is there the first Ctrl-C only sets a flag. The second ends the program as SIGTERM
-/// does: with other programs that it started.
+/// While one of these is there the first such signal only sets a flag; the second ends the programs that this
+/// one started and does what it did before. What the caller ignores stays ignored.
 class Interrupt {
  public:
   Interrupt() {
     came_ = false;
-    struct sigaction action {};
-    action.sa_handler = [](int) {
-      if (came_.exchange(true)) raise(SIGTERM);
-    };
-    sigaction(SIGINT, &action, &before_);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      struct sigaction ours {};
+      ours.sa_handler = take;
+      if (sigaction(kSignals[i], nullptr, &before_[i]) == 0 && before_[i].sa_handler != SIG_IGN)
+        sigaction(kSignals[i], &ours, nullptr);
+    }
   }
-  ~Interrupt() { sigaction(SIGINT, &before_, nullptr); }
+  ~Interrupt() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
   static const std::atomic<bool>& came() { return came_; }
+  /// "interrupted", "terminated" (SIGTERM) or "hung up" (SIGHUP), if one came.
+  static const char* what() {
+    return number_ == SIGTERM ? "terminated" : number_ == SIGHUP ? "hung up" : "interrupted";
+  }
 
  private:
+  static void take(int number) {
+    number_ = number;
+    if (!came_.exchange(true)) return;
+    compare::kill_programs();
+    for (std::size_t i = 0; i < kSignals.size(); ++i)
+      if (kSignals[i] == number) sigaction(number, &before_[i], nullptr);
+    raise(number);  // blocked until this returns
+  }
+
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
   static_assert(std::atomic<bool>::is_always_lock_free);  // a handler may not wait
   static inline std::atomic<bool> came_ = false;
-  struct sigaction before_ {};
+  static inline std::atomic<int> number_ = 0;
+  static inline std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 }  // namespace lorentz::cli

@@ -5,6 +5,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/judging.hpp"
 #include "cli/numbers.hpp"
@@ -77,7 +78,6 @@ JudgeOrder order_of(const Options& options) {
 int act(const Options& options) {
   compare::check_name(options.engine);
   JudgeOrder order = order_of(options);
-  check_apart({{"--html", options.html}});
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
   const Interrupt interrupt;
@@ -85,12 +85,10 @@ int act(const Options& options) {
   const JudgeReport report = judged(order, Interrupt::came());
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
-  if (Interrupt::came()) {
-    say("interrupted: this is what was found so far{}", options.html ? "; no page is written of it" : "");
-    return std::max(exit_status(report, options), +kFailed);
-  }
   html.write([&] { return report::page(report.json()); });
-  return exit_status(report, options);
+  if (!Interrupt::came()) return exit_status(report, options);
+  say("{}: this is what was found so far", Interrupt::what());
+  return kFailed;
 }
 
 }  // namespace
@@ -121,8 +119,7 @@ void add_judge(CLI::App& app, Action& action) {
                    "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
                    "in all, from 2 to 60; for its first answer 60)")
       ->type_name("SECONDS");
-  command->add_option("--html", options->html, "write the report there as a page, whole or not at all")
-      ->type_name("FILE");
+  add_output(*command, "--html", options->html, "write the report there as a page, whole or not at all");
   command->add_flag("--json", options->json, "one JSON object instead of tables");
   command->add_flag("--times", options->times, "wrong times count: in the verdict, and exit status 1");
   command->add_flag("--strict", options->strict,

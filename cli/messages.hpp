@@ -7,29 +7,46 @@
 #include <string>
 #include <string_view>
 
+#include "src/problem/safe_text.hpp"
+
 namespace lorentz::cli {
 
-/// A message on stderr with the program's name in front. If stderr is closed or full the message is lost and
-/// nothing else.
-template <class... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
-  const std::string text = "lorentz: " + fmt::format(format, std::forward<Args>(args)...) + '\n';
+/// A message on stderr with the program's name in front; of several lines if `lines` says so, else it is one.
+/// If stderr is closed or full the message is lost and nothing else.
+inline void say_text(std::string_view message, Lines lines) {
+  const std::string text = "lorentz: " + printable(message, lines) + '\n';
   std::fputs(text.c_str(), stderr);
 }
+template <class... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+  say_text(fmt::format(format, std::forward<Args>(args)...), Lines::escaped);
+}
 
-/// A word as a shell takes it: as it is if it can be, else in quotes.
+/// A word as a shell takes it: as it is if it can be, else in quotes; characters that act on a terminal are
+/// escaped
+/// ($'\x1b', of bash, zsh and ksh).
 inline std::string shell_quoted(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=@%+";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  const bool acts = printable(word, Lines::kept) != word;
+  std::string quoted = acts ? "$'" : "'";
+  for (const char c : word) {
+    if (c == '\'')
+      quoted += acts ? "\\'" : "'\\''";
+    else if (acts && (c == '\\' || c < ' ' || c > '~'))
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      quoted += c;
+  }
   return quoted + '\'';
 }
 
-/// Text on stdout. That it arrived is checked once, at the program's end (finish_output).
+/// Text on stdout, whoever's it is (JSON and SVG have escaped what acts on a terminal already). That it
+/// arrived is checked once, at the program's end (finish_output).
 inline void print(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  const std::string shown = printable(text, Lines::kept);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 /// Throws FileError if something printed did not arrive.

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "src/problem/safe_text.hpp"
+
 namespace lorentz::cli {
 
 class Progress {
@@ -18,9 +20,9 @@ class Progress {
 
   /// Looks at the clock at every `stride`-th count only. `begun`: of several bars one after the other, when
   /// the first did.
-  explicit Progress(std::string what, std::size_t total, std::size_t stride = 64,
+  explicit Progress(const std::string& what, std::size_t total, std::size_t stride = 64,
                     Clock::time_point begun = Clock::now())
-      : what_(std::move(what)),
+      : what_(printable(what)),
         total_(total),
         stride_(stride),
         shown_(isatty(STDERR_FILENO) == 1),

@@ -11,6 +11,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
@@ -235,12 +236,10 @@ void add_scene_draw(CLI::App& scene, Action& action) {
       ->type_name("W[xH]");
   command->add_option("--title", options->title, "instead of the scene's name; \"\" for none");
   command->add_flag("--no-legend", options->no_legend, "leave out the legend, and the notes under it");
-  command
-      ->add_option("-o,--output", options->output,
-                   "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
-                   "standard output")
-      ->capture_default_str()
-      ->type_name("FILE");
+  add_output(*command, "-o,--output", options->output,
+             "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
+             "standard output")
+      ->capture_default_str();
   command->callback([options, &action] { action = [options] { return draw(*options); }; });
   command->footer(
       "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "

@@ -14,6 +14,7 @@
 #include "cli/data_folder.hpp"
 #include "cli/messages.hpp"
 #include "compare/nearest_name.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -49,7 +50,7 @@ std::string find_scene(const std::string& name_or_file) {
       if (entry.name == name_or_file) return entry.file;
   std::vector<std::string> names;
   for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
-  const std::string shown = name_or_file.substr(0, 200);
+  const std::string shown = shortened(name_or_file, 200);
   if (names.empty())
     throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
                                 data_places("scenes")));

@@ -25,12 +25,14 @@ void write_line(std::string_view text) {
 }
 
 void take_leave(int number) {
-  for (const Slot& slot : slots)
-    if (slot.named) unlink(slot.path);
-  if (number == SIGINT)
-    write_line(goes_on ? "lorentz: interrupted; the same command goes on\n" : "lorentz: interrupted\n");
-  if (number == SIGTERM)
-    write_line(goes_on ? "lorentz: terminated; the same command goes on\n" : "lorentz: terminated\n");
+  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)  // a folder's files before it
+    if (slot->named && unlink(slot->path) != 0) rmdir(slot->path);
+  if (number != SIGPIPE) {
+    write_line(number == SIGINT    ? "lorentz: interrupted"
+               : number == SIGTERM ? "lorentz: terminated"
+                                   : "lorentz: hung up");
+    write_line(goes_on ? "; the same command goes on\n" : "\n");
+  }
   raise(number);  // blocked until the handler returns, then deadly: SA_RESETHAND
 }
 

@@ -14,7 +14,8 @@ void end_in_order();
 /// The line of an interrupted program says that the same command goes on.
 void goes_on_when_repeated();
 
-/// A file that would look whole and is not: taken away if a signal ends the program while this lives.
+/// A file that would look whole and is not, or the folder of such: taken away if a signal ends the program
+/// while this lives.
 class Unfinished {
  public:
   explicit Unfinished(const std::string& path);

@@ -6,6 +6,7 @@
 #include <lorentz/itinerary.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -200,10 +201,11 @@ void follow(const RationalScene& scene, const Start& start, Survival& survival) 
   for (const Arithmetic& one : survival.arithmetics) runners.emplace_back(one, survival.engine, scene, start);
   oracle::Journey journey;
   journey.collisions = survival.collisions;
+  journey.stop = &Interrupt::came();
   Itinerary(scene).follow(start, journey, [&](const CertifiedCollision& truth) {
     bool any = false;
     for (Runner& runner : runners) any |= runner.meet(truth);
-    return any && !Interrupt::came();
+    return any;
   });
   if (Interrupt::came()) return;  // the last start is not whole
   for (std::size_t i = 0; i < runners.size(); ++i)
@@ -218,7 +220,6 @@ std::vector<Arithmetic> arithmetics_of(const Options& options) {
 }
 
 int act(const Options& options) {
-  check_apart({{"--csv", options.csv}, {"--svg", options.svg}, {"--html", options.html}});
   if (options.html && !report::has_page()) report::page("");  // says why
   compare::check_name(options.engine);
   if (compare::is_command(options.engine))
@@ -243,14 +244,13 @@ int act(const Options& options) {
   for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
     follow(exact, start_of(starts, oracle, i), survival);
   if (Interrupt::came())
-    say("interrupted: after {} of {} starts", survival.arithmetics[0].right.size(), count);
+    say("{}: after {} of {} starts", Interrupt::what(), survival.arithmetics[0].right.size(), count);
   if (survival.arithmetics[0].right.empty()) return kFailed;
   print(options.json ? survival.json() : survival.table());
-  if (Interrupt::came()) return kFailed;  // what is left out of the files would not show there
   csv.write([&] { return survival.csv(); });
   svg.write([&] { return survival.svg(); });
   html.write([&] { return report::page(survival.page_json()); });
-  return kDone;
+  return Interrupt::came() ? kFailed : kDone;
 }
 
 }  // namespace
@@ -281,13 +281,11 @@ void add_survival(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
-  command->add_option("--csv", options->csv, "shares of starts that are right after k collisions, to a file")
-      ->type_name("FILE");
-  command->add_option("--svg", options->svg, "the same as a picture")->type_name("FILE");
-  command
-      ->add_option("--html", options->html,
-                   "a page that opens offline: the same with 95 % bounds, and its numbers")
-      ->type_name("FILE");
+  add_output(*command, "--csv", options->csv,
+             "shares of starts that are right after k collisions, to a file");
+  add_output(*command, "--svg", options->svg, "the same as a picture");
+  add_output(*command, "--html", options->html,
+             "a page that opens offline: the same with 95 % bounds, and its numbers");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   command->footer(
       "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "

@@ -4,12 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "src/problem/safe_text.hpp"
+
 namespace lorentz::cli {
 
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// Its texts may be anybody's.
+  void add(std::vector<std::string> row) {
+    for (std::string& text : row) text = printable(text);
+    rows_.push_back(std::move(row));
+  }
 
   /// The last column is prose: to the left.
   Table& with_prose() {

@@ -12,7 +12,7 @@ namespace lorentz::cli {
 /// Messages on stderr; progress bars, one after the other, if that is a terminal.
 inline compare::Listener terminal() {
   compare::Listener listener;
-  listener.message = [](const std::string& text) { say("{}", text); };
+  listener.message = [](const std::string& text) { say_text(text, Lines::kept); };
   if (isatty(STDERR_FILENO) == 1)
     listener.progress = [bar = std::shared_ptr<Progress>()](const std::string& what, std::size_t done,
                                                             std::size_t total) mutable {

@@ -4,6 +4,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -15,6 +16,7 @@
 #include "compare/nearest_name.hpp"
 #include "compare/registry.hpp"
 #include "pictures/path_drawing.hpp"
+#include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -53,6 +55,7 @@ Journey journey_of(const Options& options) {
   if (options.bits)
     journey.first_bits = static_cast<long>(whole_number(*options.bits, "--bits", 32, kMostBits));
   journey.states = options.detail;
+  journey.stop = &Interrupt::came();
   return journey;
 }
 
@@ -183,7 +186,7 @@ class Picture {
 
   void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
     if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
-      drawing_.path.push_back({std::stod(arrival.x[0]), std::stod(arrival.x[1]), 0});
+      drawing_.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
     if (!rival || !rival->diverged()) return;
     rival->go_on(arrival.collisions);
     drawing_.other = rival->path();
@@ -222,7 +225,7 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
         if (rival) rival->meet(collision);
         run.report.collision(collision, rival.get());
         if (picture) picture->collision(collision);
-        return !Interrupt::came();
+        return true;
       });
   if (Interrupt::came()) return;  // nothing is said of an end that is none
   if (rival && arrival.end != JourneyEnd::undecided)
@@ -240,7 +243,6 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
 }
 
 int act(const Options& options) {
-  check_apart({{"--csv", options.csv}, {"--svg", options.svg}});
   const Journey journey = journey_of(options);
   const Precision precision = precision_of(options);
   if (options.engine) compare::check_name(*options.engine);
@@ -263,13 +265,17 @@ int act(const Options& options) {
       append_error(output.buffer(), item.id, error.what());
     }
   }
-  output.flush();
-  if (Interrupt::came()) {
-    say("interrupted: the last start has no end");
-    return kFailed;
+  try {
+    output.flush();
+  } catch (const FileError&) {  // who hung up reads no more; files are written all the same
+    if (!Interrupt::came()) throw;
   }
   report.commit();
   if (run.picture) svg.write([&] { return run.picture->svg(); });
+  if (Interrupt::came()) {
+    say("{}: the last start has no end", Interrupt::what());
+    return kFailed;
+  }
   if (run.failed) return kFailed;
   return refused || stream.had_bad_input() ? kBadInput : kDone;
 }
@@ -311,8 +317,8 @@ void add_trajectory(CLI::App& app, Action& action) {
       ->add_option("--precision", options->precision, "of the engine's trajectory: binary64, double-double")
       ->capture_default_str()
       ->type_name("binary64|double-double");
-  command->add_option("--csv", options->csv, "collisions as a table, to a file")->type_name("FILE");
-  command->add_option("--svg", options->svg, "a picture of the first start's path (2D)")->type_name("FILE");
+  add_output(*command, "--csv", options->csv, "collisions as a table, to a file");
+  add_output(*command, "--svg", options->svg, "a picture of the first start's path (2D)");
   command->add_flag("--json", options->json, "lines of JSON, which is what there is without it, too");
   command->add_flag("--strict", options->strict, kStrictKeysHelp);
   command->footer(

@@ -6,6 +6,7 @@
 
 #include "cli/terminal.hpp"
 #include "compare/registry.hpp"
+#include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -112,7 +113,7 @@ Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision) {
   for (int k = 0; k < 3; ++k) place[k] += collision.offset[k];
   for (int i = 0; i < scene.dimension; ++i)
     for (int k = 0; k < 3; ++k)
-      place[k] += std::stod(collision.obstacle.cell[i].decimal()) * lattice.vectors[i][k];
+      place[k] += *nearest_decimal(collision.obstacle.cell[i].decimal()) * lattice.vectors[i][k];
   return place;
 }
 

@@ -3,19 +3,18 @@
 #pragma once
 
 #include <cstdio>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "cli/signals.hpp"
+#include "cli/beside.hpp"
 
 namespace lorentz::cli {
 
 class WholeFile {
  public:
-  /// Opens NAME.PROCESS.new in the folder of `path`, or what `path` itself names if that is no regular file
-  /// (a device, a pipe). Throws FileError.
+  /// Opens a file beside `path`, or what `path` itself names if that is no regular file (a device, a pipe).
+  /// Throws FileError.
   explicit WholeFile(const std::string& path);
   /// Without commit() nothing is left behind.
   ~WholeFile();
@@ -30,11 +29,9 @@ class WholeFile {
   void commit();
 
  private:
-  [[noreturn]] void fail();
-
-  std::string path_, place_, beside_;  // as it was named; without links; where it is written
-  std::FILE* file_;
-  std::optional<Unfinished> unfinished_;
+  std::string path_, place_;      // as it was named; without links
+  std::optional<Beside> beside_;  // where it is written
+  std::FILE* file_ = nullptr;
 };
 
 /// What an option asks for, or no file. Opened before the work, so that a file that cannot be written costs
@@ -58,15 +55,5 @@ class RequestedFile {
 
 /// A file of this text, whole or not at all. Throws FileError.
 void write_whole(const std::string& path, std::string_view text);
-
-/// An option that names a file to be written, if it was given.
-struct FileOption {
-  const char* name;
-  std::optional<std::string> path;
-};
-
-/// Throws InputError if an option has an empty name, or two name the same file, of which one would be lost.
-/// (Devices and pipes take both.)
-void check_apart(std::initializer_list<FileOption> options);
 
 }  // namespace lorentz::cli

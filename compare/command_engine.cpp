@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "compare/registry.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::compare {
 namespace {
@@ -245,10 +246,7 @@ namespace {
 std::string shown(std::string_view text) {
   // As it is: where the message becomes part of an answer its quotes are escaped, once.
   constexpr std::size_t kShown = 120;
-  std::string line(text.substr(0, kShown));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
-  return line + (text.size() > kShown ? "..." : "");
+  return printable(shortened(text, kShown));
 }
 
 // The number that the id is, or 0.
@@ -297,11 +295,11 @@ void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t compon
   if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0) return take_nameless(answer);
   const std::uint64_t number = number_of(id);
   if (number == 0 || number >= first_number_ + run.outstanding)
-    return take_no_answer("gave an answer with an id that no query has, " + id.substr(0, 40));
+    return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
   if (number < first_number_) return take_unasked(number);
   if (run.nameless && number > first_number_) settle_nameless();
   while (number > first_number_) pass_over();
-  if (run.nameless) tell(fmt::format("says of the scene: {}", run.nameless->message));
+  if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
   run.nameless.reset();
   const std::string flaw = flaw_of_answer(answer, components);
   if (flaw.empty())
@@ -483,7 +481,7 @@ void CommandEngine::complain(const std::string& what, const Asked* asked) {
   std::string stream;
   if (asked) {
     if (complained_scene_ != asked->scene) append_scene_line(stream, *asked->scene);
-    if (stream.size() > kMaxShown) stream = stream.substr(0, kMaxShown) + "...\n";
+    if (stream.size() > kMaxShown) stream = shortened(stream, kMaxShown) + '\n';
     complained_scene_ = asked->scene;
     append_line(stream, asked->id, *asked);
     stream.pop_back();

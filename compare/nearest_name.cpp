@@ -48,7 +48,7 @@ std::string nearest_name(std::string_view typed, const std::vector<std::string>&
 
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names) {
   const std::string name = nearest_name(typed, names);
-  return name.empty() ? "" : " (did you mean " + name + "?)";
+  return name.empty() || name == typed ? "" : " (did you mean " + name + "?)";
 }
 
 }  // namespace lorentz::compare

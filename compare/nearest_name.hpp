@@ -11,7 +11,8 @@ namespace lorentz::compare {
 /// if they are at most a third of it; else empty. Of several the first.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
-/// " (did you mean NAME?)", or empty.
+/// " (did you mean NAME?)", or empty, also if the text is one of the names (and stands where it means
+/// nothing).
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names);
 
 }  // namespace lorentz::compare

@@ -86,6 +86,15 @@ void replace_group(pid_t old_group, pid_t new_group) {
   }
 }
 
+}  // namespace
+
+void kill_programs() {
+  for (const auto& slot : live_groups)
+    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
+}
+
+namespace {
+
 // A program in a group of its own does not get the terminal's Ctrl-C, so it is passed on, and then does here
 // what it would have done.
 // What these signals did before: their default, or a handler that ends the program, too.
@@ -93,8 +102,7 @@ constexpr std::array kEndings{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 std::array<struct sigaction, kEndings.size()> former;
 
 void kill_groups_and_die(int signal_number) {
-  for (const auto& slot : live_groups)
-    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
+  kill_programs();
   for (std::size_t i = 0; i < kEndings.size(); ++i)
     if (kEndings[i] == signal_number) sigaction(signal_number, &former[i], nullptr);
   raise(signal_number);  // blocked until the handler returns

@@ -72,4 +72,7 @@ class Process {
   int input_ = -1, output_ = -1;
 };
 
+/// Kills the groups of all that run. A signal handler may call it.
+void kill_programs();
+
 }  // namespace lorentz::compare

@@ -164,7 +164,8 @@ def check(name):
                 require(type(box["tags"]) is list and box["tags"] and {*box["tags"]} <= {*tags}, "unknown tags")
                 verify(box, scene)
         except Exception as e: flaws.append((2 - bool(identity), f"{name}:{i}: {identity}: {type(e).__name__}: {e}"))
-    if (version, count) != (1, records): flaws.append((1, f"{name}:1: {version, count} are not (1, {records})"))
+    if (version, count) != (1, records):
+        flaws.append((2 - bool(version), f"{name}:1: {version, count} are not (1, {records})"))
     print(*[flaw for _, flaw in flaws] or [f"{name}: {records} records, all verified"], sep="\n")
     return max(flaws, default=(0,))[0]
 if __name__ == "__main__":

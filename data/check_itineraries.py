@@ -505,9 +505,11 @@ class File:
                     self.read_line(line.rstrip("\n"))
                 except Refuted as flaw:
                     self.complain(1, number, flaw)
-                except (ValueError, KeyError, TypeError, IndexError, AttributeError, ZeroDivisionError) as flaw:
+                except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as flaw:
                     self.complain(2, number, f"{type(flaw).__name__}: {flaw}")
-        if self.status == 0 and (not self.header or self.header["count"] != self.records):
+        if self.status == 0 and not self.header:
+            self.complain(2, 1, "is empty: no header, and nothing to be checked")
+        if self.status == 0 and self.header["count"] != self.records:
             self.complain(1, number, f"{self.records} records, not as many as the header says")
         if self.status == 0:
             print(f"{self.name}: {self.records} records, {self.checked} flown again, all right")

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <thread>
 #include <unordered_set>
 
@@ -116,10 +117,11 @@ struct State {
   std::unordered_set<std::uint64_t> ids;
 };
 
-std::uint64_t number_of(const std::string& id) {
+// Of the sixteen hexadecimal digits that an id is; 0 if these are none.
+std::uint64_t number_of(std::string_view id) {
   std::uint64_t number = 0;
-  std::from_chars(id.data(), id.data() + id.size(), number, 16);
-  return number;
+  const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number, 16);
+  return error == std::errc() && end == id.data() + id.size() ? number : 0;
 }
 
 void count(RecordCounts& counts, const MadeRecord& made) {
@@ -190,11 +192,12 @@ class PartFile {
     const auto there = std::filesystem::symlink_status(path_, error);
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
       throw FileError(path_ + ": is no regular file; name another, or use standard output");
-    lock_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    lock_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (lock_ < 0) fail(part_);
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) throw FileError(part_ + ": another run is writing it");
     const bool resumed = read_note(state);
-    file_ = std::fopen(part_.c_str(), resumed ? "ab" : "wb");
+    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0 || ::lseek(lock_, 0, SEEK_END) < 0) fail(part_);
+    file_ = ::fdopen(::dup(lock_), "wb");
     if (!file_) fail(part_);
     if (!resumed) write(header_, state);
     return state;
@@ -207,11 +210,16 @@ class PartFile {
     check_ = store::check_of(text, check_);
     const RecordCounts& a = state.counts;
     const std::string fresh = note_ + ".new";
-    std::ofstream note(fresh);
-    note << bytes_ << ' ' << check_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked << ' '
-         << a.hits << ' ' << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
-    note.close();
-    if (!note || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
+    std::ostringstream state_text;
+    state_text << bytes_ << ' ' << check_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked
+               << ' ' << a.hits << ' ' << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
+    std::remove(fresh.c_str());  // no link is followed, and no file of another name is written
+    const int note = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const std::string line = state_text.str();
+    const bool written =
+        note >= 0 && ::write(note, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    if (note >= 0) ::close(note);
+    if (!written || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
   }
 
   void finish() {
@@ -234,7 +242,6 @@ class PartFile {
       check_ = store::kCheckOfNothing;
       return false;
     }
-    std::filesystem::resize_file(part_, bytes_);
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "pictures/finding_parts.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::pictures {
 namespace {
@@ -15,14 +16,6 @@ constexpr double kWidth = 640, kHeight = 410;
 constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
 constexpr double kLine = 15, kHeadEnds = 85;  // the next line's foot would be there
-
-// At most so many characters; what is cut ends in dots. No character of several bytes is cut in two.
-std::string shortened(const std::string& text, std::size_t most) {
-  if (text.size() <= most) return text;
-  std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return text.substr(0, end) + "...";
-}
 
 // Of an answer as it was given, in whatever unit.
 std::string words_of(const FindingCase& finding, const Answer& answer) {

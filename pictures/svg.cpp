@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/problem/safe_text.hpp"
+
 namespace lorentz::pictures {
 namespace {
 
@@ -23,7 +25,7 @@ std::string path_of(const std::vector<Point>& points) {
 
 std::string xml_escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
@@ -32,7 +34,7 @@ std::string xml_escaped(const std::string& text) {
       out += "&gt;";
     else if (c == '"')
       out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
+    else
       out += c;
   }
   return out;

@@ -5,9 +5,15 @@
 
 #include <lorentz/errors.hpp>
 #include "cli/data_folder.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::python {
 namespace {
+
+// Python takes UTF-8 only, and a name of a file, say, may be any bytes.
+std::string text_of(const std::exception& failure) {
+  return printable(failure.what(), Lines::kept);
+}
 
 // One class for each way in which input goes wrong (include/lorentz/errors.hpp), both Error.
 void bind_errors(py::module_& module) {
@@ -22,11 +28,11 @@ void bind_errors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const FileError& failure) {
-      file_error(failure.what());
+      file_error(text_of(failure).c_str());
     } catch (const InputError& failure) {
-      error(failure.what());
+      error(text_of(failure).c_str());
     } catch (const std::invalid_argument& failure) {
-      error(failure.what());
+      error(text_of(failure).c_str());
     }
   });
 }

@@ -1,6 +1,7 @@
 // Certified itineraries: which obstacles a particle hits one after another, and where it is, proven.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,6 +21,7 @@ struct Journey {
   bool states = false;                      ///< place and velocity at each collision, too
   long first_bits = 0;                      ///< the precision to begin with (0: by the digits); it grows ..
   long most_bits = 0;                       ///< .. as it must, to this at most (0: 2^18, or what digits need)
+  const std::atomic<bool>* stop = nullptr;  ///< once this is true it ends, `undecided`, however far it is
 };
 
 /// A collision of which everything is certain. Decimals are correctly rounded.

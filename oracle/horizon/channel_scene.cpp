@@ -88,7 +88,13 @@ ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length)
     : exponent(common_exponent(scene, unit_length).get()), unit(scaled(unit_length, exponent)) {
   for (const Lattice& lattice : scene.lattices) {
     ObstacleLattice<D> exact;
-    for (std::size_t i = 0; i < D; ++i) exact.vectors[i] = scaled_vector<D>(lattice.vectors[i], exponent);
+    Basis<D> basis;
+    for (std::size_t i = 0; i < D; ++i) {
+      exact.given[i] = basis[i].p = scaled_vector<D>(lattice.vectors[i], exponent);
+      basis[i].n[i] = 1;
+    }
+    reduce(basis, EuclideanForm<D>{});
+    for (std::size_t i = 0; i < D; ++i) exact.vectors[i] = basis[i].p, exact.names[i] = basis[i].n;
     set_cofactors<D>(exact);
     for (const Atom& atom : lattice.atoms) exact.obstacles.push_back(obstacle_of<D>(atom, exponent));
     std::stable_sort(exact.obstacles.begin(), exact.obstacles.end(), [](const auto& a, const auto& b) {

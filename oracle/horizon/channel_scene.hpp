@@ -25,8 +25,10 @@ struct Obstacle {
 
 template <std::size_t D>
 struct ObstacleLattice {
-  std::array<ZVec<D>, D> vectors;
-  Z volume;  ///< |determinant|
+  std::array<ZVec<D>, D> vectors;  ///< short ones, whatever the scene's are: numbers stay small
+  std::array<ZVec<D>, D> given;    ///< the scene's, by which directions and planes are named
+  std::array<ZVec<D>, D> names;    ///< of `vectors`: their components in `given`
+  Z volume;                        ///< |determinant|
   /// cofactors[i].vectors[k] = determinant or 0: a normal with integer coefficients n in these stands on the
   /// planes with the reciprocal indices n. Coefficients come with each (LatticePoint::n).
   Basis<D> cofactors;

@@ -191,7 +191,7 @@ class Search {
     taken_.push_back(plane.indices);
     // Between touching slabs of obstacles the plane in the middle is free but for points, whatever g in it
     // is.
-    if (cover == Cover::touching) horizon_.families.push_back({named(plane.indices), true, 0});
+    if (cover == Cover::touching) horizon_.families.push_back({name_of_plane(plane.indices), true, 0});
   }
 
   // Along g the balls are lined up in rows of discs b1 = |normal| / |g| apart, and these cover slabs of half
@@ -206,7 +206,7 @@ class Search {
     // Points in a disc of that area, one of each pair, 6 / pi^2 of them primitive.
     const auto count = [&] { return std::exp2(log2_of(bound()) - log2_of(normal2) / 2) * 0.955; };
     if (count() > kMostInPlane) {
-      horizon_.families.push_back({named(plane.indices), false, count()});
+      horizon_.families.push_back({name_of_plane(plane.indices), false, count()});
       while (m > 1 && count() > kMostInPlane / 5) --m;
     }
     visit_directions(plane_basis(lattice_, plane.indices), bound());
@@ -240,7 +240,7 @@ class Search {
     if (!hole) return;
     for (const ZVec<3>& taken : taken_)
       if (dot(taken, g.n) == 0) return;
-    if (g.n < ZVec<3>{}) g.negate();
+    if (name_of(g.n) < ZVec<3>{}) g.negate();
     if (!seen_.insert(g.n).second) return;
     if (lattice_.obstacles.size() > 1) hole = hole_among_all(shadow);
     if (hole) add(g, shadow, *hole);
@@ -260,7 +260,7 @@ class Search {
     work_ += shadow.discs.size() > 1 ? 200 : 10;
     const HoleCentre centre = room_in(shadow, hole);
     Cylinder cylinder;
-    cylinder.direction = named(g.n);
+    cylinder.direction = integers(name_of(g.n));
     const LatticePoint<3> vector = lattice_vector(scene_.lattices[0], g.n);
     for (std::size_t k = 0; k < 3; ++k)
       cylinder.vector[k] = round_to_binary64({vector.p[k], 1, 0, 1, scene_.exponent});
@@ -319,10 +319,31 @@ class Search {
     return shadow.discs_around(cross(balls_.map(exact), shadow.along), 0, true).empty();
   }
 
-  static std::array<Integer, 3> named(ZVec<3> n) {
-    if (n < ZVec<3>{})
-      for (Z& component : n) component = -component;
+  static std::array<Integer, 3> integers(const ZVec<3>& n) {
     return {to_integer(n[0]), to_integer(n[1]), to_integer(n[2])};
+  }
+
+  // Of the lattice vector n_1 u_1 + .. in the scene's own vectors.
+  ZVec<3> name_of(const ZVec<3>& n) const {
+    ZVec<3> name;
+    const auto& names = scene_.lattices[0].names;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) name[k] += n[i] * names[i][k];
+    return name;
+  }
+
+  // Of the planes u_i.k = n_i: what the scene's own vectors have with k, the first that is not 0 above 0.
+  std::array<Integer, 3> name_of_plane(const ZVec<3>& n) const {
+    const auto& names = scene_.lattices[0].names;
+    ZVec<3> name;  // names maps it to n, and its determinant is 1 or -1
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ZVec<3> column = cross(names[(i + 1) % 3], names[(i + 2) % 3]);
+      for (std::size_t k = 0; k < 3; ++k) name[k] += n[i] * column[k];
+    }
+    const bool turn = name < ZVec<3>{};
+    for (Z& component : name)
+      if (turn) component = -component;
+    return integers(name);
   }
 
   const ChannelScene<3>& scene_;

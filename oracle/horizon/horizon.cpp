@@ -65,7 +65,7 @@ ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal,
   ZVec<D> indices;
   sign = 0;
   for (std::size_t i = 0; i < D; ++i) {
-    indices[i] = dot(lattice.vectors[i], normal) / period;
+    indices[i] = dot(lattice.given[i], normal) / period;
     if (sign == 0) sign = sgn(indices[i]);
   }
   for (Z& index : indices) index *= sign;
@@ -80,7 +80,7 @@ Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long expon
   ZVec<2> g{Z(k[1] * way), Z(k[0] * -way)};
   if (g[0] == 0) g[1] = 1;
   ZVec<2> vector;
-  for (std::size_t i = 0; i < 2; ++i) vector[i] = g[0] * lattice.vectors[0][i] + g[1] * lattice.vectors[1][i];
+  for (std::size_t i = 0; i < 2; ++i) vector[i] = g[0] * lattice.given[0][i] + g[1] * lattice.given[1][i];
   Channel channel;
   channel.indices = integers<2>(g);
   channel.vector = rounded<2>(vector, 1, exponent);
@@ -137,23 +137,18 @@ std::string no_simple_volume(const Scene& scene) {
 // channel's on one side and (w - d) / t on the other, d the distance from a wall: a part w / (pi t) of all
 // directions in 2D (there are two ways along a corridor), w / (2 t) in 3D. Of a cell's volume V the part w
 // |k| is in the channel, 1 / |k| being the distance of the planes.
-double tail_constant(const Scene& scene, const std::vector<Channel>& channels) {
+template <std::size_t D>
+double tail_constant(const Scene& scene, const ChannelScene<D>& exact, const std::vector<Channel>& channels) {
   // In units of a power of two near the cell's size, for its volume may be beyond binary64. C is a length.
-  const int d = scene.dimension;
-  int unit = 0;
-  for (int i = 0; i < d; ++i) {
-    double largest = 0;
-    for (const double component : scene.lattices[0].vectors[i])
-      largest = std::max(largest, std::fabs(component));
-    unit += std::ilogb(largest);
-  }
-  unit /= d;
+  const Z& cell = exact.lattices[0].volume;
+  constexpr int d = static_cast<int>(D);
+  const int unit = static_cast<int>(std::floor(log2_of(cell)) / d + static_cast<double>(exact.exponent));
   const auto scaled = [unit](auto vectors) {
     for (Vec& a : vectors)
       for (double& component : a) component = std::scalbn(component, -unit);
     return vectors;
   };
-  const double volume = volume_of(scaled(scene.lattices[0].vectors), d);
+  const double volume = round_to_binary64({cell, 1, 0, 1, d * (exact.exponent - unit)});
   double sum = 0, free = volume;
   for (const Atom& atom : scene.lattices[0].atoms)
     free -= volume_of(Atom{{}, std::scalbn(atom.radius, -unit), scaled(atom.semiaxes)}, d);
@@ -192,7 +187,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
   if (none) {
     horizon.tail_constant = 0;
   } else if (horizon.no_tail_constant.empty()) {
-    horizon.tail_constant = tail_constant(scene, horizon.channels);
+    horizon.tail_constant = tail_constant(scene, exact, horizon.channels);
     if (!std::isfinite(*horizon.tail_constant)) {
       horizon.tail_constant.reset();
       horizon.no_tail_constant = "the volumes are beyond binary64";

@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kMostCandidates = 2'000'000;  // normals: pairs of points
 constexpr std::size_t kMostWork = 20'000'000;       // blocks
 constexpr double kMostCopies = 1e5;                 // blocks in a common period
+constexpr std::size_t kMostCounted = 64;            // lattices, those that leave the fewest normals
+constexpr std::size_t kPairWork = 10;               // of two lattices' periods, in blocks
 
 // A ball of reciprocal lattice points that holds the normal of every slab.
 template <std::size_t D>
@@ -20,7 +22,8 @@ struct Candidates {
   const ObstacleLattice<D>* lattice;
   Basis<D> basis;
   Z bound2;
-  std::size_t points = 0;  ///< in the ball, counted no further than to more than 2 kMostCandidates
+  double expected;         ///< by the ball's volume: log2, up to a constant
+  std::size_t points = 0;  ///< in the ball, counted no further than to more than there may be
 };
 
 template <std::size_t D>
@@ -31,8 +34,7 @@ Candidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::arra
     const ZVec<D> cofactor = b.p;
     for (std::size_t i = 0; i < D; ++i) b.p[i] = dot(axes[i], cofactor);
   }
-  // Counted, not estimated by a volume: in a slender cell the ball holds a few planes full of points.
-  result.points = points_in_ball<D>(result.basis, bound2, 2 * kMostCandidates);
+  result.expected = log2_of(bound2) * D / 2 - log2_of(determinant<D>(result.basis));
   return result;
 }
 
@@ -66,8 +68,16 @@ Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
         all.push_back(make_candidates<D>(lattice, multiple_of_identity<D>(scene.unit), up_to_one2));
     }
   }
-  return *std::min_element(all.begin(), all.end(),
-                           [](const auto& a, const auto& b) { return a.points < b.points; });
+  // Counted, not only estimated by a volume: in a slender cell the ball holds a few planes full of points.
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.expected < b.expected; });
+  if (all.size() > kMostCounted) all.resize(kMostCounted);
+  const Candidates<D>* fewest = nullptr;
+  for (Candidates<D>& one : all) {
+    one.points = points_in_ball<D>(one.basis, one.bound2, fewest ? fewest->points : 2 * kMostCandidates);
+    if (!fewest || one.points < fewest->points) fewest = &one;
+  }
+  return *fewest;
 }
 
 // The lattices whose planes are equally far apart, taken together, or a superposition of such.
@@ -173,6 +183,7 @@ struct Search {
   bool merge(std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size();) {
+        if ((work += kPairWork) > kMostWork) return false;  // all of it is refused
         const Z period = lcm(classes[i].period, classes[k].period);
         const double copies = copies_in_common(classes[i], classes[k], period);
         if (copies > kMostCopies) {
@@ -209,6 +220,7 @@ struct Search {
   bool any_pair_closed(const std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size(); ++k) {
+        if (work > kMostWork) return true;  // all of it is refused
         const Z step = gcd(classes[i].period, classes[k].period);
         bool any = false;
         for (const Gap& here : classes[i].gaps)

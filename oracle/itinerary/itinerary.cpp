@@ -45,7 +45,8 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
     bits = std::min(bits, most);
     Passage<D> passage(route, bits);
     const bool arrived = passage.go();
-    if (arrived || bits == most) return passage.arrival();
+    const bool is_stopped = journey.stop && *journey.stop;
+    if (arrived || bits == most || is_stopped) return passage.arrival();
     bits = next_bits(passage, journey, passage.part_done());
   }
 }

@@ -46,7 +46,8 @@ template <std::size_t D>
 bool Passage<D>::go() {
   for (;;) {
     const Ball::Precision precision(working_bits());
-    const Step result = step();
+    const bool is_stopped = route_.journey.stop && *route_.journey.stop;
+    const Step result = is_stopped ? Step::lost : step();
     if (result == Step::done) continue;
     if (result == Step::arrived) return true;
     arrival_.collisions = route_.told;

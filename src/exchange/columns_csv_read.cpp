@@ -7,6 +7,7 @@
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/input_file.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz {
 namespace {
@@ -25,7 +26,7 @@ std::string_view without_line_end(std::string_view text) {
 }
 
 std::string shown(std::string_view text) {
-  return json_quoted(text.size() > 60 ? std::string(text.substr(0, 60)) + ".." : std::string(text));
+  return json_quoted(shortened(text, 60));
 }
 
 std::string numbered(const char* name, int k) {

@@ -7,6 +7,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz {
 namespace {
@@ -81,7 +82,7 @@ std::string with_hexadecimal_numbers(std::string_view toml) {
     const double value = *nearest_decimal(number);
     if (std::isinf(value))
       throw InputError("line " + std::to_string(1 + std::count(out.begin(), out.end(), '\n')) + ": " +
-                       json_quoted(piece.substr(0, 40)) + " is beyond the range of binary64");
+                       json_quoted(shortened(piece, 40)) + " is beyond the range of binary64");
     append_hexadecimal(out, value);
   }
   return out;

@@ -1,24 +1,37 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz {
+namespace {
+
+void append_escape(std::string& out, char32_t code) {
+  constexpr char kHex[] = "0123456789abcdef";
+  out += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) out += kHex[code >> shift & 15];
+}
+
+}  // namespace
 
 std::string json_quoted(std::string_view text) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+  const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();  // mostly all of it
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      constexpr char kHex[] = "0123456789abcdef";
-      out += "\\u00";
-      out += kHex[c >> 4];
-      out += kHex[c & 15];
-    } else {
-      out += c;
-    }
+  out += text.substr(0, plain);
+  text.remove_prefix(plain);
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    if (c.code == '"' || c.code == '\\') out += '\\';
+    if (c.acts)
+      append_escape(out, c.code);
+    else if (c.is_text)
+      out += text.substr(0, c.bytes);
+    else
+      out += "\ufffd";
+    text.remove_prefix(c.bytes);
   }
   return out + '"';
 }

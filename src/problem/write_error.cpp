@@ -16,6 +16,8 @@ const char* remedy_of(int error_number) {
     case ENOENT:
     case ENOTDIR:
       return "; make its folder first, or name another file";
+    case ELOOP:
+      return "; remove the link, or name another file";
     case EISDIR:
       return "; name a file in it";
     case EACCES:

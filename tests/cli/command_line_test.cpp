@@ -1,8 +1,10 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
 #include "tests/support/command_line.hpp"
+#include "cli/messages.hpp"
 
 #include <catch2/catch.hpp>
 
+using namespace lorentz;
 using namespace lorentz::test;
 
 TEST_CASE("Files that are not there, folders, empty files, a full disk", "[cli][command_line]") {
@@ -19,6 +21,31 @@ TEST_CASE("Files that are not there, folders, empty files, a full disk", "[cli][
   const int status = std::system(
       (std::string(LORENTZ_PROGRAM) + " first-hit " + queries + " >/dev/full 2>/dev/null").c_str());
   CHECK(WEXITSTATUS(status) == 3);
+}
+
+TEST_CASE("What the system says of a file is said with its name, and in no function's words",
+          "[cli][command_line]") {
+  const Folder folder;
+  std::filesystem::create_symlink("loop", folder.file("loop"));
+  for (const std::string& name : {folder.file("loop"), folder.file(std::string(300, 'x'))})
+    for (const char* command : {"flights --count 1 --add ", "golden verify ", "bench --store "}) {
+      const Run run = folder.lorentz(command + name);
+      INFO(command << name << "\n" << run.err);
+      CHECK(run.status == 3);
+      CHECK(contains(run.err, name));
+      for (const char* word : {"filesystem", "std::", "basic_", "stat"}) CHECK_FALSE(contains(run.err, word));
+    }
+}
+
+TEST_CASE("Words in quotes are what bash makes of them, and act on no terminal", "[cli][command_line]") {
+  const Folder folder;
+  for (const std::string word : {"plain", "two words", "it's", "$(rm -rf x)", "\x1b[31m'\\n",
+                                 "\u009b\u202e\u00fc", "two\nlines", "\x9b\x7f"}) {
+    const std::string quoted = cli::shell_quoted(word);
+    INFO(quoted);
+    CHECK(printable(quoted, Lines::kept) == quoted);
+    CHECK(folder.run("bash " + folder.write("script", "printf %s " + quoted)).out == word);
+  }
 }
 
 TEST_CASE("Bad usage", "[cli][command_line]") {

@@ -226,3 +226,66 @@ TEST_CASE("compare is repeatable, and --strict counts undecided answers", "[cli]
   CHECK(folder.lorentz("compare --engine classical --queries " + never).status == 0);
   CHECK(folder.lorentz("compare --engine classical --strict --queries " + never).status == 1);
 }
+
+TEST_CASE("Files of disagreements are read by the command that help and the last line advertise",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string path = folder.file("wrong.ndjson");
+  const auto read_back = [&](const std::string& how) {
+    const Run run = folder.lorentz("compare --json --queries " + path + " -e classical");
+    INFO(how << ": " << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.err.find("not JSON") == std::string::npos);
+    const std::size_t at = run.out.find("\"queries\":") + 10;
+    return run.out.substr(at, run.out.find(',', at) - at);
+  };
+  const Run demo = folder.lorentz("demo --disagreements " + path);
+  REQUIRE(demo.status == 0);
+  CHECK(contains(demo.out, "writes these " + read_back("demo") + " cases"));
+  CHECK(contains(folder.read("wrong.ndjson"), "{\"id\":\"leaving-2d/"));
+
+  // Ids of all kinds, some of which say things to terminals.
+  folder.write(
+      "q", kScene + R"({"id":"\"quoted\"\n\u001b[31m\u009b\u202e M\u00fcnchen","x":[0.5,0.1],"v":[1,0.3]})"
+                    "\n"
+                    R"({"id":17,"x":[0.5,0.1],"v":[1,0.3]})"
+                    "\n"
+                    R"({"x":[0.5,0.1],"v":[1,0.3]})"
+                    "\n");
+  folder.write("answers", R"({"id":"\"quoted\"\n\u001b[31m\u009b\u202e M\u00fcnchen","outcome":"never"})"
+                          "\n"
+                          R"({"id":17,"outcome":"never"})"
+                          "\n");
+  const Run run = folder.lorentz("compare --queries " + folder.file("q") +
+                                 " --answers a=" + folder.file("answers") + " --disagreements " + path);
+  CHECK(run.status == 1);
+  CHECK(read_back("ids") == "2");
+  for (const std::string& text : {run.out, run.err, folder.read("wrong.ndjson")})
+    for (const char* acts : {"\x1b", "\u009b", "\u202e"}) CHECK_FALSE(contains(text, acts));
+}
+
+TEST_CASE("What another program writes reaches no terminal as it is, and is never cut in a character",
+          "[cli][compare_command]") {
+  const Folder folder;
+  // Bytes that are no text; then what a terminal obeys and 200 letters of two bytes, the 60th astride the
+  // cut.
+  folder.write("engine",
+               "import sys\nfor line in sys.stdin:\n  sys.stdout.buffer.write(b'\\x9b\\xff\\n' + "
+               "b'x\\x1b[2J\\xc2\\x9b31m\\x7f' + b'\\xc3\\xa9' * 200 + b'\\n')\n  sys.stdout.flush()\n");
+  const std::string program = "'cmd:" LORENTZ_PYTHON " " + folder.file("engine") + "'";
+  folder.write("q", kScene + kGood);
+  const Run answered = folder.run(LORENTZ_PROGRAM " first-hit -e " + program + " " + folder.file("q") +
+                                  " > " + folder.file("answers") + "; cat " + folder.file("answers"));
+  CHECK(contains(answered.out, "..."));
+  for (const std::string& text : {answered.out, answered.err})
+    for (const char* acts : {"\x1b", "\x9b", "\x7f"}) {
+      INFO(text);
+      CHECK_FALSE(contains(text, acts));
+    }
+  // lorentz reads its own output.
+  const Run judged =
+      folder.lorentz("compare --queries " + folder.file("q") + " --answers a=" + folder.file("answers"));
+  INFO(judged.err);
+  CHECK_FALSE(contains(judged.err, "not JSON"));
+  CHECK(judged.status == 0);
+}

@@ -1,4 +1,5 @@
-"""The edges of every subcommand: help, mistakes, missing files, closed pipes, full disks, signals.
+"""The edges of every subcommand: help, mistakes, missing files, closed pipes, full disks, outputs that are inputs,
+signals.
 
 usage: edges_test.py PROGRAM SOURCE
 
@@ -7,6 +8,7 @@ Which subcommands there are is asked of the program; each must have a line in ED
 """
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -33,6 +35,7 @@ class Edge:
     slow: bool = False  # quick is not quick: --help takes its place
     room: int = 20  # bytes on the full disk
     report: bool = False  # --html needs the page, which a program built without npm has not
+    reports: bool = False  # a signal is a wish: what is done is reported, and files are written of it
 
 
 EDGES = {
@@ -40,7 +43,7 @@ EDGES = {
     "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements"],
                     "--queries /no/such/file"),
     "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html"],
-                  "-e cmd:/no/such/file --time 0.01", report=True),
+                  "-e cmd:/no/such/file --time 0.01", report=True, reports=True),
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),
     "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
@@ -55,7 +58,7 @@ EDGES = {
     "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256",
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
-    "golden explain": Edge("9cbb135e", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
+    "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
     "golden list": Edge(),
     "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600", ["--store"],
                  status=1),
@@ -64,20 +67,21 @@ EDGES = {
                       room=1000, report=True),
     "fuzz export": Edge("--store published.campaign", missing="--store /no/such/file"),
     "fuzz merge": Edge("published.campaign -o merged", "", ["-o"], "/no/such/file -o merged", prints=False),
-    "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--svg", "--density-svg", "--store"],
-                    "--scene /no/such/file"),
+    "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--svg", "--density-svg", "--html", "--store"],
+                    "--scene /no/such/file", reports=True),
     "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
                        "--scene square --radius 1/3 --collisions 1e7 --csv OUT start", ["--csv", "--svg"],
-                       "--scene square --time 1 /no/such/file"),
-    "survival": Edge("--count 2 --collisions 10", "--count 1e6 --csv OUT", ["--csv", "--svg"],
-                     "--scene /no/such/file"),
+                       "--scene square --time 1 /no/such/file", reports=True),
+    "survival": Edge("--count 2 --collisions 10", "--count 1e6 --csv OUT",
+                     ["--csv", "--svg", "--html"], "--scene /no/such/file", reports=True),
     "lyapunov": Edge("--collisions 1e4 --radius 0.3", "--collisions 1e12", ["--store"],
-                     "--scene /no/such/file"),
+                     "--scene /no/such/file", reports=True),
     "diffusion": Edge("--count 1e3 --time 5 --radius 0.3", "--count 1e9 --csv OUT", ["--csv", "--store"],
-                      "--scene /no/such/file"),
+                      "--scene /no/such/file", reports=True),
 }
 
 HAS_PAGE = True  # found out in prepare()
+WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated", signal.SIGHUP: "hung up"}
 
 
 class Folder:
@@ -108,9 +112,9 @@ class Ended:
     err: str
 
 
-def start(words, folder, stdout=subprocess.PIPE, bytes_a_file=None):
+def start(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, bytes_a_file=None):
     limit = ["prlimit", f"--fsize={bytes_a_file}"] if bytes_a_file else []
-    return subprocess.Popen([*limit, PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=stdout,
+    return subprocess.Popen([*limit, PROGRAM, *words], cwd=folder, stdin=stdin, stdout=stdout,
                             stderr=subprocess.PIPE, text=True)
 
 
@@ -149,7 +153,7 @@ def subcommands():
 class Test:
     def __init__(self, name, made):
         self.name, self.words, self.edge = name, name.split(), EDGES[name]
-        self.folder, self.failures = Folder(made), []
+        self.folder, self.failures, self.pairs = Folder(made), [], 0
         self.quick = self.words + (["--help"] if self.edge.slow else self.edge.quick.split())
 
     def check(self, good, what, run):
@@ -249,10 +253,66 @@ class Test:
             self.check(run.status == 3 and "/no/such/folder/f" in run.err and "make its folder first" in run.err
                        and not run.out, f"{option} into a missing folder is said late, or not well", run)
 
+    def named_files(self):
+        """The options that help says name files: the value's name says which."""
+        options = []
+        for line in lorentz([*self.words, "--help"], self.folder.path).out.splitlines():
+            found = re.match(r"  (?:-\w,)?(--[\w-]+) (FILE|SCENE|SET|NAME=FILE)\b", line)
+            if found and found[1] != "--set":  # the recipe of a set, no file
+                options.append((found[1], found[2]))
+        return options
+
+    def outputs_that_are_inputs(self):
+        """Each file that is read named as each that is written, in several ways: refused, and left as it is."""
+        inputs = [(name, kind) for name, kind in self.named_files() if name not in self.outputs_in_full()]
+        tried = 0
+        for output in self.edge.outputs:
+            for name, kind in inputs:
+                for way in ("same", "./", "link", "hard link", "standard input"):
+                    if way == "standard input" and kind != "FILE":
+                        continue
+                    tried += self.try_one_file_for(name, kind, output, way)
+            self.folder.clear()
+            (self.folder.path / "F").write_text("precious\n")
+            words = ["F" if word == "square" else word for word in self.without(output)]
+            for word in [word for word in words if (self.folder.path / word).is_file()]:  # what the short work reads
+                before = (self.folder.path / word).read_bytes()
+                run = lorentz([*words, output, f"./{word}"], self.folder.path)
+                self.check(run.status == 2 and "name another file" in run.err and not run.out,
+                           f"{output} over its input {word} is not refused", run)
+                self.check((self.folder.path / word).read_bytes() == before, f"{output} overwrites {word}", run)
+                tried += 1
+        return tried
+
+    def outputs_in_full(self):
+        return ["--output" if name == "-o" else name for name in self.edge.outputs]
+
+    def try_one_file_for(self, name, kind, output, way):
+        self.folder.clear()
+        file, other = self.folder.path / "F", self.folder.path / "G"
+        file.write_text("precious\n")
+        if way == "link":
+            other.symlink_to("F")
+        elif way == "hard link":
+            os.link(file, other)
+        named = {"same": "F", "./": "./F", "standard input": "F"}.get(way, "G")
+        value = "-" if way == "standard input" else "a=F" if kind == "NAME=FILE" else "F"
+        words = self.without(output)
+        for option in (name, "--count" if name == "--queries" else name):  # which exclude each other
+            if option in words:
+                words = words[:words.index(option)] + words[words.index(option) + 2:]
+        with open(file) as stdin:
+            run = lorentz([*words, name, value, output, named], self.folder.path, stdin=stdin)
+        full = dict(zip(self.edge.outputs, self.outputs_in_full()))[output]
+        good = run.status == 2 and f"{full}: " in run.err and f"what {name} reads" in run.err and not run.out
+        self.check(good, f"{name} {value} {output} {named} ({way}) is not refused", run)
+        self.check(file.read_text() == "precious\n", f"{name} {value} {output} {named} ({way}) loses the input", run)
+        return 1
+
     def signals(self):
         if not self.edge.work:
             return
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             self.folder.clear()
             if "OUT" in self.edge.work and self.name != "golden make":
                 (self.folder.path / "OUT").write_text("old")
@@ -261,22 +321,23 @@ class Test:
             time.sleep(0.1)
             process.send_signal(number)
             run = ended(process)
-            if number == signal.SIGTERM:
-                good = run.status == -number and "lorentz: terminated" in run.err
-            else:  # some say first what is done
-                good = run.status in (-number, 3) and ("interrupted" in run.err or "nothing to report" in run.err)
-                good |= self.name == "fuzz" and run.status == 0 and "interrupted" in run.err  # as the end of its time
+            said = WORDS[number] in run.err
+            good = run.status == -number and said
+            good |= run.status == 3 and said and self.edge.reports  # what is done is said first
+            good |= self.name == "fuzz" and run.status == 0 and said  # as the end of its time
             self.check(good, f"{signal.Signals(number).name} gets no clear end", run)
             left = [name for name in self.folder.new() if name != "OUT" and ".part" not in name]
             self.check(not left, f"{signal.Signals(number).name} leaves {left}", run)
             old = self.folder.path / "OUT"
-            self.check(not old.exists() or old.read_text() == "old", f"{signal.Signals(number).name} changes OUT", run)
+            self.check(not old.exists() or old.read_text() == "old" or (self.edge.reports and run.status == 3),
+                       f"{signal.Signals(number).name} changes OUT", run)
 
     def all(self):
         try:
             self.help_and_mistakes()
             self.standard_output()
             self.output_files()
+            self.pairs = self.outputs_that_are_inputs()
             self.signals()
         finally:
             shutil.rmtree(self.folder.path)
@@ -298,6 +359,7 @@ def prepare(made):
     global HAS_PAGE
     for name in ("data", "examples"):
         os.symlink(Path(SOURCE) / name, made / name)
+    shutil.copy(Path(SOURCE) / "data" / "golden" / "near-rational.ndjson", made / "set.ndjson")
     (made / "start").write_text('{"x":["1/2","1/10"],"v":[1,0]}\n')
     for file, words in {
         "q.ndjson": "sample --count 1",
@@ -325,11 +387,16 @@ def main():
     try:
         prepare(made)
         with ThreadPoolExecutor(2) as pool:
-            failures = sum(pool.map(lambda name: Test(name, made).all(), found), [])
+            tests = [Test(name, made) for name in found]
+            failures = sum(pool.map(Test.all, tests), [])
     finally:
         shutil.rmtree(made)
+    pairs = sum(test.pairs for test in tests)
+    if pairs < 100:
+        failures.append(f"only {pairs} pairs of input and output were tried")
     print("\n".join(failures))
-    print(f"{len(found)} subcommands, {len(failures)} failures{'' if HAS_PAGE else ' (--html not tried: no page)'}")
+    print(f"{len(found)} subcommands, {pairs} pairs of input and output, {len(failures)} failures"
+          f"{'' if HAS_PAGE else ' (--html not tried: no page)'}")
     sys.exit(1 if failures else 0)
 
 

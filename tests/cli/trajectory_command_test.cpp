@@ -152,6 +152,20 @@ TEST_CASE("trajectory: options that are none, and files that cannot be written",
   CHECK(WEXITSTATUS(full) == 3);
 }
 
+TEST_CASE("trajectory --svg: a path beyond binary64 is refused in words, and its lines are there",
+          "[cli][trajectory]") {
+  const Folder folder;
+  const std::string starts = folder.write("starts", R"({"id":1,"x":["0","1/2"],"v":[1,0]})"
+                                                    "\n");
+  const Run run = folder.lorentz("trajectory --scene square --radius 1/10 --time 1e400 --svg " +
+                                 folder.file("svg") + " " + starts);
+  INFO(run.out << run.err);
+  CHECK(run.status == 2);
+  CHECK(contains(run.out, "\"end\":\"time\""));
+  CHECK(contains(run.err, "too far from the origin"));
+  CHECK_FALSE(contains(run.err, "stod"));
+}
+
 TEST_CASE("trajectory: what no precision decides says so", "[cli][trajectory]") {
   const Folder folder;
   const std::string starts = folder.write("starts", R"({"x":["1/2",0],"direction":{"degrees":150}})");

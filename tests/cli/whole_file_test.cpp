@@ -1,14 +1,21 @@
 // Files that are put in their place when they are whole.
 #include "cli/whole_file.hpp"
 
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <set>
 
 #include <lorentz/errors.hpp>
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
 using cli::WholeFile;
+using test::contains;
 using test::Folder;
+using test::Run;
 
 namespace {
 
@@ -69,16 +76,123 @@ TEST_CASE("compare that is killed leaves the file of disagreements as it was", "
   CHECK(folder.read("d") == "old\n");
 }
 
+TEST_CASE("Nobody foresees the name of a file that is not whole, and no link leads out of it",
+          "[cli][whole_file]") {
+  const Folder folder;
+  const std::string path = folder.file("f");
+  const auto beside = [&] {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
+      if (entry.path() != path) return entry.path().filename().string();
+    return std::string();
+  };
+  std::set<std::string> names;
+  for (int i = 0; i < 20; ++i) {
+    WholeFile file(path);
+    const std::string name = beside();
+    CHECK(name.size() == std::string("f.0123456789abcdef.new").size());
+    names.insert(name);
+    file.commit();
+  }
+  CHECK(names.size() == 20);
+  CHECK(entries(folder) == 1);
+  // What an earlier version, and the process id, would have made of it.
+  const std::string victim = folder.write("victim", "precious\n");
+  std::filesystem::create_symlink(victim, path + '.' + std::to_string(::getpid()) + ".new");
+  cli::write_whole(path, "new\n");
+  CHECK(folder.read("victim") == "precious\n");
+}
+
+TEST_CASE("golden make, which has to find its part again, follows no link to it", "[cli][whole_file]") {
+  const Folder folder;
+  const std::string victim = folder.write("victim", "precious\n"), set = folder.file("set");
+  for (const char* end : {".part.note.new", ".part.note"}) std::filesystem::create_symlink(victim, set + end);
+  CHECK(folder.lorentz("golden make --set ties --count 5 -o " + set).status == 0);
+  CHECK(contains(folder.read("set"), "{\"golden\""));
+  std::filesystem::create_symlink(victim, set + ".part");
+  const Run run = folder.lorentz("golden make --set ties --count 5 -o " + set);
+  CHECK(run.status == 3);
+  CHECK(contains(run.err, "remove the link"));
+  CHECK(folder.read("victim") == "precious\n");
+}
+
+TEST_CASE("A new file has the permissions of any new file, whatever its name's length", "[cli][whole_file]") {
+  const Folder folder;
+  const mode_t before = ::umask(027);
+  const std::string name(255, 'x');
+  cli::write_whole(folder.file(name), "text");
+  ::umask(before);
+  CHECK(folder.read(name) == "text");
+  CHECK(entries(folder) == 1);
+  CHECK((std::filesystem::status(folder.file(name)).permissions() & std::filesystem::perms::all) ==
+        static_cast<std::filesystem::perms>(0640));
+}
+
+TEST_CASE("What killed processes left is taken away by the next, and nothing else", "[cli][whole_file]") {
+  const Folder folder;
+  const std::string path = folder.write("f", "old\n");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    WholeFile file(path);
+    cli::Beside store(path, cli::Beside::Kind::folder);
+    std::ofstream(store.path() + "/store") << "half";
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFSIGNALED(status));
+  CHECK(entries(folder) == 3);
+  const std::vector<std::string> others{"f.new",
+                                        "f.1234.new",
+                                        "g.0123456789abcdef.new",
+                                        "f.0123456789abcdeg.new",
+                                        "f.0123456789abcdef.new.txt",
+                                        "f.0123456789ABCDEF.new"};
+  for (const std::string& name : others) folder.write(name, "mine\n");
+  std::filesystem::create_symlink(path, folder.file("f.00000000000000aa.new"));
+  {
+    const cli::Beside alive(folder.file("h"), cli::Beside::Kind::file);
+    // Of a place that this process has not written to yet. (A process looks once.)
+    const std::string other = folder.write("h.00000000000000bb.new", "left by another\n");
+    const Run run =
+        folder.lorentz("sample --count 1 > " + folder.file("q") + "; " LORENTZ_PROGRAM " compare --queries " +
+                       folder.file("q") + " -e classical --disagreements " + folder.file("h"));
+    CHECK(run.status == 0);
+    CHECK_FALSE(std::filesystem::exists(other));
+    CHECK(std::filesystem::exists(alive.path()));
+  }
+  const Run run = folder.lorentz("flights --count 10 --csv " + path);
+  CHECK(run.status == 0);
+  for (const std::string& name : others) CHECK(folder.read(name) == "mine\n");
+  CHECK(std::filesystem::is_symlink(folder.file("f.00000000000000aa.new")));
+  std::size_t left = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
+    left += entry.path().filename().string().starts_with("f.");
+  CHECK(left == others.size());  // the link, and all but g's
+}
+
 TEST_CASE("Two options that name one file are refused, whatever they call it", "[cli][whole_file]") {
   const Folder folder;
-  const std::string path = folder.write("f", "old\n"), same = folder.file("./f"), other = folder.file("g");
+  const std::string path = folder.write("f", "old\n"), other = folder.file("g");
   std::filesystem::create_symlink(path, folder.file("link"));
-  using cli::check_apart;
-  CHECK_THROWS_WITH(check_apart({{"--csv", path}, {"--svg", other}, {"--html", path}}),
-                    "--csv and --html name the same file: " + path + "; give each its own");
-  CHECK_THROWS_AS(check_apart({{"--csv", path}, {"--html", same}}), InputError);
-  CHECK_THROWS_AS(check_apart({{"--csv", path}, {"--html", folder.file("link")}}), InputError);
-  CHECK_THROWS_AS(check_apart({{"--csv", other}, {"--html", folder.file("./g")}}), InputError);  // none yet
-  CHECK_NOTHROW(check_apart({{"--csv", path}, {"--html", other}, {"--svg", {}}, {"--store", {}}}));
-  CHECK_NOTHROW(check_apart({{"--csv", "/dev/stderr"}, {"--html", "/dev/stderr"}}));
+  std::filesystem::create_hard_link(path, folder.file("hard"));
+  const auto flights = [&](const std::string& options) {
+    return folder.lorentz("flights --count 10 " + options);
+  };
+  const auto refused = [&](const std::string& options) {
+    const Run run = flights(options);
+    INFO(options << ": " << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "give each its own"));
+    CHECK(folder.read("f") == "old\n");
+  };
+  CHECK(contains(flights("--csv " + path + " --svg " + other + " --density-svg " + path).err,
+                 "--csv and --density-svg name the same file: " + path + "; give each its own"));
+  refused("--csv " + path + " --svg " + folder.file("./f"));
+  refused("--csv " + path + " --svg " + folder.file("link"));
+  refused("--csv " + path + " --svg " + folder.file("hard"));
+  refused("--csv " + other + " --svg " + folder.file("./g"));  // there is none yet
+  CHECK(contains(flights("--csv ''").err, "--csv: the name is empty"));
+  CHECK(flights("--csv /dev/null --svg /dev/null").status == 0);
+  CHECK(flights("--csv " + path + " --svg " + other).status == 0);
+  CHECK(folder.read("f") != "old\n");
 }

@@ -22,3 +22,8 @@ TEST_CASE("What is far from every name is none of them", "[compare][nearest_name
   CHECK(nearest_name(std::string(1000, 'c'), names).empty());
   CHECK(nearest_name("anything", {}).empty());
 }
+
+TEST_CASE("A name that stands where it means nothing was not mistyped", "[compare][nearest_name]") {
+  CHECK(lorentz::compare::did_you_mean("scene", {"scene", "from"}).empty());
+  CHECK(lorentz::compare::did_you_mean("scenes", {"scene", "from"}) == " (did you mean scene?)");
+}

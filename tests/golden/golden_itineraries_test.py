@@ -67,6 +67,22 @@ class Committed(unittest.TestCase):
         self.assertEqual(status, 0, told)
         self.assertEqual(told.count("all right"), len(FILES), told)
 
+class Statuses(unittest.TestCase):
+    def test_what_is_no_set_is_bad_input_and_refutes_nothing(self):
+        deep = "[" * 100_000
+        header = json.dumps({"golden": dict.fromkeys(check.HEADER, 1)})
+        scene = '{"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1e999]],"atoms":[{"position":[0,0],"radius":1}]}]}}'
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in {"empty": b"", "blank": b"\n", "deep": deep.encode(), "bytes": b"\xff\xfe",
+                               "infinite": f"{header}\n{scene}\n".encode()}.items():
+                path = pathlib.Path(folder) / name
+                path.write_bytes(text)
+                status, told = status_of(path)
+                self.assertEqual(status, 2, f"{name}: {told}")
+                self.assertNotIn("Traceback", told)
+            self.assertEqual(status_of(folder)[0], 2)
+            self.assertEqual(status_of(pathlib.Path(folder) / "none")[0], 2)
+
 class Refused(unittest.TestCase):
     def test_records_tampered_with(self):
         draw = random.Random(20161115)

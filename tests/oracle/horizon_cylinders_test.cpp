@@ -62,7 +62,7 @@ TEST_CASE("Horizon: a shadow of equal discs has a hole where the circumradius sa
     Scene scene = short_scene(draw, 3, 1, 0.2, 1);
     const oracle::ChannelScene<3> exact(scene, 0);
     const auto& lattice = exact.lattices[0];
-    const auto &u = lattice.vectors[0], &v = lattice.vectors[1], &w = lattice.vectors[2];
+    const auto &u = lattice.given[0], &v = lattice.given[1], &w = lattice.given[2];
     const oracle::Shadow shadow(lattice, u, v, w);
     std::size_t work = 0;
     const bool by_radius = oracle::hole_of_largest(shadow).has_value();
@@ -77,7 +77,7 @@ TEST_CASE("Horizon: shadows whose discs just touch, or just close", "[oracle][ho
   const auto hole = [](std::array<Vec, 3> vectors, std::vector<Atom> atoms) {
     const oracle::ChannelScene<3> exact(scene_with(3, vectors, std::move(atoms)), 0);
     const auto& lattice = exact.lattices[0];
-    oracle::Shadow shadow(lattice, lattice.vectors[2], lattice.vectors[0], lattice.vectors[1]);
+    oracle::Shadow shadow(lattice, lattice.given[2], lattice.given[0], lattice.given[1]);
     shadow.see(lattice, lattice.obstacles.size());
     std::size_t work = 0;
     return oracle::hole_of_all(shadow, work).has_value();

@@ -96,6 +96,16 @@ std::vector<Vec> shared_ways(const Horizon& a, const Horizon& b) {
   return shared;
 }
 
+// The same ways, though named by other vectors.
+void check_same_ways(const Horizon& a, const Horizon& b) {
+  REQUIRE(a.channels.size() == b.channels.size());
+  REQUIRE(a.cylinders.size() == b.cylinders.size());
+  CHECK(a.normals == b.normals);
+  for (std::size_t i = 0; i < a.channels.size(); ++i) CHECK(a.channels[i].width == b.channels[i].width);
+  for (std::size_t i = 0; i < a.cylinders.size(); ++i) CHECK(a.cylinders[i].radius == b.cylinders[i].radius);
+  CHECK(a.families.size() == b.families.size());
+}
+
 }  // namespace
 
 TEST_CASE("Horizon: the normals that two lattices have in common, by looking at all", "[oracle][horizon]") {
@@ -159,4 +169,64 @@ TEST_CASE("Horizon: superposed lattices of tiny discs are decided", "[oracle][ho
   // In step they have as many as one has.
   scene.lattices[1].vectors = scene.lattices[0].vectors;
   CHECK_THROWS_AS(horizon_of(scene), TooManyChannels);
+}
+
+TEST_CASE("Horizon: vectors skewed by 10^300 span the same lattice, and cost no more", "[oracle][horizon]") {
+  const Vec e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1};
+  for (const double skew : {3.0, 0x1p60, 1e300}) {
+    INFO(skew);
+    const Horizon plane = horizon_of(scene_with(2, {e1, Vec{skew, 1}}, {{{}, 0.1, {}}}));
+    const Horizon square = horizon_of(unit_scene(2, 0.1));
+    check_same_ways(square, plane);
+    CHECK(*plane.tail_constant == Approx(*square.tail_constant).epsilon(1e-12));
+    // Its own vectors name them: the corridor along e2 is u2 - skew u1.
+    bool named = false;
+    for (const auto& channel : plane.channels)
+      named |= std::fabs(channel.vector[1]) == 1 && channel.width == 0.8;
+    CHECK(named);
+    for (const double radius : {0.25, 0.45}) {
+      const Horizon cubic = horizon_of(unit_scene(3, radius));
+      const Horizon skewed = horizon_of(scene_with(3, {e1, Vec{skew, 1, 0}, e3}, {{{}, radius, {}}}));
+      check_same_ways(cubic, skewed);
+      CHECK(*skewed.tail_constant == Approx(*cubic.tail_constant).epsilon(1e-12));
+      for (const auto& cylinder : skewed.cylinders) CHECK(cylinder.inside);
+    }
+  }
+}
+
+TEST_CASE("Horizon: the indices in skewed vectors are those of the vector that stands beside them",
+          "[oracle][horizon]") {
+  const std::vector<Vec> u{{1, 0, 0}, {7, 1, 0}, {-3, 5, 1}};
+  const Horizon skewed = horizon_of(scene_with(3, {u[0], u[1], u[2]}, {{{}, 0.4, {}}}));
+  REQUIRE(skewed.channels.size() == 3);
+  for (const auto& channel : skewed.channels)  // planes (h k l): u_i . k = the i-th index
+    for (int i = 0; i < 3; ++i) {
+      double product = 0;
+      for (int k = 0; k < 3; ++k) product += u[i][k] * channel.vector[k];
+      CHECK(product == static_cast<double>(channel.indices[i].int64()));
+    }
+  CHECK_FALSE(skewed.cylinders.empty());
+  for (const auto& cylinder : skewed.cylinders) {
+    std::int64_t first = 0;
+    for (int i = 0; i < 3 && first == 0; ++i) first = cylinder.direction[i].int64();
+    CHECK(first > 0);
+    for (int k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (int i = 0; i < 3; ++i) sum += static_cast<double>(cylinder.direction[i].int64()) * u[i][k];
+      CHECK(sum == cylinder.vector[k]);
+    }
+  }
+}
+
+TEST_CASE("Horizon: thousands of lattices, and thousands of lattices that leave little, are given up",
+          "[oracle][horizon]") {
+  Draw draw(83);
+  Scene scene = unit_scene(2, 0.1);
+  for (int i = 0; i < 5000; ++i) {
+    scene.lattices.push_back(scene.lattices[0]);
+    scene.lattices.back().vectors[0][0] = 1 + i * 1e-5;
+    scene.lattices.back().vectors[1][1] = 1 + i * 2e-5;
+    scene.lattices.back().atoms[0].position = draw.vec(2, 0, 1);
+  }
+  CHECK_THROWS_AS(horizon_of(scene), oracle::TooManyChannels);
 }

@@ -179,6 +179,26 @@ TEST_CASE("Itinerary: how journeys end") {
   }
 }
 
+TEST_CASE("Itinerary: a journey that is stopped ends there, told or silent") {
+  std::atomic<bool> stop = false;
+  oracle::Journey journey = collisions(100'000);
+  journey.stop = &stop;
+  const Itinerary itinerary(unit(2, "1/3"));
+  const Start start = start_at({"1/2", "1/10"}, {"1", "0"});
+  std::uint64_t told = 0;
+  const auto count = [&](const CertifiedCollision&) {
+    stop = ++told == 300;
+    return true;
+  };
+  const Arrival arrival = itinerary.follow(start, journey, count);
+  CHECK(told == 300);
+  CHECK(arrival.end == JourneyEnd::undecided);
+  CHECK(arrival.collisions == 300);
+  stop = true;
+  CHECK(itinerary.follow(start, journey, count).collisions == 0);
+  CHECK(told == 300);
+}
+
 TEST_CASE("Itinerary: a corner between overlapping discs, and a particle in a pocket") {
   // Radius 3/5: the plane falls into pockets around (1/2, 1/2).
   const Told told = follow(unit(2, "3/5"), start_at({"1/2", "1/2"}, {"1", "golden"}), collisions(200));
