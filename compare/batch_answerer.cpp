@@ -77,8 +77,7 @@ Answer BatchAnswerer::answer_of_flight(std::size_t i) {
   const Flight flight = why_not_ ? Flight{} : flights_[i];
   if (why_not_ || flight.outcome == Outcome::error || request_.detail || request_.digits > 0)
     return single(queries_[i]);
-  Answer answer = answer_of(flight);
-  return request_.max_time ? limited(std::move(answer), *request_.max_time) : answer;
+  return answer_of(flight);
 }
 
 // Queries with a flaw, and what more is wanted than a flight says.

@@ -65,19 +65,14 @@ void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& 
                  [](Stage stage) { return static_cast<std::uint8_t>(stage); });
 }
 
-// What a flight leaves open: the limit, and columns that mean nothing with its outcome.
+// What a flight leaves open: columns that mean nothing with its outcome.
 void ColumnEngine::finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers) {
   const std::size_t row = first + i;
-  const bool hit = answers.outcome[row] == Outcome::hit;
-  if (answers.outcome[row] == Outcome::error) return ask(first, queries, i, AnswerRows::kNoStage, answers);
-  if (hit && answers.time[row] < limit(i)) return;
-  const bool is_limited = std::isfinite(limit(i));
-  if (is_limited && batch_ && (hit || answers.outcome[row] == Outcome::never))
-    answers.set_plain(row, Outcome::later);
-  else if (!hit && answers.outcome[row] != Outcome::inside)
-    answers.set_plain(row, answers.outcome[row]);
-  else if (!hit)
-    answers.time[row] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[row] = false;
+  const Outcome outcome = answers.outcome[row];
+  if (outcome == Outcome::hit) return;
+  if (outcome == Outcome::error) return ask(first, queries, i, AnswerRows::kNoStage, answers);
+  if (outcome != Outcome::inside) return answers.set_plain(row, outcome);
+  answers.time[row] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[row] = false;
 }
 
 void ColumnEngine::ask(std::size_t first, const QueryRows& queries, std::size_t i, std::uint8_t stage,

@@ -41,5 +41,6 @@ Family dense_rows();
 Family far_starts();
 Family skewed_cells();
 Family specks();
+Family skin();
 
 }  // namespace lorentz::cases

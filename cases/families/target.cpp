@@ -35,6 +35,7 @@ const std::vector<Target>& targets() {
                                        {"far-starts", {far_starts()}},
                                        {"skewed-cells", {skewed_cells()}},
                                        {"specks", {specks()}},
+                                       {"skin", {skin()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},

@@ -214,10 +214,10 @@ void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std:
     Question question{std::move(reworded->query), {}, carried.has_value()};
     question.exact = carried ? std::move(*carried) : context->examiner.exact(question.query);
     std::string words = rewording.words(*reworded);
-    if (random.one_in(kCasesPerLimit)) {
-      question.limit = drawn_limit(random, subject_->limits(), question.exact);
+    if (random.one_in(kCasesPerLimit) && subject_->takes_limits()) {
+      question.limit = drawn_limit(random, question.exact);
       if (question.limit != LimitAt::none)
-        words += (words.empty() ? "" : ", ") + std::string(words_of(question.limit));
+        words += (words.empty() ? "" : ", ") + words_of(question.limit);
     }
     if (words.empty()) continue;
     questions.cases.push_back(

@@ -63,12 +63,12 @@ class GatheringSubject : public Subject {
 
 class BatchSubject final : public GatheringSubject<Batch> {
  public:
-  Limits limits() const override { return Limits::rough; }
+  bool takes_limits() const override { return true; }
 
  private:
   Reply alone(const Query& query, double max_time) const override {
     const Flight flight = engine().one_at_a_time().fly(query, max_time);
-    return {limited(answer_of(flight), max_time), {}, flight.stage};
+    return {answer_of(flight), {}, flight.stage};
   }
   std::optional<std::string> beyond(const Scene& scene) const override { return Reduction::beyond(scene); }
 
@@ -85,7 +85,7 @@ class BatchSubject final : public GatheringSubject<Batch> {
           same_bits(flight, engine().one_at_a_time().fly(query, max_time)) &&
           same_bits(rounded_[i], engine().one_at_a_time().fly(query, max_time, Batch::Time::rounded));
       if (same)
-        replies.push_back({limited(answer_of(flight), max_time), {}, flight.stage});
+        replies.push_back({answer_of(flight), {}, flight.stage});
       else
         replies.push_back({Answer::error("a single flight has another answer"), {}, flight.stage});
     }
@@ -96,7 +96,7 @@ class BatchSubject final : public GatheringSubject<Batch> {
 
 class CertifiedBatchSubject final : public GatheringSubject<oracle::CertifiedBatch> {
  public:
-  Limits limits() const override { return Limits::exact; }
+  bool takes_limits() const override { return true; }
 
  private:
   Reply alone(const Query& query, double max_time) const override {

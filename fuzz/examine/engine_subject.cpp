@@ -77,7 +77,7 @@ class AnswererSubject final : public Subject {
 class WalkSubject final : public Subject {
  public:
   void ask(const Query& query) override { replies_.push_back({walk_->first_hit(query), {}}); }
-  Limits limits() const override { return Limits::exact; }
+  bool takes_limits() const override { return true; }
   void ask_until(const Query& query, double max_time) override {
     replies_.push_back({walk_->first_hit(query, max_time), {}});
   }
@@ -152,15 +152,14 @@ class PublishedSubject final : public TellingSubject<Published> {
 // Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
 class ReductionSubject final : public TellingSubject<Reduction> {
  public:
-  Limits limits() const override { return Limits::rough; }
+  bool takes_limits() const override { return true; }
 
  private:
   Reply reply_to(const Query& query, double max_time) const override {
     const Flight flight = engine().fly(query, max_time);
-    const Answer answer = limited(answer_of(flight), max_time);
+    const Answer answer = answer_of(flight);
     const ObstacleId* from = query.from ? &*query.from : nullptr;
-    const Answer prepared =
-        limited(answer_of(engine().fly(engine().direction(query.v), query.x, from, max_time)), max_time);
+    const Answer prepared = answer_of(engine().fly(engine().direction(query.v), query.x, from, max_time));
     if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
         prepared.time != answer.time)
       return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
@@ -170,7 +169,7 @@ class ReductionSubject final : public TellingSubject<Reduction> {
 
 class CertifiedSubject final : public TellingSubject<oracle::Certified> {
  public:
-  Limits limits() const override { return Limits::exact; }
+  bool takes_limits() const override { return true; }
 
  private:
   Reply reply_to(const Query& query, double max_time) const override {

@@ -109,10 +109,6 @@ Answer Examiner::exact(const Query& query) const {
   return impl_->exact(query);
 }
 
-Subject::Limits Examiner::limits() const {
-  return impl_->subject.limits();
-}
-
 void Examiner::ask(const Question& question) {
   impl_->subject.set_scene(impl_->scene);
   if (question.limit == LimitAt::none)

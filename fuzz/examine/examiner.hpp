@@ -72,9 +72,6 @@ class Examiner {
   /// The true answer to a query without flaws.
   Answer exact(const Query& query) const;
 
-  /// Which limits the subject can be asked with.
-  Subject::Limits limits() const;
-
   /// Asks the subject. Its replies are for the caller to wait for, and to hand to judge().
   void ask(const Question& question);
   Examined judge(const Question& question, Reply& reply);

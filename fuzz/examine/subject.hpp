@@ -29,9 +29,8 @@ class Subject {
   /// A query without flaws.
   virtual void ask(const Query& query) = 0;
 
-  /// Which time limits it can be asked with: none; those that are not too close to the time of a hit; any.
-  enum class Limits { none, rough, exact };
-  virtual Limits limits() const { return Limits::none; }
+  /// Can it be asked with time limits, however near they are to the time of a hit?
+  virtual bool takes_limits() const { return false; }
 
   /// The same, to be answered `later` if nothing is entered before max_time.
   virtual void ask_until(const Query& query, double /*max_time*/) { ask(query); }

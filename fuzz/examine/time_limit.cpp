@@ -14,35 +14,48 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where nothing is hit.
 constexpr double kSomeTime = 100;
 
+// How near `before` and `after` come.
+constexpr int kFewestBits = 20, kMostBits = 51;
+
 }  // namespace
 
-std::string_view words_of(LimitAt limit) {
-  constexpr std::string_view kWords[] = {"",
-                                         "limit at the time",
-                                         "limit just below the time",
-                                         "limit just above the time",
-                                         "limit at half the time",
-                                         "limit at twice the time"};
-  return kWords[static_cast<int>(limit)];
+std::string words_of(LimitAt limit) {
+  static const std::string kWords[] = {"",
+                                       "limit at the time",
+                                       "limit just below the time",
+                                       "limit just above the time",
+                                       "limit at half the time",
+                                       "limit at twice the time"};
+  if (limit.place == LimitAt::before || limit.place == LimitAt::after)
+    return "limit 2^-" + std::to_string(limit.bits) +
+           (limit.place == LimitAt::before ? " before the time" : " after the time");
+  return kWords[limit.place];
 }
 
 LimitAt limit_in(std::string_view words) {
   for (const LimitAt limit : {LimitAt::time, LimitAt::below, LimitAt::above, LimitAt::half, LimitAt::twice})
     if (words.ends_with(words_of(limit))) return limit;
+  for (int bits = kFewestBits; bits <= kMostBits; ++bits)
+    for (const LimitAt limit : {LimitAt(LimitAt::before, bits), LimitAt(LimitAt::after, bits)})
+      if (words.ends_with(words_of(limit))) return limit;
   return LimitAt::none;
 }
 
-LimitAt drawn_limit(Random& random, Subject::Limits limits, const Answer& exact) {
-  if (limits == Subject::Limits::none || exact.outcome == Outcome::error) return LimitAt::none;
-  if (exact.outcome == Outcome::hit && !(std::isfinite(*exact.time) && *exact.time > 0)) return LimitAt::none;
-  if (limits == Subject::Limits::rough || random.one_in(4))
-    return random.one_in(2) ? LimitAt::half : LimitAt::twice;
+LimitAt drawn_limit(Random& random, const Answer& exact) {
+  if (exact.outcome == Outcome::error) return LimitAt::none;
+  const bool hit = exact.outcome == Outcome::hit;
+  if (hit && !std::isfinite(*exact.time)) return LimitAt::none;
+  const bool at_once = hit && *exact.time == 0;  // fractions of it are the same
+  if (!at_once && random.one_in(4)) return random.one_in(2) ? LimitAt::half : LimitAt::twice;
+  if (!at_once && random.one_in(2))
+    return {random.one_in(2) ? LimitAt::before : LimitAt::after,
+            static_cast<int>(random.integer(kFewestBits, kMostBits))};
   return random.one_in(2) ? LimitAt::time : random.one_in(2) ? LimitAt::below : LimitAt::above;
 }
 
 double limit_of(LimitAt limit, const Answer& exact) {
   const double time = exact.outcome == Outcome::hit ? *exact.time : kSomeTime;
-  switch (limit) {
+  switch (limit.place) {
     case LimitAt::none:
       return kInfinity;
     case LimitAt::time:
@@ -55,6 +68,10 @@ double limit_of(LimitAt limit, const Answer& exact) {
       return time / 2;
     case LimitAt::twice:
       return 2 * time;
+    case LimitAt::before:
+      return time * (1 - std::ldexp(1, -limit.bits));
+    case LimitAt::after:
+      return time * (1 + std::ldexp(1, -limit.bits));
   }
   return kInfinity;
 }

@@ -1,24 +1,34 @@
 // Time limits at and beside the time of a hit.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include <lorentz/problem.hpp>
 #include "cases/random.hpp"
-#include "fuzz/examine/subject.hpp"
 
 namespace lorentz::fuzz {
 
-enum class LimitAt { none, time, below, above, half, twice };
+/// Where a limit is, seen from the time t of the hit.
+struct LimitAt {
+  enum Place { none, time, below, above, half, twice, before, after };
+
+  Place place = none;
+  int bits = 0;  ///< of `before` and `after`: at t (1 - 2^-bits), t (1 + 2^-bits)
+
+  LimitAt() = default;
+  LimitAt(Place at, int at_bits = 0) : place(at), bits(at_bits) {}
+  friend bool operator==(const LimitAt&, const LimitAt&) = default;
+};
 
 /// Like "limit at the time"; empty for none.
-std::string_view words_of(LimitAt limit);
+std::string words_of(LimitAt limit);
 
 /// The one that such words end with; none of other words.
 LimitAt limit_in(std::string_view words);
 
-/// One that the subject can be asked with at this exact answer; where its time is not finite, none.
-LimitAt drawn_limit(cases::Random& random, Subject::Limits limits, const Answer& exact);
+/// One for a question with this exact answer; where its time is not finite, none.
+LimitAt drawn_limit(cases::Random& random, const Answer& exact);
 
 /// The limit of a question with this exact answer. `never` and `inside` have no time: any limit will do.
 double limit_of(LimitAt limit, const Answer& exact);

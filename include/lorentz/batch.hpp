@@ -21,7 +21,7 @@ struct QueryColumns {
   std::size_t count = 0;
   std::array<const double*, 3> x{}, v{};
 
-  const double* max_time = nullptr;  ///< as Reduction::fly takes it; null: no query has a limit
+  const double* max_time = nullptr;  ///< as in Reduction::fly; null: no query has a limit
 
   /// The obstacle that a query leaves, which it ignores; a lattice below 0: none. All null: no query leaves
   /// one.

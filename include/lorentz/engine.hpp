@@ -2,6 +2,7 @@
 // of the velocity.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -65,6 +66,13 @@ inline double scaled_time(double time, int exponent) {
   return exponent > -500 && exponent < 500 ? time * power_of_two(exponent) : std::scalbn(time, exponent);
 }
 
+/// A limit in such units: above zero, or finite, if it was.
+inline double scaled_limit(double limit, int exponent) {
+  using Range = std::numeric_limits<double>;
+  if (!(limit > 0 && limit < Range::infinity())) return limit;
+  return std::clamp(scaled_time(limit, exponent), Range::min(), Range::max());
+}
+
 /// A first-hit engine for one scene.
 ///
 ///  1. Const and without hidden state: any number of threads may ask one engine.
@@ -99,6 +107,9 @@ class Engine {
   /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity.
   virtual void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const = 0;
 
+  /// True if first_hit_scaled decides the limit. Otherwise its rounded time is compared with it.
+  virtual bool decides_limit() const { return false; }
+
   /// What first_hit does, with `fly(ray, max_time, answer)` in place of first_hit_scaled.
   template <class Fly>
   void first_hit_by(const Query& query, double max_time, Answer& answer, const Fly& fly) const {
@@ -109,9 +120,9 @@ class Engine {
     }
     const ScaledVelocity velocity(query.v);
     fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v},
-        scaled_time(max_time, velocity.exponent), answer);
+        scaled_limit(max_time, velocity.exponent), answer);
     if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
-    if (std::isfinite(max_time)) answer = limited(std::move(answer), max_time);
+    if (std::isfinite(max_time) && !decides_limit()) answer = limited(std::move(answer), max_time);
   }
 
   const Scene& scene() const { return scene_; }

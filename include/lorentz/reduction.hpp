@@ -11,6 +11,7 @@
 namespace lorentz {
 
 struct AtomDirections;  // of the engine's inside: a velocity as seen from each atom
+struct Task;            // and what it is asked
 
 /// The first obstacle on a flight, for one scene, in binary64.
 ///
@@ -18,7 +19,8 @@ struct AtomDirections;  // of the engine's inside: a velocity as seen from each 
 ///  1. An outcome other than `undecided` is right, and so is the obstacle: those of the exact oracle.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Grazing hits: every stage decides, and none wrongly",
-///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases"
+///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
+///             "Limits within ulps of the time: what is not undecided is right, alone and in a batch"
 ///  2. The time of a drawn flight errs by at most 6 ulps among balls, 8 among ellipses and ellipsoids
 ///     (seen: 5 and 6), by more if the flight ends within some 1e-16 r of its start. It is correctly
 ///     rounded where `time_is_rounded` says so, for which one asks with Time::rounded. "Drawn": isotropic
@@ -74,12 +76,9 @@ class Reduction : public Engine {
   enum class Time { close, rounded };
 
   /// The first obstacle, as a Flight: an answer without strings. Requires a query without flaws (flaw_of):
-  /// this is not checked. Outcomes: `hit`, `never`, `inside`, `undecided`.
-  ///
-  /// `max_time` only cuts the search short, and `later` is not used: of a flight with nothing before it the
-  /// outcome is `never`, or a `hit` after it, of an obstacle that need not be the first.
-  /// limited(answer_of(flight), max_time) says `later` for both. `first_hit`, which all engines
-  /// have, does that, and checks the query besides.
+  /// this is not checked. Outcomes: `hit`, `never`, `inside`, `undecided`, and with a finite `max_time`
+  /// `later` in place of `never`: nothing is entered before it. The exact time decides that, also where the
+  /// time that is told is rounded to the limit, or beyond it; a time too near the limit is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
@@ -98,8 +97,10 @@ class Reduction : public Engine {
 
  private:
   void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
+  bool decides_limit() const override { return true; }
   void fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
            Flight& flight) const;
+  void fly_to_limit(Task task, Flight& flight) const;
   std::unique_ptr<const Model> model_;
 };
 

@@ -32,12 +32,8 @@ bool Certified::answer_fast(const Query& query, const Request& request, Answer& 
   const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
   Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded);
   if (flight.outcome == Outcome::undecided) return false;
-  // Rounding keeps order: only of a time that is rounded to the limit itself one does not know on which side
-  // it is.
-  const bool hit = flight.outcome == Outcome::hit;
-  if (hit && (!flight.time_is_rounded || flight.time == max_time)) return false;
-  if (request.max_time && (flight.outcome == Outcome::never || (hit && flight.time > max_time)))
-    flight.outcome = Outcome::later;
+  if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;
+  if (request.max_time && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
   set_answer(flight, answer);
   if (tally) tally->count(flight.stage);
   return true;

@@ -362,6 +362,11 @@ TEST_CASE("The width of an ellipse: kRhoOfShape, kAlongOfShape", "[engines][boun
     return width_of(one, square_of(w)).error;
   };
   covers(kRhoOfShape, rho_error(1) - rho_error(0));
+  // v^2, which the time is divided by, errs by up to twice as much: Entry::v2_error.
+  for (const double c : {1.0, 16.0, kMaxCondition}) {
+    const Carried w[2] = {{1, c * of_w}, none};
+    covers(2 * (kRho + kRhoOfShape * c), square_of(w).error, 4);
+  }
   is_enough(kRho, rho_error(0) + 3);  // det N's rounding, and two of a comparison
   // s = (N^T w) . d, relative to |N| |w| |d|, where c >= 1; sqrt(2) since the terms add up in both sums.
   const Carried along = sum_of_products(N, Carried{1, of_w}, none, none);

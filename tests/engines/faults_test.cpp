@@ -106,6 +106,61 @@ TEST_CASE("Fault: a hit just before a time limit was not found, 10^24 cells out"
   }
 }
 
+TEST_CASE("Fault: a hit after a time limit was said to be at 0, next to the surface of an ellipsoid",
+          "[engines][faults]") {
+  const double a = 4.172325134277344e-06;
+  Scene scene = unit_scene(3, 0);
+  scene.lattices[0].atoms = {
+      {{2.5033950805664062e-06, 0, 0}, 0, {Vec{0, 0, a}, Vec{a, 0, 0}, Vec{0, 3.0517578125e-05, 0}}}};
+  const Query query{{-1.0587911840678754e-22, 0, -3.337860107421875e-06}, {0, 0, 1}, {}};
+  const double time = *oracle::Oracle(scene).first_hit(query).time;
+  CHECK(time == 7.940933880509066e-23);
+  for (const double limit :
+       {3.97e-23, time / 2, std::nextafter(time, 0), time, std::nextafter(time, 1), 2 * time}) {
+    INFO("limit " << limit);
+    const Answer exact = oracle::Oracle(scene).first_hit(query, {.max_time = limit});
+    CHECK(test::same(oracle::Certified(scene).first_hit(query, {.max_time = limit}), exact));
+    const Answer given = make_engine("reduction", scene)->first_hit(query, limit);
+    CHECK((given.outcome == exact.outcome || given.outcome == Outcome::undecided));
+  }
+  CHECK(make_engine("reduction", scene)->first_hit(query, 3.97e-23).outcome == Outcome::later);
+}
+
+TEST_CASE("Fault: a time limit was held against a time that is a few ulps off", "[engines][faults]") {
+  const Scene scene = unit_scene(2, 0.1);
+  const Query query{{-0.5, 0}, {1, 0}, {}};  // the exact time is a little below 0.4
+  for (const double limit : {0.3999999999999999, 0.4, 0.4000000000000001}) {
+    INFO("limit " << limit);
+    CHECK(make_engine("reduction", scene)->first_hit(query, limit).outcome ==
+          (limit >= 0.4 ? Outcome::hit : Outcome::later));
+  }
+  // A time that is a binary64, as a limit: what is next to it is told apart from it.
+  const Scene exact = unit_scene(2, 0.125);
+  const auto before = [&](double limit) {
+    return make_engine("reduction", exact)->first_hit(query, limit).outcome;
+  };
+  CHECK(before(0.375) == Outcome::undecided);
+  CHECK(before(std::nextafter(0.375, 0)) == Outcome::later);
+  CHECK(before(std::nextafter(0.375, 1)) == Outcome::hit);
+  // Nothing is entered before 0.
+  CHECK(before(0) == Outcome::later);
+  CHECK(before(-1) == Outcome::later);
+}
+
+TEST_CASE("Fault: the disc behind a slender ellipse that is grazed was said to be hit first",
+          "[engines][faults]") {
+  Scene scene = unit_scene(2, 0.01);
+  scene.lattices[0].atoms = {
+      {{0.2258903839499338, -0.08656848772261432},
+       0,
+       {Vec{0.18668953797695942, -0.07174270980350146}, Vec{0.00011051321416583061, 0.00028757850030304734}}},
+      {{0.33093176339349634, -0.1272081344214228}, 0.01, {}}};
+  check_all(
+      scene,
+      {{-0.00012844915334166043, -0.00033517310201102064}, {0.9337780460670422, -0.3578538931277301}, {}},
+      Answer::hit(at(0, 0), 0.34453844508457626));
+}
+
 // The corridor of (p, q) has the width 1 / |(p, q)| - 2 r, here zero but for rounding; the start is midway
 // between its edges, so that discs on both sides touch the line, or nearly.
 TEST_CASE("Fault: a flight between discs that leave no corridor, but for rounding, did not end",

@@ -287,3 +287,51 @@ TEST_CASE("certified is exact among ellipsoids, whatever the engine says of them
   CHECK(tally.binary64 > 1'500);   // 2 284 seen
   CHECK(tally.undecided > 2'700);  // 3 386 seen
 }
+
+// The line passes the ellipse at (1 - e) of its half width, e as small as makes the second stage look, and
+// enters the disc within 2^-36 of the time. The start is near the origin: it has the digits for that.
+TEST_CASE("A slender ellipse that is grazed, and a disc that is entered as soon",
+          "[engines][reduction_ellipsoid]") {
+  constexpr double kLength = 0.2, kRadius = 0.01;
+  Draw draw(20);
+  INFO("seed 20");
+  long cases = 0, decided = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double turn = draw.between(0, 6.28), c = std::exp2(draw.between(10, 11));
+    const Vec e{std::cos(turn), std::sin(turn)}, across{-e[1], e[0]};
+    const double tilt = draw.between(-0.9, 0.9) / c;
+    const Vec v{e[0] + tilt * across[0], e[1] + tilt * across[1]};
+    const Real speed = sqrt(Real(v[0]) * v[0] + Real(v[1]) * v[1]), normal[2] = {-v[1] / speed, v[0] / speed};
+    Scene scene = unit_scene(2, kRadius);
+    const double way = draw.between(0.22, 0.28) / static_cast<double>(speed);
+    Atom ellipse{
+        {way * v[0], way * v[1]},
+        0,
+        {Vec{kLength * e[0], kLength * e[1]}, Vec{kLength / c * across[0], kLength / c * across[1]}}};
+    Real width2 = 0;
+    for (const Vec& axis : ellipse.semiaxes) {
+      const Real reach = axis[0] * normal[0] + axis[1] * normal[1];
+      width2 += reach * reach;
+    }
+    const Real off = ellipse.position[0] * normal[0] + ellipse.position[1] * normal[1],
+               aside = off - sqrt(width2) * (1 - std::fabs(draw.tiny(-44, -40)));
+    Query query{{static_cast<double>(aside * normal[0]), static_cast<double>(aside * normal[1])}, v, {}};
+    scene.lattices[0].atoms = {ellipse};
+    if (Reduction::beyond(scene)) continue;
+    const Answer alone = oracle::Oracle(scene).first_hit(query);
+    if (alone.outcome != Outcome::hit || *alone.time > 1) continue;
+    const double to_centre = *alone.time * (1 + draw.tiny(-49, -36)) + kRadius / static_cast<double>(speed);
+    scene.lattices[0].atoms.push_back(
+        {{query.x[0] + to_centre * v[0], query.x[1] + to_centre * v[1]}, kRadius, {}});
+    const Answer exact = oracle::Oracle(scene).first_hit(query);
+    const Flight flight = Reduction(scene).fly(query);
+    INFO(stream(scene, query));
+    ++cases;
+    decided += flight.outcome != Outcome::undecided;
+    if (flight.outcome != Outcome::undecided) REQUIRE(answer_of(flight).obstacle == exact.obstacle);
+    REQUIRE(same(oracle::Certified(scene).first_hit(query), exact));
+  }
+  CHECK(cases > 8'000);
+  INFO("decided " << decided);
+  CHECK(decided > 4'500);  // 5 441 seen
+}

@@ -136,3 +136,26 @@ TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[
   });
   CHECK(few > 150);  // 200 seen
 }
+
+TEST_CASE("Starts of the family skin are nearer to the surface than an ulp of its place",
+          "[fuzz][campaign_families]") {
+  int hits = 0, together = 0, twins = 0;
+  visit_cases(cases::skin(), 1200, [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
+    if (has(one, "twin")) {  // whose obstacle may contain the start
+      ++twins;
+      Query leaving = one.query;
+      leaving.from = exact.obstacle;
+      const Answer next = oracle.first_hit(leaving);
+      together += exact.outcome == Outcome::hit && next.outcome == Outcome::hit &&
+                  *next.time - *exact.time < 1e-12 / length(one.query.v);
+      return;
+    }
+    REQUIRE(exact.outcome == Outcome::hit);
+    const Atom& atom = one.scene.lattices[0].atoms[0];
+    const double place = length(atom.position);
+    hits += *exact.time * length(one.query.v) < place * 0x1p-40;
+  });
+  CHECK(hits > 690);      // 856 seen
+  CHECK(twins > 270);     // 336 seen
+  CHECK(together > 250);  // 315 seen
+}

@@ -114,7 +114,7 @@ std::string outcome_in(const std::string& answer) {
 class ParochialSubject final : public fuzz::Subject {
  public:
   void ask(const Query& query) override { replies_.push_back({answer(query)}); }
-  Limits limits() const override { return Limits::exact; }
+  bool takes_limits() const override { return true; }
   void ask_until(const Query& query, double max_time) override {
     replies_.push_back({limited(answer(query), max_time)});
   }
@@ -489,7 +489,7 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
        {cases::leaving(), cases::scale(), cases::mixture(), cases::rounding(), cases::early(),
         cases::nearly_parallel(), cases::ellipsoid_edges(), cases::drift(), cases::vast_ellipsoids(),
         cases::nearby(), cases::unequal_radii(), cases::dense_rows(), cases::dense_layers(), cases::slender(),
-        cases::far_starts(), cases::skewed_cells(), cases::specks()}) {
+        cases::far_starts(), cases::skewed_cells(), cases::specks(), cases::skin()}) {
     std::map<std::string, int> met;
     for (const cases::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();

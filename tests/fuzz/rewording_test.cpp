@@ -148,31 +148,34 @@ TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers
 TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the time itself",
           "[fuzz][rewording]") {
   constexpr std::uint64_t kOther = 1303;
-  std::map<fuzz::LimitAt, int> met, later;
+  std::map<fuzz::LimitAt::Place, int> met, later;
   for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 64; ++index) {
       const cases::Case one = target.make(kOther, index);
       const oracle::Oracle& oracle = cases::oracle_of(one.scene);
       const Answer exact = oracle.first_hit(one.query);
       Random random(kOther, target.name(), index, cases::Use::rewordings);
-      const fuzz::LimitAt at = fuzz::drawn_limit(random, fuzz::Subject::Limits::exact, exact);
+      const fuzz::LimitAt limit = fuzz::drawn_limit(random, exact);
+      const auto at = limit.place;
       if (at == fuzz::LimitAt::none) continue;
+      CHECK(fuzz::limit_in("basis 2^3, " + fuzz::words_of(limit)) == limit);
       oracle::Request request;
-      request.max_time = fuzz::limit_of(at, exact);
+      request.max_time = fuzz::limit_of(limit, exact);
       const bool is_later = oracle.first_hit(one.query, request).outcome == Outcome::later;
       ++met[at];
       later[at] += is_later;
-      INFO("seed " << kOther << ", " << target.name() << ' ' << index << ": " << fuzz::words_of(at));
+      INFO("seed " << kOther << ", " << target.name() << ' ' << index << ": " << fuzz::words_of(limit));
       if (exact.outcome != Outcome::hit)
         CHECK(is_later == (exact.outcome == Outcome::never));
-      else if (at != fuzz::LimitAt::time)
-        CHECK(is_later == (at == fuzz::LimitAt::below || at == fuzz::LimitAt::half));
+      else if (*request.max_time != *exact.time)
+        CHECK(is_later ==
+              (at == fuzz::LimitAt::below || at == fuzz::LimitAt::half || at == fuzz::LimitAt::before));
     }
-  for (const auto at :
-       {fuzz::LimitAt::below, fuzz::LimitAt::above, fuzz::LimitAt::half, fuzz::LimitAt::twice})
-    CHECK(met[at] > 190);                                              // 243 seen at least
-  CHECK(later[fuzz::LimitAt::time] > 290);                             // 366 seen
-  CHECK(met[fuzz::LimitAt::time] - later[fuzz::LimitAt::time] > 300);  // 376 seen
+  for (const auto at : {fuzz::LimitAt::below, fuzz::LimitAt::above, fuzz::LimitAt::half, fuzz::LimitAt::twice,
+                        fuzz::LimitAt::before, fuzz::LimitAt::after})
+    CHECK(met[at] > 100);
+  CHECK(later[fuzz::LimitAt::time] > 190);                             // 239 seen
+  CHECK(met[fuzz::LimitAt::time] - later[fuzz::LimitAt::time] > 135);  // 171 seen
 }
 
 TEST_CASE("Rewording: every golden record holds in other words", "[fuzz][rewording]") {

@@ -73,8 +73,9 @@ class Block {
   HWY_INLINE void fly() {
     V velocity[D];
     turn_.apply(velocity_.scaled, velocity);
-    V max_time = infinite();
-    if (stretch_.max_time) max_time = velocity_.limit_of(load(stretch_.max_time + at_), scene_.exponent);
+    TimeLimit limit{infinite()};
+    if (stretch_.max_time) limit.time = velocity_.limit_of(load(stretch_.max_time + at_), scene_.exponent);
+    V max_time = limit.time;
     typename Search::Direction to;
     Entry<D, kBall> best;
     V best_atom = none();
@@ -108,6 +109,7 @@ class Block {
       if (nowhere(lanes_.active)) break;
     }
     found_ = And(found_, lanes_.active);
+    if (stretch_.max_time) found_ = sooner(best, limit, found_);
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
       const M here = And(found_, best_atom == all(static_cast<double>(a)));
       if (any(here)) finish(here, a, best);
@@ -197,8 +199,17 @@ class Block {
     for (int k = 0; k < D; ++k) entry.n[k] = here[k];
   }
 
-  // Lanes of `next` in which one comes before the other; those in which that is not certain are left over.
-  HWY_INLINE M sooner(const Entry<D, kBall>& one, const Entry<D, kBall>& other, M next) {
+  // A time limit, in the place of a hit at that time.
+  struct TimeLimit {
+    V time;
+
+    HWY_INLINE V rough_time(V& error) const { return error = none(), time; }
+  };
+
+  // Lanes of `next` in which one comes before the other, a hit or a limit; those in which that is not certain
+  // are left over.
+  template <class Other>
+  HWY_INLINE M sooner(const Entry<D, kBall>& one, const Other& other, M next) {
     const M both = And(next, found_);
     V error, other_error;
     const V difference = other.rough_time(other_error) - one.rough_time(error);
@@ -282,8 +293,10 @@ class Block {
     store(where(found_, time_), stretch_.time + at_);
     const M named = Or(found_, inside_);
     for (int k = 0; k < D; ++k) store_integers(where(named, cell_[k]), stretch_.cell[k] + at_);
-    const V outcome = select(found_, number(Outcome::hit),
-                             select(inside_, number(Outcome::inside), number(Outcome::never)));
+    V nothing = number(Outcome::never);
+    if (stretch_.max_time)
+      nothing = select(load(stretch_.max_time + at_) < infinite(), number(Outcome::later), nothing);
+    const V outcome = select(found_, number(Outcome::hit), select(inside_, number(Outcome::inside), nothing));
     static_assert(sizeof(Outcome) == sizeof(std::int32_t));
     store_small_integers(outcome, reinterpret_cast<std::int32_t*>(stretch_.outcome) + at_);
     if (!kUnit) store_small_integers(atom_, stretch_.atom + at_);

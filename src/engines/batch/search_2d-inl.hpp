@@ -117,7 +117,7 @@ class Search2 {
     found.s_error = found.slack = found.slack_error = found.across = none();
     found.n[0] = found.n[1] = none();
     found.v2 = to_.v2;
-    if constexpr (!kBall) found.euclidean_v2 = to_.euclidean_v2;
+    if constexpr (!kBall) found.euclidean_v2 = to_.euclidean_v2, found.v2_error = all(2 * to_.rho_error);
     V gap = all(2) * to_.rho * all(1 + kSlop2d);
     if constexpr (!kUnit) gap = gap + R.D_error;
     in_order_ = R.D > gap;  // rows come one after the other

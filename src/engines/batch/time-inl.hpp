@@ -19,13 +19,15 @@ template <int D, bool kBall>
 struct Entry {
   V n[D];
   V s, s_error, slack, slack_error, v2;
-  // Of ellipsoids: in 2D v.v, and h skew; in 3D the form that s is.
-  V euclidean_v2, across;
+  // Of ellipsoids: in 2D v.v, h skew, and the relative error of v2; in 3D the form that s is.
+  V euclidean_v2, across, v2_error;
   Pair along[kBall || D == 2 ? 1 : D];
 
   HWY_INLINE V rough_time(V& error) const {
     const V q = Sqrt(slack);
-    error = all(2) * (s_error + slack_error / q) / v2 + all(kRoughTime * kRoundoff) * s / v2;
+    V relative = all(kRoughTime * kRoundoff);
+    if constexpr (!kBall && D == 2) relative = relative + v2_error;
+    error = all(2) * (s_error + slack_error / q) / v2 + relative * s / v2;
     return (s - q) / v2;
   }
 
@@ -37,6 +39,7 @@ struct Entry {
     if constexpr (!kBall && D == 2) {
       euclidean_v2 = select(m, other.euclidean_v2, euclidean_v2);
       across = select(m, other.across, across);
+      v2_error = select(m, other.v2_error, v2_error);
     }
     if constexpr (!kBall && D == 3)
       for (int k = 0; k < D; ++k) along[k] = select(m, other.along[k], along[k]);
@@ -351,7 +354,7 @@ class Times {
     } else {
       Pair d[D];
       place(d);
-      time = (close_product(entry_.along, d).hi - q) / entry_.v2;
+      time = Max((close_product(entry_.along, d).hi - q) / entry_.v2, none());
     }
     if (any(grazing)) time = select(grazing, rare(), time);
     return time;

@@ -14,14 +14,16 @@ namespace lorentz {
 template <int D, bool kBall>
 struct Entry {
   double s, s_error, slack, slack_error, v2;
-  // Of ellipsoids: in 2D v.v, and h skew; in 3D the form that s is.
-  double euclidean_v2, across;
+  // Of ellipsoids: in 2D v.v, h skew, and the relative error of v2; in 3D the form that s is.
+  double euclidean_v2, across, v2_error;
   Wide along[kBall || D == 2 ? 1 : D];
 
   /// The time in binary64 and the bound of its error.
   double rough_time(double& error) const {
     const double q = std::sqrt(slack);
-    error = 2 * (s_error + slack_error / q) / v2 + kRoughTime * kRoundoff * s / v2;
+    double relative = kRoughTime * kRoundoff;
+    if constexpr (!kBall && D == 2) relative += v2_error;
+    error = 2 * (s_error + slack_error / q) / v2 + relative * s / v2;
     return rough_time_of(s, q, v2);
   }
 };
@@ -116,7 +118,7 @@ class EntryTime {
     } else {
       DD d[D];
       place(d);
-      return (close_product(entry_.along, d).hi - q) / entry_.v2;
+      return std::max((close_product(entry_.along, d).hi - q) / entry_.v2, 0.0);
     }
   }
 

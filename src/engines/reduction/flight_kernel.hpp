@@ -70,6 +70,7 @@ class AtomFlight {
     if constexpr (!kBall && D == 2) {
       entry_.euclidean_v2 = to.direction.shape.euclidean_v2;
       entry_.across = found.h * to.direction.shape.skew;
+      entry_.v2_error = 2 * to.direction.shape.rho_error;  // v2 is (rho / r)^2
     }
     if constexpr (kTurned)
       to.octant.undo(found.N, N_);

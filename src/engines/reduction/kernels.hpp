@@ -2,6 +2,7 @@
 // engine.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include <lorentz/reduction.hpp>
@@ -16,8 +17,11 @@ struct Task {
   const Vec& v;  ///< in [1, 2)
   const ObstacleId* from;
   double max_time;
+  double search_time;  ///< what is entered after it need not be searched for: at least max_time
   const AtomDirections* directions;  ///< of each atom, or null: then they are made here
   Reduction::Time time;
+
+  bool is_limited() const { return max_time < std::numeric_limits<double>::infinity(); }
 };
 
 using FlightKernel = void (*)(const Task&, Flight&);

@@ -66,26 +66,38 @@ const char* Reduction::model() const {
   return "";
 }
 
+// A search that ends at a limit may meet what it cannot decide beyond the first hit, where one without a limit
+// never looks.
+inline void Reduction::fly_to_limit(Task task, Flight& flight) const {
+  model_->kernels.fly(task, flight);
+  if (flight.outcome != Outcome::undecided || !task.is_limited()) return;
+  task.search_time = HUGE_VAL;
+  flight = {};
+  model_->kernels.fly(task, flight);
+}
+
 inline void Reduction::fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
                            Flight& flight) const {
   const int exponent = model_->scene.exponent;
   if (exponent == 0) {
-    model_->kernels.fly({model_->scene, ray.x, ray.v, ray.from, max_time, directions, time}, flight);
+    fly_to_limit({model_->scene, ray.x, ray.v, ray.from, max_time, max_time, directions, time}, flight);
   } else {
+    const double limit = scaled_limit(max_time, -exponent);
     Vec x;
     for (int i = 0; i < 3; ++i) x[i] = scaled_time(ray.x[i], -exponent);
-    model_->kernels.fly(
-        {model_->scene, x, ray.v, ray.from, scaled_time(max_time, -exponent), directions, time}, flight);
+    fly_to_limit({model_->scene, x, ray.v, ray.from, limit, limit, directions, time}, flight);
     rescale(flight, exponent);
   }
-  if (flight.outcome == Outcome::never && ray.has_tiny_component()) give_up(flight);
+  if (flight.outcome != Outcome::never) return;
+  if (max_time < HUGE_VAL) flight.outcome = Outcome::later;
+  if (ray.has_tiny_component()) give_up(flight);
 }
 
 Flight Reduction::fly(const Query& query, double max_time, Time time) const {
   Flight flight;
   const ScaledVelocity velocity(query.v);
   fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v}, nullptr,
-      scaled_time(max_time, velocity.exponent), time, flight);
+      scaled_limit(max_time, velocity.exponent), time, flight);
   rescale(flight, -velocity.exponent);
   return flight;
 }
@@ -104,7 +116,7 @@ Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId
                       Time time) const {
   Flight flight;
   fly(Ray{x, direction.scaled_v_, from, direction.v_}, direction.atoms_.get(),
-      scaled_time(max_time, direction.exponent_), time, flight);
+      scaled_limit(max_time, direction.exponent_), time, flight);
   rescale(flight, -direction.exponent_);
   return flight;
 }

@@ -37,6 +37,38 @@ inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) 
   flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
 }
 
+/// A time limit, in the place of a hit at that time.
+struct TimeLimit {
+  double time_;
+
+  double rough_time(double& error) const { return error = 0, time_; }
+  TimeLimit time(const Vec&) const { return *this; }
+  Wide rare(double& error) const { return error = 0, time_; }
+};
+
+// Is one hit before the other, or before a limit? Binary64, then double-double.
+template <class OneFlight, class Other>
+inline Decision is_sooner(const OneFlight& one, const Other& other, const Vec& v, Stage& stage) {
+  double error, other_error;
+  const double difference = other.rough_time(other_error) - one.rough_time(error);
+  const Decision decision = is_positive(difference, error + other_error);
+  if (decision != Decision::doubtful) return decision;
+  stage = std::max(stage, Stage::double_double);
+  const Wide close = other.time(v).rare(other_error) - one.time(v).rare(error);
+  return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
+}
+
+/// Is the hit before the limit? Else there is none. False: undecided. (No part of its caller, whose registers
+/// it would take.)
+template <class AtomFlight>
+[[gnu::noinline]] bool keep_limit(const AtomFlight& found, const Task& task, Flight& flight) {
+  // No time is below zero, whatever it errs by.
+  const Decision sooner =
+      task.max_time > 0 ? is_sooner(found, TimeLimit{task.max_time}, task.v, flight.stage) : Decision::no;
+  if (sooner == Decision::no) flight.outcome = Outcome::never;
+  return sooner != Decision::doubtful;
+}
+
 /// One atom in the scene.
 template <class Arch, int D, bool kUnit, bool kBall>
 inline void fly_one(const Task& task, Flight& flight) {
@@ -48,29 +80,19 @@ inline void fly_one(const Task& task, Flight& flight) {
   if (inside == Decision::doubtful) return give_up(flight);
   if (inside == Decision::no) {
     if (task.directions)
-      atom.find(direction_of<Direction>(*task.directions, 0), task.from, task.max_time);
+      atom.find(direction_of<Direction>(*task.directions, 0), task.from, task.search_time);
     else
-      atom.find(Direction(Arch{}, lattice, task.v), task.from, task.max_time);
+      atom.find(Direction(Arch{}, lattice, task.v), task.from, task.search_time);
     flight.outcome = atom.outcome;
   } else {
     flight.outcome = Outcome::inside;
   }
   flight.stage = atom.stage;
+  if (flight.outcome == Outcome::hit && task.is_limited() && !keep_limit(atom, task, flight))
+    return give_up(flight);
   const bool named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
   if (named && !atom.cell(flight.cell)) return give_up(flight);
   if (flight.outcome == Outcome::hit) set_time(atom, task, flight);
-}
-
-// Is one hit before the other? Binary64, then double-double.
-template <class OneFlight>
-inline Decision is_sooner(const OneFlight& one, const OneFlight& other, const Vec& v, Stage& stage) {
-  double error, other_error;
-  const double difference = other.rough_time(other_error) - one.rough_time(error);
-  const Decision decision = is_positive(difference, error + other_error);
-  if (decision != Decision::doubtful) return decision;
-  stage = std::max(stage, Stage::double_double);
-  const Wide close = other.time(v).rare(other_error) - one.time(v).rare(error);
-  return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
 }
 
 /// The flights of several atoms: those of the first few are kept from the inside tests for the searches.
@@ -115,7 +137,7 @@ inline void fly_several(const Task& task, Flight& flight) {
   OneFlight best;
   const Bravais* best_lattice = nullptr;
   std::optional<Direction> own;
-  double limit = task.max_time;
+  double limit = task.search_time;
   for (std::size_t a = 0; a < atoms.size(); ++a) {
     if (!task.directions) Direction::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
     const Direction& to = task.directions ? direction_of<Direction>(*task.directions, a) : *own;
@@ -135,6 +157,8 @@ inline void fly_several(const Task& task, Flight& flight) {
   }
   if (!best_lattice) return;
   flight.outcome = Outcome::hit;
+  if (task.is_limited() && !keep_limit(best, task, flight)) return give_up(flight);
+  if (flight.outcome == Outcome::never) return;
   flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
   if (!best.cell(flight.cell)) return give_up(flight);
   set_time(best, task, flight);

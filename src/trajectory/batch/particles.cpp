@@ -73,6 +73,8 @@ Stop Particles::Inside::meet(const Motion& motion, Particle& particle, std::size
                          until, collision);
     case Outcome::never:
       return motion.fly_on(particle, until, Stop::never);
+    case Outcome::later:
+      return motion.fly_on(particle, until, Stop::later);
     case Outcome::inside:
       return Stop::inside;
     case Outcome::undecided:

@@ -1,0 +1,96 @@
+// skin: starts outside an obstacle's surface, nearer to it than an ulp of the place of either.
+//
+// With a Pythagorean triple (a, b, w) and semiaxes w A e_1, w B e_2 an obstacle around (a A, 0) has (0, -b B)
+// on its surface, exactly. There the first component of a start is zero, so it may be any tiny number: 2^-45
+// to 2^-100 of the radius outside. The atom's place is not zero, so x - p is of many more digits than x and
+// p. The time of entry is as small: what rounding makes of it is no time at all, and whatever is compared
+// with it (a limit, the time of another atom's obstacle whose surface is as near) is compared with noise.
+#include <array>
+#include <cmath>
+
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/symmetry.hpp"
+
+namespace lorentz::cases {
+namespace {
+
+struct Triple {
+  int a, b, w;
+};
+constexpr Triple kTriples[] = {{1, 0, 1},   {3, 4, 5},   {4, 3, 5},   {5, 12, 13},
+                               {12, 5, 13}, {8, 15, 17}, {24, 7, 25}, {20, 21, 29}};
+
+// Semiaxes along the axes, up to 8 times as long as others: exact products of small integers.
+std::vector<Vec> drawn_semiaxes(Random& drawn, const Symmetry& symmetry, int w, double size, Vec& lengths) {
+  std::vector<Vec> semiaxes;
+  for (int i = 0; i < 3; ++i) lengths[i] = size * static_cast<double>(drawn.integer(1, 8));
+  for (int i = 0; i < 3; ++i) {
+    Vec axis{};
+    axis[i] = w * lengths[i];
+    semiaxes.push_back(symmetry(axis));
+  }
+  return semiaxes;
+}
+
+// Another atom with nearly the same surface.
+void add_twin(Random& drawn, const Symmetry& symmetry, double size, Case& made) {
+  Atom twin = made.scene.lattices[0].atoms[0];
+  const double aside = size * drawn.octave(-120, -45) * drawn.sign();
+  const Vec step = symmetry(Vec{0, aside, 0});
+  for (int i = 0; i < 3; ++i) twin.position[i] += step[i];
+  if (drawn.one_in(2)) {
+    made.scene.lattices.push_back(made.scene.lattices[0]);
+    made.scene.lattices[1].atoms = {twin};
+  } else {
+    made.scene.lattices[0].atoms.push_back(twin);
+  }
+}
+
+Case make_skin(Source& source) {
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const int dimension = drawn.one_in(2) ? 3 : 2;
+  const Symmetry symmetry(drawn, dimension);
+  made.scene = drawn.one_in(2) ? unit_scene(dimension, 1) : drawn_crystal(drawn, dimension).scene;
+  Lattice& lattice = made.scene.lattices[0];
+  const Triple triple = kTriples[drawn.below(std::size(kTriples))];
+  const double size = std::ldexp(1, static_cast<int>(-drawn.integer(dimension == 2 ? 12 : 10, 20)));
+  Vec lengths{size, size, size};
+  Atom atom{{}, triple.w * size, {}};
+  if (drawn.one_in(3)) {
+    made.tags.push_back("ball");
+  } else {
+    made.tags.push_back("ellipsoid");
+    atom.semiaxes = drawn_semiaxes(drawn, symmetry, triple.w, size, lengths);
+    atom.semiaxes.resize(static_cast<std::size_t>(dimension));
+    atom.radius = 0;
+  }
+  atom.position = symmetry(Vec{triple.a * lengths[0], 0, 0});
+  lattice.atoms = {atom};
+  if (drawn.one_in(3)) {
+    made.tags.push_back("twin");
+    add_twin(drawn, symmetry, size, made);
+  }
+  const double gap = lengths[0] * random.octave(-100, -45);
+  made.query.x = symmetry(Vec{-gap, -triple.b * lengths[1], 0});
+  // Inwards: along the normal, beside it, or nearly along the surface.
+  const double first = random.one_in(3) ? 0 : random.octave(-20, 1);
+  const double second = triple.b == 0 || random.one_in(3) ? random.octave(-20, 1) : 1;
+  const double third = dimension == 2 || random.one_in(3) ? 0 : random.between(-1, 1);
+  made.query.v = symmetry(Vec{triple.b == 0 && first == 0 ? 1 : first, second, third});
+  return made;
+}
+
+}  // namespace
+
+Family skin() {
+  return {"skin",
+          "Starts outside an obstacle by less than an ulp of its place, moving inwards.",
+          {{"ball", "of a ball"},
+           {"ellipsoid", "of an ellipsoid"},
+           {"twin", "another atom's surface is as near"}},
+          make_skin};
+}
+
+}  // namespace lorentz::cases
