@@ -176,23 +176,3 @@ Proof.
     destruct (Near 1 K) as (t' & [(_ & I)|(E & _)] & L); [lra|discriminate]. }
   destruct (Least a 1 ltac:(discriminate) Ea) as [L|[_ L]]; [lra|]. exact (no_tie_back L).
 Qed.
-
-(* ---- Answers exclude each other, and are unique: of the definitions alone. *)
-Lemma less_asymmetric l : forall m, less l m -> ~ less m l.
-Proof.
-  induction l as [|i l IH]; intros [|j m]; cbn; try tauto. intros [H|[E H]] [K|[E' K]]; try lia.
-  apply (IH m H K).
-Qed.
-Theorem hit_unique within from o t o' t' : first_hit within from o t -> first_hit within from o' t' ->
-  o = o' /\ t = t'.
-Proof.
-  intros (F & En & _ & A) (F' & En' & _ & A'). specialize (A _ _ F' En'). specialize (A' _ _ F En).
-  destruct A as [A|[A1 A2]], A' as [A'|[A1' A2']]; try lra. split; auto.
-  destruct A2 as [|B], A2' as [|B']; auto. exfalso. exact (less_asymmetric _ _ B B').
-Qed.
-Theorem hit_excludes within from o t : first_hit within from o t ->
-  ~ nothing within from /\ forall o', ~ first_inside within from o'.
-Proof.
-  intros (F & En & N & _). split; [intros K; exact (proj2 (K o F) t En)|]. intros o' (F' & C & _).
-  exact (N o' F' C).
-Qed.
