@@ -195,16 +195,15 @@ Section Record.
       rewrite <- bpow_plus. reflexivity.
   Qed.
 
-  Lemma check_answer_ok E ws a windows : 0 < E ->
-    passes (check_answer planar E sights (from q) ws a windows) -> correct sc q a.
+  Lemma check_answer_ok a c : passes (check_answer planar sights (from q) a c) -> correct sc q a.
   Proof.
-    intros HE H. unfold correct, check_answer in *. fold within. destruct a as [X time m e|X|].
+    intros H. unfold correct, check_answer in *. fold within.
+    destruct a as [X time m e|X|], c as [ws|ws]; try (apply passes_fail in H; tauto).
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
-      apply passes_both in H. destruct H as [_ H]. apply passes_both in H. destruct H as [H Ht].
-      destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
-      pose proof (check_hit_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs Ln
-        H) as F.
+      apply passes_both in H. destruct H as [H Ht]. destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
+      pose proof (check_hit_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H)
+        as F.
       exists (time_value (time_of (its_view s) n)). rewrite EX at 1. split; [exact F|].
       destruct F as (_ & En & _).
       pose proof (proj1 (entered planar sights within regular_sights chords s n _ Hs Ln) En)
@@ -212,11 +211,9 @@ Section Record.
       apply check_times_ok; [apply (time_of_regular sights regular_sights); auto|apply En|lia|exact Ht].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
-      apply passes_both in H. destruct H as [_ H]. destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
-      exact (check_inside_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs
-        Ln H).
-    - apply passes_both in H. destruct H as [_ H].
-      exact (check_never_ok planar sights (from q) ws within seen_all chords H).
+      destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
+      exact (check_inside_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H).
+    - exact (check_never_ok planar sights (from q) ws within seen_all chords H).
   Qed.
 End Record.
 
@@ -246,9 +243,5 @@ Proof.
       destruct (DB _ Hs) as (L & A & _ & HL & HA). destruct Es as [El Ea]. exists L, A.
       apply Nat.eqb_eq in Hc.
       unfold atom_of. rewrite El, Ea, Hc. auto.
-  - destruct (match c with Windows l => _ | Rows l => _ end) as [windows written].
-    destruct (all_some (read_piece (flat p)) (numbered 0 written)) as [ws|]; [|apply passes_fail in H; tauto].
-    apply passes_both in H. destruct H as [_ H]. apply passes_both in H. destruct H as [He H].
-    apply passes_require, Z.leb_le in He.
-    apply (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis) in H; [exact H|]. apply Z.pow_pos_nonneg; lia.
+  - exact (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis _ _ H).
 Qed.
