@@ -11,16 +11,16 @@ Record prepared := Prepared { flat : bool; count : nat; solids : list placed; bi
 Definition is_empty {A} (l : list A) : bool := match l with [] => true | _ => false end.
 Definition place_atoms (planar : bool) (l : Z * lattice) : option (list placed) :=
   if is_empty (atoms (snd l)) then None
-  else all_some (fun a => option_map (Placed (fst l) (fst a)) (read_solid planar (snd l) (snd a)))
-    (numbered 0 (atoms (snd l))).
+  else all_some_long (fun a => option_map (Placed (fst l) (fst a)) (read_solid planar (snd l) (snd a)))
+    (numbered_long (atoms (snd l))).
 Definition prepare (sc : scene) : option prepared :=
   if ((dimension sc =? 2)%nat || (dimension sc =? 3)%nat) && negb (is_empty (lattices sc)) then
     let planar := (dimension sc =? 2)%nat in
-    match all_some (place_atoms planar) (numbered 0 (lattices sc)) with
+    match all_some_long (place_atoms planar) (numbered_long (lattices sc)) with
     | Some placed =>
-      let solids := concat placed in
+      let solids := concat_long placed in
       Some (Prepared planar (dimension sc) solids
-        (fold_right (fun p b => fold_right Z.lor b (all_numbers planar (its_solid p))) 0 solids))
+        (fold_left (fun b p => fold_right Z.lor b (all_numbers planar (its_solid p))) solids 0))
     | None => None
     end
   else None.
@@ -34,7 +34,7 @@ Definition is_obstacle (p : prepared) (o : obstacle) : bool :=
   existsb (fun s => same_atom o (lattice_index s) (atom_index s)) (solids p) &&
     (length (cell o) =? count p)%nat.
 Definition see_all (p : prepared) (k : Z) (x v : zv) : list sight :=
-  map (fun s => Sight (lattice_index s) (atom_index s) (see (shrink k x) (shrink k v)
+  map_long (fun s => Sight (lattice_index s) (atom_index s) (see (shrink k x) (shrink k v)
     (shrink_solid (flat p) k (its_solid s))))
     (solids p).
 Definition visible (p : prepared) (k : Z) (v : zv) : bool :=

@@ -48,12 +48,17 @@ Record sight := Sight { its_lattice : Z; its_atom : Z; its_view : seen }.
 
 (* Each with the certificate's pieces for it. *)
 Definition looked := (sight * list written_piece)%type.
-Fixpoint look (sights : list sight) (pieces : list (list written_piece)) : list looked :=
-  match sights with [] => [] | a :: sights => (a, hd [] pieces) :: look sights (tl pieces) end.
-Lemma look_in sights a : forall pieces, In a sights -> exists ws, In (a, ws) (look sights pieces).
+Fixpoint look_on (sights : list sight) (pieces : list (list written_piece)) (got : list looked) :
+  list looked :=
+  match sights with [] => got | a :: sights => look_on sights (tl pieces) ((a, hd [] pieces) :: got) end.
+Definition look sights pieces := look_on sights pieces [].
+Lemma look_in sights pieces a : In a sights -> exists ws, In (a, ws) (look sights pieces).
 Proof.
-  induction sights as [|b sights IH]; cbn; [tauto|]. intros pieces [->|Ha]; [eauto|].
-  destruct (IH (tl pieces) Ha) as [ws H]. eauto.
+  unfold look. generalize (@nil looked). revert pieces.
+  assert (K : forall l pieces got b, In b got -> In b (look_on l pieces got)).
+  { clear. induction l as [|a l IH]; cbn [look_on]; auto. intros pieces got b H. apply IH. right. exact H. }
+  induction sights as [|b sights IH]; cbn; [tauto|]. intros pieces got [->|Ha]; [|exact (IH _ _ Ha)].
+  exists (hd [] pieces). apply K. left. reflexivity.
 Qed.
 
 Section Claims.
@@ -147,7 +152,7 @@ Section Claims.
       from <> Some (obstacle_at b m) -> 0 < td u -> 0 < ts u \/ ts u * ts u < td u ->
         (time_value u <= time_value t)%R ->
       td u <= ts u * ts u /\ (0 < ts u -> time_value t = time_value u /\ not_after X (obstacle_at b m))).
-    { intros b m Hb Hm u Ho HDu Hsu HV. destruct (look_in _ _ pieces Hb) as [ws Hws].
+    { intros b m Hb Hm u Ho HDu Hsu HV. destruct (look_in _ pieces _ Hb) as [ws Hws].
       pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota in K.
       apply (fun H => check_windows_ok planar (its_view b) ws t _ _ (proj1 (regular_sights b Hb)) Ht H m Hm)
         in K; auto.
@@ -193,7 +198,7 @@ Section Claims.
     destruct (up_to a b) eqn:U; [|apply up_to_no; auto].
     apply contained in C; auto. cbv zeta in C. set (u := time_of (its_view b) m) in *.
     assert (Dp : 0 < td u) by nia.
-    destruct (look_in _ _ pieces Hb) as [ws Hws].
+    destruct (look_in _ pieces _ Hb) as [ws Hws].
     pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota zeta in K. rewrite U in K.
     assert (R1 : regular (Time 0 0 1)) by (split; cbn; lia).
     assert (V1 : time_value (Time 0 0 1) = 0%R) by (unfold time_value; cbn [ts td tq]; rewrite sqrt_0; field).
@@ -214,7 +219,7 @@ Section Claims.
     { intros o t C. destruct (seen_all _ _ C) as (a & n & Ha & Hn & ->). apply chords in C; auto.
       cbv zeta in C.
       set (y := its_view a) in *. set (W := at_cell y n) in *.
-      destruct (look_in _ _ pieces Ha) as [ws Hws].
+      destruct (look_in _ pieces _ Ha) as [ws Hws].
       pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota in K.
       destruct ws as [|w [|w' rest]]; try (apply passes_fail in K; tauto).
       apply (check_row_ok planar y w _ K n Hn). apply lt_IZR.
