@@ -3,7 +3,7 @@
    (Answers.v) each example says also that no other answer is right. *)
 From Coq Require Import ZArith Reals Lra Lia List.
 From Flocq Require Import Core.
-From Lorentz Require Import Spec Rounding Number Answers Sanity.
+From Lorentz Require Import Spec Rounding Number Sanity.
 Import ListNotations.
 Local Open Scope R_scope.
 

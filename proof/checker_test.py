@@ -14,6 +14,8 @@ def load(name):
     return module
 
 kinds, forms = load("check_py_test"), load("golden_forms_test")
+sys.path.insert(0, str(ROOT / "proof"))
+import wrong_specs
 
 def verdict(text):
     """Exit status and output for a file of this text."""
@@ -121,6 +123,30 @@ class Hostile(unittest.TestCase):
             status, said = kinds.run([header, scene, line.replace('"from":-0.25', '"from":-' + number)])
             self.assertEqual(status, 1, said)
             self.assertRegex(said, why)
+
+    def test_a_scene_of_many_atoms(self):
+        """No stack overflows."""
+        case = kinds.copy.deepcopy(kinds.CASES["error"])
+        case["scene"]["lattices"][0]["atoms"] *= 300000
+        status, said = kinds.run(kinds.golden(case))
+        self.assertEqual(status, 0, said[-300:])
+
+class WrongSpecifications(unittest.TestCase):
+    """What Coq does not end with, or refuses elsewhere than in a proof, is not refused."""
+    def test_without_time(self):
+        longest, wrong_specs.LONGEST = wrong_specs.LONGEST, 0.001
+        try: by, why = wrong_specs.attempt(wrong_specs.WRONG["closed balls"])
+        finally: wrong_specs.LONGEST = longest
+        self.assertEqual(by, None)
+        self.assertRegex(why, "did not end")
+
+    def test_what_is_no_specification(self):
+        for new, said in ((") < valve r", "no specification at all"), (") <", "no specification at all")):
+            old = "norm (along q (-1) centre) < value r"
+            by, why = wrong_specs.attempt((old, "norm (along q (-1) centre" + new))
+            self.assertEqual(by, None)
+            self.assertRegex(why, said)
+        self.assertRegex(wrong_specs.attempt(("nowhere", ""))[1], "0 places")
 
 class Forms(unittest.TestCase):
     def hold(self, texts_of_kinds, accepted):
