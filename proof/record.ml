@@ -28,8 +28,9 @@ let integer_text text =
   if unsigned <> "" && String.for_all (function '0' .. '9' -> true | _ -> false) unsigned then Some (Z.of_string text) else None
 
 let signed_integer text =
-  let text = if text <> "" && text.[0] = '+' then String.sub text 1 (String.length text - 1) else text in
-  match integer_text text with Some n when text.[0] <> '+' -> n | _ -> flaw "no exponent"
+  let positive = text <> "" && text.[0] = '+' in
+  let text = if positive then String.sub text 1 (String.length text - 1) else text in
+  match integer_text text with Some n when not (positive && text.[0] = '-') -> n | _ -> flaw "no exponent"
 
 (* A number of JSON. *)
 let decimal text =
