@@ -138,8 +138,8 @@ def verify(record, scene):
             begin, end = 0, fractions.Fraction(abs(dot(v, along)), Q)
         else:
             begin, end = bound(piece["from"]), bound(piece["to"])
-            starts = key in ends or begin < 0 and (begin * Q)**2 >= R  # at or below -r / |v|
-            require(starts and begin <= min(ends.get(key, end), end), f"{key}: a gap before {piece['from']!r:.40}")
+            starts = begin < 0 and (begin * Q)**2 >= R or begin <= ends.get(key, begin - 1)  # at or below -r / |v|
+            require(starts and begin <= end, f"{key}: a gap before {piece['from']!r:.40}")
         ends[key] = max(ends.get(key, end), end)
         for s, D, n in met(balls[key], basis, math.ceil(begin * Q), math.floor(end * Q), left):
             Y = *key, n

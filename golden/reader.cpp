@@ -137,12 +137,6 @@ oracle::Certificate read_certificate(json::value value, int dimension) {
   return certificate;
 }
 
-double read_size(json::value value, const std::string& key) {
-  if (value.type() == json::json_type::string && value.get_string().value() == "inf")
-    return std::numeric_limits<double>::infinity();
-  return read_number(value, key);
-}
-
 // An expectation has what its outcome has, and no id.
 void check_members(const std::set<std::string>& keys, Outcome outcome) {
   const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
@@ -252,12 +246,10 @@ struct Reader::Impl {
 
   void read_expectation(json::object object, Answer& expect) {
     std::set<std::string> keys;
-    each_member(object, [&](std::string_view key, json::value) { keys.emplace(key); });
-    object.reset();
     Id id;
     std::size_t components = 0;
     Answer answer;
-    if (!read_answer(object, id, answer, components)) throw InputError("expect: is no answer");
+    if (!read_answer(object, id, answer, components, {}, &keys)) throw InputError("expect: is no answer");
     check_members(keys, answer.outcome);
     if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
@@ -276,9 +268,9 @@ struct Reader::Impl {
       record.expect.time_decimal = read_text(value, key);
       if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
     } else if (key == "margin") {
-      record.margin = read_size(value, key);
+      record.margin = read_number_or_infinity(value, key);
     } else if (key == "condition") {
-      record.condition = read_size(value, key);
+      record.condition = read_number_or_infinity(value, key);
     } else if (key == "certificate") {
       record.certificate = read_certificate(value, scene->dimension);
     } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
@@ -12,8 +13,7 @@ namespace {
 // The token of a number, without the white space that may follow it.
 std::string_view token_of(json::value value) {
   std::string_view token = value.raw_json_token();
-  while (!token.empty() && static_cast<unsigned char>(token.back()) <= ' ') token.remove_suffix(1);
-  return token;
+  return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
 }
 
 // The text of a number. On-Demand has not looked at it.
@@ -87,6 +87,12 @@ double read_number(json::value value, const std::string& place) {
     throw NotJson{"no value"};  // nan, say
   if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
   return finite_number(nearest_number(value), place);
+}
+
+double read_number_or_infinity(json::value value, const std::string& place) {
+  if (value.type() != json::json_type::string) return read_number(value, place);
+  const std::string_view text = value.get_string();
+  return text == "inf" ? std::numeric_limits<double>::infinity() : parse_hexadecimal(text, place);
 }
 
 Integer read_integer(json::value value, const char* key) {

@@ -70,13 +70,16 @@ void skip(json::value value, int depth = 1);
 /// A number or a hexadecimal string; throws InputError, naming `place`.
 double read_number(json::value value, const std::string& place);
 
+/// The same, or "inf". (A string of On-Demand may be read only once: its buffer has no room for more.)
+double read_number_or_infinity(json::value value, const std::string& place);
+
 /// An integer, or a decimal string with one, of at most 2500 characters; throws InputError, naming `key`.
 Integer read_integer(json::value value, const char* key);
 
-/// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates. Throws
-/// InputError. False for a `golden` header.
+/// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates;
+/// `keys`, if given, gets all keys. Throws InputError. False for a `golden` header.
 bool read_answer(json::object object, std::string& id, Answer& answer, std::size_t& components,
-                 const OnUnknownKey& on_unknown_key = {});
+                 const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr);
 
 /// A value of a scene, which is in `depth` objects and arrays. A number beyond the range of binary64 is
 /// infinite.

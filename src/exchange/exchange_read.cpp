@@ -118,9 +118,7 @@ Outcome outcome_named(std::string_view name) {
 }
 
 double read_time(json::value value) {
-  if (value.type() == json::json_type::string && value.get_string().value() == "inf")
-    return std::numeric_limits<double>::infinity();
-  const double time = read_number(value, "time");
+  const double time = read_number_or_infinity(value, "time");
   if (time < 0) throw InputError("time: is below zero");
   return time;
 }
@@ -169,9 +167,10 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
 }  // namespace
 
 bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components,
-                 const OnUnknownKey& on_unknown_key) {
+                 const OnUnknownKey& on_unknown_key, std::set<std::string>* keys) {
   AnswerFields has;
   each_member(object, [&](std::string_view key, json::value value) {
+    if (keys) keys->emplace(key);
     read_answer_field(key, value, id, answer, has, on_unknown_key);
   });
   if (has.golden && !has.outcome) return false;

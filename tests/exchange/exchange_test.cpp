@@ -284,6 +284,27 @@ TEST_CASE("What stands under a key that is not known may be anything", "[exchang
   CHECK(item.scene.lattices[0].atoms[0].radius == 0.25);
 }
 
+TEST_CASE("Long texts are read once, and fit", "[exchange]") {
+  ExchangeReader reader;
+  Answer answer;
+  Id id;
+  std::size_t components = 0;
+  const std::string zeros(3'000'000, '0');
+  const std::string text =
+      R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[27,1],"time":"0x)" + zeros + R"(1"})";
+  REQUIRE(reader.read_answer_line(Padded(text).line(), id, answer, components));
+  CHECK(answer.time == 1);
+}
+
+TEST_CASE("Only white space may stand behind a number", "[exchange]") {
+  for (const char c : {' ', '\t', '\r', '\x04', '\x0b', '\x0c', '\x1f', '\x7f'}) {
+    const std::string text = R"({"id":1,"from":{"lattice":0,"atom":0,"cell":[7)" + std::string(1, c) +
+                             R"(,0]},"x":[0,0.5],"v":[1,0]})";
+    INFO(static_cast<int>(c));
+    CHECK((read(text, &kSquare).kind == StreamItem::Kind::query) == (c == ' ' || c == '\t' || c == '\r'));
+  }
+}
+
 TEST_CASE("Integers have 2500 characters at most, levels are 64", "[exchange]") {
   const auto leaving = [](const std::string& n) {
     return read(R"({"id":1,"from":{"lattice":0,"atom":0,"cell":[)" + n + R"(,0]},"x":[0,0.5],"v":[1,0]})",

@@ -157,6 +157,18 @@ TEST_CASE("Golden: a key that comes twice is refused, wherever it is, and so is 
                     Catch::Contains("set:3: not JSON"));
 }
 
+TEST_CASE("Golden: long keys and numbers fit wherever they are", "[golden]") {
+  const Folder folder;
+  const std::string good = set_of({hit_case()}), longer(3'000'000, '0');
+  for (const std::string& text :
+       {replaced(good, "\"expect\":{", "\"expect\":{\"" + longer + "\":1,"),
+        replaced(good, "\"margin\":", "\"margin\":\"0x" + longer + "1\",\"more\":")}) {
+    const auto records = read_all(folder.write("set", text));
+    REQUIRE(records.size() == 1);
+    CHECK(records[0].record.expect.outcome == Outcome::hit);
+  }
+}
+
 TEST_CASE("Golden: the header is read back", "[golden]") {
   const Folder folder;
   const golden::Header header{"a name", "a \"description\"\n", "lorentz golden make",

@@ -358,8 +358,9 @@ class Coverage {
   void add(const View<D>& view, const End& from, const End& to) {
     if (from > to) refute("ends before it begins");
     const Z unit = shifted_left(1, from.bits);
-    if (!reached_ && sign_of(-from.n * view.v2, 0, unit * unit * view.rho2) < 0) refute("begins too late");
-    if (reached_ && from > *reached_) refute("a gap before it");
+    const bool begins_late = sign_of(-from.n * view.v2, 0, unit * unit * view.rho2) < 0;
+    if (begins_late && !reached_) refute("begins too late");
+    if (begins_late && from > *reached_) refute("a gap before it");
     if (!reached_ || to > *reached_) reached_ = to;
   }
 
