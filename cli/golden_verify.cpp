@@ -58,14 +58,22 @@ Findings verify(const std::string& path, bool walk) {
 
 int act(const std::vector<std::string>& names, bool walk) {
   std::size_t flaws = 0;
+  bool bad = false;
   for (const std::string& path : find_sets(names)) {
-    const Findings findings = verify(path, walk);
+    Findings findings;
+    try {
+      findings = verify(path, walk);
+    } catch (const InputError& error) {  // the other sets may be right
+      say("{}", error.what());
+      bad = true;
+      continue;
+    }
     flaws += findings.flaws;
     if (findings.flaws > kMostComplaints) say("{}: {} more", path, findings.flaws - kMostComplaints);
     print(fmt::format("{}: {} records, {}\n", path, findings.records,
                       findings.flaws ? fmt::format("{} REFUTED", findings.flaws) : "all verified"));
   }
-  return flaws ? kDisagreement : kDone;
+  return bad ? kBadInput : flaws ? kDisagreement : kDone;
 }
 
 }  // namespace

@@ -101,16 +101,18 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   oracle::Request request;
   request.digits = kDigits;
   record.expect = impl_->oracle.first_hit(*query, request);
+  const std::string asked = impl_->scene_line + "\n{\"id\":\"" + record.id + "\"," + record.question + "}";
   const auto disagree = [&](const std::string& who) {
-    throw std::logic_error(who + " does not agree with the oracle:\n" + impl_->scene_line + "\n{\"id\":\"" +
-                           record.id + "\"," + record.question + "}");
+    throw std::logic_error(who + " does not agree with the oracle:\n" + asked);
   };
   const Answer walked = impl_->walk.first_hit(*query);
   made.walked = walked.outcome != Outcome::undecided;
   if (made.walked && !same(walked, record.expect)) disagree("walk");
   record.certificate = impl_->prover.prove(*query, record.expect);
-  if (const auto why = impl_->check.refutation(*query, record.expect, *record.certificate))
-    disagree("the check of the certificate (" + *why + ")");
+  bool too_long = false;
+  const auto why = impl_->check.refutation(*query, record.expect, *record.certificate, &too_long);
+  if (too_long) throw ProofTooLong("the proof " + *why + ", which no checker goes:\n" + asked);
+  if (why) disagree("the check of the certificate (" + *why + ")");
   impl_->measure(*query, record);
   return made;
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include <lorentz/errors.hpp>
 #include "golden/record.hpp"
 
 namespace lorentz::golden {
@@ -11,6 +12,11 @@ struct MadeRecord {
   Record record;  ///< but for the tags
   bool walked =
       false;  ///< `walk` could go there, and agrees; else the second opinion is the checked certificate alone
+};
+
+/// An answer whose proof takes more steps than any checker goes (docs/certificates.md).
+struct ProofTooLong : InputError {
+  using InputError::InputError;
 };
 
 /// For the questions of one scene.
@@ -25,7 +31,8 @@ class Maker {
   /// The scene's line, without the line end.
   const std::string& scene_line() const;
 
-  /// Throws std::logic_error if the opinions differ: then the oracle is wrong, and nothing may be published.
+  /// Throws std::logic_error if the opinions differ: then the oracle is wrong, and nothing may be published;
+  /// and ProofTooLong.
   MadeRecord make(std::string question, const std::optional<Query>& query) const;
 
   /// What is wrong with a record, or nothing: the id does not belong to the question; the certificate does

@@ -1,5 +1,6 @@
 #include "golden/reader.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <lorentz/line_reader.hpp>
@@ -27,33 +28,31 @@ int read_index(json::value value, const std::string& key) {
 Header read_header(json::value value) {
   Header header;
   bool has_format = false, has_count = false, has_tags = false;
-  for (auto field : value.get_object()) {
-    const std::string key(std::string_view(field.unescaped_key()));
+  each_member(value.get_object(), [&](std::string_view name, json::value member) {
+    const std::string key(name);
     if (key == "format") {
-      if (read_count(field.value(), key) != 1) throw InputError("format: only format 1 is known here");
+      if (read_count(member, key) != 1) throw InputError("format: only format 1 is known here");
       has_format = true;
     } else if (key == "name") {
-      header.name = read_text(field.value(), key);
+      header.name = read_text(member, key);
     } else if (key == "description") {
-      header.description = read_text(field.value(), key);
+      header.description = read_text(member, key);
     } else if (key == "generator") {
-      header.generator = read_text(field.value(), key);
+      header.generator = read_text(member, key);
     } else if (key == "version") {
-      header.version = read_text(field.value(), key);
+      header.version = read_text(member, key);
     } else if (key == "count") {
-      header.count = static_cast<std::uint64_t>(read_count(field.value(), key));
+      header.count = static_cast<std::uint64_t>(read_count(member, key));
       has_count = true;
     } else if (key == "tags") {
       has_tags = true;
-      header.tags.clear();
-      for (auto tag : field.value().get_object()) {
-        std::string name(std::string_view(tag.unescaped_key()));
-        header.tags.emplace_back(std::move(name), read_text(tag.value(), "tags"));
-      }
+      each_member(member.get_object(), [&](std::string_view tag, json::value note) {
+        header.tags.emplace_back(tag, read_text(note, "tags"));
+      });
     } else {
-      skip(field.value());
+      skip(member);
     }
-  }
+  });
   if (!has_format || !has_count || !has_tags) throw InputError("the header needs format, count and tags");
   return header;
 }
@@ -96,22 +95,22 @@ oracle::Window read_window(json::value value, int dimension, bool is_row) {
   oracle::Window window;
   std::set<std::string> missing{"lattice", "atom", "basis"};
   if (!is_row) missing.insert({"from", "to"});
-  for (auto field : value.get_object()) {
-    const std::string key(std::string_view(field.unescaped_key()));
+  each_member(value.get_object(), [&](std::string_view name, json::value member) {
+    const std::string key(name);
     missing.erase(key);
     if (key == "lattice")
-      window.lattice = read_index(field.value(), key);
+      window.lattice = read_index(member, key);
     else if (key == "atom")
-      window.atom = read_index(field.value(), key);
+      window.atom = read_index(member, key);
     else if (key == "from" && !is_row)
-      window.from = read_end(field.value(), key);
+      window.from = read_end(member, key);
     else if (key == "to" && !is_row)
-      window.to = read_end(field.value(), key);
+      window.to = read_end(member, key);
     else if (key == "basis")
-      window.basis = read_basis(field.value(), dimension);
+      window.basis = read_basis(member, dimension);
     else
-      skip(field.value());
-  }
+      skip(member);
+  });
   if (!missing.empty()) throw InputError("certificate: " + *missing.begin() + " is missing");
   return window;
 }
@@ -119,83 +118,23 @@ oracle::Window read_window(json::value value, int dimension, bool is_row) {
 oracle::Certificate read_certificate(json::value value, int dimension) {
   oracle::Certificate certificate;
   bool has_windows = false, has_rows = false;
-  for (auto field : value.get_object()) {
-    const std::string key(std::string_view(field.unescaped_key()));
-    if (key != "windows" && key != "rows") {
-      skip(field.value());
-      continue;
+  each_member(value.get_object(), [&](std::string_view key, json::value pieces) {
+    has_windows |= key == "windows";
+    has_rows |= key == "rows";
+    if (key == "windows") {
+      for (json::value piece : pieces.get_array())
+        certificate.windows.push_back(read_window(piece, dimension, false));
+    } else if (key == "rows") {
+      for (json::value piece : pieces.get_array()) {
+        oracle::Window row = read_window(piece, dimension, true);
+        certificate.rows.push_back({row.lattice, row.atom, std::move(row.basis)});
+      }
+    } else {
+      skip(pieces);
     }
-    (key == "windows" ? has_windows : has_rows) = true;
-    // Of a key that comes twice the last counts.
-    certificate = {};
-    for (json::value one : field.value().get_array()) {
-      const oracle::Window window = read_window(one, dimension, key == "rows");
-      if (key == "windows")
-        certificate.windows.push_back(window);
-      else
-        certificate.rows.push_back({window.lattice, window.atom, window.basis});
-    }
-  }
+  });
   if (has_windows == has_rows) throw InputError("certificate: has either windows or rows");
   return certificate;
-}
-
-double read_size(json::value value, const std::string& key) {
-  if (value.type() == json::json_type::string && value.get_string().value() == "inf")
-    return std::numeric_limits<double>::infinity();
-  return read_number(value, key);
-}
-
-// The id is made from the text between, so there all of the question must be.
-constexpr const char* kOrder = "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
-
-// A record's question is the text from behind the first `],` to before the first `,"expect"`: simple to find
-// for any program. Here the keys are seen one after the other, to be sure that the text is what it should be.
-class QuestionPlace {
- public:
-  explicit QuestionPlace(std::string_view line) : line_(line) {
-    const auto tags_end = line.find("],\""), end = line.find(",\"expect\"");
-    if (tags_end == line.npos || end == line.npos || end < tags_end + 2) return;
-    begin_ = tags_end + 2;
-    end_ = end;
-  }
-
-  /// The record's keys in order, with their places in the line.
-  void see(const std::string& key, std::size_t place) {
-    if (keys_ < 2) in_order_ &= key == (keys_ == 0 ? "id" : "tags");
-    if (keys_ == 2) in_order_ &= place == begin_;
-    if (key == "expect" && !ended_) {
-      in_order_ &= place == end_ + 1;
-      ended_ = true;
-    }
-    if (ended_) in_order_ &= key != "x" && key != "v" && key != "from";
-    ++keys_;
-  }
-
-  std::string text() const {
-    if (!in_order_) throw InputError(kOrder);
-    return std::string(line_.substr(begin_, end_ - begin_));
-  }
-
- private:
-  std::string_view line_;
-  std::size_t begin_ = 0, end_ = 0, keys_ = 0;
-  bool ended_ = false, in_order_ = true;
-};
-
-// Brackets open at the same time. Deeper than anything here needs no reader should have to go.
-void check_nesting(std::string_view line) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') in_string = !in_string;
-    if (in_string)
-      i += line[i] == '\\' ? 1 : 0;
-    else if (line[i] == '[' || line[i] == '{')
-      check_depth(++depth);
-    else if (line[i] == ']' || line[i] == '}')
-      --depth;
-  }
 }
 
 // An expectation has what its outcome has, and no id.
@@ -221,10 +160,27 @@ struct Reader::Impl {
   std::string scene_line;
   std::size_t scenes = 0;
 
-  json::document open(const LineReader::Line& line) {
+  // Calls read(key, value) for the members of the line's object, which is all that is in the line.
+  template <class Read>
+  void each_member_of(std::string_view text, std::size_t allocated, const Read& read) {
+    json::document document = parser.iterate(text.data(), text.size(), allocated);
+    each_member(document.get_object(), read);
+    if (!ended(document)) throw NotJson{"more than one value in the line"};
+  }
+  template <class Read>
+  void each_member_of(const LineReader::Line& line, const Read& read) {
+    each_member_of(line.text, line.text.size() + LineReader::kPadding, read);
+  }
+
+  // The line's keys. All of it is looked at: what is no JSON is no line of a set, whatever it says.
+  std::vector<std::string> keys_of(const LineReader::Line& line) {
     if (line.too_long) throw InputError("the line is too long");
-    check_nesting(line.text);
-    return parser.iterate(line.text.data(), line.text.size(), line.text.size() + LineReader::kPadding);
+    std::vector<std::string> keys;
+    each_member_of(line, [&](std::string_view key, json::value value) {
+      keys.emplace_back(key);
+      skip(value);
+    });
+    return keys;
   }
 
   // Calls read(line), and puts the place in front of what it complains of.
@@ -246,28 +202,54 @@ struct Reader::Impl {
     LineReader::Line line;
     if (!lines.next(line)) throw InputError(lines.name() + ": is empty; a golden set begins with its header");
     at(line, [&] {
-      bool found = false;
-      json::document document = open(line);
-      for (auto field : document.get_object()) {
-        if (field.unescaped_key().value() == "golden") {
-          header = read_header(field.value());
-          found = true;
-        } else {
-          skip(field.value());
-        }
-      }
-      if (!found) throw InputError("a golden set begins with its header, {\"golden\":{...}}");
+      const auto keys = keys_of(line);
+      if (std::find(keys.begin(), keys.end(), "golden") == keys.end())
+        throw InputError("a golden set begins with its header, {\"golden\":{...}}");
+      each_member_of(line, [&](std::string_view key, json::value value) {
+        if (key == "golden")
+          header = read_header(value);
+        else
+          skip(value);
+      });
     });
+  }
+
+  // The text from behind the first `],` to before the first `,"expect"`: simple to find for any program. The
+  // id is made from it, so by itself it has all keys between the tags and `expect`, and all of the question.
+  std::string question_in(std::string_view line, const std::vector<std::string>& keys) {
+    constexpr const char* kOrder =
+        "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
+    const auto tags_end = line.find("],\""), end = line.find(",\"expect\"");
+    if (tags_end == line.npos || end == line.npos || end < tags_end + 2) throw InputError(kOrder);
+    const std::string question(line.substr(tags_end + 2, end - tags_end - 2));
+    std::vector<std::string> asked{"id", "tags"};
+    std::string object = '{' + question + '}';
+    object.resize(object.size() + LineReader::kPadding);
+    try {
+      each_member_of({object.data(), question.size() + 2}, object.size(),
+                     [&](std::string_view key, json::value value) {
+                       asked.emplace_back(key);
+                       skip(value);
+                     });
+    } catch (const simdjson::simdjson_error&) {
+      throw InputError(kOrder);
+    } catch (const NotJson&) {
+      throw InputError(kOrder);
+    }
+    const auto expect = std::find(keys.begin(), keys.end(), "expect");
+    const auto asks = [](const std::string& key) { return key == "x" || key == "v" || key == "from"; };
+    if (!std::equal(keys.begin(), expect, asked.begin(), asked.end()) ||
+        std::any_of(expect, keys.end(), asks))
+      throw InputError(kOrder);
+    return question;
   }
 
   void read_expectation(json::object object, Answer& expect) {
     std::set<std::string> keys;
-    for (auto field : object) keys.emplace(std::string_view(field.unescaped_key()));
-    object.reset();
     Id id;
     std::size_t components = 0;
     Answer answer;
-    if (!read_answer(object, id, answer, components)) throw InputError("expect: is no answer");
+    if (!read_answer(object, id, answer, components, {}, &keys)) throw InputError("expect: is no answer");
     check_members(keys, answer.outcome);
     if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
@@ -279,7 +261,6 @@ struct Reader::Impl {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
-      record.tags.clear();
       for (json::value tag : value.get_array()) record.tags.push_back(read_text(tag, key));
     } else if (key == "expect") {
       read_expectation(value.get_object(), record.expect);
@@ -287,9 +268,9 @@ struct Reader::Impl {
       record.expect.time_decimal = read_text(value, key);
       if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
     } else if (key == "margin") {
-      record.margin = read_size(value, key);
+      record.margin = read_number_or_infinity(value, key);
     } else if (key == "condition") {
-      record.condition = read_size(value, key);
+      record.condition = read_number_or_infinity(value, key);
     } else if (key == "certificate") {
       record.certificate = read_certificate(value, scene->dimension);
     } else {
@@ -297,55 +278,40 @@ struct Reader::Impl {
     }
   }
 
-  // Its first keys are looked at only to refuse what would be read as something else.
-  void read_scene(const LineReader::Line& line, Scene&& read) {
-    json::document document = open(line);
-    for (auto field : document.get_object()) {
-      const std::string key(std::string_view(field.unescaped_key()));
-      for (const char* other : {"golden", "id", "x", "v", "from"})
-        if (key == other) throw InputError("a scene's line has no " + key);
-      skip(field.value());
-    }
+  void take_scene(const LineReader::Line& line, const std::vector<std::string>& keys, Scene&& read) {
+    for (const char* other : {"golden", "id", "x", "v", "from"})
+      if (std::find(keys.begin(), keys.end(), other) != keys.end())
+        throw InputError(std::string("a scene's line has no ") + other);
     if (const auto flaw = oracle::dependence_in(read)) throw InputError(*flaw);
     scene = std::move(read);
     scene_line = line.text;
     ++scenes;
   }
 
-  void read_record(const LineReader::Line& line, ReadRecord& read) {
-    bool has_tags = false, has_expect = false;
-    json::document document = open(line);
-    QuestionPlace question(line.text);
-    for (auto field : document.get_object()) {
-      const char* place = field.key().raw() - 1;
-      const std::string key(std::string_view(field.unescaped_key()));
-      if (key == "golden") throw InputError("a golden set has one header, its first line");
-      question.see(key, static_cast<std::size_t>(place - line.text.data()));
-      has_tags |= key == "tags";
+  void read_record(const LineReader::Line& line, const std::vector<std::string>& keys, Record& record) {
+    record.question = question_in(line.text, keys);
+    bool has_expect = false;
+    each_member_of(line, [&](std::string_view key, json::value value) {
       has_expect |= key == "expect";
-      read_field(key, field.value(), read.record);
-    }
-    if (!has_tags || !has_expect || read.record.id.empty())
-      throw InputError("a golden record has an id, tags and `expect`");
-    read.record.question = question.text();
+      read_field(std::string(key), value, record);
+    });
+    if (!has_expect || record.id.empty()) throw InputError("a golden record has an id, tags and `expect`");
   }
 
   // A record, or nothing if the line is a scene or blank.
   bool read(const LineReader::Line& line, ReadRecord& read) {
-    if (!line.too_long) check_nesting(line.text);
+    if (!line.too_long && line.text.find_first_not_of(" \t\r") == line.text.npos) return false;
+    const auto keys = keys_of(line);
+    if (std::find(keys.begin(), keys.end(), "golden") != keys.end())
+      throw InputError("a golden set has one header, its first line");
     StreamItem item;
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
-    if (item.kind == StreamItem::Kind::nothing) {
-      if (line.text.find_first_not_of(" \t\r") != std::string_view::npos)
-        throw InputError("a golden set has one header, its first line");
-      return false;
-    }
     if (item.kind == StreamItem::Kind::bad && (item.bad_scene || item.no_scene))
       throw InputError(item.message);
     // A query that is bad for another reason does not say that it has no scene besides.
     if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {
-      read_scene(line, std::move(item.scene));
+      take_scene(line, keys, std::move(item.scene));
       return false;
     }
     read = {};
@@ -355,7 +321,7 @@ struct Reader::Impl {
       read.query = std::move(item.query);
     else
       read.flaw = item.message;
-    read_record(line, read);
+    read_record(line, keys, read.record);
     return true;
   }
 };

@@ -46,16 +46,28 @@ Proof. intros H ->. unfold is_from in H. rewrite compare_refl in H. discriminate
 (* ---- All atoms, as the ray sees them. *)
 Record sight := Sight { its_lattice : Z; its_atom : Z; its_view : seen }.
 
+(* Each with the certificate's pieces for it. *)
+Definition looked := (sight * list written_piece)%type.
+Fixpoint look_on (sights : list sight) (pieces : list (list written_piece)) (got : list looked) :
+  list looked :=
+  match sights with [] => got | a :: sights => look_on sights (tl pieces) ((a, hd [] pieces) :: got) end.
+Definition look sights pieces := look_on sights pieces [].
+Lemma look_in sights pieces a : In a sights -> exists ws, In (a, ws) (look sights pieces).
+Proof.
+  unfold look. generalize (@nil looked). revert pieces.
+  assert (K : forall l pieces got b, In b got -> In b (look_on l pieces got)).
+  { clear. induction l as [|a l IH]; cbn [look_on]; auto. intros pieces got b H. apply IH. right. exact H. }
+  induction sights as [|b sights IH]; cbn; [tauto|]. intros pieces got [->|Ha]; [|exact (IH _ _ Ha)].
+  exists (hd [] pieces). apply K. left. reflexivity.
+Qed.
+
 Section Claims.
-  Variables (planar : bool) (E : Z) (sights : list sight) (from : option obstacle) (ws : list piece).
-  Hypothesis E_pos : 0 < E.
+  Variables (planar : bool) (sights : list sight) (from : option obstacle) (pieces :
+    list (list written_piece)).
 
   Definition obstacle_at (a : sight) (n : zv) : obstacle := Obstacle (its_lattice a) (its_atom a)
     (coordinates planar n).
   Definition time_of (y : seen) (n : zv) : time := let W := at_cell y n in Time (sS y W) (sD y W) (sQ y).
-  Definition mine (a : sight) (w : piece) : bool := (piece_lattice w =? its_lattice a) &&
-    (piece_atom w =? its_atom a).
-  Definition pieces_of (a : sight) : list piece := filter (mine a) ws.
   Definition gap_after (a : sight) : flaw := GapAfter (its_lattice a) (its_atom a).
 
   (* "every other obstacle but `from` that the ray enters is entered later, or at the same t with a larger
@@ -69,8 +81,8 @@ Section Claims.
   Definition check_hit (a : sight) (n : zv) : check :=
     let X := obstacle_at a n in let t := time_of (its_view a) n in
     require (negb (is_from from X) && (0 <? td t) && (0 <? ts t) && (td t <=? ts t * ts t)) NotTheOutcome ;;
-    each_in sights (fun b => check_windows planar E (its_view b) (pieces_of b) (Some t) (gap_after b)
-      (judge_hit X t b)).
+    each_in (look sights pieces) (fun b => let (b, ws) := b in
+      check_windows planar (its_view b) ws (Some t) (gap_after b) (judge_hit X t b)).
 
   (* "X contains x, X is not `from`, and no smaller obstacle does, but `from`. It suffices to look at the
      atoms up to X's." *)
@@ -83,14 +95,14 @@ Section Claims.
   Definition check_inside (a : sight) (n : zv) : check :=
     let X := obstacle_at a n in let t := time_of (its_view a) n in
     require (negb (is_from from X) && (ts t * ts t <? td t)) NotTheOutcome ;;
-    each_in sights (fun b =>
+    each_in (look sights pieces) (fun b => let (b, ws) := b in
       let until := if up_to a b then Some (Time 0 0 1) else None in
-      check_windows planar E (its_view b) (pieces_of b) until (gap_after b) (judge_inside X b)).
+      check_windows planar (its_view b) ws until (gap_after b) (judge_inside X b)).
 
   (* "None may be met, not even `from`." *)
   Definition check_never : check :=
-    each_in sights (fun a =>
-      match pieces_of a with
+    each_in (look sights pieces) (fun a => let (a, ws) := a in
+      match ws with
       | [w] => check_row planar (its_view a) w (fun n => Met (obstacle_at a n))
       | _ => fail (NoRows (its_lattice a) (its_atom a))
       end).
@@ -140,9 +152,10 @@ Section Claims.
       from <> Some (obstacle_at b m) -> 0 < td u -> 0 < ts u \/ ts u * ts u < td u ->
         (time_value u <= time_value t)%R ->
       td u <= ts u * ts u /\ (0 < ts u -> time_value t = time_value u /\ not_after X (obstacle_at b m))).
-    { intros b m Hb Hm u Ho HDu Hsu HV. pose proof (each_in_ok _ _ Hall _ Hb) as K. cbv beta in K.
-      apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ Ht)
-        with (n := m) in K; auto.
+    { intros b m Hb Hm u Ho HDu Hsu HV. destruct (look_in _ pieces _ Hb) as [ws Hws].
+      pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota in K.
+      apply (fun H => check_windows_ok planar (its_view b) ws t _ _ (proj1 (regular_sights b Hb)) Ht H m Hm)
+        in K; auto.
       fold u in K. unfold judge_hit in K. cbn [ts td] in K.
       change (sS (its_view b) (at_cell (its_view b) m)) with (ts u) in K.
       change (sD (its_view b) (at_cell (its_view b) m)) with (td u) in K.
@@ -185,11 +198,12 @@ Section Claims.
     destruct (up_to a b) eqn:U; [|apply up_to_no; auto].
     apply contained in C; auto. cbv zeta in C. set (u := time_of (its_view b) m) in *.
     assert (Dp : 0 < td u) by nia.
-    pose proof (each_in_ok _ _ Hall _ Hb) as K. cbv beta in K. rewrite U in K.
+    destruct (look_in _ pieces _ Hb) as [ws Hws].
+    pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota zeta in K. rewrite U in K.
     assert (R1 : regular (Time 0 0 1)) by (split; cbn; lia).
     assert (V1 : time_value (Time 0 0 1) = 0%R) by (unfold time_value; cbn [ts td tq]; rewrite sqrt_0; field).
-    apply (check_windows_ok planar E (its_view b) E_pos (proj1 (regular_sights b Hb)) _ _ _ _ R1)
-      with (n := m) in K; auto.
+    apply (fun H => check_windows_ok planar (its_view b) ws _ _ _ (proj1 (regular_sights b Hb)) R1 H m Hm)
+      in K; auto.
     - unfold judge_inside in K. cbn [ts td] in K.
       destruct (is_from from (obstacle_at b m)) eqn:EF; [apply is_from_yes in EF; contradiction|].
       apply passes_require in K.
@@ -205,8 +219,9 @@ Section Claims.
     { intros o t C. destruct (seen_all _ _ C) as (a & n & Ha & Hn & ->). apply chords in C; auto.
       cbv zeta in C.
       set (y := its_view a) in *. set (W := at_cell y n) in *.
-      pose proof (each_in_ok _ _ Hall _ Ha) as K. cbv beta in K.
-      destruct (pieces_of a) as [|w [|w' rest]]; try (apply passes_fail in K; tauto).
+      destruct (look_in _ pieces _ Ha) as [ws Hws].
+      pose proof (each_in_ok _ _ Hall _ Hws) as K. cbv beta iota in K.
+      destruct ws as [|w [|w' rest]]; try (apply passes_fail in K; tauto).
       apply (check_row_ok planar y w _ K n Hn). apply lt_IZR.
       pose proof (Rle_0_sqr (IZR (sQ y) * t - IZR (sS y W))) as S0. unfold Rsqr in S0. fold W. lra. }
     intros o _. split; [apply N|]. intros t (_ & _ & K). destruct (K (t + 1)%R ltac:(lra)) as (t' & Ht & _).

@@ -2,7 +2,7 @@
    these lines, which give functions that are not in it the same values, also where the second operand is
    negative. *)
 From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
-From Lorentz Require Import Number Check.
+From Lorentz Require Import Number Windows Check.
 Extract Constant Z.ltb => "Big_int_Z.lt_big_int".
 Extract Constant Z.leb => "Big_int_Z.le_big_int".
 Extract Constant Z.land => "(fun x y -> Z.logand x y)".
@@ -11,4 +11,4 @@ Extract Constant Z.even => "(fun x -> not (Z.testbit x 0))".
 Extract Constant Z.log2 => "(fun x -> Z.of_int (if Z.sign x > 0 then Z.numbits x - 1 else 0))".
 Extract Constant Z.sqrt => "(fun x -> if Z.sign x > 0 then Z.sqrt x else Z.zero)".
 Extract Constant Z.pow => "(fun x y -> if Z.sign y < 0 then Z.zero else Z.pow x (Z.to_int y))".
-Extraction "checker.ml" number prepare check_record is_question.
+Extraction "checker.ml" number end_at_number prepare check_record is_question.

@@ -31,8 +31,9 @@ Proof.
   unfold prepare. set (planar := (dimension sc =? 2)%nat).
   destruct ((planar || (dimension sc =? 3)%nat) && negb (is_empty (lattices sc))) eqn:G; [|discriminate].
   apply andb_true_iff in G. destruct G as [Gd Gl].
+  rewrite all_some_long_is, numbered_long_is.
   destruct (all_some (place_atoms planar) (numbered 0 (lattices sc))) as [pls|] eqn:E; [|discriminate].
-  intros I; injection I as <-. cbn [flat solids count].
+  intros I; injection I as <-. rewrite concat_long_is. cbn [flat solids count].
   assert (Hd : (dimension sc = 2 \/ dimension sc = 3)%nat)
     by (unfold planar in Gd; rewrite orb_true_iff, !Nat.eqb_eq in Gd; exact Gd).
   assert (Hs : dimension sc = size planar) by (unfold planar, size; destruct Hd as [-> | ->]; reflexivity).
@@ -43,6 +44,7 @@ Proof.
     (forall s, In s ps -> lattice_index s = fst l /\ exists A, item (atoms (snd l)) (atom_index s) = Some A /\
       read_solid planar (snd l) A = Some (its_solid s))).
   { intros l ps. unfold place_atoms. destruct (is_empty (atoms (snd l))) eqn:Em; [discriminate|]. intros Ep.
+    rewrite all_some_long_is, numbered_long_is in Ep.
     destruct (all_some_ok _ _ _ Ep) as [B1 B2]. split; [intros K; rewrite K in Em; discriminate|]. split.
     - intros j A HA. apply numbered_0 in HA. destruct (B1 _ HA) as (s & Hin & Es). cbn [fst snd] in Es.
       destruct (read_solid planar (snd l) A) as [S|]; [|discriminate]. injection Es as <-. eauto.
@@ -113,7 +115,8 @@ Section Record.
   Qed.
   Lemma sights_ok a : In a sights -> exists L A S, sees a L A S.
   Proof.
-    intros Ha. apply in_map_iff in Ha. destruct Ha as (s & <- & Hs).
+    intros Ha. unfold sights, see_all in Ha. rewrite map_long_is in Ha. apply in_map_iff in Ha.
+      destruct Ha as (s & <- & Hs).
     destruct depicted as (_ & _ & _ & _ & B). destruct (B _ Hs) as (L & A & ES & HL & HA).
     destruct (visible_in s Hs) as (V1 & V2 & V3). exists L, A, (shrink_solid planar k (its_solid s)).
     split; [exact HL|split; [exact HA|split; [|auto]]]. apply shrink_depicts; auto.
@@ -131,7 +134,8 @@ Section Record.
     destruct HA as (_ & _ & Hc). rewrite Hs in Hc. destruct (coordinates_of planar _ Hc) as (n & En & Ln).
     exists (Sight (of_lattice o) (of_atom o) (see (shrink k x) (shrink k v) (shrink_solid planar k S))), n.
     split; [|split; [exact Ln|]].
-    - apply in_map_iff. exists (Placed (of_lattice o) (of_atom o) S). auto.
+    - unfold sights, see_all. rewrite map_long_is. apply in_map_iff. exists (Placed (of_lattice o)
+      (of_atom o) S). auto.
     - unfold obstacle_at. cbn. destruct o. cbn in *. subst. reflexivity.
   Qed.
   Lemma chords a n t : In a sights -> level planar n -> let y := its_view a in let W := at_cell y n in
@@ -195,16 +199,15 @@ Section Record.
       rewrite <- bpow_plus. reflexivity.
   Qed.
 
-  Lemma check_answer_ok E ws a windows : 0 < E ->
-    passes (check_answer planar E sights (from q) ws a windows) -> correct sc q a.
+  Lemma check_answer_ok a c : passes (check_answer planar sights (from q) a c) -> correct sc q a.
   Proof.
-    intros HE H. unfold correct, check_answer in *. fold within. destruct a as [X time m e|X|].
+    intros H. unfold correct, check_answer in *. fold within.
+    destruct a as [X time m e|X|], c as [ws|ws]; try (apply passes_fail in H; tauto).
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
-      apply passes_both in H. destruct H as [_ H]. apply passes_both in H. destruct H as [H Ht].
-      destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
-      pose proof (check_hit_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs Ln
-        H) as F.
+      apply passes_both in H. destruct H as [H Ht]. destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
+      pose proof (check_hit_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H)
+        as F.
       exists (time_value (time_of (its_view s) n)). rewrite EX at 1. split; [exact F|].
       destruct F as (_ & En & _).
       pose proof (proj1 (entered planar sights within regular_sights chords s n _ Hs Ln) En)
@@ -212,11 +215,9 @@ Section Record.
       apply check_times_ok; [apply (time_of_regular sights regular_sights); auto|apply En|lia|exact Ht].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
       destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
-      apply passes_both in H. destruct H as [_ H]. destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
-      exact (check_inside_ok planar E sights (from q) ws HE within regular_sights seen_all chords s n Hs
-        Ln H).
-    - apply passes_both in H. destruct H as [_ H].
-      exact (check_never_ok planar sights (from q) ws within seen_all chords H).
+      destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
+      exact (check_inside_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H).
+    - exact (check_never_ok planar sights (from q) ws within seen_all chords H).
   Qed.
 End Record.
 
@@ -246,9 +247,5 @@ Proof.
       destruct (DB _ Hs) as (L & A & _ & HL & HA). destruct Es as [El Ea]. exists L, A.
       apply Nat.eqb_eq in Hc.
       unfold atom_of. rewrite El, Ea, Hc. auto.
-  - destruct (match c with Windows l => _ | Rows l => _ end) as [windows written].
-    destruct (all_some (read_piece (flat p)) (numbered 0 written)) as [ws|]; [|apply passes_fail in H; tauto].
-    apply passes_both in H. destruct H as [_ H]. apply passes_both in H. destruct H as [He H].
-    apply passes_require, Z.leb_le in He.
-    apply (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis) in H; [exact H|]. apply Z.pow_pos_nonneg; lia.
+  - exact (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis _ _ H).
 Qed.

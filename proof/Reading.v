@@ -46,6 +46,57 @@ Proof.
         replace (Z.to_nat (j - i)) with (S (Z.to_nat (j - (i + 1)))) in E by lia. exact E.
 Qed.
 
+(* The same of lists that may be long, in a loop. *)
+Fixpoint rev_some {A B} (f : A -> option B) (l : list A) (got : list B) : option (list B) :=
+  match l with [] => Some got | a :: l => match f a with Some b => rev_some f l (b :: got)
+    | None => None end end.
+Definition reversed {A} (l : list A) : list A := rev_append l [].
+Definition all_some_long {A B} (f : A -> option B) (l : list A) := option_map reversed (rev_some f l []).
+Definition numbered_long {A} (l : list A) : list (Z * A) :=
+  reversed (fst (fold_left (fun s a => ((snd s, a) :: fst s, snd s + 1)) l ([], 0))).
+Definition map_long {A B} (f : A -> B) (l : list A) : list B := reversed (fold_left (fun got a => f a :: got)
+  l []).
+Definition concat_long {A} (l : list (list A)) : list A :=
+  reversed (fold_left (fun got a => rev_append a got) l []).
+
+Lemma all_some_long_is {A B} (f : A -> option B) l : all_some_long f l = all_some f l.
+Proof.
+  unfold all_some_long, reversed. assert (K : forall got, option_map (fun bs => rev_append bs [])
+    (rev_some f l got) =
+    option_map (app (rev got)) (all_some f l)).
+  { induction l as [|a l IH]; intros got; cbn.
+    - rewrite rev_append_rev. reflexivity.
+    - destruct (f a) as [b|]; [|reflexivity]. rewrite IH. destruct (all_some f l); cbn; [|reflexivity].
+      rewrite <- app_assoc. reflexivity. }
+  rewrite K. destruct (all_some f l); reflexivity.
+Qed.
+Lemma numbered_long_is {A} (l : list A) : numbered_long l = numbered 0 l.
+Proof.
+  unfold numbered_long, reversed. assert (K : forall got i, rev_append (fst (fold_left (fun s a =>
+    ((snd s, a) :: fst s, snd s + 1)) l (got, i))) [] = rev got ++ numbered i l); [|apply K].
+  induction l as [|a l IH]; intros got i; cbn [fold_left numbered fst snd].
+  - rewrite rev_append_rev. reflexivity.
+  - rewrite IH. cbn. rewrite <- app_assoc. reflexivity.
+Qed.
+Lemma map_long_is {A B} (f : A -> B) l : map_long f l = map f l.
+Proof.
+  unfold map_long, reversed. assert (K : forall got, rev_append (fold_left (fun got a => f a :: got) l got)
+    [] =
+    rev got ++ map f l); [|apply K].
+  induction l as [|a l IH]; intros got; cbn [fold_left map].
+  - rewrite rev_append_rev. reflexivity.
+  - rewrite IH. cbn. rewrite <- app_assoc. reflexivity.
+Qed.
+Lemma concat_long_is {A} (l : list (list A)) : concat_long l = concat l.
+Proof.
+  unfold concat_long, reversed. assert (K : forall got, rev_append (fold_left (fun got a => rev_append a got)
+    l got) [] =
+    rev got ++ concat l); [|apply K].
+  induction l as [|a l IH]; intros got; cbn [fold_left concat].
+  - rewrite rev_append_rev. reflexivity.
+  - rewrite IH, rev_append_rev, rev_app_distr, rev_involutive, app_assoc. reflexivity.
+Qed.
+
 Section Dimension.
   Variable planar : bool.
   Notation lift := (lift planar).

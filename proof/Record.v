@@ -1,7 +1,7 @@
 (* A record decided inside Coq, where neither extraction nor OCaml is trusted: the first case of the tests of
    data/check.py, from (0, 0.445) along (1, 0.0175) between discs of radius 0.1. *)
 From Coq Require Import ZArith List.
-From Lorentz Require Import Spec Steps Check Main.
+From Lorentz Require Import Spec Steps Windows Check Main.
 Import ListNotations.
 Local Open Scope Z_scope.
 
@@ -25,11 +25,13 @@ Definition flight : query := Query [Decimal 0 0; Decimal 445 (-3)] [Decimal 1 0;
 Definition hit : answer :=
   Hit (Obstacle 0 0 [26; 1]) (Some (Decimal 25999999999999996 (-15))) 2599999999999999682793421535957075817597
     (-38).
-Definition windows (last : Z) : certificate := Windows
-  [WrittenPiece 0 0 (AtNumber (Decimal (-999846910161925) (-16))) (AtNumber (Decimal 34203543907686442 (-16)))
+Definition at_number (n : numeral) : end_of_window :=
+  match end_at_number n with Some e => e | None => Dyadic 0 0 end.
+Definition windows (last : Z) : certificate := Windows [[
+  WrittenPiece 0 (at_number (Decimal (-999846910161925) (-16))) (at_number (Decimal 34203543907686442 (-16)))
     [[1; 0]; [5; 1]];
-   WrittenPiece 0 0 (AtNumber (Decimal 3420354390768644 (-15))) (AtNumber (Decimal last (-15))) [[1; 0];
-     [46; 1]]].
+  WrittenPiece 1 (at_number (Decimal 3420354390768644 (-15))) (at_number (Decimal last (-15)))
+    [[1; 0]; [46; 1]]]].
 
 Example flight_hits : correct square flight hit.
 Proof. apply (accepts_ok _ _ _ (windows 26099984691016193) 1000). vm_compute. reflexivity. Qed.

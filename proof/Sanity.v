@@ -91,21 +91,25 @@ Definition c := Obstacle 1 0 [0; 1]%Z.
 Definition chord_of (o : obstacle) (first last : R) : obstacle -> R -> Prop :=
   fun o' t => o' = o /\ first < t < last.
 
-Lemma enters_chord o first last t : first < last ->
-  enters (chord_of o first last) o t <-> 0 <= t /\ t = first.
+(* Where the chord is (first, last). *)
+Lemma enters_interval (within : obstacle -> R -> Prop) o first last t : first < last ->
+  (forall t', within o t' <-> first < t' < last) -> enters within o t <-> 0 <= t /\ t = first.
 Proof.
-  intros H. split.
+  intros H I. split.
   - intros (T0 & Low & Near). split; [auto|]. apply Rle_antisym.
     + apply Rnot_lt_le. intros K. set (m := Rmin t last).
       assert (first < m) by (unfold m, Rmin; destruct Rle_dec; lra).
       assert (t <= (first + m) / 2); [|unfold m, Rmin in *; destruct Rle_dec; lra].
-      apply Low. split; [auto|]. unfold m, Rmin in *; destruct Rle_dec; lra.
-    + apply Rnot_lt_le. intros K. destruct (Near first K) as (t' & (_ & I) & L). lra.
-  - intros (T0 & ->). split; [auto|]. split; [intros t' (_ & K); lra|]. intros later K.
+      apply Low, I. unfold m, Rmin in *; destruct Rle_dec; lra.
+    + apply Rnot_lt_le. intros K. destruct (Near first K) as (t' & It & L). apply I in It. lra.
+  - intros (T0 & ->). split; [auto|]. split; [intros t' K; apply I in K; lra|]. intros later K.
     set (m := Rmin later last).
     assert (first < m /\ m <= later /\ m <= last) as (? & ? & ?) by (unfold m, Rmin; destruct Rle_dec; lra).
-    exists ((first + m) / 2). split; [split; [auto|]; lra|lra].
+    exists ((first + m) / 2). split; [apply I; lra|lra].
 Qed.
+Lemma enters_chord o first last t : first < last ->
+  enters (chord_of o first last) o t <-> 0 <= t /\ t = first.
+Proof. intros H. apply (enters_interval _ o first last t H). unfold chord_of. intuition. Qed.
 
 Example ahead : first_hit (chord_of a 1 2) None a 1.
 Proof.
@@ -176,23 +180,36 @@ Proof.
     destruct (Near 1 K) as (t' & [(_ & I)|(E & _)] & L); [lra|discriminate]. }
   destruct (Least a 1 ltac:(discriminate) Ea) as [L|[_ L]]; [lra|]. exact (no_tie_back L).
 Qed.
-
-(* ---- Answers exclude each other, and are unique: of the definitions alone. *)
-Lemma less_asymmetric l : forall m, less l m -> ~ less m l.
+Example tie_is_hit : first_hit (fun o t => chord_of b 1 2 o t \/ chord_of a 1 3 o t) None a 1.
 Proof.
-  induction l as [|i l IH]; intros [|j m]; cbn; try tauto. intros [H|[E H]] [K|[E' K]]; try lia.
-  apply (IH m H K).
+  set (both := fun o t => _).
+  assert (Ia : forall t, both a t <-> 1 < t < 3) by (unfold both, chord_of; intuition discriminate).
+  assert (Ib : forall t, both b t <-> 1 < t < 2) by (unfold both, chord_of; intuition discriminate).
+  split; [discriminate|]. split; [apply (enters_interval both a 1 3 1 ltac:(lra) Ia); lra|].
+  split; [intros o _ [(_ & K)|(_ & K)]; lra|]. intros o t _ En. right.
+  assert (o = b \/ o = a) as [-> | ->].
+  { destruct En as (_ & _ & Near). destruct (Near (t + 1) ltac:(lra)) as (u & [(E & _)|(E & _)] & _); auto. }
+  - apply (enters_interval both b 1 2 t ltac:(lra) Ib) in En. split; [lra|exact ties_b].
+  - apply (enters_interval both a 1 3 t ltac:(lra) Ia) in En. split; [lra|left; reflexivity].
 Qed.
-Theorem hit_unique within from o t o' t' : first_hit within from o t -> first_hit within from o' t' ->
-  o = o' /\ t = t'.
+Example later_is_no_hit t : ~ first_hit (fun o t => chord_of a 2 3 o t \/ chord_of b 1 3 o t) None a t.
 Proof.
-  intros (F & En & _ & A) (F' & En' & _ & A'). specialize (A _ _ F' En'). specialize (A' _ _ F En).
-  destruct A as [A|[A1 A2]], A' as [A'|[A1' A2']]; try lra. split; auto.
-  destruct A2 as [|B], A2' as [|B']; auto. exfalso. exact (less_asymmetric _ _ B B').
+  set (both := fun o t => _).
+  assert (Ia : forall t, both a t <-> 2 < t < 3) by (unfold both, chord_of; intuition discriminate).
+  assert (Ib : forall t, both b t <-> 1 < t < 3) by (unfold both, chord_of; intuition discriminate).
+  intros (_ & En & _ & Least). apply (enters_interval both a 2 3 t ltac:(lra) Ia) in En.
+  assert (Eb : enters both b 1) by (apply (enters_interval both b 1 3 1 ltac:(lra) Ib); lra).
+  destruct (Least b 1 ltac:(discriminate) Eb); lra.
 Qed.
-Theorem hit_excludes within from o t : first_hit within from o t ->
-  ~ nothing within from /\ forall o', ~ first_inside within from o'.
+Example inside_is_the_smaller : first_inside (fun o t => chord_of b (-1) 2 o t \/ chord_of a (-1) 3 o t)
+  None a.
 Proof.
-  intros (F & En & N & _). split; [intros K; exact (proj2 (K o F) t En)|]. intros o' (F' & C & _).
-  exact (N o' F' C).
+  split; [discriminate|]. split; [right; split; [reflexivity|lra]|].
+  intros o _ [(-> & _)|(-> & _)]; [exact ties_b|left; reflexivity].
+Qed.
+(* A chord that has a first point begins there. *)
+Example closed_chord : enters (fun o t => o = a /\ 1 <= t <= 2) a 1.
+Proof.
+  split; [lra|]. split; [intros t (_ & K); lra|]. intros later K. exists 1. split; [split;
+    [reflexivity|lra]|lra].
 Qed.

@@ -9,7 +9,6 @@ Inductive flaw :=
 | NoVector                  (* not as many numbers as there are dimensions *)
 | BadScene                  (* without lattices, atoms, volume, or of another dimension *)
 | BadQuery                  (* v is zero, or `from` is no obstacle of the scene *)
-| NoAtom (l a : Z)          (* a piece of a certificate is of no atom *)
 | Determinant
 | NotAlong
 | GapBefore (piece : Z)

@@ -1,20 +1,61 @@
 (* docs/certificates.md, "hit and inside: windows", 1. to 3., of one atom; and the window of "never: rows
    along v". *)
 From Coq Require Import ZArith Reals Lra Lia Psatz List Bool.
-From Lorentz Require Import Spec Time Vectors Steps Search Space View Quadratic.
+From Lorentz Require Import Spec Time Vectors Number Steps Search Space View Quadratic Reading.
 Import ListNotations.
 Local Open Scope Z_scope.
 
-(* A piece of a certificate: from `begin_at` / E to `end_at` / E, the rows of the basis. Of `never` the ends
-   mean nothing. *)
-Record piece := Piece { number_of : Z; piece_lattice : Z; piece_atom : Z; begin_at : Z; end_at : Z; r1 : zv;
-  r2 : zv; r3 : zv }.
+(* ---- A piece of a certificate, as it is written: in which place, its ends m 2^e, the rows of its basis.
+  What
+   is said of it need not be proved: whatever it is read as, the claims are checked. *)
+Record end_of_window := Dyadic { mantissa : Z; exponent : Z }.
+Record written_piece := WrittenPiece
+  { place_in_list : Z; from_end : end_of_window; to_end : end_of_window; basis : list (list Z) }.
+Definition twos (bits : Z) : Z := if bits =? 0 then 0 else Z.log2 (Z.land bits (- bits)).
+Definition end_at_number (n : numeral) : option end_of_window :=
+  option_map (fun i => let k := twos i in Dyadic (Z.shiftr i k) (k - 1074)) (number n).
+
+(* As it is checked: from `begin_at` / E to `end_at` / E. Of `never` the ends mean nothing. *)
+Record piece := Piece { begin_at : Z; end_at : Z; r1 : zv; r2 : zv; r3 : zv }.
+
+(* E = 2^f: the ends of all these are multiples of 1 / E. *)
+Definition largest_exponent : Z := 2 ^ 14.
+Definition fineness (ws : list written_piece) : Z := fold_left (fun f w =>
+  Z.max f (Z.min largest_exponent (Z.max (- exponent (from_end w)) (- exponent (to_end w))))) ws 0.
+Lemma fineness_nonneg ws : 0 <= fineness ws.
+Proof.
+  unfold fineness. assert (K : forall f, 0 <= f -> 0 <= fold_left (fun f w =>
+    Z.max f (Z.min largest_exponent (Z.max (- exponent (from_end w)) (- exponent (to_end w))))) ws f);
+    [|apply K; lia].
+  induction ws as [|w ws IH]; cbn [fold_left]; auto. intros f Hf. apply IH. lia.
+Qed.
+
+Definition read_end (f : Z) (e : end_of_window) : option Z :=
+  if Z.abs (exponent e) <=? largest_exponent then Some (Z.shiftl (mantissa e) (exponent e + f)) else None.
+Definition read_row (planar : bool) (r : list Z) : option zv :=
+  match planar, r with true, [a; b] => Some (V a b 0) | false, [a; b; c] => Some (V a b c) | _, _ => None end.
+Definition read_basis (planar : bool) (rows : list (list Z)) : option (zv * zv * zv) :=
+  match planar, all_some (read_row planar) rows with
+  | true, Some [a; b] => Some (a, b, V 0 0 1)
+  | false, Some [a; b; c] => Some (a, b, c)
+  | _, _ => None
+  end.
+Definition read_piece (planar : bool) (f : Z) (w : written_piece) : option piece :=
+  match read_end f (from_end w), read_end f (to_end w), read_basis planar (basis w) with
+  | Some b, Some e, Some (r1, r2, r3) => Some (Piece b e r1 r2 r3)
+  | _, _, _ => None
+  end.
+(* Each costs so many steps before it is read. *)
+Definition piece_steps : Z := 10.
 
 Section Atom.
-  Variables (planar : bool) (E : Z) (y : seen).
+  Variables (planar : bool) (f : Z) (y : seen).
+  Hypothesis f_nonneg : 0 <= f.
+  Let E := 2 ^ f.
   Let Q := sQ y.
-  Hypothesis E_pos : 0 < E.
   Hypothesis Q_pos : 0 < Q.
+  Lemma E_pos : 0 < E.
+  Proof. apply Z.pow_pos_nonneg; [reflexivity|exact f_nonneg]. Qed.
 
   (* ---- 2. and 3.: all obstacles with lo <= s <= hi that the line meets are judged. *)
   Definition check_window (judge : zv -> time -> check) (w : piece) (lo hi : Z) : check :=
@@ -47,29 +88,39 @@ Section Atom.
   Qed.
 
   (* ---- 1. "its windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T iff e
-     Q < s E. *)
-  Fixpoint chain (e : Z) (ws : list piece) : Z + flaw :=
+     Q < s E. Up to e all has been looked at; and `last`, of how far it is at the end. *)
+  Definition check_next (judge : zv -> time -> check) (e : Z) (w : written_piece) (p : piece) : check :=
+    require (begin_at p <=? Z.min e (end_at p)) (GapBefore (place_in_list w)) ;;
+    check_window judge p (- ((- (begin_at p * Q)) / E)) ((end_at p * Q) / E).
+  Fixpoint walk (judge : zv -> time -> check) (last : Z -> check) (e : Z) (ws : list written_piece) (left :
+    Z) :
+    Z + flaw :=
     match ws with
-    | [] => inl e
-    | w :: ws => if begin_at w <=? Z.min e (end_at w) then chain (Z.max e (end_at w)) ws else
-      inr (GapBefore (number_of w))
+    | [] => last e left
+    | w :: ws => (spend piece_steps ;; let? p := read_piece planar f w else NoVector in
+        check_next judge e w p ;; walk judge last (Z.max e (end_at p)) ws) left
     end.
-  Lemma chain_ok ws s : forall e e', chain e ws = inl e' -> e * Q < s -> s <= e' * Q ->
-    exists w, In w ws /\ begin_at w * Q <= s <= end_at w * Q.
+  Lemma walk_ok judge last ws : forall e, passes (walk judge last e ws) -> exists e', passes (last e') /\
+    forall s, e * Q < s <= e' * Q -> exists p, begin_at p * Q <= s <= end_at p * Q /\
+      passes (check_window judge p (- ((- (begin_at p * Q)) / E)) ((end_at p * Q) / E)).
   Proof.
-    induction ws as [|w ws IH]; cbn [chain]; intros e e' H Hl Hu.
-    - injection H as ->. lia.
-    - destruct (Z.leb_spec (begin_at w) (Z.min e (end_at w))); [|discriminate].
-      destruct (Z_le_gt_dec s (end_at w * Q)).
-      + exists w. split; [left; auto|]. nia.
-      + destruct (IH _ _ H) as (w' & Hw & K); [nia|auto|]. exists w'. split; [right|]; auto.
+    induction ws as [|w ws IH]; intros e H.
+    - exists e. split; [exact H|]. intros s Hs. exfalso. lia.
+    - cbn [walk] in H. apply passes_both in H. destruct H as [_ H].
+      destruct (read_piece planar f w) as [p|]; [|apply passes_fail in H; tauto].
+      apply passes_both in H. destruct H as [H1 H2]. apply passes_both in H1. destruct H1 as [H0 H1].
+      apply passes_require, Z.leb_le in H0. destruct (IH _ H2) as (e' & He & K). exists e'. split;
+        [exact He|].
+      intros s Hs. destruct (Z_le_gt_dec s (end_at p * Q)).
+      + exists p. split; [nia|exact H1].
+      + apply K. nia.
   Qed.
 
   (* "the first begins at or below -r/|v|": just below it. *)
   Definition beginning : Z := - (1 + Z.sqrt ((sr y * (E * E) - 1) / (Q * Q))).
   Lemma beginning_ok s : s * s < sr y -> beginning * Q < s * E.
   Proof.
-    intros Hs. unfold beginning. set (X := sr y * (E * E) - 1).
+    pose proof E_pos as EP. intros Hs. unfold beginning. set (X := sr y * (E * E) - 1).
     assert (X0 : s * s * (E * E) <= X) by (unfold X; nia). assert (0 <= X) by nia.
     assert (QQ : 0 < Q * Q) by nia.
     pose proof (Z.div_pos X (Q * Q) ltac:(auto) QQ) as D0. pose proof (Z.sqrt_spec _ D0) as [_ S].
@@ -90,7 +141,8 @@ Section Atom.
   Lemma reaches_ok e until s D : regular until -> reaches e until = true -> 0 <= D <= sr y ->
     (time_value (Time s D Q) <= time_value until)%R -> s * E <= e * Q.
   Proof.
-    intros Hu K HD HV. pose proof (order_ok (Time (e * Q) (sr y * (E * E)) (Q * E)) until) as O.
+    pose proof E_pos as EP. intros Hu K HD HV. pose proof (order_ok (Time (e * Q) (sr y * (E * E)) (Q * E))
+      until) as O.
     assert (EE : 0 < E * E) by nia.
     assert (Rg : regular (Time (e * Q) (sr y * (E * E)) (Q * E))).
     { split; cbn [td tq]; [apply Z.mul_nonneg_nonneg; lia|apply Z.mul_pos_pos; auto]. }
@@ -100,7 +152,7 @@ Section Atom.
     clear O K HV Rg. unfold time_value in V; cbn [ts td tq] in V. rewrite sqrt_scale in V by lia.
     rewrite !mult_IZR in V.
     apply le_IZR. rewrite !mult_IZR.
-    assert (QP : (0 < IZR Q)%R) by (apply IZR_lt; auto). assert (EP : (0 < IZR E)%R) by (apply IZR_lt; auto).
+    assert (QP : (0 < IZR Q)%R) by (apply IZR_lt; auto). assert (EP' : (0 < IZR E)%R) by (apply IZR_lt; auto).
     assert (RP : (sqrt (IZR D) <= sqrt (IZR (sr y)))%R) by (apply sqrt_le_1_alt, IZR_le; lia).
     set (q := IZR Q) in *. set (ee := IZR E) in *. set (sd := sqrt (IZR D)) in *.
     set (sq := sqrt (IZR (sr y))) in *.
@@ -113,43 +165,39 @@ Section Atom.
 
   (* ---- All obstacles of the atom that contain x or are entered no later than `until`; any, if there is no
      `until`. *)
-  Definition check_windows (ws : list piece) (until : option time) (gap : flaw) (judge : zv -> time ->
-    check) : check :=
-    match chain beginning ws with
-    | inr f => fail f
-    | inl e =>
-      each_in ws (fun w => check_window judge w (- ((- (begin_at w * Q)) / E)) ((end_at w * Q) / E)) ;;
-      require (match until with None => true | Some t => reaches e t end) gap
-    end.
-  Lemma check_windows_ok ws until gap judge : regular until ->
-    passes (check_windows ws (Some until) gap judge) ->
+  Definition check_windows_in (ws : list written_piece) (until : option time) (gap : flaw)
+    (judge : zv -> time -> check) : check :=
+    walk judge (fun e => require (match until with None => true | Some t => reaches e t end) gap)
+      beginning ws.
+  Lemma check_windows_in_ok ws until gap judge : regular until ->
+    passes (check_windows_in ws (Some until) gap judge) ->
     forall n, level planar n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
     0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D Q) <= time_value until)%R ->
       passes (judge n (Time s D Q)).
   Proof.
-    intros Hu H n Hn W s D HD Hs HV. unfold check_windows in H.
-    destruct (chain beginning ws) as [e|f] eqn:EC; [|apply passes_fail in H; tauto].
-    apply passes_both in H. destruct H as [H1 H2]. apply passes_require in H2.
+    intros Hu H n Hn W s D HD Hs HV. destruct (walk_ok _ _ _ _ H) as (e & H2 & K). apply passes_require in H2.
+    pose proof E_pos as EP.
     assert (HDR : D <= sr y) by (unfold D, sD; pose proof (h2_nonneg (sv y) W); lia).
-    assert (exists w, In w ws /\ begin_at w * Q <= s * E <= end_at w * Q) as (w & Hw & Hb).
-    { apply (chain_ok ws (s * E) _ _ EC).
+    destruct (K (s * E)) as (p & Hb & Hp).
+    { split.
       - destruct Hs as [Hs|Hs]; [|apply beginning_ok; lia].
         assert (beginning * Q < 0 * E) by (apply beginning_ok; lia).
         assert (0 < s * E) by (apply Z.mul_pos_pos; auto). lia.
       - apply (reaches_ok e until s D); auto. lia. }
-    pose proof (each_in_ok _ _ H1 _ Hw) as K. apply (check_window_ok _ _ _ _ K); auto. fold W. fold s. split.
+    apply (check_window_ok _ _ _ _ Hp); auto. fold W. fold s. split.
     - apply Z.opp_le_mono. rewrite Z.opp_involutive. apply Z.div_le_lower_bound; auto. lia.
     - apply Z.div_le_lower_bound; auto. lia.
   Qed.
 
   (* ---- never: "b_1 is parallel to v, so all obstacles of a row have the same h". One of each row has 0 <= s
      <= |s_1|. *)
-  Definition check_row (w : piece) (met : zv -> flaw) : check :=
+  Definition check_piece_of_row (w : piece) (met : zv -> flaw) : check :=
     let b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y) in let s1 := sS y b1 in let c := cross (sv y) b1 in
     require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0) &&
       negb (planar && negb (vz (r1 w) =? 0))) NotAlong ;;
     check_window (fun n _ => fail (met n)) w 0 (Z.abs s1).
-  Lemma check_row_ok w met : passes (check_row w met) -> forall n, level planar n -> ~ 0 < sD y (at_cell y n).
+  Lemma check_piece_of_row_ok w met : passes (check_piece_of_row w met) -> forall n, level planar n ->
+    ~ 0 < sD y (at_cell y n).
   Proof.
     intros H n Hn Dp. apply passes_both in H. destruct H as [H Hw]. apply passes_require in H.
     rewrite !Bool.andb_true_iff, !Bool.negb_true_iff, !Z.eqb_eq, Z.eqb_neq in H.
@@ -173,3 +221,24 @@ Section Atom.
     rewrite Hpl. ring.
   Qed.
 End Atom.
+
+(* With these windows; with this row. *)
+Definition check_windows (planar : bool) (y : seen) (ws : list written_piece) : option time -> flaw ->
+  (zv -> time -> check) -> check := check_windows_in planar (fineness ws) y ws.
+Lemma check_windows_ok planar y ws until gap judge : 0 < sQ y -> regular until ->
+  passes (check_windows planar y ws (Some until) gap judge) ->
+  forall n, level planar n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
+  0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D (sQ y)) <= time_value until)%R ->
+    passes (judge n (Time s D (sQ y))).
+Proof. intros HQ. apply check_windows_in_ok; [apply fineness_nonneg|exact HQ]. Qed.
+
+Definition check_row (planar : bool) (y : seen) (w : written_piece) (met : zv -> flaw) : check :=
+  spend piece_steps ;; let? b := read_basis planar (basis w) else NoVector in
+  let '(r1, r2, r3) := b in check_piece_of_row planar y (Piece 0 0 r1 r2 r3) met.
+Lemma check_row_ok planar y w met : passes (check_row planar y w met) ->
+  forall n, level planar n -> ~ 0 < sD y (at_cell y n).
+Proof.
+  intros H. apply passes_both in H. destruct H as [_ H].
+  destruct (read_basis planar (basis w)) as [[[r1 r2] r3]|]; [|apply passes_fail in H; tauto].
+  exact (check_piece_of_row_ok planar 0 y (Z.le_refl 0) _ _ H).
+Qed.

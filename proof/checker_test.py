@@ -14,14 +14,16 @@ def load(name):
     return module
 
 kinds, forms = load("check_py_test"), load("golden_forms_test")
+sys.path.insert(0, str(ROOT / "proof"))
+import wrong_specs
 
 def verdict(text):
     """Exit status and output for a file of this text."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "set.ndjson"
         path.write_bytes(text)
-        # Of a minute it needs seconds.
-        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=60)
+        # It needs seconds, also where the machine is busy.
+        done = subprocess.run([CHECKER, path], capture_output=True, text=True, timeout=600)
         return done.returncode, done.stdout + done.stderr
 
 kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode())
@@ -35,6 +37,17 @@ class Accepts(kinds.Accepts):
                 (["no such file"], "", 2), ([], "", 2)):
             done = subprocess.run([CHECKER, *arguments], input=text, text=True, capture_output=True)
             self.assertEqual(done.returncode, status, done)
+
+    def test_the_worst_file_decides(self):
+        lines = "\n".join(kinds.golden(*kinds.CASES.values()))
+        with tempfile.TemporaryDirectory() as folder:
+            good, refuted, bad = (pathlib.Path(folder) / name for name in ("good", "refuted", "bad"))
+            for path, text in ((good, lines), (refuted, lines.rsplit("\n", 1)[0]), (bad, lines + "\n{")):
+                path.write_text(text)
+            for files, status in (([refuted, good], 1), ([good, refuted], 1), ([bad, good, refuted], 2),
+                                  ([refuted, bad, good], 2), ([good, good], 0), (["no such file", good], 2)):
+                done = subprocess.run([CHECKER, *files], capture_output=True)
+                self.assertEqual(done.returncode, status, files)
 
 class Refuses(kinds.Refuses):
     pass
@@ -74,11 +87,34 @@ class Hostile(unittest.TestCase):
 
     def test_windows(self):
         for name in "plane", "space":
-            self.refused(name, "too many", lambda w: w[-1].update(to="0x1p65536"))
-            self.refused(name, "too many", lambda w: w[0].update({"from": "-0x1p65536"}))
+            self.refused(name, "too many", lambda w: w[-1].update(to="0x1p16384"))
+            self.refused(name, "too many", lambda w: w[0].update({"from": "-0x1p16384"}))
         # One budget for all.
         self.refused("exact", "too many", lambda w: w.extend([{**w[0], "to": 3e4}] * 2000))
-        self.refused("plane", "exponent", lambda w: w[0].update({"from": "-0x1p65537"}))
+        self.refused("plane", "exponent", lambda w: w[0].update({"from": "-0x1p16385"}))
+        self.refused("exact", "of more than 2500", lambda w: w[0].update({"from": "-0x" + 2498 * "1"}))
+
+    def test_windows_that_see_nothing(self):
+        """Each costs ten steps, and one for the plane that it looks at."""
+        for pieces, status in ((90000, 0), (91000, 1)):
+            case = kinds.copy.deepcopy(kinds.CASES["exact"])
+            windows = case["certificate"]["windows"]
+            windows.extend([{**windows[0], "from": 0.1, "to": 0.1, "basis": [[0, 1], [1, 0]]}] * pieces)
+            self.assertEqual(kinds.run(kinds.golden(case))[0], status, pieces)
+
+    def test_lines(self):
+        """A line of 32 MiB is read, a longer one passed over."""
+        for length, status in ((2**25, 0), (2**25 + 1, 2), (2**26, 2)):
+            header, scene, line = kinds.golden(kinds.CASES["exact"])
+            said = verdict("\n".join((header, scene, line + (length - len(line)) * " ", "")).encode())
+            self.assertEqual(said[0], status, (length, said[1][-300:]))
+
+    def test_ends_are_exact(self):
+        """-1/4, where the window has to begin, and 2^-9000 before and behind it."""
+        for numerator, status in ((2**8998, 0), (2**8998 + 1, 0), (2**8998 - 1, 1)):
+            case = kinds.copy.deepcopy(kinds.CASES["exact"])
+            case["certificate"]["windows"][0]["from"] = f"-{numerator:#x}p-9000"
+            self.assertEqual(kinds.run(kinds.golden(case))[0], status, numerator - 2**8998)
 
     def test_exponents(self):
         for number, why in (("1e99999999999999999999", "no number"), ("1e-99999999999999999999", "gap"),
@@ -87,6 +123,30 @@ class Hostile(unittest.TestCase):
             status, said = kinds.run([header, scene, line.replace('"from":-0.25', '"from":-' + number)])
             self.assertEqual(status, 1, said)
             self.assertRegex(said, why)
+
+    def test_a_scene_of_many_atoms(self):
+        """No stack overflows."""
+        case = kinds.copy.deepcopy(kinds.CASES["error"])
+        case["scene"]["lattices"][0]["atoms"] *= 300000
+        status, said = kinds.run(kinds.golden(case))
+        self.assertEqual(status, 0, said[-300:])
+
+class WrongSpecifications(unittest.TestCase):
+    """What Coq does not end with, or refuses elsewhere than in a proof, is not refused."""
+    def test_without_time(self):
+        longest, wrong_specs.LONGEST = wrong_specs.LONGEST, 0.001
+        try: by, why = wrong_specs.attempt(wrong_specs.WRONG["closed balls"])
+        finally: wrong_specs.LONGEST = longest
+        self.assertEqual(by, None)
+        self.assertRegex(why, "did not end")
+
+    def test_what_is_no_specification(self):
+        for new, said in ((") < valve r", "no specification at all"), (") <", "no specification at all")):
+            old = "norm (along q (-1) centre) < value r"
+            by, why = wrong_specs.attempt((old, "norm (along q (-1) centre" + new))
+            self.assertEqual(by, None)
+            self.assertRegex(why, said)
+        self.assertRegex(wrong_specs.attempt(("nowhere", ""))[1], "0 places")
 
 class Forms(unittest.TestCase):
     def hold(self, texts_of_kinds, accepted):

@@ -1,4 +1,5 @@
-(* JSON (RFC 8259), strictly: UTF-8 without halves of surrogate pairs, nested no deeper than 64 levels, nothing behind. *)
+(* JSON (RFC 8259), strictly: UTF-8 without halves of surrogate pairs, nested no deeper than 64 levels, no key twice in an
+   object, nothing behind. *)
 
 type t =
   | Null
@@ -6,7 +7,7 @@ type t =
   | Number of string  (* as it is written *)
   | String of string
   | Array of t list
-  | Object of (string * t) list  (* in order, also those that come twice *)
+  | Object of (string * t) list  (* in order *)
 
 exception Bad of string
 
@@ -114,11 +115,17 @@ let items r close item =
     in
     more []
 
+(* "x" and "\u0078" are one key. *)
+let distinct r members =
+  let rec differ = function a :: (b :: _ as l) -> if a = b then bad r.at (Printf.sprintf "the key %S comes twice" a) else differ l | _ -> () in
+  differ (List.sort String.compare (List.rev_map fst members));
+  members
+
 let rec value r depth =
   space r;
   match peek r with
   | '{' | '[' when depth >= deepest -> bad r.at "nested too deep"
-  | '{' -> Object (items r '}' (fun () -> member r depth))
+  | '{' -> Object (distinct r (items r '}' (fun () -> member r depth)))
   | '[' -> Array (items r ']' (fun () -> value r (depth + 1)))
   | '"' -> String (string r)
   | 't' -> word r "true" (Bool true)
@@ -166,11 +173,11 @@ let parse text =
   if r.at < String.length text then bad r.at "something behind";
   box
 
-(* ---- Members. Of a key that comes twice the last counts. *)
+(* ---- Members. *)
 let members = function Object l -> l | _ -> raise (Bad "no object")
-let find key box = List.fold_left (fun found (k, v) -> if k = key then Some v else found) None (members box)
+let find key box = List.assoc_opt key (members box)
 let get key box = match find key box with Some v -> v | None -> raise (Bad ("no key " ^ key))
 let has key box = List.mem_assoc key (members box)
-let keys box = List.map fst (members box)
+let keys box = List.rev (List.rev_map fst (members box))
 let list = function Array l -> l | _ -> raise (Bad "no array")
 let text = function String s -> s | _ -> raise (Bad "no string")

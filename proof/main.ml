@@ -21,7 +21,6 @@ let words outcome answer = function
   | NoVector -> "no array of so many items"
   | BadScene -> "no volume or shape"
   | BadQuery -> "v is zero, or `from` is no obstacle of the scene"
-  | NoAtom (l, a) -> numbers [ l; a ]
   | Determinant -> "a determinant is not +-1: obstacles are missing"
   | NotAlong -> "b_1 is not along v"
   | GapBefore i -> Printf.sprintf "the windows leave a gap before window %s" (Z.to_string i)
@@ -48,20 +47,25 @@ let check_keys outcome box =
     (has = own_keys outcome && (outcome <> "error" || not (Json.has "certificate" box)))
     (Printf.sprintf "keys: '%s' has %s" outcome (comma (own_keys outcome)))
 
-(* Of the outcome `error` no theorem is: only that the question is none. *)
-let is_question (size, prepared) box =
-  match Record.question size box with q -> is_question prepared q | exception (Record.Flaw _ | Json.Bad _) -> false
+let check_words box =
+  let is_text key = match Json.find key (Json.get "expect" box) with None | Some (Json.String _) -> true | _ -> false in
+  Record.require (List.for_all is_text [ "message"; "reason" ]) "what is said of an answer is a string"
 
-let verify (size, prepared) box =
+(* Of the outcome `error` no theorem is: only that the question is none. *)
+let is_question (scene : Record.scene) box =
+  match Record.question scene.size box with q -> is_question scene.prepared q | exception (Record.Flaw _ | Json.Bad _) -> false
+
+let verify (scene : Record.scene) box =
   let outcome = match Json.get "outcome" (Json.get "expect" box) with Json.String s -> s | _ -> "" in
   check_keys outcome box;
+  check_words box;
   match outcome with
-  | "error" -> Record.require (not (is_question (size, prepared) box)) "the outcome is not 'error'"
+  | "error" -> Record.require (not (is_question scene box)) "the outcome is not 'error'"
   | "hit" | "inside" | "never" -> (
-      let question = Record.question size box in
-      let answer = Record.answer size outcome box in
-      let certificate = Record.certificate size (Json.get "certificate" box) in
-      match check_record prepared question answer certificate !budget with
+      let question = Record.question scene.size box in
+      let answer = Record.answer scene.size outcome box in
+      let certificate = Record.certificate scene (Json.get "certificate" box) in
+      match check_record scene.prepared question answer certificate !budget with
       | Inl _ -> ()
       | Inr flaw -> Record.flaw (words outcome answer flaw))
   | _ -> Record.flaw (Printf.sprintf "the outcome is not '%s'" outcome)
@@ -72,11 +76,11 @@ type set = {
   mutable flaws : (int * string) list;
   mutable records : int;
   mutable errors : int;
-  mutable scene : (int * prepared) option;
+  mutable scene : Record.scene option;
   mutable text : string;  (* the scene's line *)
   mutable version : Z.t option;
   mutable count : Z.t option;
-  mutable tags : string list;
+  tags : (string, unit) Hashtbl.t;
   ids : (string, unit) Hashtbl.t;
 }
 
@@ -85,10 +89,10 @@ let read_header set box =
   set.version <- Some (Record.integer (Json.get "format" head));
   set.count <- Some (Record.integer (Json.get "count" head));
   let tags = Json.get "tags" head in
-  set.tags <- Json.keys tags;
+  List.iter (fun tag -> Hashtbl.replace set.tags tag ()) (Json.keys tags);
   let named = List.filter_map (fun key -> Json.find key head) [ "name"; "description"; "generator"; "version" ] in
   let is_string = function Json.String _ -> true | _ -> false in
-  Record.require (List.for_all is_string (named @ List.map snd (Json.members tags))) "names and tags are explained in strings"
+  Record.require (List.for_all is_string named && List.for_all (fun (_, said) -> is_string said) (Json.members tags)) "names and tags are explained in strings"
 
 let find_text text part first =
   let n = String.length part in
@@ -105,21 +109,20 @@ let question_text line =
   Record.require (first <= last) "the order of the keys";
   String.sub line first (last - first)
 
-let rec prefix l n = match (l, n) with a :: l, n when n > 0 -> a :: prefix l (n - 1) | _ -> []
-let rec index_of key = function [] -> Record.flaw ("no key " ^ key) | k :: l -> if k = key then 0 else 1 + index_of key l
-
+(* id, tags, the keys of the question, expect, and what is no key of a question. *)
 let check_order box question =
-  let keys = Json.keys box in
-  let n = index_of "expect" keys in
-  let asked = "id" :: "tags" :: Json.keys (Json.parse ("{" ^ question ^ "}")) in
-  let behind = List.filteri (fun i _ -> i >= n) keys in
-  Record.require
-    (prefix keys n = asked && not (List.exists (fun k -> List.mem k [ "x"; "v"; "from" ]) behind))
-    "the order of the keys"
+  let asked = Json.keys (Json.parse ("{" ^ question ^ "}")) in
+  let rec follow keys wanted =
+    match (keys, wanted) with
+    | "expect" :: rest, [] -> List.for_all (fun k -> not (List.mem k [ "x"; "v"; "from" ])) rest
+    | key :: keys, want :: wanted -> key = want && follow keys wanted
+    | _ -> false
+  in
+  Record.require (asked <> [] && follow (Json.keys box) ("id" :: "tags" :: asked)) "the order of the keys"
 
 let check_tags set box =
-  let tags = List.map Json.text (Json.list (Json.get "tags" box)) in
-  Record.require (tags <> [] && List.for_all (fun t -> List.mem t set.tags) tags) "unknown tags"
+  let tags = Json.list (Json.get "tags" box) in
+  Record.require (tags <> [] && List.for_all (fun t -> Hashtbl.mem set.tags (Json.text t)) tags) "unknown tags"
 
 let read_record set box line =
   let question = question_text line in
@@ -164,7 +167,7 @@ let read_line set number line =
       set.flaws <- (status, Printf.sprintf "%s:%d: Error: %s" set.file number (Printexc.to_string e)) :: set.flaws
 
 let without_line_end line =
-  let rec length n = if n > 0 && (line.[n - 1] = '\r' || line.[n - 1] = '\n') then length (n - 1) else n in
+  let rec length n = if n > 0 && line.[n - 1] = '\r' then length (n - 1) else n in
   String.sub line 0 (length (String.length line))
 
 let without_mark line =
@@ -172,23 +175,50 @@ let without_mark line =
 
 let is_blank line = String.for_all (function ' ' | '\t' | '\r' -> true | _ -> false) line
 
-let read_lines set channel =
-  let rec next number =
-    match input_line channel with
-    | line ->
-        let line = without_line_end line in
-        let line = if number = 1 then without_mark line else line in
-        if number = 1 || not (is_blank line) then read_line set number line;
-        next (number + 1)
-    | exception End_of_file -> ()
+(* Lines, each as far as `longest_line`; None, if it is longer. *)
+let longest_line = 32 * 1024 * 1024
+
+let each_line channel act =
+  let chunk = Bytes.create 65536 and line = Buffer.create 65536 and too_long = ref false and some = ref false in
+  let add first n =
+    some := true;
+    if !too_long || Buffer.length line + n > longest_line then (too_long := true; Buffer.reset line)
+    else Buffer.add_subbytes line chunk first n
   in
-  next 1
+  let finish () =
+    act (if !too_long then None else Some (Buffer.contents line));
+    Buffer.clear line;
+    too_long := false;
+    some := false
+  in
+  let rec lines first last =
+    match Bytes.index_from_opt chunk first '\n' with
+    | Some i when i < last -> add first (i - first); finish (); lines (i + 1) last
+    | _ -> if first < last then add first (last - first)
+  in
+  let rec read () =
+    match input channel chunk 0 (Bytes.length chunk) with
+    | 0 -> if !some then finish ()
+    | n -> lines 0 n; read ()
+  in
+  read ()
+
+let read_lines set channel =
+  let number = ref 0 in
+  each_line channel (fun line ->
+      incr number;
+      match line with
+      | None -> set.flaws <- (2, Printf.sprintf "%s:%d: a line of more than %d bytes" set.file !number longest_line) :: set.flaws
+      | Some line ->
+          let line = without_line_end line in
+          let line = if !number = 1 then without_mark line else line in
+          if !number = 1 || not (is_blank line) then read_line set !number line)
 
 let say_count = function Some n -> Z.to_string n | None -> "None"
 
 let check file =
   let set =
-    { file; flaws = []; records = 0; errors = 0; scene = None; text = ""; version = None; count = None; tags = []; ids = Hashtbl.create 1024 }
+    { file; flaws = []; records = 0; errors = 0; scene = None; text = ""; version = None; count = None; tags = Hashtbl.create 16; ids = Hashtbl.create 1024 }
   in
   let channel = if file = "-" then stdin else open_in_bin file in
   read_lines set channel;

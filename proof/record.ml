@@ -7,6 +7,11 @@ exception Flaw of string
 
 let flaw what = raise (Flaw what)
 let require condition what = if not condition then flaw what
+let map f l = List.rev (List.rev_map f l)  (* of any length *)
+
+(* Integers, ends of windows, and time_decimal are no longer than that. *)
+let longest = 2500
+let short what text = require (String.length text <= longest) (Printf.sprintf "%s of more than %d characters" what longest)
 
 (* ---- Numbers. *)
 let whole digits = if digits = "" then Z.zero else Z.of_string digits
@@ -23,8 +28,9 @@ let integer_text text =
   if unsigned <> "" && String.for_all (function '0' .. '9' -> true | _ -> false) unsigned then Some (Z.of_string text) else None
 
 let signed_integer text =
-  let text = if text <> "" && text.[0] = '+' then String.sub text 1 (String.length text - 1) else text in
-  match integer_text text with Some n when text.[0] <> '+' -> n | _ -> flaw "no exponent"
+  let positive = text <> "" && text.[0] = '+' in
+  let text = if positive then String.sub text 1 (String.length text - 1) else text in
+  match integer_text text with Some n when not (positive && text.[0] = '-') -> n | _ -> flaw "no exponent"
 
 (* A number of JSON. *)
 let decimal text =
@@ -62,6 +68,7 @@ let number json =
 (* 27, 27.0, 2.7e1, "27". *)
 let integer = function
   | Json.Number text -> (
+      if not (String.exists (function '.' | 'e' | 'E' -> true | _ -> false) text) then short "an integer" text;
       match integer_text text with
       | Some n -> n
       | None -> (
@@ -70,13 +77,15 @@ let integer = function
           | Some n when Z.equal n (Z.shift_left (Z.shift_right n 1074) 1074) && Z.leq (Z.abs n) (Z.shift_left Z.one (53 + 1074)) ->
               Z.shift_right n 1074
           | _ -> flaw ("no integer: " ^ text)))
-  | Json.String text -> ( match integer_text text with Some n -> n | None -> flaw (Printf.sprintf "no integer: '%s'" text))
+  | Json.String text -> (
+      short "an integer" text;
+      match integer_text text with Some n -> n | None -> flaw (Printf.sprintf "no integer: '%s'" text))
   | _ -> flaw "no integer"
 
 (* ---- Scenes and questions. *)
 let array size read json =
   let l = Json.list json in
-  require (List.length l = size) (Printf.sprintf "no array of %d items" size);
+  require (List.compare_length_with l size = 0) (Printf.sprintf "no array of %d items" size);
   List.map read l
 
 let vector size = array size number
@@ -92,7 +101,7 @@ let atom size json =
 
 let lattice size json =
   { vectors = array size (vector size) (Json.get "vectors" json);
-    atoms = List.map (atom size) (Json.list (Json.get "atoms" json)) }
+    atoms = map (atom size) (Json.list (Json.get "atoms" json)) }
 
 let rec nat n = if n = 0 then O else S (nat (n - 1))
 
@@ -102,12 +111,16 @@ let dimension json =
   | Some n when Z.equal n (Z.shift_left (Z.of_int 3) 1074) -> 3
   | _ -> flaw "the dimension is 2 or 3"
 
-(* The number of dimensions, and the scene made ready. *)
+(* The number of dimensions, the scene made ready, and the places of its atoms (lattice, atom). *)
+type scene = { size : int; prepared : prepared; places : (int * int, int) Hashtbl.t }
+
 let scene json =
   let size = dimension (Json.get "dimension" json) in
-  let lattices = List.map (lattice size) (Json.list (Json.get "lattices" json)) in
+  let lattices = map (lattice size) (Json.list (Json.get "lattices" json)) in
+  let places = Hashtbl.create 16 in
+  List.iteri (fun l (u : lattice) -> List.iteri (fun a _ -> Hashtbl.add places (l, a) (Hashtbl.length places)) u.atoms) lattices;
   match prepare { dimension = nat size; lattices } with
-  | Some prepared -> (size, prepared)
+  | Some prepared -> { size; prepared; places }
   | None -> flaw "an empty scene, or no volume or shape"
 
 let obstacle size json =
@@ -120,7 +133,7 @@ let question size json =
     velocity = vector size (Json.get "v" json);
     from = Option.map (obstacle size) (Json.find "from" json) }
 
-(* ---- Answers and certificates. *)
+(* ---- Answers. *)
 let has_sign = function Json.Number t | Json.String t -> t <> "" && t.[0] = '-' | _ -> false
 
 let time = function
@@ -130,24 +143,28 @@ let time = function
       require (not (has_sign json)) "time is not correctly rounded";
       Some n
 
-(* [0-9]+[.]?[0-9]*(e[+-][0-9]{1,4})?; of 0 only "0". That there are 40 digits is for Checker. *)
+(* [0-9]+([.][0-9]+)?(e[+-][0-9]{1,4})?; of 0 only "0". That there are 40 digits is for Checker. *)
 let time_decimal text =
-  let is_digits s = String.for_all (function '0' .. '9' -> true | _ -> false) s in
+  let bad () = flaw "time_decimal is no number" in
+  let digits s = if s = "" || not (String.for_all (function '0' .. '9' -> true | _ -> false) s) then bad () in
+  short "time_decimal" text;
   let mantissa, power = split_at "e" text in
   let before, after = split_at "." mantissa in
+  digits before;
+  Option.iter digits after;
   let after = Option.value after ~default:"" in
   let power =
     match power with
-    | None -> 0
+    | None -> Z.zero
     | Some p ->
         let n = String.length p in
-        require (n >= 2 && n <= 5 && (p.[0] = '+' || p.[0] = '-') && is_digits (String.sub p 1 (n - 1))) "time_decimal is no number";
-        Z.to_int (signed_integer p)
+        if n < 2 || n > 5 || (p.[0] <> '+' && p.[0] <> '-') then bad ();
+        digits (String.sub p 1 (n - 1));
+        signed_integer p
   in
-  require (before <> "" && is_digits before && is_digits after) "time_decimal is no number";
   let m = whole (before ^ after) in
   require (text = "0" || Z.sign m > 0) "time_decimal is wrong";
-  (m, Z.of_int (power - String.length after))
+  (m, Z.sub power (Z.of_int (String.length after)))
 
 let answer size outcome json =
   let expect = Json.get "expect" json in
@@ -159,26 +176,37 @@ let answer size outcome json =
   | "inside" -> Inside (obstacle size expect)
   | _ -> Never
 
+(* ---- Certificates. Nothing of this need be trusted: whatever they are read as, the claims are checked. *)
+let largest_exponent = Z.of_int 16384
+
 let window_end = function
   | Json.String text ->
+      short "a window's end" text;
       let m, e = hexadecimal text in
-      require (Z.leq (Z.abs e) (Z.of_int 65536)) "an exponent beyond 65536";
-      Exactly (m, e)
-  | json -> AtNumber (number json)
+      require (Z.leq (Z.abs e) largest_exponent) "an exponent beyond 16384";
+      { mantissa = m; exponent = e }
+  | json -> ( match end_at_number (numeral json) with Some e -> e | None -> flaw "no number: beyond the range of binary64")
 
 let basis size json = array size (array size integer) (Json.get "basis" json)
 
-let piece size ends json =
-  let window_end key = if ends then window_end (Json.get key json) else Exactly (Z.zero, Z.zero) in
-  { of_lattice_written = integer (Json.get "lattice" json);
-    of_atom_written = integer (Json.get "atom" json);
-    from_end = window_end "from";
-    to_end = window_end "to";
-    basis = basis size json }
+let piece size ends place json =
+  let window_end key = if ends then window_end (Json.get key json) else { mantissa = Z.zero; exponent = Z.zero } in
+  { place_in_list = Z.of_int place; from_end = window_end "from"; to_end = window_end "to"; basis = basis size json }
 
-let certificate size json =
-  let pieces key ends = List.map (piece size ends) (Json.list (Json.get key json)) in
-  match (Json.has "windows" json, Json.has "rows" json) with
-  | true, false -> Windows (pieces "windows" true)
-  | false, true -> Rows (pieces "rows" false)
+(* The pieces of each atom, in the order in which they are listed. *)
+let pieces scene ends list =
+  let of_atom = Array.make (Hashtbl.length scene.places) [] in
+  let add place json =
+    let l = integer (Json.get "lattice" json) and a = integer (Json.get "atom" json) in
+    match if Z.fits_int l && Z.fits_int a then Hashtbl.find_opt scene.places (Z.to_int l, Z.to_int a) else None with
+    | Some i -> of_atom.(i) <- piece scene.size ends place json :: of_atom.(i)
+    | None -> flaw (Printf.sprintf "no atom (%s, %s)" (Z.to_string l) (Z.to_string a))
+  in
+  List.iteri add list;
+  Array.to_list (Array.map List.rev of_atom)
+
+let certificate scene json =
+  match (Json.find "windows" json, Json.find "rows" json) with
+  | Some l, None -> Windows (pieces scene true (Json.list l))
+  | None, Some l -> Rows (pieces scene false (Json.list l))
   | _ -> flaw "a certificate has either windows or rows"

@@ -94,20 +94,28 @@ class PyOracle {
   PyCertificate prove(const std::string& text) const {
     const auto [query, exact] = question(text);
     if (!prover_) prover_.emplace(scene_);
-    return {prover_->prove(query, exact), scene_.dimension};
+    PyCertificate proved{prover_->prove(query, exact), scene_.dimension};
+    bool too_long = false;
+    const auto why = check().refutation(query, exact, proved.proof, &too_long);
+    if (too_long) throw InputError("the proof " + *why + ", which no checker goes");
+    return proved;
   }
 
   // The reader of answers passes over `time_decimal`.
   std::optional<std::string> refutation(const std::string& text, const std::string& answer_line,
                                         const std::string& time_decimal,
                                         const PyCertificate& certificate) const {
-    if (!check_) check_.emplace(scene_);
     Answer answer = read_answer(answer_line, scene_.dimension);
     answer.time_decimal = time_decimal;
-    return check_->refutation(read_query(text, scene_), answer, certificate.proof);
+    return check().refutation(read_query(text, scene_), answer, certificate.proof);
   }
 
  private:
+  const oracle::CertificateCheck& check() const {
+    if (!check_) check_.emplace(scene_);
+    return *check_;
+  }
+
   std::pair<Query, Answer> question(const std::string& text) const {
     Query query = read_query(text, scene_);
     Answer exact = setting_->oracle().first_hit(query);

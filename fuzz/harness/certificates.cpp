@@ -108,7 +108,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz;
   using namespace lorentz::harness;
   static BytesAsFile file;
-  file.set("{\"golden\":{\"format\":1}}\n" + std::string(text_of(data, size)));
+  file.set(R"({"golden":{"format":1,"count":0,"tags":{}}})"
+           "\n" +
+           std::string(text_of(data, size)));
   try {
     check(file.path());
   } catch (const InputError&) {

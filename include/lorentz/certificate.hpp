@@ -12,13 +12,18 @@
 
 namespace lorentz::oracle {
 
+/// The limits that all checkers keep (docs/certificates.md): the steps that a record may take, and the
+/// characters of an integer, of the exact end of a window, and of a `time_decimal`.
+inline constexpr long kMostSteps = 1'000'000;
+inline constexpr std::size_t kLongestText = 2500;
+
 /// Integer vectors b_1, .., b_d in the coordinates n of a lattice's primitive vectors. Of a 2D problem: the
 /// first two rows and columns; the rest is zero.
 using CertificateBasis = std::array<Cell, 3>;
 
 /// An end of a window: mantissa * 2^exponent.
 struct WindowEnd {
-  static constexpr long kMostExponent = 1 << 16;  ///< in absolute value; no checker has to go further
+  static constexpr long kMostExponent = 1 << 14;  ///< in absolute value; no checker goes further
 
   Integer mantissa;
   long exponent = 0;
@@ -35,8 +40,8 @@ struct WindowEnd {
 /// "0x1f4p-3", with an integer mantissa of any length.
 std::string text_of(const WindowEnd& end);
 
-/// What a text in hexadecimal says, exactly ("0x1f4p-3", "-0X1.8"); nothing if it is none, or has an exponent
-/// beyond kMostExponent once the mantissa is an integer.
+/// What a text in hexadecimal says, exactly ("0x1f4p-3", "-0X1.8"); nothing if it is not one, is longer than
+/// kLongestText, or has an exponent beyond kMostExponent once the mantissa is an integer.
 std::optional<WindowEnd> window_end_from(std::string_view text);
 
 /// The binary64 that an end is exactly, if there is one.

@@ -23,8 +23,8 @@ namespace lorentz::oracle {
 class CertificateCheck {
  public:
   /// Puts the scene into integers, once. Of a scene with a flaw or with dependent vectors nothing is proved.
-  /// `most_work`: the rows and obstacles that a proof may make it look at, some millions a second.
-  explicit CertificateCheck(const Scene& scene, long most_work = 10'000'000);
+  /// `most_steps`: the steps (docs/certificates.md) that a proof may take, some millions a second.
+  explicit CertificateCheck(const Scene& scene, long most_steps = kMostSteps);
   CertificateCheck(CertificateCheck&&) noexcept;
   CertificateCheck& operator=(CertificateCheck&&) noexcept;
   ~CertificateCheck();
@@ -32,10 +32,10 @@ class CertificateCheck {
   /// Nothing if the certificate proves the answer; else what is wrong, in one line that names the window, the
   /// atom or the obstacle. Of the answer that is outcome, obstacle, time and, if there are digits,
   /// time_decimal; the collision's detail is no part of it. Whatever the certificate holds, no false answer
-  /// passes. A proof that is too big is refused: numbers of more than 4096 bits, more than 10^6 rows in a
-  /// window or of an atom, more work than allowed. Safe to call from several threads.
+  /// passes. A proof beyond the limits of certificate.hpp is refused; if it takes too many steps, whether it
+  /// is right or not, `too_long` becomes true, if it is given. Safe to call from several threads.
   std::optional<std::string> refutation(const Query& query, const Answer& answer,
-                                        const Certificate& certificate) const;
+                                        const Certificate& certificate, bool* too_long = nullptr) const;
 
  private:
   struct Impl;

@@ -9,8 +9,8 @@ namespace lorentz::oracle {
 
 /// Certificates for the answers of one scene.
 ///
-///  1. What it writes of an exact answer is accepted by CertificateCheck and by data/check.py; of a wrong
-///     answer, refuted.
+///  1. What it writes of an exact answer is accepted by CertificateCheck and by data/check.py, if it takes no
+///     more than kMostSteps; of a wrong answer, refuted.
 ///     held by "Prover: the proofs of drawn answers are accepted",
 ///             "Prover: whatever it writes of a wrong answer is refuted"
 ///
@@ -25,7 +25,8 @@ class Prover {
 
   /// The certificate of an exact `hit`, `inside` or `never`; of an error an empty one. Of a wrong
   /// answer, whatever it says is refuted by who checks it. Few windows of few rows, however long the flight;
-  /// but around obstacles of very many cells in radius, as many rows as these cross.
+  /// but around obstacles of very many cells in radius, as many rows and obstacles as these cross: beyond
+  /// kMostSteps, which CertificateCheck counts, no checker accepts it.
   Certificate prove(const Query& query, const Answer& exact) const;
 
  private:

@@ -157,7 +157,10 @@ def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, star
 
 
 def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Certificate:
-    """A proof of the exact answer (docs/certificates.md), for those who do not believe the oracle."""
+    """A proof of the exact answer (docs/certificates.md), for those who do not believe the oracle.
+
+    Raises Error if it takes more steps than any checker goes: around obstacles that are hundreds of cells large.
+    """
     return _oracle(scene).prove(_text(x, v, start_from))
 
 

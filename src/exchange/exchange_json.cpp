@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
@@ -12,8 +13,7 @@ namespace {
 // The token of a number, without the white space that may follow it.
 std::string_view token_of(json::value value) {
   std::string_view token = value.raw_json_token();
-  while (!token.empty() && static_cast<unsigned char>(token.back()) <= ' ') token.remove_suffix(1);
-  return token;
+  return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
 }
 
 // The text of a number. On-Demand has not looked at it.
@@ -37,22 +37,23 @@ bool fits_64_bits(std::string_view token) {
 
 }  // namespace
 
+KeyTwice::KeyTwice(std::string_view key)
+    : InputError("the key " + json_quoted(key) + " comes twice in an object"), key(key) {}
+
 void check_depth(int depth) {
   constexpr int kMaxDepth = 64;
   if (depth > kMaxDepth) throw InputError("nested deeper than " + std::to_string(kMaxDepth) + " levels");
 }
 
 void skip(json::value value, int depth) {
-  check_depth(depth);
   switch (value.type()) {
     case json::json_type::array:
+      check_depth(depth + 1);
       for (json::value element : value.get_array()) skip(element, depth + 1);
       break;
     case json::json_type::object:
-      for (auto field : value.get_object()) {
-        (void)field.unescaped_key().value();
-        skip(field.value(), depth + 1);
-      }
+      check_depth(depth + 1);
+      each_member(value.get_object(), [&](std::string_view, json::value member) { skip(member, depth + 1); });
       break;
     case json::json_type::number:
       (void)number_text(value);
@@ -69,16 +70,29 @@ void skip(json::value value, int depth) {
   }
 }
 
+namespace {
+
+// The nearest number of a JSON number; infinite beyond the range of binary64.
+double nearest_number(json::value value) {
+  double number;
+  if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;
+  return *nearest_decimal(number_text(value));
+}
+
+}  // namespace
+
 double read_number(json::value value, const std::string& place) {
   if (value.type() == json::json_type::string) return parse_hexadecimal(value.get_string().value(), place);
   if (value.type() == json::json_type::null && !token_of(value).starts_with("null"))
     throw NotJson("no value");  // nan, say
   if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
-  double number;
-  if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;
-  number = *nearest_decimal(number_text(value));
-  if (std::isinf(number)) throw InputError(place + ": is beyond the range of binary64");
-  return number;
+  return finite_number(nearest_number(value), place);
+}
+
+double read_number_or_infinity(json::value value, const std::string& place) {
+  if (value.type() != json::json_type::string) return read_number(value, place);
+  const std::string_view text = value.get_string();
+  return text == "inf" ? std::numeric_limits<double>::infinity() : parse_hexadecimal(text, place);
 }
 
 Integer read_integer(json::value value, const char* key) {
@@ -88,7 +102,10 @@ Integer read_integer(json::value value, const char* key) {
     text = number_text(value);
   else if (value.type() == json::json_type::string)
     text = value.get_string();
-  if (auto n = Integer::from_decimal(text)) return *n;
+  constexpr std::size_t kLongest =
+      2500;  // characters: of what is longer, no checker of proofs has to make a number
+  if (text.size() <= kLongest)
+    if (auto n = Integer::from_decimal(text)) return *n;
   const double number = is_number ? *nearest_decimal(text) : 0.5;
   if (number == std::floor(number) && std::fabs(number) <= 0x1p53)
     return Integer(static_cast<std::int64_t>(number));  // 27.0, as some programs write it
@@ -96,25 +113,24 @@ Integer read_integer(json::value value, const char* key) {
 }
 
 SceneNode read_node(json::value value, const std::string& place, int depth) {
-  check_depth(depth);
   switch (value.type()) {
     case json::json_type::array: {
+      check_depth(depth + 1);
       SceneNode::Array array;
       for (json::value element : value.get_array())
         array.push_back(read_node(element, place + "[" + std::to_string(array.size()) + "]", depth + 1));
       return {std::move(array)};
     }
     case json::json_type::object: {
+      check_depth(depth + 1);
       SceneNode::Object object;
-      for (auto field : value.get_object()) {
-        std::string key(field.unescaped_key().value());
-        SceneNode node = read_node(field.value(), place + "." + key, depth + 1);
-        object.push_back({std::move(key), std::move(node)});
-      }
+      each_member(value.get_object(), [&](std::string_view key, json::value member) {
+        object.push_back({std::string(key), read_node(member, place + "." + std::string(key), depth + 1)});
+      });
       return {std::move(object)};
     }
     case json::json_type::number:
-      return {read_number(value, place)};
+      return {nearest_number(value)};
     case json::json_type::string:
       return {std::string(value.get_string().value())};
     default:

@@ -50,23 +50,22 @@ FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key) {
   if (value.type() != json::json_type::object)
     throw InputError("from: needs an object with lattice, atom and cell");
   FromRead from;
-  for (auto field : value.get_object()) {
-    const std::string_view key = field.unescaped_key();
+  each_member(value.get_object(), [&](std::string_view key, json::value member) {
     if (key == "lattice") {
-      from.obstacle.lattice = read_index(field.value(), "from.lattice");
+      from.obstacle.lattice = read_index(member, "from.lattice");
       from.lattice = true;
     } else if (key == "atom") {
-      from.obstacle.atom = read_index(field.value(), "from.atom");
+      from.obstacle.atom = read_index(member, "from.atom");
       from.atom = true;
     } else if (key == "cell") {
-      CellRead cell = read_cell(field.value());
+      CellRead cell = read_cell(member);
       from.obstacle.cell = std::move(cell.cell);
       from.components = cell.count;
     } else {
       if (on_unknown_key) on_unknown_key("from." + std::string(key));
-      skip(field.value());
+      skip(member, 2);
     }
-  }
+  });
   if (!from.lattice || !from.atom || from.components == 0)
     throw InputError("from: needs lattice, atom and cell");
   return from;

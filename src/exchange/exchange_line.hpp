@@ -64,6 +64,28 @@ struct ExchangeReader::Impl {
   void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
   void read_start(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
 
+  /// All members of the line's object by read(key, value). What is bad in one does not end it, for the id may
+  /// follow; `flaw` becomes the first. An id that comes twice is `null`.
+  template <class Read>
+  void read_members(const LineReader::Line& line, Id& id, std::string& flaw, const Read& read) {
+    const auto complain = [&](const InputError& error) {
+      if (flaw.empty()) flaw = error.what();
+    };
+    try {
+      each_member(json_line.open(line), [&](std::string_view key, json::value value) {
+        try {
+          read(key, value);
+        } catch (const InputError& error) {
+          complain(error);
+        }
+      });
+    } catch (const KeyTwice& error) {
+      if (error.key == "id") id = "null";
+      complain(error);
+    }
+    json_line.close();
+  }
+
   /// An item by read(), which throws what is bad in the line.
   template <class Item, class Read>
   void read_item(const LineReader::Line& line, Item& item, const Read& read) {

@@ -31,7 +31,7 @@ struct QueryFields {
   std::optional<FromRead> from;
   std::optional<SceneNode> scene;
   bool golden = false;
-  bool has_x = false, has_v = false, has_scene = false;
+  bool has_x = false, has_v = false;
 };
 
 void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields,
@@ -47,7 +47,6 @@ void read_query_field(std::string_view key, json::value value, Id& id, QueryFiel
   } else if (key == "from") {
     fields.from = read_from(value, on_unknown_key);
   } else if (key == "scene") {
-    fields.has_scene = true;
     fields.scene = read_node(value);
   } else {
     fields.golden |= key == "golden";
@@ -82,17 +81,10 @@ void ExchangeReader::on_unknown_key(OnUnknownKey listener) {
 void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   QueryFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
-  for (auto field : json_line.open(line)) {
-    const std::string_view key = field.unescaped_key();
-    item.bad_scene |= key == "scene";  // should its value turn out to be no JSON
-    try {
-      read_query_field(key, field.value(), item.id, fields, on_unknown_key);
-    } catch (const InputError& error) {
-      if (flaw.empty()) flaw = error.what();
-    }
-    item.bad_scene = fields.has_scene;
-  }
-  json_line.close();
+  read_members(line, item.id, flaw, [&](std::string_view key, json::value value) {
+    item.bad_scene |= key == "scene";
+    read_query_field(key, value, item.id, fields, on_unknown_key);
+  });
   if (!flaw.empty()) throw InputError(flaw);
   if (fields.scene) {
     if (on_unknown_key && (fields.has_x || fields.has_v || fields.from))
@@ -126,9 +118,7 @@ Outcome outcome_named(std::string_view name) {
 }
 
 double read_time(json::value value) {
-  if (value.type() == json::json_type::string && value.get_string().value() == "inf")
-    return std::numeric_limits<double>::infinity();
-  return read_number(value, "time");
+  return read_number_or_infinity(value, "time");
 }
 
 struct AnswerFields {
@@ -175,12 +165,12 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
 }  // namespace
 
 bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components,
-                 const OnUnknownKey& on_unknown_key) {
+                 const OnUnknownKey& on_unknown_key, std::set<std::string>* keys) {
   AnswerFields has;
-  for (auto field : object) {
-    const std::string_view key = field.unescaped_key();
-    read_answer_field(key, field.value(), id, answer, has, on_unknown_key);
-  }
+  each_member(object, [&](std::string_view key, json::value value) {
+    if (keys) keys->emplace(key);
+    read_answer_field(key, value, id, answer, has, on_unknown_key);
+  });
   if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
   const bool names_obstacle = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;

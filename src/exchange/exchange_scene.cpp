@@ -34,6 +34,11 @@ bool looks_hexadecimal(std::string_view text) {
 
 }  // namespace
 
+double finite_number(double number, const std::string& place) {
+  if (std::isinf(number)) throw InputError(place + ": is beyond the range of binary64");
+  return number;
+}
+
 double parse_hexadecimal(std::string_view text, const std::string& place) {
   constexpr const char* kWhat =
       " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
@@ -61,7 +66,7 @@ Number number_at(const SceneNode& node, const std::string& place);
 
 template <>
 double number_at<double>(const SceneNode& node, const std::string& place) {
-  if (const double* number = std::get_if<double>(&node.value)) return *number;
+  if (const double* number = std::get_if<double>(&node.value)) return finite_number(*number, place);
   if (const std::string* text = std::get_if<std::string>(&node.value)) return parse_hexadecimal(*text, place);
   throw InputError(place + ": needs a number");
 }
@@ -171,7 +176,7 @@ AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
 }  // namespace
 
 Rational rational_at(const SceneNode& node, const std::string& place) {
-  if (const double* number = std::get_if<double>(&node.value)) return *number;
+  if (const double* number = std::get_if<double>(&node.value)) return finite_number(*number, place);
   const std::string* text = std::get_if<std::string>(&node.value);
   if (!text) throw InputError(place + ": needs a number");
   if (auto number = rational_from(*text)) return *number;

@@ -35,6 +35,9 @@ RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_
 /// A number, exactly: a binary64, or a text as rational_from takes it. Throws InputError, naming `place`.
 Rational rational_at(const SceneNode& node, const std::string& place);
 
+/// The number, unless it is infinite: throws InputError, naming `place`.
+double finite_number(double number, const std::string& place);
+
 /// "0x1.8p-1" and the like; throws InputError, naming `place`.
 double parse_hexadecimal(std::string_view text, const std::string& place);
 

@@ -63,7 +63,7 @@ SceneNode parse_json(const std::string& text) {
   if (const auto error = parser.iterate(padded).get(document))
     throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
   try {
-    SceneNode node = read_node(document.get_value());
+    SceneNode node = read_node(document.get_value(), "scene", 0);
     if (!ended(document)) throw NotJson("more than one value");
     const SceneNode* inner = node.member("scene");
     return inner ? SceneNode(*inner) : node;

@@ -92,16 +92,10 @@ void ExchangeReader::Impl::read_start(const LineReader::Line& line, const Ration
                                       StartItem& item) {
   StartFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
-  for (auto field : json_line.open(line)) {
-    const std::string_view key = field.unescaped_key();
+  read_members(line, item.id, flaw, [&](std::string_view key, json::value value) {
     item.bad_scene |= key == "scene";
-    try {
-      read_start_field(key, field.value(), item.id, fields, on_unknown_key);
-    } catch (const InputError& error) {
-      if (flaw.empty()) flaw = error.what();
-    }
-  }
-  json_line.close();
+    read_start_field(key, value, item.id, fields, on_unknown_key);
+  });
   if (!flaw.empty()) throw InputError(flaw);
   if (fields.scene) {
     item.scene = rational_scene_from(*fields.scene, on_unknown_key);

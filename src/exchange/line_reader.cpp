@@ -52,6 +52,11 @@ bool LineReader::next(Line& line) {
     const char* start = buffer_.data() + begin_;
     const void* newline = std::memchr(start + searched, '\n', end_ - begin_ - searched);
     const std::size_t length = newline ? static_cast<const char*>(newline) - start : end_ - begin_;
+    if (length > kMaxLine) {
+      skip_rest_of_line();
+      line = {{}, ++number_, true};
+      return true;
+    }
     if (newline || (at_end_ && length > 0)) {
       line = {std::string_view(start, length), ++number_, false};
       constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -61,11 +66,6 @@ bool LineReader::next(Line& line) {
       return true;
     }
     if (at_end_) return false;
-    if (length > kMaxLine) {
-      skip_rest_of_line();
-      line = {{}, ++number_, true};
-      return true;
-    }
     searched = length;
     fill();
   }

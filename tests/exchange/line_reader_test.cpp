@@ -64,6 +64,13 @@ TEST_CASE("A line of 100 MB is passed over, and those around it are not", "[exch
   CHECK(too_long == std::vector<bool>{false, true, false});
 }
 
+TEST_CASE("A line has 32 MiB at most, wherever it comes from", "[exchange][line_reader]") {
+  std::vector<bool> too_long;
+  const std::string longest(LineReader::kMaxLine, 'x');
+  lines_of(longest + "\n" + longest + "\r\n\n" + longest + "x\n" + longest, &too_long);
+  CHECK(too_long == std::vector<bool>{false, true, false, true, false});
+}
+
 TEST_CASE("What cannot be read says so", "[exchange][line_reader]") {
   CHECK_THROWS_AS(LineReader("/no/such/file"), lorentz::FileError);
   CHECK_THROWS_WITH(LineReader("/"), Catch::Contains("is a directory"));

@@ -114,7 +114,7 @@ class Search(unittest.TestCase):
                 c = check.add(w, 1, check.combine(n, u))
                 near[n] = check.dot(v, c), R - check.dot(check.cross(v, c), check.cross(v, c))
             low, high = sorted((rng.choice([s for s, _ in near.values()]), rng.randint(-3 * Q, 9 * Q)))  # one end is at an obstacle
-            found = {tuple(n): (s, D) for s, D, n in check.met(ball, check.matrix(basis, size, int), low, high)}
+            found = {tuple(n): (s, D) for s, D, n in check.met(ball, check.matrix(basis, size, int), low, high, [10**6])}
             for n, (s, D) in near.items():
                 self.assertTrue(n in found if D > 0 and low <= s <= high else D > 0 or n not in found, (scene, basis, n))
                 self.assertEqual(found.get(n, (s, D)), (s, D))
@@ -305,7 +305,7 @@ class Refuses(unittest.TestCase):
                 ([header, scene, "[]"], 2, "Error"),
                 ([header, scene, line.replace('"tags"', '"nan":NaN,"tags"')], 2, "Error"),
                 ([header, scene, "[" * 10**5], 2, "Error"),
-                ([header, scene, line[:-1] + ',"x":[0,0.5]}'], 1, "order"),
+                ([header, scene, line[:-1] + ',"x":[0,0.5]}'], 2, "twice"),
                 ([header, scene, line[:-1] + ',"from":{"lattice":0,"atom":0,"cell":[0,0]}}'], 1, "order")):
             got, output = run(lines)
             self.assertEqual(got, status, output)

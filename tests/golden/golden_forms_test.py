@@ -86,8 +86,8 @@ ACCEPTED = {
                                      (TO, '"to":"0x0.800000000000000000000001"'), (X, '"%s"' % float(X).hex()), (X, '"+%s"' % float(X).hex().upper())) +
                            [golden("hit", '"dimension":2', '"dimension":"0x1p1"', "scene"), golden("hit", '"dimension":2', '"dimension":2.0', "scene"),
                             golden("hit", "[1,0]", '["+0x1","0X0P5"]', "scene")] + in_record("error", ("[0,0]", '["0x0","-0x0p9"]')),
-    "keys": in_record("hit", ('"margin"', '"more":{"x":[1],"y":null},"margin"'), ('"margin"', '"m\\u0061rgin"'), ('"margin"', '"margin":3,"margin"'),
-                      ('"expect":{', '"expect":{"other":[],'), ('"windows":', '"windows":[],"windows":'), ('"x":', '"x":[7],"x":'), ('"v":', '"note":"\\ud83d\\ude00","v":')) +
+    "keys": in_record("hit", ('"margin"', '"more":{"x":[1],"y":null},"margin"'), ('"margin"', '"m\\u0061rgin"'),
+                      ('"expect":{', '"expect":{"other":[],'), ('"v":', '"note":"\\ud83d\\ude00","v":')) +
             [golden("hit", '"scene":{', '"scene":{"more":1,', "scene"), golden("hit", '{"golden"', '{"more":1,"golden"', "header")],
     "nested": in_record("hit", ('"margin"', '"deep":' + "[" * DEEP + "]" * DEEP + ',"margin"')),
     "errors": in_record("error", ("[0,0]", "[0,1e400]"), ("[0,0]", "[null,true]"), ("[0,0]", '"0"'), ("[0,0]", '["0x",1]'), ("[0,0]", '["1.5",1]'), ("[0,0]", '["0x1p9999",1]'),
@@ -121,6 +121,74 @@ REFUSED = {
     "lines": [golden("hit").replace(b"\n", b"\n\xef\xbb\xbf", 1), golden("hit") + b"{}\n", golden("hit") + b"x\n", golden("hit") + b"[]\n", b"\n" + golden("hit"), golden("hit").split(b"\n", 1)[1], b"", golden("hit")[:-3],
               golden("hit").replace(b"\n", b"}\n"), golden("hit").replace(b"\n", b"\x0b\n"), golden("hit") + golden("hit").split(b"\n")[0], golden("hit", "}}", "}} ", "scene", repair=False)],
     "nested": in_record("hit", ('"margin"', '"deep":' + "[" * (DEEP + 2) + "]" * (DEEP + 2) + ',"margin"'), ('"margin"', '"deep":' + "[" * 5000 + "]" * 5000 + ',"margin"'), ('"margin"', '"deep":' + "[" * 100 + ',"margin"'))}
+
+# ---- More of both: keys that come twice, what stands under other keys, lengths at their limits, text behind a line.
+ANY = '[1e400,-1e999999,"\\u0000",{"":{}},null,' + "9" * 5000 + "]"  # what may stand under a key that is not known
+PLACES = [("hit", "record", key) for key in ('"margin":', '"time_decimal":', '"outcome":', '"lattice":0,"atom":0,"cell"', '"windows":', '"basis":', '"x":', '"v":')] + [
+    ("hit", "scene", key) for key in ('"dimension":', '"lattices":', '"vectors":', '"atoms":', '"position":', '"radius":')] + [
+    ("hit", "header", key) for key in ('"golden":', '"format":', '"name":', '"tags":')] + [
+    ("never", "record", '"rows":'), ("never", "record", '"basis":'), ("from", "record", '"from":'), ("from", "record", '"cell":'), ("error", "record", '"message":')]
+LONG = 2500  # characters of an integer, of an exact end, of a time_decimal, at most
+DIGITS = "1469403008318714111826651962574809782782"
+DECIMAL, OUTCOME = f'"0.{DIGITS}"', '"outcome":"hit"'
+
+def before(places, new):
+    """Forms with something before a member, which may come first or later in its object."""
+    return [golden(kind, key, new(key) + key, where) for kind, where, key in places]
+
+def name_of(key): return key.split('"')[1]
+def escaped(key): return f"\\u{ord(name_of(key)[0]):04x}{name_of(key)[1:]}"
+def times(*decimals): return in_record("hit", *[(DECIMAL, f'"{decimal}"') for decimal in decimals])
+def begins(*ends): return in_record("hit", *[(FROM, f'"from":{end}') for end in ends])
+def ended(line, more, kind="hit"):
+    """A set with something behind its header, scene or record."""
+    lines = golden(kind).split(b"\n")
+    return b"\n".join(lines[:line] + [lines[line] + more] + lines[line + 1:])
+
+ACCEPTED |= {
+    "anything under other keys": before(PLACES, lambda key: f'"more":{ANY},'),
+    "the same key in other objects": before(PLACES, lambda key: f'"more":[{{"{name_of(key)}":1}},{{"{name_of(key)}":[]}}],'),
+    "many keys": before(PLACES[:3], lambda key: "".join(f'"k{i}":{i},' for i in range(2000))),
+    "long": in_record("hit", (BASIS, f'"basis":[["{"1":0>{LONG}}",-1],[1,0]]'), (BASIS, f'"basis":[["1","-{"1":0>{LONG - 1}}"],[1,0]]'), (LATTICE, f'[{{"lattice":"{"0" * LONG}",'),
+                      (CELL, f'"cell":["{"1":0>{LONG}}",0]'), (CELL, f'"cell":[1.{"0" * LONG},0]')) +
+            begins(f'"-0x{"1":0>{LONG - 3}}"', f'"-0x1p{"0" * (LONG - 5)}"', '"-0x1.%sp0"' % ("0" * 2000), '"-0x%sp-9900"' % ("f" * 2480)) +
+            times(f'0.{"0" * (LONG - 48)}{DIGITS}e+{LONG - 48}') + [golden("hit", '"count":1', f'"count":"{"1":0>{LONG}}"', "header")] +
+            in_record("from", ('"from":{"lattice":0', f'"from":{{"lattice":"{"0" * LONG}"')),
+    "exact ends": begins('"-0x1p-1"', '"-0x8P-4"', '"-0x.4p0"', '"-0x0.%s1p160"' % ("0" * 39), '"-0x%s1"' % ("0" * 100), '"-0x1p13"', '"-0X1.0p+00001"', -1, "-1e0", -0.5) +
+                  in_record("hit", (TO, '"to":"0x3p-1"'), (TO, '"to":"+0x.8p1"'), (TO, '"to":"0x1.8000000000000000001p0"'), (TO, '"to":9e-1')),
+    "decimals": times(f"0.{DIGITS}e+0", f"0.{DIGITS}e-0000", f"000.{DIGITS}", f"1.{DIGITS[1:]}e-1", f"{DIGITS}e-40", f"{DIGITS}e-0040", f"0.{'0' * 9}{DIGITS}e+9", f"0{DIGITS}e-40"),
+    "messages": in_record("error", ('"message":"', '"reason":"","message":"')) + in_record("hit", (OUTCOME, '"message":"x","reason":"y",' + OUTCOME)),
+    "no questions": in_record("error", ('"x":', '"y":'), ('"v":', '"w":'), ("[0,0]", "{}"), ('"v":', f'"from":{{"lattice":0,"atom":0,"cell":[0,"{"1":0>{LONG + 1}}"]}},"v":')),
+    "levels": in_record("hit", ('"windows"', '"deep":' + "[" * 62 + "]" * 62 + ',"windows"')) + [golden("hit", '"dimension"', '"deep":' + "[" * 62 + "]" * 62 + ',"dimension"', "scene")],
+    "long lines": [golden("hit") + b" " * 2**25 + b"\n", golden("hit") + b" " * (2**25 - 1) + b"\r\n\n"]}
+
+REFUSED |= {
+    "twice": before(PLACES, lambda key: f'"{name_of(key)}":0,') + before(PLACES, lambda key: f'"{escaped(key)}":null,') + before(PLACES, lambda key: '"more":{"k":1,"k":1},') +
+             before(PLACES[:9], lambda key: '"more":[[{"":0,"k":1,"\\u006b":2}]],') +
+             in_record("hit", ('"margin"', '"margin":3,"margin"'), ('"windows":', '"windows":[],"windows":'), ('"x":', '"x":[7],"x":'), ('"x":', '"x":"junk","x":'), (TO, TO + "," + TO),
+                       (TIME, TIME + "," + TIME), ('"margin"', '"more":{"\\ud83d\\ude00":1,"\U0001f600":2},"margin"'), ('"margin"', "".join(f'"k{i}":{i},' for i in range(2000)) + '"k7":0,"margin"')) +
+             in_record("error", ('"v":', '"v":[1,1],"v":'), ('"expect":{', '"expect":{"outcome":"hit",')) + [golden("hit", '"tags":{', '"tags":{"crystal":"",', "header")],
+    "too long": in_record("hit", (BASIS, f'"basis":[["{"1":0>{LONG + 1}}",-1],[1,0]]'), (BASIS, f'"basis":[["1","-{"1":0>{LONG}}"],[1,0]]'), (BASIS, f'"basis":[[1{"0" * LONG},-1],[1,0]]'),
+                          (LATTICE, f'[{{"lattice":"{"0" * (LONG + 1)}",'), (CELL, f'"cell":["{"1":0>{LONG + 1}}",0]')) +
+                begins(f'"-0x{"1":0>{LONG - 2}}"', f'"-0x1p{"0" * (LONG - 4)}"') + times(f'0.{"0" * (LONG - 47)}{DIGITS}e+{LONG - 47}') +
+                [golden("hit", '"count":1', f'"count":"{"1":0>{LONG + 1}}"', "header")] + in_record("from", ('"from":{"lattice":0', f'"from":{{"lattice":"{"0" * (LONG + 1)}"')),
+    "no exact ends": begins(*[f'"{end}"' for end in ("-0x1p16385", "-0x1p-16385", "-0x.1p-16381", "0x0p16385", "-0x0p-16385", "-0x1p+-1", "-0x1p", "0x", "-1p0", "-0x1.p0x", "-0x1p99999999999999999999",
+                             "-0x1p-1 ", "-0x1p-1\u0660", "-0x1,8", "-\uff10x1", "-inf", "nan", "-0x1p-16384")], 0.23876953125, 0, 1, "true", "{}") +
+                     in_record("hit", *[(TO, f'"to":{end}') for end in (-0.3857421875, "-0.23876953126", '"-0x1p-2"', '"0x1p-16384"', 0, "-0.0", "1e400", '"-0x0"')]) +
+                     in_record("inside", ('"to":', '"to":-9,"too":')),
+    "no decimals": times(f".{DIGITS}", f"0.{DIGITS}e", f"0.{DIGITS}e0", f"0.{DIGITS}e+", f"0.{DIGITS}e+00000", f"0.{DIGITS}E+0", f"{DIGITS}.e-40", f"0..{DIGITS}", f"0.{DIGITS}.", f"+0.{DIGITS}", f"-0.{DIGITS}",
+                         f"0.{DIGITS} ", f"0.{DIGITS[:-1]}", f"0.{DIGITS}0", f"0x0.{DIGITS}", f"0.{DIGITS[:-1]}\u0662", f"0,{DIGITS}", f"0.{DIGITS[:20]}_{DIGITS[20:]}", "0", "0.0", "", "inf", "nan", f"0.{DIGITS}e-1",
+                         f"0.{DIGITS[:-1]}3", f"0.{DIGITS}e+9999", f"0.{DIGITS}e-9999") +
+                   in_record("hit", (DECIMAL, f"0.{DIGITS}"), (DECIMAL, f'["0.{DIGITS}"]'), (DECIMAL, "null"), (f'"time_decimal":{DECIMAL},', "")),
+    "no messages": in_record("error", ('"message":"', '"reason":1,"message":"'), ('"message":"', '"message":null,"massage":"'), ('"message":"', '"message":["x"],"massage":"')) +
+                   in_record("hit", (OUTCOME, '"message":0,' + OUTCOME), (OUTCOME, '"reason":{},' + OUTCOME)),
+    "outcomes": in_record("hit", *[(OUTCOME, f'"outcome":{new}') for new in ('"later"', '"undecided"', '"Hit"', '"error"', '"never"', '"inside"', '"hit "', "null", "1", '["hit"]')], (OUTCOME + ",", "")),
+    "errors that are questions": in_record("error", ("[0,0]", "[0,1]"), ("[0,0]", '["0x1",1e-400]')),
+    "errors without a question": [golden("error", ERROR[1][ERROR[1].index('"x"'):ERROR[1].index('"expect"')], "", repair=False)],
+    "behind": [ended(line, more) for line in (0, 1, 2) for more in (b" {}", b"1", b",", b"]", b"}", b"null", b' "x"', b"\xef\xbb\xbf", b"#", b"//", b"\x00", b"\x0c", b"\xa0", b"{")] +
+              [ended(2, more, "error") for more in (b" {}", b"1", b"x", b"\x00")],
+    "deeper": in_record("hit", ('"windows"', '"deep":' + "[" * 63 + "]" * 63 + ',"windows"')) + [golden("hit", '"dimension"', '"deep":' + "[" * 63 + "]" * 63 + ',"dimension"', "scene")],
+    "longer lines": [golden("hit") + b" " * (2**25 + 1) + b"\n", golden("hit") + b" " * 2**25 + b"\r\n", golden("hit").replace(b"\n", b" " * 2**25 + b"\n", 1), golden("hit")[:-1] + b" " * (33 << 20)]}
 
 class Forms(unittest.TestCase):
     def hold(self, forms, accepted):

@@ -132,20 +132,41 @@ TEST_CASE("Golden: what is written is read back, whatever the record holds", "[g
   }
 }
 
-TEST_CASE("Golden: of a key that comes twice the last counts", "[golden]") {
+TEST_CASE("Golden: a key that comes twice is refused, wherever it is, and so is text behind a line",
+          "[golden]") {
   const Folder folder;
-  const GoldenCase c = hit_case();
-  std::string text = replaced(set_of({c}), "\"tags\":[", "\"tags\":[\"other\"],\"tags\":[");
-  text = replaced(text, ",\"margin\"", R"(,"expect":{"outcome":"never"},"margin":1,"margin")");
-  const std::string window = R"({"lattice":0,"atom":0,"from":0,"to":1,"basis":[[1,0],[0,1]]})";
-  text = replaced(text, "\"windows\":", "\"windows\":[" + window + "],\"windows\":");
-  Record expected = c.record;
-  const Record read = read_all(folder.write("set", text)).at(0).record;
-  CHECK(read.expect.outcome == Outcome::never);
-  CHECK_FALSE(read.expect.time);
-  expected.expect = read.expect;
-  expected.question = read.question;
-  require_same(read, expected);
+  const std::string good = set_of({hit_case()});
+  REQUIRE(read_all(folder.write("set", good)).size() == 1);
+  const auto hold = [&](const char* old, const std::string& replacement, const std::string& complaint) {
+    INFO(replacement);
+    CHECK_THROWS_WITH(read_all(folder.write("set", replaced(good, old, replacement))),
+                      Catch::Contains(complaint));
+  };
+  const std::string second = " comes twice in an object";
+  hold("\"tags\":[", R"("tags":["other"],"tags":[)", "set:3: the key \"tags\"" + second);
+  hold(",\"margin\"", R"(,"margin":1,"margin")", "set:3: the key \"margin\"" + second);
+  hold(",\"margin\"", R"(,"more":{"a":[{"b":0,"\u0062":0}]},"margin")", "set:3: the key \"b\"" + second);
+  hold("\"windows\":", R"("windows":[],"windows":)", "set:3: the key \"windows\"" + second);
+  hold("\"windows\":[{", R"("windows":[{"atom":0,)", "set:3: the key \"atom\"" + second);
+  hold("\"expect\":{", R"("expect":{"outcome":"never",)", "set:3: the key \"outcome\"" + second);
+  hold("\"scene\":{", R"("scene":{"dimension":2,)", "set:2: the key \"dimension\"" + second);
+  hold("{\"golden\":{", R"({"golden":{"format":1,)", "set:1: the key \"format\"" + second);
+  hold("{\"golden\":{", R"({"golden":{},"golden":{)", "set:1: the key \"golden\"" + second);
+  hold("\n", " {}\n", "set:1: not JSON: more than one value");
+  CHECK_THROWS_WITH(read_all(folder.write("set", good.substr(0, good.size() - 1) + " 1\n")),
+                    Catch::Contains("set:3: not JSON"));
+}
+
+TEST_CASE("Golden: long keys and numbers fit wherever they are", "[golden]") {
+  const Folder folder;
+  const std::string good = set_of({hit_case()}), longer(3'000'000, '0');
+  for (const std::string& text :
+       {replaced(good, "\"expect\":{", "\"expect\":{\"" + longer + "\":1,"),
+        replaced(good, "\"margin\":", "\"margin\":\"0x" + longer + "1\",\"more\":")}) {
+    const auto records = read_all(folder.write("set", text));
+    REQUIRE(records.size() == 1);
+    CHECK(records[0].record.expect.outcome == Outcome::hit);
+  }
 }
 
 TEST_CASE("Golden: the header is read back", "[golden]") {
@@ -184,7 +205,7 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
     CHECK(complaint(replaced(good, "\"format\":1", other)).starts_with("1: format: only format 1"));
   CHECK(complaint(replaced(good, "\"count\":2", "\"count\":-2")).starts_with("1: count"));
   CHECK(complaint(replaced(good, "{\"scene\"", "{\"scenery\"")).starts_with("2: "));
-  CHECK(complaint(replaced(good, "\"expect\"", "\"expected\"")).starts_with("3: a golden record has an id"));
+  CHECK(complaint(replaced(good, "\"expect\"", "\"expected\"")).starts_with("3: the keys of a record stand"));
   CHECK(complaint(replaced(good, "\"outcome\":\"hit\"", "\"outcome\":\"hat\"")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
   CHECK(
@@ -366,14 +387,14 @@ TEST_CASE("Golden: all of a record's question is what its id is made from", "[go
   const Folder folder;
   const std::string good = set_of({golden_case(kSquare, {{0.5, 0.125}, {1, 0.03125}, {}})});
   REQUIRE(read_all(folder.write("set", good)).size() == 1);
-  const auto refused = [&](const std::string& text) {
-    CHECK_THROWS_WITH(read_all(folder.write("set", text)),
-                      Catch::Contains("set:3: the keys of a record stand"));
+  const auto refused = [&](const std::string& text, const char* why = "the keys of a record stand") {
+    CHECK_THROWS_WITH(read_all(folder.write("set", text)), Catch::Contains(std::string("set:3: ") + why));
   };
   const std::string from = R"("from":{"lattice":0,"atom":0,"cell":[9,9]})";
   refused(good.substr(0, good.size() - 2) + "," + from + "}\n");
-  refused(good.substr(0, good.size() - 2) + ",\"x\":[0.5,0.25]}\n");
-  refused(good.substr(0, good.size() - 2) + ",\"v\":[1,0]}\n");
+  refused(good.substr(0, good.size() - 2) + ",\"x\":[0.5,0.25]}\n", "the key \"x\" comes twice");
+  refused(good.substr(0, good.size() - 2) + ",\"v\":[1,0]}\n", "the key \"v\" comes twice");
+  refused(replaced(good, "\"x\":[0.5,0.125],\"v\":[1,0.03125],\"expect\"", "\"expect\""));
   refused(replaced(good, "{\"id\"", "{" + from + ",\"id\""));
   refused(replaced(good, "\"x\":[0.5,0.125],\"v\":[1,0.03125],", ""));
   // The question ends where these words stand first: so they do not stand within it.

@@ -27,7 +27,7 @@ TEST_CASE("A missing, shortened or misplaced window is refused", "[oracle][certi
         break;
       case 2:
         windows.erase(begin + 2);
-        require_refused(c, "a gap before window " + std::to_string(first + 2));
+        require_refused(c, "window " + std::to_string(first + 2) + " (lattice ");
         break;
       case 3:
         windows.erase(begin + 3);
@@ -39,15 +39,15 @@ TEST_CASE("A missing, shortened or misplaced window is refused", "[oracle][certi
         break;
       case 5:
         windows[first + 1].to.mantissa = windows[first + 1].to.mantissa.int64() - 1;
-        require_refused(c, "a gap before window " + std::to_string(first + 2));
+        require_refused(c, "window " + std::to_string(first + 2) + " (lattice ");
         break;
       case 6:
-        windows[first].from = 0.0;
-        require_refused(c, "begins too late");
+        windows[first].from = 0.0;  // perhaps behind its own end
+        require_refused(c, "begins");
         break;
       default:
-        windows[first + 3].to = *c.answer.time;
-        require_refused(c, "end too early");
+        windows[first + 3].to = *c.answer.time;  // perhaps before its own beginning
+        require_refused(c, "end");
     }
   }
 }
@@ -59,10 +59,13 @@ TEST_CASE("Windows may overlap, lie inside each other, and alternate between ato
   c.proof.windows = {
       {0, 0, -1.0, 50.0, basis}, {0, 0, 3.0, 7.5, basis}, {0, 0, Integer(49), Integer(101), basis}};
   require_accepted(c);
-  c.proof.windows[1].to = -7.0;  // an empty one changes nothing
+  c.proof.windows[1].to = 3.0;  // a point changes nothing
   require_accepted(c);
+  c.proof.windows[1].to = std::nextafter(3, 0);
+  require_refused(c, "window 1 (lattice 0, atom 0): ends before it begins");
+  c.proof.windows.erase(c.proof.windows.begin() + 1);
   c.proof.windows[0].to = std::nextafter(49, 0);
-  require_refused(c, "a gap before window 2");
+  require_refused(c, "window 1 (lattice 0, atom 0): a gap before it");
 }
 
 TEST_CASE("The ends of windows are held against -r/|v| and t + r/|v| exactly",

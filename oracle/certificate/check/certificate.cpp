@@ -14,6 +14,7 @@ std::string text_of(const WindowEnd& end) {
 
 std::optional<WindowEnd> window_end_from(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  if (text.size() > kLongestText) return std::nullopt;
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
   if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
@@ -34,8 +35,11 @@ std::optional<WindowEnd> window_end_from(std::string_view text) {
   if (digits.empty()) return std::nullopt;
   if (!text.empty()) {
     if (text.front() != 'p' && text.front() != 'P') return std::nullopt;
-    text.remove_prefix(text.substr(1).starts_with('+') ? 2 : 1);
-    if (text.starts_with("+") || text.starts_with("-+")) return std::nullopt;
+    text.remove_prefix(1);
+    if (text.starts_with('+')) {
+      text.remove_prefix(1);
+      if (text.starts_with('-')) return std::nullopt;  // from_chars would take it
+    }
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include <lorentz/certificate.hpp>
+
 namespace lorentz::oracle::certificate {
 
 int sign_of(const Z& a, const Z& c, const Z& b) {
@@ -47,9 +49,10 @@ struct Decimal {
   long exponent = 0;
 };
 
-/// Reads digits, perhaps a point and digits, perhaps e, a sign, and up to five digits; nothing else.
+/// Reads digits, perhaps a point and digits, perhaps e, a sign, and up to four digits; nothing else.
 std::optional<Decimal> read_decimal(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
+  if (text.size() > kLongestText) return std::nullopt;
   const auto take_digits = [&text, kDigits] {
     const std::string_view taken = text.substr(0, text.find_first_not_of(kDigits));
     text.remove_prefix(taken.size());
@@ -67,12 +70,13 @@ std::optional<Decimal> read_decimal(std::string_view text) {
   if (text.starts_with('e')) {
     text.remove_prefix(1);
     const bool negative = text.starts_with('-');
-    if (negative || text.starts_with('+')) text.remove_prefix(1);
+    if (!negative && !text.starts_with('+')) return std::nullopt;
+    text.remove_prefix(1);
     const std::string exponent = take_digits();
-    if (exponent.empty() || exponent.size() > 5) return std::nullopt;
+    if (exponent.empty() || exponent.size() > 4) return std::nullopt;
     number.exponent += (negative ? -1 : 1) * std::stol(exponent);
   }
-  if (!text.empty() || number.digits.size() > kMaxDigits) return std::nullopt;
+  if (!text.empty()) return std::nullopt;
   number.digits.erase(0, number.digits.find_first_not_of('0'));
   return number;
 }

@@ -8,9 +8,6 @@
 
 namespace lorentz::oracle::certificate {
 
-/// Longest decimal number that is read.
-inline constexpr std::size_t kMaxDigits = 1300;
-
 /// Sign of a + sqrt(c) - sqrt(b), for b, c >= 0.
 int sign_of(const Z& a, const Z& c, const Z& b);
 

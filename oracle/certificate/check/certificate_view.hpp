@@ -12,8 +12,6 @@
 
 namespace lorentz::oracle::certificate {
 
-inline constexpr long kMaxBits = 4096;  ///< of a number in a certificate
-
 /// Thrown by whatever finds the proof wanting; the callers put in front where that was.
 struct Refuted {
   std::string why;
@@ -100,36 +98,48 @@ void see(CommonExponent& exponent, const Vec& a) {
   for (std::size_t i = 0; i < D; ++i) exponent.see(a[i]);
 }
 
-/// An atom and its lattice in the atom's own coordinates. For an ellipsoid { p + A y : |y| < 1 } these are
-/// multiplied by adj(A), A made an integer matrix: w = A y 2^k becomes det(A) 2^k y, a ball of that radius.
+/// An atom and its lattice in the atom's own coordinates, lengths in units of 2^exponent. For an ellipsoid {
+/// p + A y : |y| < 1 } these are multiplied by adj(A), which makes a ball of the radius |det(A)| of it; A in
+/// units of 2^axes.
 template <std::size_t D>
 struct Body {
   std::optional<ZMatrix<D>> to_ball;
   ZMatrix<D> u;
   ZVec<D> p;
   Z r;
+  long axes;
 
   Body(const Lattice& lattice, const Atom& atom, long exponent) {
     for (std::size_t i = 0; i < D; ++i) u[i] = scaled_vec<D>(lattice.vectors[i], exponent);
     if (determinant(u) == 0) refute("the primitive vectors are dependent");
     p = scaled_vec<D>(atom.position, exponent);
+    axes = exponent;
     if (atom.is_ball()) {
       r = scaled(atom.radius, exponent);
       return;
     }
     CommonExponent own;
     for (const Vec& axis : atom.semiaxes) see<D>(own, axis);
-    ZMatrix<D> axes;
-    for (std::size_t i = 0; i < D; ++i) axes[i] = scaled_vec<D>(atom.semiaxes[i], own.get());
-    const Z det = determinant(axes);
-    if (det == 0) refute("the semiaxes are dependent");
-    r = shifted_left(abs(det), static_cast<unsigned long>(own.get() - exponent));
-    to_ball = adjugate(axes);
+    axes = own.get();
+    ZMatrix<D> a;
+    for (std::size_t i = 0; i < D; ++i) a[i] = scaled_vec<D>(atom.semiaxes[i], axes);
+    r = abs(determinant(a));
+    if (r == 0) refute("the semiaxes are dependent");
+    to_ball = adjugate(a);
     for (ZVec<D>& vector : u) vector = *to_ball * vector;
     p = *to_ball * p;
   }
 
   ZVec<D> in_own_coordinates(const ZVec<D>& a) const { return to_ball ? *to_ball * a : a; }
+
+  /// What in_own_coordinates has to be multiplied with, and r, where all numbers are in units of 2^unit, in
+  /// bits.
+  unsigned long bits_of_coordinates(long unit) const {
+    return to_ball ? (D - 1) * static_cast<unsigned long>(axes - unit) : 0;
+  }
+  unsigned long bits_of_radius(long unit) const {
+    return (to_ball ? D : 1) * static_cast<unsigned long>(axes - unit);
+  }
 };
 
 /// A flight as an atom sees it.
@@ -153,12 +163,10 @@ struct Basis {
   ZMatrix<D> n, b;
 };
 
-inline Z read_integer(const Integer& a) {
-  const bool short_enough = a.fits_int64() || a.decimal().size() <= kMaxDigits;
-  Z value = short_enough ? to_z(a) : Z(0);
-  if (!short_enough || bit_length(value) > kMaxBits)
-    refute("holds a number of more than " + std::to_string(kMaxBits) + " bits");
-  return value;
+inline Z read_integer(const Integer& a, std::size_t longest = kLongestText) {
+  if (!a.fits_int64() && a.decimal().size() > longest)
+    refute("holds an integer of more than " + std::to_string(longest) + " characters");
+  return to_z(a);
 }
 
 template <std::size_t D>
