@@ -26,7 +26,7 @@ struct FlightsFindings {
   std::vector<std::uint64_t> counts, beyond;  ///< beyond[i]: longer than edges[i], or without end
   std::uint64_t total = 0;
   std::vector<Fit> fits;
-  std::string no_law;  ///< why there is none
+  std::string no_law;                ///< why there is none
   std::vector<flights::Tail> tails;  ///< that of long paths the last
   std::optional<flights::TailExponent> exponent;
   flights::MeanFreePath mean;  ///< from collision to collision
