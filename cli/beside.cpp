@@ -40,7 +40,7 @@ bool is_name_beside(std::string_view name, std::string_view beginning) {
   return name.size() == kDigits + kEnd.size() && name.find_first_not_of("0123456789abcdef") == kDigits;
 }
 
-// Who makes such a file holds a lock on it as long as he lives.
+// The process that makes such a file holds a lock on it until it ends.
 void remove_if_dead(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;

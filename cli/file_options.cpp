@@ -28,8 +28,8 @@ struct Named {
   bool is_output;
 };
 
-// The files that a value means, by the name that help gives to it. None if there is no such file: that is
-// said by who opens it.
+// The files that a value means, by the name that help gives to it. Empty if there is no such file: the
+// command itself reports that.
 std::vector<std::string> files_read(const std::string& type, const std::string& value) {
   try {
     if (type == "FILE") return {value == "-" ? kInput : value};

@@ -265,7 +265,7 @@ std::string troubles(const Tally& t) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// A text of anybody's in a table's cell.
+// Text for a cell of a table: printable, and without what ends a cell or begins markup.
 std::string in_markdown(const std::string& text) {
   std::string out;
   for (const char c : printable(text)) out += c == '|' ? "\\|" : c == '<' ? "&lt;" : std::string(1, c);

@@ -42,8 +42,8 @@ inline std::string shell_quoted(const std::string& word) {
   return quoted + '\'';
 }
 
-/// Text on stdout, whoever's it is (JSON and SVG have escaped what acts on a terminal already). That it
-/// arrived is checked once, at the program's end (finish_output).
+/// Text on stdout, with what acts on a terminal escaped; line ends and tabs stay. JSON and SVG contain no
+/// such characters. The end of the program checks that all text arrived (finish_output).
 inline void print(std::string_view text) {
   const std::string shown = printable(text, Lines::kept);
   std::fwrite(shown.data(), 1, shown.size(), stdout);

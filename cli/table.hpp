@@ -11,7 +11,7 @@ namespace lorentz::cli {
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
-  /// Its texts may be anybody's.
+  /// Escapes what acts on a terminal.
   void add(std::vector<std::string> row) {
     for (std::string& text : row) text = printable(text);
     rows_.push_back(std::move(row));

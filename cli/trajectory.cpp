@@ -267,7 +267,7 @@ int act(const Options& options) {
   }
   try {
     output.flush();
-  } catch (const FileError&) {  // who hung up reads no more; files are written all the same
+  } catch (const FileError&) {  // after SIGHUP the terminal is gone; the files are written nevertheless
     if (!Interrupt::came()) throw;
   }
   report.commit();

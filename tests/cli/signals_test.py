@@ -1,5 +1,5 @@
-"""Work that a signal ends: what is whole is printed and written, the message says which signal it was, nothing
-else stays; the second signal ends the program at once.
+"""Work that a signal ends: what is whole is printed and written, the message says which signal it was,
+nothing else stays; the second signal ends the program at once.
 
 usage: signals_test.py PROGRAM SOURCE
 
@@ -167,7 +167,7 @@ class Signals(unittest.TestCase):
         run.process.send_signal(signal.SIGTERM)
         run.process.send_signal(signal.SIGINT)
         code = run.end()
-        self.assertIn(code, (-signal.SIGINT, -signal.SIGTERM, 3))  # 3: its block was done before the second came
+        self.assertIn(code, (-signal.SIGINT, -signal.SIGTERM, 3))  # 3: all was done before the second came
 
     def test_what_is_ignored_stays_ignored(self):
         before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does
