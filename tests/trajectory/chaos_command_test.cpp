@@ -126,8 +126,8 @@ TEST_CASE("Groups that were kept are gone on with, to the bit, and impossible on
 TEST_CASE("Statistics of trajectories: killed, they go on; the result is the same",
           "[chaos][chaos_command]") {
   const Folder folder;
-  for (const std::string what :
-       {"lyapunov --radius 0.3 --collisions 4e5", "diffusion --radius 0.3 --count 2e4 --time 30"}) {
+  for (const std::string what : {"lyapunov --json --radius 0.3 --collisions 4e5",
+                                 "diffusion --json --radius 0.3 --count 2e4 --time 30"}) {
     const std::string whole = folder.lorentz(what).out, store = " --store " + folder.file("store");
     folder.run("rm -f " + folder.file("store"));
     for (int kills = 0; kills < 3; ++kills)  // each time when it has kept something more
