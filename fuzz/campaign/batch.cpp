@@ -216,8 +216,7 @@ void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std:
     std::string words = rewording.words(*reworded);
     if (random.one_in(kCasesPerLimit) && subject_->takes_limits()) {
       question.limit = drawn_limit(random, question.exact);
-      if (question.limit != LimitAt::none)
-        words += (words.empty() ? "" : ", ") + words_of(question.limit);
+      if (question.limit != LimitAt::none) words += (words.empty() ? "" : ", ") + words_of(question.limit);
     }
     if (words.empty()) continue;
     questions.cases.push_back(

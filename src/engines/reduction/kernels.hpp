@@ -17,7 +17,7 @@ struct Task {
   const Vec& v;  ///< in [1, 2)
   const ObstacleId* from;
   double max_time;
-  double search_time;  ///< what is entered after it need not be searched for: at least max_time
+  double search_time;                ///< what is entered after it need not be searched for: at least max_time
   const AtomDirections* directions;  ///< of each atom, or null: then they are made here
   Reduction::Time time;
 

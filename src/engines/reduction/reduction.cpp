@@ -66,8 +66,8 @@ const char* Reduction::model() const {
   return "";
 }
 
-// A search that ends at a limit may meet what it cannot decide beyond the first hit, where one without a limit
-// never looks.
+// A search that ends at a limit may meet what it cannot decide beyond the first hit, where one without a
+// limit never looks.
 inline void Reduction::fly_to_limit(Task task, Flight& flight) const {
   model_->kernels.fly(task, flight);
   if (flight.outcome != Outcome::undecided || !task.is_limited()) return;
