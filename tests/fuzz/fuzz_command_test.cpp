@@ -280,8 +280,8 @@ TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had nev
 TEST_CASE("What answers a negative time is found, kept, and shown", "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string store = " --store " + folder.file("store");
-  const Run run = folder.lorentz(
-      "fuzz -e published -t grazing --seed 20161115 --count 512 --shard 474/512" + store);
+  const Run run =
+      folder.lorentz("fuzz -e published -t grazing --seed 20161115 --count 512 --shard 474/512" + store);
   INFO(run.err);
   CHECK(run.status == 1);
   REQUIRE(contains(stored(folder.file("store")), "\"time\":-"));
