@@ -5,6 +5,7 @@
 #include <simdjson.h>
 
 #include <array>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -35,17 +36,21 @@ class Keys {
  public:
   /// False if the key was seen before. Of texts that outlive this.
   bool add(std::string_view key) {
+    const auto hash = key.size() << 8 | (key.empty() ? 0 : static_cast<unsigned char>(key[0]));
     for (std::size_t i = 0; i < count_; ++i)
-      if (few_[i] == key) return false;
-    if (count_ == few_.size()) return many_.insert(key).second;
-    few_[count_++] = key;
+      if (hashes_[i] == hash && std::memcmp(few_[i], key.data(), key.size()) == 0) return false;
+    if (count_ == kFew) return (many_ ? *many_ : many_.emplace()).insert(key).second;
+    few_[count_] = key.data();
+    hashes_[count_++] = hash;
     return true;
   }
 
  private:
-  std::array<std::string_view, 8> few_;
+  static constexpr std::size_t kFew = 8;
+  std::array<std::size_t, kFew> hashes_;
+  std::array<const char*, kFew> few_;
   std::size_t count_ = 0;
-  std::set<std::string_view> many_;  // of objects with more
+  std::optional<std::set<std::string_view>> many_;  // of objects with more
 };
 
 /// Calls read(key, value) for each member, in order; then throws KeyTwice if a key came twice. All readers of

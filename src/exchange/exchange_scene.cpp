@@ -34,11 +34,6 @@ bool looks_hexadecimal(std::string_view text) {
 
 }  // namespace
 
-double finite_number(double number, const std::string& place) {
-  if (std::isinf(number)) throw InputError(place + ": is beyond the range of binary64");
-  return number;
-}
-
 double parse_hexadecimal(std::string_view text, const std::string& place) {
   constexpr const char* kWhat =
       " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";

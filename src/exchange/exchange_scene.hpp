@@ -1,10 +1,12 @@
 // A parsed value of a scene file or line, whatever its syntax was. Private to the exchange library.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
 #include <lorentz/rational.hpp>
 
@@ -36,7 +38,10 @@ RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_
 Rational rational_at(const SceneNode& node, const std::string& place);
 
 /// The number, unless it is infinite: throws InputError, naming `place`.
-double finite_number(double number, const std::string& place);
+inline double finite_number(double number, const std::string& place) {
+  if (std::isinf(number)) throw InputError(place + ": is beyond the range of binary64");
+  return number;
+}
 
 /// "0x1.8p-1" and the like; throws InputError, naming `place`.
 double parse_hexadecimal(std::string_view text, const std::string& place);
