@@ -23,6 +23,13 @@ def _nearest_float(number: Fraction) -> float:
         return math.inf if number > 0 else -math.inf
 
 
+def _each_once(members: list[tuple[str, Any]]) -> dict[str, Any]:
+    fields = dict(members)
+    if len(fields) < len(members):
+        raise ValueError("a key comes twice in an object")
+    return fields
+
+
 @total_ordering
 @dataclass(frozen=True)
 class ExactTime:
@@ -137,7 +144,7 @@ class Answer:
     def from_line(line: str) -> Answer:
         """Of a line in that form. Raises Error where it is none."""
         try:
-            return Answer._from_fields(json.loads(line))
+            return Answer._from_fields(json.loads(line, object_pairs_hook=_each_once))
         except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise Error(f"answer: {line!r:.80} has not the form of docs/formats.md: {error!r}") from None
 
