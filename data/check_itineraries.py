@@ -463,6 +463,14 @@ def identity(scene_line, line):
 
 
 # ---- FILES.
+def members(pairs):
+    """An object of JSON, in which no key may come twice."""
+    box = dict(pairs)
+    if len(box) < len(pairs):
+        raise ValueError(f"a key comes twice among {[key for key, _ in pairs]!r:.99}")
+    return box
+
+
 class File:
     def __init__(self, name, quick):
         self.name, self.quick = name, quick
@@ -474,7 +482,7 @@ class File:
         print(f"{self.name}:{number}: {flaw}")
 
     def read_line(self, line):
-        box = json.loads(line)
+        box = json.loads(line, object_pairs_hook=members)
         if self.header is None:
             self.header = box["golden"]
             if {*self.header} != HEADER or self.header["format"] != 1 or not 1 <= self.header["digits"] <= 10**6:

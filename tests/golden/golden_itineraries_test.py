@@ -109,6 +109,7 @@ class Refused(unittest.TestCase):
                 (1, "the end's v[1] is not", [*lines[:2], tampered_digit(line)]),
                 (2, "JSON", [*lines, "{"]),
                 (2, "golden", lines[1:]),
+                (2, "comes twice", [*lines[:2], line.replace('"x":', '"x":[],"x":', 1)]),
                 (2, "keys", [*lines[:2], line.replace('"times"', '"time"')]),
             ]:
                 path.write_text("".join(text + "\n" for text in changed))
