@@ -156,8 +156,8 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
         Sums sums{std::vector<double>(kValues)};
         Share share = share_of(group, plan.count);
         for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
-          fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times,
-              work, sums);
+          fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,
+              sums);
         return sums;
       },
       [&](std::uint64_t group, const Sums& sums) { return is_possible(sums, share_of(group, plan.count)); });
