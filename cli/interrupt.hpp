@@ -5,13 +5,17 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
+#include <ctime>
 
 #include "compare/process.hpp"
 
 namespace lorentz::cli {
 
-/// While one of these is there the first such signal only sets a flag; the second ends the programs that this
-/// one started and does what it did before. What the caller ignores stays ignored.
+/// While one of these is there the first such signal only sets a flag; the second, half a second later or
+/// more, ends the programs that this one started and does what it did before. (Those who send one often send
+/// it to the process and to its group: `timeout`, a terminal that is closed.) What the caller ignores stays
+/// ignored.
 class Interrupt {
  public:
   Interrupt() {
@@ -37,18 +41,32 @@ class Interrupt {
 
  private:
   static void take(int number) {
-    number_ = number;
-    if (!came_.exchange(true)) return;
+    const std::int64_t now = milliseconds();
+    if (!came_.exchange(true)) {
+      number_ = number;
+      first_ = now;
+      return;
+    }
+    if (now - first_ < kSameWish) return;
     compare::kill_programs();
     for (std::size_t i = 0; i < kSignals.size(); ++i)
       if (kSignals[i] == number) sigaction(number, &before_[i], nullptr);
     raise(number);  // blocked until this returns
   }
 
+  static std::int64_t milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{1000} * now.tv_sec + now.tv_nsec / 1'000'000;
+  }
+
+  static constexpr std::int64_t kSameWish = 500;
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
-  static_assert(std::atomic<bool>::is_always_lock_free);  // a handler may not wait
+  static_assert(std::atomic<bool>::is_always_lock_free &&
+                std::atomic<std::int64_t>::is_always_lock_free);  // a handler may not wait
   static inline std::atomic<bool> came_ = false;
   static inline std::atomic<int> number_ = 0;
+  static inline std::atomic<std::int64_t> first_ = 0;
   static inline std::array<struct sigaction, kSignals.size()> before_{};
 };
 

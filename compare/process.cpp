@@ -148,14 +148,30 @@ struct Pipe {
   bool is_open() const { return to_read >= 0 && to_write >= 0; }
 };
 
-int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, pid_t& pid) {
+// While this lives this thread takes no ending: a program is started and its group is noted, or neither.
+struct Undisturbed {
+  sigset_t before;
+
+  Undisturbed() {
+    sigset_t endings;
+    sigemptyset(&endings);
+    for (const int ending : kEndings) sigaddset(&endings, ending);
+    pthread_sigmask(SIG_BLOCK, &endings, &before);
+  }
+  ~Undisturbed() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+};
+
+// The new program has the signal mask `mask`.
+int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, const sigset_t& mask,
+                pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
   posix_spawnattr_init(&attributes);
   posix_spawn_file_actions_adddup2(&actions, in.to_read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.to_write, STDOUT_FILENO);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setsigmask(&attributes, &mask);
   posix_spawnattr_setpgroup(&attributes, 0);
   std::string text = command;
   char shell[] = "sh", option[] = "-c";
@@ -171,7 +187,9 @@ int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, pid
 Process::Process(const std::string& command) {
   handle_signals_once();
   Pipe in, out;
-  const int error = in.is_open() && out.is_open() ? spawn_shell(command, in, out, pid_) : errno;
+  const Undisturbed undisturbed;
+  const int error =
+      in.is_open() && out.is_open() ? spawn_shell(command, in, out, undisturbed.before, pid_) : errno;
   if (error != 0) throw FileError("cmd:" + command + ": cannot be started: " + std::strerror(error));
   replace_group(0, pid_);
   std::swap(input_, in.to_write);

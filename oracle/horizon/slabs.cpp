@@ -246,6 +246,21 @@ struct Search {
     return false;
   }
 
+  // One by one. False if there are too many.
+  bool look_along_all(const SearchProgress& progress) {
+    const Candidates<D> candidates = fewest_candidates(scene);
+    // The points come as their images: back to normals by their coefficients.
+    const auto look_at = [&](const LatticePoint<D>& point) {
+      LatticePoint<D> normal;
+      for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
+      look_along(normal.p);
+    };
+    const auto step = [&](std::size_t done, std::size_t total) {
+      if (progress && done % 64 == 0) progress(D == 2 ? "directions" : "planes", done / 2, total / 2);
+    };
+    return visit_primitive<D>(candidates.basis, candidates.bound2, 2 * kMostCandidates, look_at, step);
+  }
+
   void look_along(ZVec<D> normal) {
     if (work > kMostWork) return;
     Z divisor = 0;
@@ -269,20 +284,8 @@ struct Search {
 template <std::size_t D>
 Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress) {
   Search<D> search{scene, {}, 0};
-  if (search.look_along_common()) return search.result;
-  const Candidates<D> candidates = fewest_candidates(scene);
-  // The points come as their images: back to normals by their coefficients.
-  const auto look_at = [&](const LatticePoint<D>& point) {
-    LatticePoint<D> normal;
-    for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
-    search.look_along(normal.p);
-  };
-  const auto step = [&](std::size_t done, std::size_t total) {
-    if (progress && done % 64 == 0) progress(D == 2 ? "directions" : "planes", done / 2, total / 2);
-  };
   const bool complete =
-      visit_primitive<D>(candidates.basis, candidates.bound2, 2 * kMostCandidates, look_at, step) &&
-      search.work <= kMostWork;
+      (search.look_along_common() || search.look_along_all(progress)) && search.work <= kMostWork;
   if (!complete)
     search.result.refusal = D == 2 ? "too many directions could leave a corridor open"
                                    : "too many planes could leave a channel open";

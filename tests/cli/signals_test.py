@@ -1,5 +1,5 @@
 """Work that a signal ends: what is whole is printed and written, the message says which signal it was,
-nothing else stays; the second signal ends the program at once.
+nothing else stays; the second signal, half a second later, ends the program at once.
 
 usage: signals_test.py PROGRAM SOURCE
 
@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -165,9 +166,18 @@ class Signals(unittest.TestCase):
         run = Run(self.folder, "flights --radius 1e-9 --engine oracle --from surface --count 1e9")
         run.wait_for(lambda run: run.threads() > 1 and run.computed() > 0.2)
         run.process.send_signal(signal.SIGTERM)
+        time.sleep(0.6)
         run.process.send_signal(signal.SIGINT)
         code = run.end()
         self.assertIn(code, (-signal.SIGINT, -signal.SIGTERM, 3))  # 3: all was done before the second came
+
+    def test_what_is_sent_twice_at_once_is_one_wish(self):
+        for number in WORDS:
+            run = Run(self.folder, "flights --radius 0.3 --count 1e11 --json")
+            self.addCleanup(run.process.kill)
+            run.wait_for(part_done)
+            self.assertEqual(run.end(number, number), 3, run.err)
+            self.assertGreater(json.loads(run.out)["count"], 0)
 
     def test_what_is_ignored_stays_ignored(self):
         before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does

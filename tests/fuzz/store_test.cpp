@@ -396,7 +396,7 @@ TEST_CASE("Whatever an engine answered is kept so that it can be read", "[fuzz][
     CHECK(again.has_value() == (time > -inf));
     if (again) CHECK(*again == time);
   }
-  const auto huge = Integer::from_decimal("-" + std::string(4000, '7'));
+  const auto huge = Integer::from_decimal("-" + std::string(2499, '7'));
   examined.given = Answer::hit({99, 99, {*huge, *huge, Integer(0)}}, 1);
   CHECK(kept().obstacle == examined.given.obstacle);
   for (const std::string& message :

@@ -88,7 +88,7 @@ TEST_CASE("golden make: killed in between, the same command goes on", "[golden][
     // Killed once the note says that so many batches are made.
     const std::string command =
         LORENTZ_PROGRAM " " + order +
-        " 2>/dev/null & p=$!; for i in $(seq 2000); do test \"$(cut -d' ' -f2 " + set +
+        " 2>/dev/null & p=$!; for i in $(seq 2000); do test \"$(cut -d' ' -f3 " + set +
         ".part.note 2>/dev/null)\" -ge " + batches +
         " 2>/dev/null && break; sleep 0.005; done; kill -9 $p; wait $p; test $? = 137";
     killed += std::system(("{ " + command + "; } 2>/dev/null").c_str()) == 0;

@@ -116,7 +116,7 @@ const std::vector<Room> kHouse{
     {"golden",
      {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",
       "oracle/certificate/check"},
-     {"src/problem", "src/exchange", "cases", "cases/families"},
+     {"src/problem", "src/exchange", "cases", "cases/families", "store"},
      {"openssl/ record.cpp", "fcntl.h production.cpp", "sys/file.h production.cpp",
       "unistd.h production.cpp"}},
     {"fuzz/rewording", {"src/problem", "src/exchange"}, {"oracle/integers", "cases"}, {}},
