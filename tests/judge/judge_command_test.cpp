@@ -116,7 +116,8 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   CHECK(once.status == 0);
   CHECK_FALSE(goes_on_running(pid));
   // Never an answer; then the signals, of which each must end it and the engine that it started.
-  const std::string judge = LORENTZ_PROGRAM " judge --engine " + hangs(1) +
+  // (The shell has its children in the background ignore INT.)
+  const std::string judge = "env --default-signal=INT " LORENTZ_PROGRAM " judge --engine " + hangs(1) +
                             (lorentz::report::has_page() ? " --html " + folder.file("page.html") : "");
   for (const char* signal : {"INT", "TERM", "HUP"}) {
     fs::remove(pid);
