@@ -13,6 +13,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHuge = 1e300;  // reported for what is more
 
+// Obstacles that are passed over and stretches of the line, looked at until one is met by more than the
+// tolerance. A line that grazes a row meets as many as one likes by less, and the farther an obstacle is, the
+// more the inputs' last bits move the line there: those beyond the first are passed over by less still.
+constexpr std::size_t kMostPassedOver = 100'000;
+
 struct Departure {
   double ulps = 0;
   std::optional<ObstacleId> obstacle = {};  // that needs so much
@@ -128,15 +133,18 @@ class DepartureBound {
       visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
         bound_earlier(target, hit, atom, Centre<D>(view.velocity, point));
       });
-      return exceeds_tolerance();
+      return exceeds_tolerance() || passed_over_ > kMostPassedOver;
     };
     if (end >= 1)
-      stretches.cut(1, end, [&](const Stretch<D>& stretch) { return stretches.visit(stretch, visit); });
+      stretches.cut(1, end, [&](const Stretch<D>& stretch) {
+        return stretches.visit(stretch, visit) || ++passed_over_ > kMostPassedOver;
+      });
   }
 
   // One obstacle that may be entered before X: with how much to spare?
   void bound_earlier(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
                      const Centre<D>& centre) {
+    ++passed_over_;
     const bool is_target = &atom == &target && centre.point.n == hit.point.n;
     if (is_target || query_.is_from(atom, centre.point.n)) return;
     if (centre.s <= 0 || centre.h2 >= atom.rho2() || centre.c2 < atom.view().radius2) return;
@@ -158,6 +166,7 @@ class DepartureBound {
   const Answer& exact_;
   const double ulps_;
   Departure needed_;
+  std::size_t passed_over_ = 0;
 };
 
 }  // namespace

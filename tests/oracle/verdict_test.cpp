@@ -479,3 +479,15 @@ TEST_CASE("Answers so far away that the times of neighbours agree in 150 digits 
   CHECK(judged(unit_scene(2, 0.5), query, Answer::hit({0, 0, {-34, row, 0}}, 1e215)).verdict ==
         Verdict::wrong);
 }
+
+TEST_CASE("An answer beyond any number of grazed obstacles is judged, and soon", "[oracle][verdict]") {
+  const Integer far = *Integer::from_decimal("1" + std::string(400, '0'));
+  for (const Vec& v : {Vec{1, 0}, Vec{1, 0x1p-53}}) {
+    const Query query{{0.5, 0.25 - 0x1p-54}, v, {}};
+    const Answer exact = oracle::Oracle(unit_scene(2, 0.25)).first_hit(query);
+    REQUIRE(exact.obstacle == ObstacleId{0, 0, {1, 0, 0}});
+    const Answer given = Answer::hit({0, 0, {far, 0, 0}}, 1e300);
+    CHECK(judged(unit_scene(2, 0.25), query, given).verdict ==
+          (v[1] == 0 ? Verdict::ill_posed : Verdict::wrong));
+  }
+}
