@@ -97,7 +97,7 @@ class PyOracle {
     PyCertificate proved{prover_->prove(query, exact), scene_.dimension};
     bool too_long = false;
     const auto why = check().refutation(query, exact, proved.proof, &too_long);
-    if (too_long) throw InputError("the proof " + *why + ", which no checker goes");
+    if (too_long) throw InputError("no checker goes through the proof: " + *why);
     return proved;
   }
 

@@ -159,6 +159,8 @@ def _columns(start_from: StartFrom, count: int, dimension: int) -> _Left | None:
         if isinstance(start_from, (list, tuple)) and all(map(_is_obstacle_or_none, start_from)):
             return _columns_of_rows(list(start_from), count, dimension)
         lattice, atom, cell = start_from
+        if _is_obstacle_or_none(start_from) and isinstance(cell, (tuple, list)) and not _fits_64_bits(cell):
+            return _columns_of_rows([start_from] * count, count, dimension)
         return (np.broadcast_to(_integers(lattice, np.int32), (count,)),
                 np.broadcast_to(_integers(atom, np.int32), (count,)),
                 np.broadcast_to(_integers(cell, np.int64), (count, dimension)), [])
@@ -185,12 +187,16 @@ def _columns_of_rows(rows: list[Any], count: int, dimension: int) -> _Left:
     none = (-1, 0, (0,) * dimension)
     whole_rows = [none if row is None else (_index(row[0]), _index(row[1]), tuple(integer(n, "cell") for n in row[2]))
                   for row in rows]
-    large = [(i, *row) for i, row in enumerate(whole_rows) if not all(-2**63 <= n < 2**63 for n in row[2])]
+    large = [(i, *row) for i, row in enumerate(whole_rows) if not _fits_64_bits(row[2])]
     for i, *_ in large:
         whole_rows[i] = none
     lattice, atom, cell = zip(*whole_rows) if rows else ((), (), ())
     return (_integers(np.array(lattice, int), np.int32), _integers(np.array(atom, int), np.int32),
             np.reshape(np.array(cell, np.int64), (count, dimension)), large)
+
+
+def _fits_64_bits(cell: Any) -> bool:
+    return all(-2**63 <= n < 2**63 for n in cell)
 
 
 def _index(value: Any) -> int:

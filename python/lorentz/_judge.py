@@ -14,7 +14,8 @@ from ._lorentz import Answers, Error
 from ._numbers import Obstacle, finite, integer, whole
 from ._scene import Scene, wrapped
 
-#: ``engine(scene, x, v, start_from)``: the answer to one query, or to N (docs/python.md).
+#: ``engine(scene, x, v, start_from)``, the last by its name where that is not the fourth parameter, as in
+#: `first_hit`: the answer to one query, or to N (docs/python.md).
 FirstHitFunction = Callable[..., Any]
 
 
@@ -27,7 +28,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         engine: the name of an engine, ``"cmd:COMMAND"`` for another program, or a function
             ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
             (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
-            `inside`, `undecided`, `unsupported`. An exception is an error of the engine, and so counted.
+            `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
+            the engine, and so counted.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
             or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
             ``cell`` (N, d), ``time``, ``lattice``, ``atom`` where these are not all 0, and ``reasons``, as
@@ -54,8 +56,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     else:
         if not callable(engine):
             raise Error(f"engine: {engine!r} is neither a name nor a function")
-        _check_parameters(engine)
-        function = _Asked(engine, vectorized)
+        function = _Asked(_with_four_parameters(engine), vectorized)
         called = str(name or getattr(engine, "__name__", type(engine).__name__))
         command = f"lorentz.judge({called})"
     page = None if html is None else os.fspath(html)
@@ -70,16 +71,29 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     return result | {"text": text}
 
 
-def _check_parameters(function: FirstHitFunction) -> None:
-    """Before two minutes of calls fail, one by one."""
+def _with_four_parameters(function: FirstHitFunction) -> FirstHitFunction:
+    """The same, called with four arguments; raises Error before two minutes of such calls fail, one by one."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):  # of some that are written in C nothing is known
-        return
+        return function
+    by_name = _is_fifth_or_named(list(signature.parameters.values()))
     try:
-        signature.bind(None, None, None, None)
+        signature.bind(None, None, None, **{"start_from": None}) if by_name else signature.bind(*[None] * 4)
     except TypeError as error:
         raise Error(f"engine: is called with scene, x, v, start_from: {error}") from None
+    if not by_name:
+        return function
+
+    def called_by_name(scene: Scene, x: Any, v: Any, start_from: Any) -> Any:
+        return function(scene, x, v, start_from=start_from)
+
+    return called_by_name
+
+
+def _is_fifth_or_named(parameters: list[inspect.Parameter]) -> bool:
+    """Would the fourth argument come to another parameter than ``start_from``, which there is?"""
+    return any(p.name == "start_from" and (p.kind is p.KEYWORD_ONLY or i > 3) for i, p in enumerate(parameters))
 
 
 class _Asked:
@@ -116,6 +130,11 @@ class _Asked:
 def _line(function: FirstHitFunction, scene: Scene, x: Any, v: Any, start_from: Obstacle | None) -> str:
     try:
         answer = function(scene, x, v, start_from)
+        if isinstance(answer, (Answers, dict)):
+            answers = list(_answers(answer))
+            if len(answers) != 1:
+                return _error(f"{len(answers)} answers to 1 query")
+            answer = answers[0]
         if not isinstance(answer, Answer):
             return _error(f"{type(answer).__name__} is no Answer")
         return answer.to_line()

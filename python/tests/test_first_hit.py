@@ -171,6 +171,9 @@ def test_an_obstacle_beyond_64_bits_can_be_left(engine):
         assert exact.cell == then.large_cells.get(i, tuple(then.cell[i])) != tuple(cell)
         other = exact if i % 2 == 0 else lorentz.oracle.first_hit(lorentz.Scene("square", 0.1), x[i], v[i])
         assert other.cell == some.large_cells.get(i, tuple(some.cell[i]))
+    left = (0, 0, first.large_cells[7])  # by all
+    one = lorentz.first_hit("square", x[[7, 5000]], v[[7, 5000]], 0.1, engine=engine, start_from=left)
+    assert one.large_cells == {0: then.large_cells[7], 1: then.large_cells[7]}
 
 
 @pytest.mark.parametrize("engine", ["batch", "certified-batch", "oracle"])

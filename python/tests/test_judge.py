@@ -86,19 +86,35 @@ def test_an_exception_is_an_error_of_that_query(vectorized):
 
 
 def test_reasons_of_answers_reach_the_judge():
-    def batch(scene, x, v, start_from):  # which does no ellipses, and says so
-        return lorentz.first_hit(scene, x, v, start_from=start_from)
+    """What an engine does not do, and says so, is no error: neither in Answers nor in a dict of columns."""
+    def arrays(scene, x, v, start_from, engine="batch"):
+        return lorentz.first_hit(scene, x, v, start_from=start_from, engine=engine)
 
     def columns(scene, x, v, start_from):
-        answers = batch(scene, x, v, start_from)
+        answers = arrays(scene, x, v, start_from)
         return {name: getattr(answers, name) for name in ("outcome", "lattice", "atom", "cell", "time", "reasons")}
 
-    for function in (batch, columns):
+    def published(scene, x, v, start_from):  # which does no ellipses
+        return arrays(scene, x, v, start_from, engine="published")
+
+    for function in (arrays, columns):
         report = lorentz.judge(function, vectorized=True, time=SHORT)
         assert report["verdict"] == lorentz.judge("batch", time=SHORT)["verdict"] == "right"
         assert report["unsupported"] > 0 and report["error"] == 0 and report["findings"] == []
-        states = {row["name"]: row["state"] for row in report["difficulties"]}
-        assert states["drawn ellipse"] == "unsupported" and states["drawn square"] == "asked"
+    report = lorentz.judge(published, vectorized=True, time=SHORT, name="of a paper")
+    assert report["unsupported"] > 0 and report["error"] == 0
+    states = {row["name"]: row["state"] for row in report["difficulties"]}
+    assert states["drawn square"] == "asked" and states["drawn ellipse"] in ("unsupported", "no time")
+
+
+@pytest.mark.parametrize("vectorized", [False, True])
+def test_first_hit_is_judged_as_its_engine_is(vectorized):
+    """Its fourth parameter is a radius; start_from goes to it by name."""
+    report = lorentz.judge(lorentz.first_hit, vectorized=vectorized, time=SHORT)
+    own = lorentz.judge("batch", time=SHORT)
+    assert report["engine"] == "first_hit" and report["queries"] > 200
+    assert report["verdict"] == own["verdict"] == "right" and report["findings"] == []
+    assert report["error"] == 0 and report["unsupported"] > 0
 
 
 def test_of_many_only_the_guilty_queries_fail():
@@ -120,6 +136,8 @@ def test_what_is_no_answer():
     assert report["verdict"] == "wrong" and "str is no Answer" in report["findings"][0]["given"]["message"]
     few = lorentz.judge(lambda scene, x, v, start_from: [], vectorized=True, time=SHORT, name="few")
     assert "0 answers to 1 queries" in few["findings"][0]["given"]["message"]
+    two = lorentz.judge(lambda *query: {"outcome": [1, 1]}, time=SHORT, name="two")
+    assert "2 answers to 1 query" in two["findings"][0]["given"]["message"]
 
 
 def test_engines_by_name_and_threads():
@@ -151,6 +169,8 @@ def test_the_page(tmp_path):
 @pytest.mark.parametrize("arguments, text", [
     (dict(engine="clasical"), "did you mean classical"),
     (dict(engine=one_by_one, name="oracle"), "there already"),
+    (dict(engine=lambda scene, x, v: None), "is called with scene, x, v, start_from"),
+    (dict(engine=lambda scene, x, v, radius, *, start_from: None), "is called with scene, x, v, start_from"),
     (dict(engine=one_by_one, time=-1), "time"),
     (dict(engine=one_by_one, threads=0), "threads"),
     (dict(engine=one_by_one, ulps=-1), "ulps"),

@@ -124,6 +124,14 @@ def test_certificates_prove_and_refute(name):
         lorentz.Certificate.from_dict({"rows": [{"lattice": 0, "atom": 0, "basis": [[1]]}]}, 2)
 
 
+def test_a_proof_that_is_too_long_is_told():
+    """The balls that could contain x first are 400 cells large: more than a checker looks at."""
+    scene = lorentz.unit_scene(3, 400)
+    assert oracle.first_hit(scene, [0.5, 0.5, 0.5], [1, 0.3, 0.2]).outcome == "inside"
+    with pytest.raises(lorentz.Error, match="no checker goes through the proof: .* more than 1000000 steps"):
+        oracle.certificate(scene, [0.5, 0.5, 0.5], [1, 0.3, 0.2])
+
+
 def test_convergents_are_exact():
     random = np.random.default_rng(SEED)
     for rise, run in random.uniform(-3, 3, (50, 2)).tolist() + [[0.1, 1.0], [-7.5, 2.0]]:
