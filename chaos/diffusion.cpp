@@ -165,6 +165,8 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   for (const auto& sums : all)
     if (sums && sums->particles > 0) good.push_back(*sums);
   Diffusion result = told(good, plan.scene.dimension, times);
+  for (const auto& sums : all)
+    if (sums && sums->particles == 0) result.stopped += sums->stopped;
   result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();
   return result;
 }

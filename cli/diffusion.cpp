@@ -152,8 +152,11 @@ int act(const Options& options) {
                           {"scene", scene_line(report.plan.scene)}};
   with_work(options, "diffusion", words,
             [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
-  if (report.found.particles == 0) {
-    say("no part was done: there is nothing to report");
+  // Those that are left after others ended are the ones that met nothing.
+  const bool selected = report.found.collisions == 0 && report.found.stopped > 0;
+  if (report.found.particles == 0 || selected) {
+    say("{}: there is nothing to report",
+        report.found.is_whole ? "no particle got beyond its first obstacle" : "no part was done");
     return kFailed;
   }
   report.random_walk = chaos::machta_zwanzig(report.plan.scene);

@@ -47,6 +47,12 @@ std::vector<std::string> values_of(const CLI::Option& option) {
   return {option.get_default_str()};
 }
 
+// What stands beside a store while it is written.
+void add_companions(const std::string& store, std::vector<Named>& files) {
+  for (const char* end : {".lock", "-wal", "-shm", "-journal"})
+    files.push_back({"the store " + store, store + end, false});
+}
+
 std::vector<Named> files_of(const CLI::App& command) {
   std::vector<Named> files{{"standard output", kOutput, true}};
   for (const CLI::Option* option : command.get_options()) {
@@ -57,8 +63,10 @@ std::vector<Named> files_of(const CLI::App& command) {
         if (value.empty() && !option->empty())
           throw InputError(name + ": the name is empty; give the file one, or leave the option out");
         if (!value.empty() && value != "-") files.push_back({name, value, true});
+        if (!value.empty() && name == "--store") add_companions(value, files);
       } else if (!makes_set && !value.empty()) {
         for (const std::string& path : files_read(type, value)) files.push_back({name, path, false});
+        if (type == "FILE") add_companions(value, files);
       }
   }
   return files;

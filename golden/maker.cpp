@@ -111,7 +111,7 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   record.certificate = impl_->prover.prove(*query, record.expect);
   bool too_long = false;
   const auto why = impl_->check.refutation(*query, record.expect, *record.certificate, &too_long);
-  if (too_long) throw ProofTooLong("the proof " + *why + ", which no checker goes:\n" + asked);
+  if (too_long) throw ProofTooLong("no checker goes through the proof, which " + *why + ":\n" + asked);
   if (why) disagree("the check of the certificate (" + *why + ")");
   impl_->measure(*query, record);
   return made;

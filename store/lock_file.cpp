@@ -36,7 +36,12 @@ LockFile::LockFile(const std::string& file, bool writes, const std::string& busy
     const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
     lock_ = ::open(path_.c_str(), flags, 0666);
     if (lock_ < 0 && !writes_) return;
-    if (lock_ < 0) throw write_error(file, errno);
+    if (lock_ < 0) throw write_error(path_, errno);
+    if (writes_ && !is_empty_file()) {
+      close();
+      throw FileError(path_ +
+                      ": is there and is not a lock of this program; move it away, or name another store");
+    }
     if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
       close();
       throw FileError(file + ": " + busy);
@@ -47,6 +52,12 @@ LockFile::LockFile(const std::string& file, bool writes, const std::string& busy
 LockFile::~LockFile() {
   if (writes_) ::unlink(path_.c_str());
   close();
+}
+
+// A lock has nothing in it: what has is somebody's file, which would be removed.
+bool LockFile::is_empty_file() const {
+  struct stat ours {};
+  return ::fstat(lock_, &ours) == 0 && S_ISREG(ours.st_mode) && ours.st_size == 0;
 }
 
 // Not one that another process removed between our opening and locking it.

@@ -11,13 +11,15 @@ namespace lorentz::store {
 /// A reader that only wants no other process to write makes no file: without a lock file there is no writer.
 class LockFile {
  public:
-  /// Throws FileError: if another process holds it, the file's name and `busy`.
+  /// Throws FileError: if another process holds it, the file's name and `busy`; if FILE.lock is there and is
+  /// no lock, for it has something in it.
   LockFile(const std::string& file, bool writes, const std::string& busy);
   ~LockFile();
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
 
  private:
+  bool is_empty_file() const;
   bool is_the_one_there() const;
   void close();
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kCheck = ",\"check\":\"";
 
-// The checks of pieces begin with their header's, so that a piece of another run has another one.
+// The check of a line begins with the line before it: none can be left out, moved, or taken from another run.
 std::string with_check(const std::string& line, std::uint64_t begin) {
   return fmt::format("{}{}{:016x}\"}}", line, kCheck, check_of(line, begin));
 }
@@ -91,10 +91,11 @@ std::string piece_in(std::string_view line, std::uint64_t begin) {
 }  // namespace
 
 std::string text_of(std::string_view kind, const Plan& plan, const std::vector<std::string>& pieces) {
-  const std::string header = with_check(header_of(kind, plan), kCheckOfNothing);
-  const std::uint64_t begin = check_of(header);
-  std::string text = header + '\n';
-  for (const std::string& piece : pieces) text += with_check(std::string(kPiece) + piece, begin) + '\n';
+  std::string line = with_check(header_of(kind, plan), kCheckOfNothing), text = line + '\n';
+  for (const std::string& piece : pieces) {
+    line = with_check(std::string(kPiece) + piece, check_of(line));
+    text += line + '\n';
+  }
   return text;
 }
 
@@ -109,12 +110,11 @@ std::vector<std::string> pieces_in(std::string_view text, std::string_view kind,
     ++number;
     try {
       if (end == text.size()) refuse("has no end: the file was cut off");
-      if (number == 1) {
+      if (number == 1)
         check_header(line, kind, plan);
-        begin = check_of(line);
-      } else {
+      else
         pieces.push_back(piece_in(line, begin));
-      }
+      begin = check_of(line);
     } catch (const InputError& error) {
       throw InputError(fmt::format("line {} {}", number, error.what()));
     }

@@ -164,3 +164,15 @@ TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][ch
     CHECK(contains(folder.lorentz(std::string(command) + " --help").out,
                    std::string("Example:\n  lorentz ") + command));
 }
+
+TEST_CASE("lorentz diffusion: nothing is told of the few that met nothing", "[chaos][chaos_command]") {
+  const Folder folder;
+  const char* lattice =
+      "[[lattices]]\nvectors = [[1, 0], [0, 1]]\n[[lattices.atoms]]\nposition = [0, 0]\n"
+      "radius = 0.1\n";  // twice: all obstacles coincide, and no engine says which is hit
+  const std::string scene = folder.write("same.toml", std::string("dimension = 2\n") + lattice + lattice);
+  const Run run = folder.lorentz("diffusion --count 2000 --time 20 --scene " + scene);
+  CHECK(run.status == 3);
+  CHECK(run.out.empty());
+  CHECK(contains(run.err, "no particle got beyond its first obstacle"));
+}
