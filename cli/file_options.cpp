@@ -76,7 +76,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status there = fs::status(a, error);
   if (fs::exists(there)) return fs::is_regular_file(there) && fs::equivalent(a, b, error);
-  return fs::weakly_canonical(fs::absolute(a), error) == fs::weakly_canonical(fs::absolute(b), error);
+  // A name that is too long has no place; opening it says so.
+  const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
+  return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
 }
 
 }  // namespace
