@@ -48,7 +48,9 @@ def ask(test, mutant=0, reached=None, seconds=600, wall=3600):
     if reached:
         environment["LORENTZ_REACHED"] = str(reached)
 
-    def limits():
+    def limits():  # and the signals as a terminal has them: a job in the background may ignore some
+        for one in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+            signal.signal(one, signal.SIG_DFL)
         resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 1, int(seconds) + 5))
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -263,6 +263,63 @@ TEST_CASE("never: whatever lattice line or plane v was rounded from, its corrido
   CHECK(ill_posed > 95);  // 122 seen
 }
 
+TEST_CASE("never: a lattice line that lies in no open plane opens a cylinder, however the lattice is turned",
+          "[oracle][verdict]") {
+  // Simple cubic, r = 0.6: every plane channel is closed, and along an axis a cylinder of 0.107 is open.
+  Draw draw(5102);
+  INFO("seed 5102");
+  const double a = draw.between(0, 2 * M_PI), b = draw.between(0, 2 * M_PI), c = std::cos(a), s = std::sin(a);
+  Scene scene = unit_scene(3, 0.6);
+  auto& u = scene.lattices[0].vectors;
+  u = {Vec{c, s, 0}, Vec{-s * std::cos(b), c * std::cos(b), std::sin(b)},
+       Vec{s * std::sin(b), -c * std::sin(b), std::cos(b)}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Query query{{}, u[k], {}};
+    for (std::size_t i = 0; i < 3; ++i) query.x[i] = (u[(k + 1) % 3][i] + u[(k + 2) % 3][i]) / 2;
+    query.v[1] = std::nextafter(query.v[1], 2);
+    INFO(stream(scene, query));
+    const oracle::Judgement judgement = judged(scene, query, Answer::never());
+    CHECK(judgement.verdict == Verdict::ill_posed);
+    CHECK(judgement.departs > 0.4);
+    CHECK(judged(scene, query, Answer::never(), 0.25).verdict == Verdict::wrong);
+  }
+}
+
+TEST_CASE(
+    "An obstacle that is entered earlier condemns, though its centre lies beyond the entry of the one named",
+    "[oracle][verdict]") {
+  // E is entered by 2e-17, which is a matter of ulps; then Z, at 1/2, and X, at 0.9, before the centre of Z.
+  const auto scene_of = [](int dimension, double wide) {
+    Scene scene = unit_scene(dimension, 0.25);
+    for (int i = 0; i < dimension; ++i) scene.lattices[0].vectors[i][i] = 10;
+    Atom z{{1.5, 0}, 1, {}};
+    if (wide != 1) {
+      z = {{1.5, 0}, 0, {{1, 0, 0}, {0, wide, 0}}};
+      if (dimension == 3) z.semiaxes.push_back({0, 0, wide});
+    }
+    scene.lattices[0].atoms = {{{-1, 0.25}, 0.25, {}}, z, {{1.2, 0}, 0.3, {}}};
+    return scene;
+  };
+  const Query query{{-3, 2e-17}, {1, 0}, {}};
+  for (const int dimension : {2, 3})
+    for (const double wide : {1.0, 0.75}) {
+      const Scene scene = scene_of(dimension, wide);
+      INFO(stream(scene, query));
+      REQUIRE(oracle::Oracle(scene).first_hit(query).obstacle == ObstacleId{0, 0, {}});
+      const auto of_z = judged(scene, query, Answer::hit({0, 1, {}}, 3.5)),
+                 of_x = judged(scene, query, Answer::hit({0, 2, {}}, 3.9));
+      CHECK(of_z.verdict == Verdict::ill_posed);
+      CHECK(of_x.verdict == Verdict::wrong);
+      CHECK(of_x.obstacle == ObstacleId{0, 1, {}});
+      // A lattice of its own for each.
+      Scene apart = scene;
+      apart.lattices.assign(3, scene.lattices[0]);
+      for (std::size_t l = 0; l < 3; ++l) apart.lattices[l].atoms = {scene.lattices[0].atoms[l]};
+      CHECK(judged(apart, query, Answer::hit({1, 0, {}}, 3.5)).verdict == Verdict::ill_posed);
+      CHECK(judged(apart, query, Answer::hit({2, 0, {}}, 3.9)).obstacle == ObstacleId{1, 0, {}});
+    }
+}
+
 TEST_CASE("never: small obstacles and a slope near a lattice vector", "[oracle][verdict]") {
   CHECK(judged(unit_scene(2, 3e-4), {{0.5, 0}, {1, 1e-4}, {}}, Answer::never()).verdict == Verdict::wrong);
   CHECK(judged(unit_scene(2, 3.423250686789962e-05),
