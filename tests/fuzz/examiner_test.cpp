@@ -195,3 +195,76 @@ TEST_CASE("A reader that loses or changes anything is seen by reading back", "[f
     CHECK((met[name] > 1) == (name != "as it is"));
   }
 }
+
+namespace {
+
+// Right, with so much work: `its` for the first question, then what is drawn, as long as there is some.
+class CountingSubject final : public fuzz::Subject {
+ public:
+  CountingSubject(double its, std::vector<std::optional<double>> drawn)
+      : its_(its), drawn_(std::move(drawn)) {}
+  void ask(const Query& query) override {
+    const std::optional<double> work = asked_ == 0 ? its_ : drawn_[(asked_ - 1) % drawn_.size()];
+    ++asked_;
+    replies_.push_back({oracle_->first_hit(query), work});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  double its_;
+  std::vector<std::optional<double>> drawn_;
+  std::size_t asked_ = 0;
+  std::optional<oracle::Oracle> oracle_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
+  CountingSubject subject(its, std::move(drawn));
+  return fuzz::Examiner(subject, unit_scene(2, 0.25), 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
+}
+
+}  // namespace
+
+TEST_CASE("Slow is more than a hundred times the median of drawn flights, of those whose work is known",
+          "[fuzz][examiner]") {
+  CHECK(kind_of_work(1000, {10}) == Kind::fine);
+  CHECK(kind_of_work(1001, {10}) == Kind::slow);
+  CHECK(kind_of_work(499, {1}) == Kind::fine);
+  CHECK(kind_of_work(500, {1}) == Kind::slow);
+  CHECK(kind_of_work(1001, {10, 1e6}) == Kind::slow);  // of 33 most are 10
+  CHECK(kind_of_work(1001, {1e6, 10}) == Kind::fine);
+  // An engine that counts in every other answer, and one that counts in none of the drawn flights.
+  CHECK(kind_of_work(1000, {10, {}}) == Kind::fine);
+  CHECK(kind_of_work(1001, {10, {}}) == Kind::slow);
+  CHECK(kind_of_work(1001, {{}, 10}) == Kind::slow);
+  CHECK(kind_of_work(1e9, {std::nullopt}) == Kind::fine);
+}
+
+TEST_CASE("With a limit at, below or above the time an answer is right or wrong, never ill-posed",
+          "[fuzz][examiner]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0}, {1, 0}, {}};
+  const Answer truth = disc(1, 0, 0.25), missed = disc(2, 0, 1.25);
+  const auto kinds = [&](LimitAt limit) {
+    std::string text;
+    for (const Answer& given :
+         {truth, Answer::later(), Answer::never(), missed, Answer::inside({}), Answer::undecided()}) {
+      ToldSubject subject([&](const Query&) { return given; });
+      const fuzz::Examined one = fuzz::Examiner(subject, scene, 4).examine(query, limit);
+      text += std::string(fuzz::name_of(one.kind)).substr(0, 1);
+      CHECK(same(one.given, given));
+    }
+    return text;
+  };
+  // What is entered at the limit is entered after it: `later`.
+  const bool at_is_later =
+      oracle::Oracle(scene).first_hit(query, {.max_time = 0.25}).outcome == Outcome::later;
+  CHECK(kinds(LimitAt::time) == (at_is_later ? "wffwwu" : "fwwwwu"));
+  CHECK(kinds(LimitAt::below) == "wffwwu");
+  CHECK(kinds(LimitAt::half) == "wffwwu");
+  CHECK(kinds({LimitAt::before, 51}) == "wffwwu");
+  CHECK(kinds(LimitAt::above) == "fwwwwu");
+  CHECK(kinds(LimitAt::twice) == "fwwwwu");
+  CHECK(kinds({LimitAt::after, 51}) == "fwwwwu");
+}
