@@ -13,7 +13,10 @@
 #include "cases/families/target.hpp"
 #include "compare/registry.hpp"
 #include "compare/sampling.hpp"
+#include "flights/sample/free_starts.hpp"
+#include "fuzz/examine/shrink.hpp"
 #include "judge/questions.hpp"
+#include "judge/simplest.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -216,4 +219,208 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     REQUIRE(found.size() >= 2);
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(text_of(found[i]) == text_of(expected[i]));
   }
+}
+
+namespace {
+
+// Exact, but for invalid questions: it answers these.
+class Gullible final : public compare::Answerer {
+ public:
+  void set_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  void ask(const Id&, const Query& query) override {
+    Answer answer = oracle_->first_hit(query);
+    deliver(answer);
+  }
+  void ask_text(const Id&, const std::string&) override {
+    Answer answer = Answer::never();
+    deliver(answer);
+  }
+
+ private:
+  std::optional<oracle::Oracle> oracle_;
+};
+
+Example example_in(int dimension, Cause cause) {
+  const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  return {{setting, query, setting->oracle().first_hit(query), "here", ""},
+          Answer::never(),
+          {oracle::Verdict::wrong},
+          {cause, Severity::wrong, 1}};
+}
+
+Place place_of(Scene scene, bool is_answered = true) {
+  Place place{"place", std::make_shared<Setting>(std::move(scene))};
+  place.setting->note(!is_answered);
+  return place;
+}
+
+std::string text_of(const fuzz::Scope& scope) {
+  constexpr const char* kNames[] = {"any", "lattice", "unit"};
+  return std::string(kNames[static_cast<int>(scope.scenes)]) + ' ' + std::to_string(scope.dimension);
+}
+
+}  // namespace
+
+TEST_CASE("What another program failed in, and what was nonsense, is added up, too", "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  const auto examined = [&](const std::string& engine, const Source& source) {
+    auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
+    one->run({"row", ""}, source, kForEver);
+    one->finish();
+    return one;
+  };
+  const std::string fragile = "cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3";
+  const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
+             also = examined(fragile, drawn_in({3}, 2, 20));
+  CHECK_FALSE(fine->failed());
+  fine->take_over(*broken);
+  CHECK(fine->failed());
+  CHECK(fine->rows()[0].scenes_given_up == 1);
+  CHECK(fine->rows()[0].last_failure == broken->rows()[0].last_failure);
+  fine->take_over(*also);
+  CHECK(fine->rows()[0].scenes_given_up == 2);
+  CHECK(fine->findings().size() == 1);
+  CHECK(fine->findings()[0].count == fine->rows()[0].tally.missing);
+  const compare::GuestEngine gullible(
+      "gullible", [](const compare::AnswererOptions&) { return std::make_unique<Gullible>(); });
+  const auto nonsense = [&](std::size_t number) {
+    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+    return examined("gullible", [=, left = number]() mutable -> std::optional<Question> {
+      if (left == 0) return std::nullopt;
+      --left;
+      return Question{setting, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
+    });
+  };
+  const auto two = nonsense(2), three = nonsense(3);
+  two->take_over(*three);
+  CHECK(two->rows()[0].nonsense == 5);
+  CHECK(two->rows()[0].asked() == 5);
+  CHECK(two->findings()[0].count == 5);
+}
+
+TEST_CASE("What sets failures apart is true of all that were added up; equal ones keep their order",
+          "[judge][examination]") {
+  Findings flat, solid;
+  for (int i = 0; i < 20; ++i) {
+    flat.add(example_in(2, Cause::never_for_hit), "row");
+    solid.add(example_in(3, Cause::never_for_hit), "row");
+    Features right = features_of(example_in(2, Cause::tie).question);
+    flat.add_right(right);
+    right.in_space = true;
+    solid.add_right(right);
+  }
+  const judge::Asked asked{{"row", {100, false}}};
+  Findings both = solid;
+  both.add(flat);
+  for (const Finding& finding : both.all(asked))
+    if (finding.circumstance) CHECK_FALSE(finding.circumstance->text.starts_with("in "));
+  Findings half = solid;  // what is true of half of the right answers still sets apart
+  for (int i = 0; i < 20; ++i) half.add_right(features_of(example_in(2, Cause::tie).question));
+  REQUIRE(half.all(asked)[0].circumstance);
+  CHECK(half.all(asked)[0].circumstance->text == "in 3D");
+  CHECK(half.all(asked)[0].circumstance->share == 0.5);
+  Findings equal;
+  for (const Cause cause : {Cause::tie, Cause::behind, Cause::false_hit, Cause::leaving})
+    equal.add(example_in(2, cause), "row");
+  const auto all = equal.all(asked);
+  REQUIRE(all.size() == 4);
+  for (std::size_t i = 1; i < all.size(); ++i) CHECK(all[i - 1].cause() < all[i].cause());
+}
+
+TEST_CASE("A grazing fault says once that it is about grazing", "[judge][examination]") {
+  for (const Cause cause : {Cause::never_for_grazing, Cause::passed_over_grazing, Cause::never_for_hit}) {
+    Finding finding{example_in(2, cause), "here", 1, 3e-10};
+    finding.circumstance = Circumstance{"where the line enters", 0, true};
+    CHECK((finding.summary().find(", only") == std::string::npos) == (cause != Cause::never_for_hit));
+    finding.circumstance = Circumstance{"in 3D", 0, false};
+    CHECK(finding.summary().ends_with(", only in 3D"));
+  }
+}
+
+TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge][repetition]") {
+  const auto engine = guest("two-faults", two_faults);
+  const std::atomic<bool> stop = false;
+  Examination examination("two-faults", {}, 4, stop);
+  const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
+  const auto setting = std::make_shared<Setting>(unit_scene(3, 0.25));
+  const Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
+  CHECK(examination.repeat(question, 3, {Cause::never_for_hit, Severity::wrong}).failed == 1);
+  CHECK_FALSE(examination.repeat(question, 3, {Cause::never_for_hit, Severity::ill_posed}).failed);
+  CHECK_FALSE(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).failed);
+  CHECK(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).all_answered);
+}
+
+TEST_CASE("The scope of a campaign is the narrowest with all that was answered", "[judge][questions]") {
+  Scene skewed = unit_scene(2, 0.2), motif = unit_scene(3, 0.2);
+  skewed.lattices[0].vectors[1][0] = 0.25;
+  motif.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
+  const Scene flat = unit_scene(2, 0.2), solid = unit_scene(3, 0.2);
+  CHECK(text_of(scope_of({place_of(flat)})) == "unit 2");
+  CHECK(text_of(scope_of({place_of(solid)})) == "unit 3");
+  CHECK(text_of(scope_of({place_of(flat), place_of(solid)})) == "unit 0");
+  CHECK(text_of(scope_of({place_of(flat), place_of(skewed)})) == "lattice 2");
+  CHECK(text_of(scope_of({place_of(solid), place_of(skewed)})) == "lattice 0");
+  CHECK(text_of(scope_of({place_of(motif), place_of(solid)})) == "any 3");
+  CHECK(text_of(scope_of({place_of(motif, false), place_of(solid)})) == "unit 3");
+  CHECK(text_of(scope_of({place_of(flat, false)})) == "any 0");
+}
+
+TEST_CASE("Drawn and flown questions come in blocks of each place, and none is left out or comes twice",
+          "[judge][questions]") {
+  const std::vector<Place> places{place_of(unit_scene(2, 0.1)), place_of(unit_scene(2, 0.2)),
+                                  place_of(unit_scene(3, 0.3))};
+  const auto by_place = [&](const Source& source) {
+    std::vector<std::vector<Query>> all(places.size());
+    while (const auto question = source())
+      for (std::size_t p = 0; p < places.size(); ++p)
+        if (question->setting == places[p].setting) all[p].push_back(question->query);
+    return all;
+  };
+  const auto drawn_ones = by_place(drawn(places, compare::Difficulty::drawn, kSeed, 90)),
+             flown_ones = by_place(flown(places, kSeed, 90));
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const Setting& setting = *places[p].setting;
+    REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));
+    REQUIRE(flown_ones[p].size() == drawn_ones[p].size());
+    flights::FreeStarts starts(setting.scene(), flights::Kind::surface, kSeed);
+    for (std::size_t i = 0; i < drawn_ones[p].size(); ++i) {
+      const auto block = compare::hard_queries(compare::Difficulty::drawn, setting.scene(), setting.oracle(),
+                                               kSeed + i / 16, 16);
+      CHECK(stream(setting.scene(), drawn_ones[p][i]) == stream(setting.scene(), block[i % 16]));
+      Query start;
+      starts.draw(i, start);
+      CHECK(stream(setting.scene(), flown_ones[p][i]) == stream(setting.scene(), start));
+    }
+  }
+}
+
+TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][simplest]") {
+  // Starts in a disc: a flight with many bits is said to hit something, others never end.
+  const auto engine = guest("two-sayings", [](const Scene&, const Query& query, Answer& answer) {
+    if (answer.outcome != Outcome::inside) return;
+    answer = fuzz::bits_of(query.x[0]) > 3 ? Answer::hit({0, 0, {5, 0, 0}}, 1) : Answer::never();
+  });
+  const auto liar = guest("inside", [](const Scene&, const Query&, Answer& answer) {
+    answer = Answer::inside({0, 0, {7, 7, 0}});
+  });
+  const std::atomic<bool> stop = false;
+  const auto simplest_of = [&](const std::string& name, const Query& query) {
+    Examination examination(name, {}, 4, stop);
+    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+    const auto example =
+        examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
+    REQUIRE(example);
+    const Example kept = simplest({*example, "here", 1, 1e300}, examination, 1e9);
+    CHECK(kept.diagnosis.cause == example->diagnosis.cause);
+    CHECK(fuzz::complexity(kept.question.setting->scene(), kept.question.query) <
+          fuzz::complexity(setting->scene(), query));
+    return kept;
+  };
+  CHECK(simplest_of("two-sayings", {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome ==
+        Outcome::hit);
+  CHECK(simplest_of("inside", {{0.123456789, 0.5, 0}, {1, 0, 0}, {}}).question.exact.outcome ==
+        Outcome::never);
+  CHECK(simplest_of("inside", {{0.5123456, 0.01, 0}, {1, 0.001, 0}, {}}).question.exact.outcome ==
+        Outcome::hit);
 }
