@@ -68,7 +68,8 @@ TEST_CASE("An answer that was carried over and is not the question's own is an e
       CHECK(same(one.exact, truth));
       // Whoever does not know says nothing against it.
       CHECK(examined(scene, query, carried, Answer::undecided()).kind == Kind::undecided);
-      CHECK(examined(scene, query, carried, Answer::error("no")).kind == Kind::error);
+      const fuzz::Examined broken = examined(scene, query, carried, Answer::error("no"));
+      CHECK((broken.kind == Kind::error && broken.given.outcome == Outcome::error));
     }
   // Two are entered together: the words decide which one is named, and either is carried over.
   Scene two = unit_scene(2, 0.625);
@@ -247,6 +248,9 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
   const Query query{{0.5, 0}, {1, 0}, {}};
   const Answer truth = disc(1, 0, 0.25), missed = disc(2, 0, 1.25);
   const auto kinds = [&](LimitAt limit) {
+    const bool is_later =
+        oracle::Oracle(scene).first_hit(query, {.max_time = fuzz::limit_of(limit, truth)}).outcome ==
+        Outcome::later;
     std::string text;
     for (const Answer& given :
          {truth, Answer::later(), Answer::never(), missed, Answer::inside({}), Answer::undecided()}) {
@@ -254,6 +258,9 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
       const fuzz::Examined one = fuzz::Examiner(subject, scene, 4).examine(query, limit);
       text += std::string(fuzz::name_of(one.kind)).substr(0, 1);
       CHECK(same(one.given, given));
+      const bool says = given.outcome != Outcome::undecided;
+      CHECK((one.exact.outcome == Outcome::later) == (says && is_later));
+      if (one.exact.outcome != Outcome::later) CHECK(same(one.exact, truth));
     }
     return text;
   };
@@ -267,4 +274,58 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
   CHECK(kinds(LimitAt::above) == "fwwwwu");
   CHECK(kinds(LimitAt::twice) == "fwwwwu");
   CHECK(kinds({LimitAt::after, 51}) == "fwwwwu");
+}
+
+TEST_CASE("What a subject said of one scene it does not say of the next", "[fuzz][examiner]") {
+  const std::vector<Query> queries{{{0.5, 0}, {1, 0}, {}}, {{0.5, 0.25}, {1, 0}, {}}};  // and a tangent
+  const auto outcomes = [&](fuzz::Subject& subject, const Scene& scene) {
+    subject.set_scene(scene);
+    for (const Query& query : queries) subject.ask(query);
+    std::string text;
+    for (const fuzz::Reply& reply : subject.replies()) text += name_of(reply.answer.outcome).substr(0, 1);
+    return text;
+  };
+  Scene beyond = unit_scene(2, 0.25);  // for `reduction`: larger than half the shortest vector
+  beyond.lattices[0].vectors[0][0] = 0.375;
+  REQUIRE(Reduction::beyond(beyond));
+  for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
+    INFO(engine);
+    const auto subject = fuzz::subject_maker(engine)();
+    const bool is_exact = std::string_view(engine).starts_with("certified");
+    const std::string here = outcomes(*subject, unit_scene(2, 0.25));
+    CHECK(here.substr(0, 1) == "h");
+    if (is_exact) CHECK(here == "hn");
+    CHECK(here.size() == 2);
+    if (!is_exact) CHECK(outcomes(*subject, beyond) == "ee");
+    CHECK(outcomes(*subject, unit_scene(2, 0.25)) == here);
+  }
+}
+
+TEST_CASE("A notation is what it is called", "[fuzz][examiner]") {
+  std::map<std::string, int> met;
+  const cases::Target& target = *cases::target_named("mixture");
+  for (std::uint64_t index = 0; index < 400; ++index) {
+    const cases::Case one = target.make(kSeed, index);
+    cases::Random random(kSeed, target.name(), index, cases::Use::rewordings);
+    const auto misread = fuzz::misreading(random, one.scene, one.query, [](const std::string&, const Scene*) {
+      return StreamItem{};  // so that it is told what was written
+    });
+    REQUIRE(misread);
+    const auto& [notation, text] = *misread;
+    const auto says = [&](const char* word) { return notation.find(word) != std::string::npos; };
+    INFO(notation << '\n' << text);
+    CHECK((text.find_first_of(" \t\r") != std::string::npos) == says(", blanks"));
+    if (text.find("\\u") != std::string::npos) CHECK(says("escaped keys"));
+    // The scene's dimension comes first, as a rule.
+    if (!says("another order") && !says("escaped") && !says("blanks"))
+      CHECK(text.starts_with("{\"scene\":{\"dimension\":"));
+    if (says("shortest") || says("%.17g"))
+      CHECK(text.find("00000000000000000000e") == std::string::npos);  // 40 digits
+    for (const char* word : {"blanks", "another order", "escaped", "shortest", "%.17g", "%.20f", "hexa"})
+      met[word] += says(word);
+  }
+  for (const auto& [word, count] : met) {
+    INFO(word);
+    CHECK(count > 30);
+  }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <filesystem>
+#include <set>
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
@@ -225,6 +226,8 @@ TEST_CASE("Rewording: each step changes what it says, or is none", "[fuzz][rewor
       {"lengths", fuzz::draw_scaled}, {"plane", fuzz::draw_plane_in_space},
       {"order", fuzz::draw_order},    {"semiaxes", fuzz::draw_ellipsoids}};
   std::map<std::string, int> met, none;
+  std::set<std::string> lengths;
+  int second_at_origin = 0;
   for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 8 * 64; index += 64) {
       const Scene scene = target.make(kSeed, index).scene;
@@ -236,6 +239,9 @@ TEST_CASE("Rewording: each step changes what it says, or is none", "[fuzz][rewor
           INFO("seed " << kSeed << ", " << target.name() << ' ' << index << ": "
                        << (step ? step->words() : name) << '\n'
                        << stream(scene, {}) << stream(after, {}));
+          if (step && std::string(name) == "lengths") lengths.insert(step->words());
+          if (step && std::string(name) == "scene" && scene.lattices.size() > 1)
+            second_at_origin += after.lattices[1].atoms[0].position == Vec{};
           if (step)
             REQUIRE(require_effect(*step, scene, after) == name);
           else
@@ -247,6 +253,8 @@ TEST_CASE("Rewording: each step changes what it says, or is none", "[fuzz][rewor
     INFO(name << ": " << met[name] << " and none " << none[name]);
     CHECK(met[name] > 130);  // 175 seen at least
   }
+  CHECK(lengths.size() > 120);  // anywhere in the range
+  CHECK(second_at_origin > 0);  // 2 seen
   // Those that may draw what changes nothing did so, and did not count it.
   for (const char* name : {"axes", "scene", "semiaxes", "order"}) CHECK(none[name] > 20);
 }
@@ -273,13 +281,31 @@ TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fu
         REQUIRE(sped == (reworded->query.v != one.query.v));
         for (int i = 0; i < 3; ++i)
           REQUIRE(reworded->query.v[i] == std::ldexp(one.query.v[i], reworded->speed));
+        for (const std::int64_t k : reworded->periods)
+          met["back"] += k < 0 && (-k & (-k - 1)) != 0;  // and by no power of two
         met["moved"] += moved, met["rounded"] += rounded, met["sped"] += sped, ++met["asked"];
       }
     }
   INFO(met["asked"] << ' ' << met["moved"] << ' ' << met["rounded"] << ' ' << met["sped"]);
   CHECK(met["moved"] > 100);
+  CHECK(met["back"] > 30);
   CHECK(met["rounded"] > 20);
   CHECK(met["sped"] > 100);
+}
+
+TEST_CASE("Rewording: what cannot be said otherwise is left as it is", "[fuzz][rewording]") {
+  const Scene scene = unit_scene(2, 0.25);
+  Answer timeless = Answer::hit({}, 1);
+  timeless.time.reset();
+  for (std::uint64_t index = 0; index < 64; ++index) {
+    Random random(kSeed, "left alone", index);
+    const Rewording rewording(random, scene);
+    for (const Answer& none : {Answer::undecided(), Answer::later(), Answer::error("no"), timeless})
+      CHECK_FALSE(rewording.carried(none, {}));
+    // From the smallest number to the largest there is no other unit.
+    const auto reworded = rewording.reword(random, {{0, 0}, {0x1.8p1023, 0x1p-1074}, {}});
+    if (reworded) CHECK(reworded->speed == 0);
+  }
 }
 
 TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {
