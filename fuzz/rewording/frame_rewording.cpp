@@ -239,8 +239,8 @@ std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
 
 std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
   const Range range = range_of(scene);
+  // least <= 0 <= most: the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
-  if (least > most) return nullptr;
   long exponent = random.integer(least, most);
   switch (random.below(4)) {
     case 0:

@@ -117,7 +117,7 @@ struct Rewording::Impl {
       least = std::max(least, kLeastExponent - oracle::OddMantissa(component).exponent);
       most = std::min<long>(most, kLargestExponent - std::ilogb(component));
     }
-    if (least > most) return;
+    // least <= 0 <= most: the components are binary64 values as they are.
     const long drawn = random.one_in(4)   ? least + static_cast<long>(random.below(4))
                        : random.one_in(3) ? most - static_cast<long>(random.below(4))
                        : random.one_in(2) ? static_cast<long>(random.integer(-8, 8))
