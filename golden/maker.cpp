@@ -52,14 +52,22 @@ struct Maker::Impl {
   oracle::Prover prover;
   oracle::CertificateCheck check;
 
-  Impl(const Scene& scene, std::string line)
+  Others others;
+
+  Impl(const Scene& scene, std::string line, Others those)
       : scene(scene),
         scene_line(std::move(line)),
         oracle(scene),
         walk(scene, kWalkCells),
         margins(scene),
         prover(scene),
-        check(scene) {}
+        check(scene),
+        others(std::move(those)) {}
+
+  Answer walked(const Query& query) const { return others.walk ? others.walk(query) : walk.first_hit(query); }
+  oracle::Certificate proof(const Query& query, const Answer& answer) const {
+    return others.prove ? others.prove(query, answer) : prover.prove(query, answer);
+  }
 
   void measure(const Query& query, Record& record) const {
     if (const auto decision = margins.hardest_decision(query, record.expect))
@@ -79,9 +87,9 @@ std::string line_of(const Scene& scene) {
 
 }  // namespace
 
-Maker::Maker(const Scene& scene) : Maker(scene, line_of(scene)) {}
-Maker::Maker(const Scene& scene, std::string scene_line)
-    : impl_(std::make_unique<const Impl>(scene, std::move(scene_line))) {}
+Maker::Maker(const Scene& scene, Others others) : Maker(scene, line_of(scene), std::move(others)) {}
+Maker::Maker(const Scene& scene, std::string scene_line, Others others)
+    : impl_(std::make_unique<const Impl>(scene, std::move(scene_line), std::move(others))) {}
 Maker::Maker(Maker&&) noexcept = default;
 Maker::~Maker() = default;
 
@@ -105,10 +113,10 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   const auto disagree = [&](const std::string& who) {
     throw std::logic_error(who + " does not agree with the oracle:\n" + asked);
   };
-  const Answer walked = impl_->walk.first_hit(*query);
+  const Answer walked = impl_->walked(*query);
   made.walked = walked.outcome != Outcome::undecided;
   if (made.walked && !same(walked, record.expect)) disagree("walk");
-  record.certificate = impl_->prover.prove(*query, record.expect);
+  record.certificate = impl_->proof(*query, record.expect);
   bool too_long = false;
   const auto why = impl_->check.refutation(*query, record.expect, *record.certificate, &too_long);
   if (too_long) throw ProofTooLong("no checker goes through the proof, which " + *why + ":\n" + asked);
@@ -134,7 +142,7 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   if (again.margin != record.margin) return "its margin is another one";
   if (again.condition != record.condition) return "its condition is another one";
   if (ask_walk) {
-    const Answer walked = impl_->walk.first_hit(*query);
+    const Answer walked = impl_->walked(*query);
     if (walked.outcome != Outcome::undecided && !same(walked, record.expect)) return "walk says otherwise";
   }
   return std::nullopt;

@@ -1,6 +1,7 @@
 // Makes golden records: the exact answer, agreed by a second opinion, with its margin, condition and proof.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include <lorentz/errors.hpp>
@@ -19,12 +20,18 @@ struct ProofTooLong : InputError {
   using InputError::InputError;
 };
 
+/// Who has an opinion besides the oracle; those left out are `walk` and the prover.
+struct Others {
+  std::function<Answer(const Query&)> walk = {};  ///< `undecided` where it cannot go
+  std::function<oracle::Certificate(const Query&, const Answer&)> prove = {};
+};
+
 /// For the questions of one scene.
 class Maker {
  public:
-  explicit Maker(const Scene& scene);
+  explicit Maker(const Scene& scene, Others others = {});
   /// For a scene that stands in a set, in this line: ids depend on how it is written.
-  Maker(const Scene& scene, std::string scene_line);
+  Maker(const Scene& scene, std::string scene_line, Others others = {});
   Maker(Maker&&) noexcept;
   ~Maker();
 

@@ -42,5 +42,6 @@ Family far_starts();
 Family skewed_cells();
 Family specks();
 Family skin();
+Family sizes();
 
 }  // namespace lorentz::cases

@@ -36,6 +36,7 @@ const std::vector<Target>& targets() {
                                        {"skewed-cells", {skewed_cells()}},
                                        {"specks", {specks()}},
                                        {"skin", {skin()}},
+                                       {"sizes", {sizes()}},
                                        {"large-radius", {large_radius()}},
                                        {"tiny-radius", {tiny_radius()}},
                                        {"long-flight", {long_flight()}},

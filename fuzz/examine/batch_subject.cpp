@@ -61,8 +61,13 @@ class GatheringSubject : public Subject {
   std::vector<Reply> replies_;
 };
 
+Flight fly_alone(const Batch& batch, const Query& query, double max_time, Batch::Time time) {
+  return batch.one_at_a_time().fly(query, max_time, time);
+}
+
 class BatchSubject final : public GatheringSubject<Batch> {
  public:
+  explicit BatchSubject(FlyAlone alone) : fly_alone_(std::move(alone)) {}
   bool takes_limits() const override { return true; }
 
  private:
@@ -81,9 +86,8 @@ class BatchSubject final : public GatheringSubject<Batch> {
       const Query query = table[i];
       const double max_time = columns.max_time ? columns.max_time[i] : HUGE_VAL;
       const Flight flight = flights_[i];
-      const bool same =
-          same_bits(flight, engine().one_at_a_time().fly(query, max_time)) &&
-          same_bits(rounded_[i], engine().one_at_a_time().fly(query, max_time, Batch::Time::rounded));
+      const bool same = same_bits(flight, fly_alone_(engine(), query, max_time, Batch::Time::close)) &&
+                        same_bits(rounded_[i], fly_alone_(engine(), query, max_time, Batch::Time::rounded));
       if (same)
         replies.push_back({answer_of(flight), {}, flight.stage});
       else
@@ -91,6 +95,7 @@ class BatchSubject final : public GatheringSubject<Batch> {
     }
   }
 
+  FlyAlone fly_alone_;
   FlightTable flights_, rounded_;
 };
 
@@ -128,8 +133,8 @@ class CertifiedBatchSubject final : public GatheringSubject<oracle::CertifiedBat
 
 }  // namespace
 
-std::unique_ptr<Subject> make_batch_subject() {
-  return std::make_unique<BatchSubject>();
+std::unique_ptr<Subject> make_batch_subject(FlyAlone alone) {
+  return std::make_unique<BatchSubject>(alone ? std::move(alone) : fly_alone);
 }
 
 std::unique_ptr<Subject> make_certified_batch_subject() {

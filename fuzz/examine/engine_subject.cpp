@@ -149,22 +149,27 @@ class PublishedSubject final : public TellingSubject<Published> {
   }
 };
 
-// Flies both ways: at once, and along a direction prepared for many starts. The two must say the same.
+Flight fly_prepared(const Reduction& engine, const Query& query, double max_time) {
+  return engine.fly(engine.direction(query.v), query.x, query.from ? &*query.from : nullptr, max_time);
+}
+
 class ReductionSubject final : public TellingSubject<Reduction> {
  public:
+  explicit ReductionSubject(FlyPrepared prepared) : prepared_(std::move(prepared)) {}
   bool takes_limits() const override { return true; }
 
  private:
   Reply reply_to(const Query& query, double max_time) const override {
     const Flight flight = engine().fly(query, max_time);
     const Answer answer = answer_of(flight);
-    const ObstacleId* from = query.from ? &*query.from : nullptr;
-    const Answer prepared = answer_of(engine().fly(engine().direction(query.v), query.x, from, max_time));
+    const Answer prepared = answer_of(prepared_(engine(), query, max_time));
     if (prepared.outcome != answer.outcome || !(prepared.obstacle == answer.obstacle) ||
         prepared.time != answer.time)
       return {Answer::error("a prepared direction gives another answer"), {}, flight.stage};
     return {answer, {}, flight.stage};
   }
+
+  FlyPrepared prepared_;
 };
 
 class CertifiedSubject final : public TellingSubject<oracle::Certified> {
@@ -184,6 +189,13 @@ class CertifiedSubject final : public TellingSubject<oracle::Certified> {
   }
 };
 
+std::unique_ptr<Subject> make_reduction() {
+  return make_reduction_subject();
+}
+std::unique_ptr<Subject> make_batch() {
+  return make_batch_subject();
+}
+
 template <class S>
 std::unique_ptr<Subject> make() {
   return std::make_unique<S>();
@@ -194,13 +206,20 @@ constexpr struct {
   std::string_view engine;
   std::unique_ptr<Subject> (*make)();
 } kSubjects[] = {
-    {"classical", make<ClassicalSubject>}, {"published", make<PublishedSubject>},
-    {"reduction", make<ReductionSubject>}, {"certified", make<CertifiedSubject>},
-    {"batch", make_batch_subject},         {"certified-batch", make_certified_batch_subject},
+    {"classical", make<ClassicalSubject>},
+    {"published", make<PublishedSubject>},
+    {"reduction", make_reduction},
+    {"certified", make<CertifiedSubject>},
+    {"batch", make_batch},
+    {"certified-batch", make_certified_batch_subject},
     {"walk", make<WalkSubject>},
 };
 
 }  // namespace
+
+std::unique_ptr<Subject> make_reduction_subject(FlyPrepared prepared) {
+  return std::make_unique<ReductionSubject>(prepared ? std::move(prepared) : fly_prepared);
+}
 
 MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
   check_name(engine);

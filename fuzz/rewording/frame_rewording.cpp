@@ -43,6 +43,9 @@ class Axes final : public RewordingStep {
     const std::vector<int> order = drawn_order(random, static_cast<std::size_t>(dimension));
     for (int i = 0; i < dimension; ++i) from_[i] = order[i], sign_[i] = random.one_in(2) ? -1 : 1;
   }
+  bool changes() const {
+    return from_ != std::array<int, 3>{0, 1, 2} || sign_ != std::array<int, 3>{1, 1, 1};
+  }
   std::string words() const override { return "axes"; }
   bool reword(Vec& x, Vec& v) const override {
     turn(x);
@@ -216,13 +219,16 @@ std::vector<Vec> drawn_axes(Random& random, const std::vector<Vec>& axes) {
 
 std::unique_ptr<RewordingStep> draw_axes(Random& random, Scene& scene) {
   auto step = std::make_unique<Axes>(random, scene.dimension);
+  if (!step->changes()) return nullptr;
   const auto turn = [&](Vec& a) { step->turn(a); };
   for_each_vector(scene, turn, turn);
   return step;
 }
 
 std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
-  auto step = std::make_unique<MovedScene>(drawn_translation(random, scene));
+  const Vec by = drawn_translation(random, scene);
+  if (by == Vec{}) return nullptr;
+  auto step = std::make_unique<MovedScene>(by);
   Scene moved = scene;
   for (Lattice& lattice : moved.lattices)
     for (Atom& atom : lattice.atoms)
@@ -233,8 +239,8 @@ std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
 
 std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
   const Range range = range_of(scene);
+  // least <= 0 <= most: the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
-  if (least > most) return nullptr;
   long exponent = random.integer(least, most);
   switch (random.below(4)) {
     case 0:
@@ -286,6 +292,7 @@ std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene)
 
 // r times a signed permutation of the unit vectors; of ellipsoids the semiaxes exchanged and reflected.
 std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
+  const Scene before = scene;
   for (Lattice& lattice : scene.lattices)
     for (Atom& atom : lattice.atoms) {
       if (atom.is_ball()) {
@@ -298,6 +305,7 @@ std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
       }
       atom.semiaxes = drawn_axes(random, atom.semiaxes);
     }
+  if (scene == before) return nullptr;
   return std::make_unique<NoChange>("semiaxes");
 }
 

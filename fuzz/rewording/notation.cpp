@@ -139,7 +139,7 @@ class Writer {
   bool blanks_, shuffles_, escapes_;
 };
 
-StreamItem read(const std::string& line, const Scene* scene) {
+StreamItem read_here(const std::string& line, const Scene* scene) {
   static thread_local ExchangeReader reader;
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
@@ -149,10 +149,14 @@ StreamItem read(const std::string& line, const Scene* scene) {
 
 }  // namespace
 
-std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query) {
+std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
+                                     const ReadLine& reader) {
   Writer writer(random);
   const std::string scene_line = writer.scene_line(scene),
                     query_line = writer.query_line(query, scene.dimension);
+  const auto read = [&](const std::string& line, const Scene* known) {
+    return reader ? reader(line, known) : read_here(line, known);
+  };
   const StreamItem first = read(scene_line, nullptr);
   if (first.kind != StreamItem::Kind::scene || first.scene != scene)
     return Misreading{writer.notation(), scene_line};

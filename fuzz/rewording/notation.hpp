@@ -1,9 +1,11 @@
 // The same scene and query written otherwise: read, they must be the same numbers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include <lorentz/exchange.hpp>
 #include <lorentz/problem.hpp>
 #include "cases/random.hpp"
 
@@ -15,8 +17,13 @@ struct Misreading {
   std::string line;
 };
 
+/// Reads a line of a query stream, a scene's without a scene.
+using ReadLine = std::function<StreamItem(const std::string& line, const Scene* scene)>;
+
 /// Writes the scene and the query as lines of a query stream, in a notation that is drawn: digits, order and
-/// escapes of keys, blanks, line ends. Nothing if both are read back as they are.
-std::optional<Misreading> misreading(cases::Random& random, const Scene& scene, const Query& query);
+/// escapes of keys, blanks, line ends. Nothing if both are read back as they are, by
+/// this program's reader or another one.
+std::optional<Misreading> misreading(cases::Random& random, const Scene& scene, const Query& query,
+                                     const ReadLine& read = {});
 
 }  // namespace lorentz::fuzz

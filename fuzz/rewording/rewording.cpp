@@ -94,20 +94,19 @@ struct Rewording::Impl {
         reworded.periods = k;
         return;
       }
-      if (may_round) {
-        reworded.periods = k;
-        return round_start(cells, reworded);
-      }
+      if (may_round) return round_start(k, cells, reworded);
     }
   }
 
   // Far from the origin most starts are no binary64 values. The one nearest to it is another question.
-  void round_start(const IntegerVec& cells, Reworded& reworded) const {
+  void round_start(const std::array<std::int64_t, 3>& k, const IntegerVec& cells, Reworded& reworded) const {
     Vec x = reworded.query.x;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < 3; ++i) x[i] += cells[k].get_d() * vectors[k][i];
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i) x[i] += cells[j].get_d() * vectors[j][i];
+    if (!std::isfinite(x[0] + x[1] + x[2])) return;
+    reworded.query.x = x;
+    reworded.periods = k;
     reworded.rounded = true;
-    if (std::isfinite(x[0] + x[1] + x[2])) reworded.query.x = x;
   }
 
   void change_speed(Random& random, Reworded& reworded) const {
@@ -118,7 +117,7 @@ struct Rewording::Impl {
       least = std::max(least, kLeastExponent - oracle::OddMantissa(component).exponent);
       most = std::min<long>(most, kLargestExponent - std::ilogb(component));
     }
-    if (least > most) return;
+    // least <= 0 <= most: the components are binary64 values as they are.
     const long drawn = random.one_in(4)   ? least + static_cast<long>(random.below(4))
                        : random.one_in(3) ? most - static_cast<long>(random.below(4))
                        : random.one_in(2) ? static_cast<long>(random.integer(-8, 8))

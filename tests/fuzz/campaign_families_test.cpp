@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/families/target.hpp"
 #include "cases/free_start.hpp"
 #include "tests/support/support.hpp"
 
@@ -158,4 +161,71 @@ TEST_CASE("Starts of the family skin are nearer to the surface than an ulp of it
   CHECK(hits > 690);      // 856 seen
   CHECK(twins > 270);     // 336 seen
   CHECK(together > 250);  // 315 seen
+}
+
+// Which kind of scene it is, for those who ask whether all kinds are met.
+namespace {
+
+std::string kind_of(const Scene& scene) {
+  bool ellipsoids = false;
+  for_each_atom(scene, [&](const Atom& atom) { ellipsoids |= !atom.is_ball(); });
+  return (scene.dimension == 2 ? "2D " : "3D ") + std::string(ellipsoids                  ? "ellipsoids"
+                                                              : scene.lattices.size() > 1 ? "superposition"
+                                                              : scene.lattices[0].atoms.size() > 1 ? "motif"
+                                                              : is_unit_scene(scene)               ? "unit"
+                                                                                                   : "cell");
+}
+
+// The smallest radius or semiaxis, in units of the shortest lattice vector.
+double size_of(const Scene& scene) {
+  double size = HUGE_VAL, shortest = HUGE_VAL;
+  for (const Lattice& lattice : scene.lattices)
+    for (int i = 0; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+  for_each_atom(scene, [&](const Atom& atom) {
+    if (atom.is_ball()) size = std::min(size, atom.radius);
+    for (const Vec& axis : atom.semiaxes) size = std::min(size, length(axis));
+  });
+  return size / shortest;
+}
+
+}  // namespace
+
+TEST_CASE("Campaigns draw each size of obstacle, half a decade wide, in each kind of scene",
+          "[fuzz][campaign_families]") {
+  std::map<std::string, std::map<int, int>> met;  // by kind, and by half decades
+  std::map<std::string, int> leaving;
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t row = 0; row < 1000; ++row) {
+      // The target that is for this does it early; others have a few scenes.
+      if (target.name() != "sizes" && row >= 40) break;
+      const cases::Case one = target.make(kSeed, row * cases::kCasesPerScene);
+      ++met[kind_of(one.scene)][static_cast<int>(std::floor(2 * std::log10(size_of(one.scene))))];
+      for (std::uint64_t i = 0; i < 8; ++i)
+        leaving[kind_of(one.scene)] +=
+            target.make(kSeed, row * cases::kCasesPerScene + i).query.from.has_value();
+    }
+  CHECK(met.size() == 10);
+  for (auto& [kind, sizes] : met) {
+    for (int half = kind.starts_with("2D") ? -23 : -13; half < -1; ++half) {
+      INFO(kind << ", from 10^" << half / 2.0);
+      CHECK(sizes[half] > 0);
+    }
+    INFO(kind);
+    CHECK(leaving[kind] > 40);
+  }
+}
+
+TEST_CASE("The first scenes of the family sizes are as widely spread as all of them",
+          "[fuzz][campaign_families]") {
+  // What a campaign of a minute comes to: each fifth of the range of magnitudes, in each kind of scene.
+  std::map<std::string, std::set<int>> met;
+  for (std::uint64_t row = 0; row < 96; ++row) {
+    const Scene scene = cases::sizes().make(kSeed, row * cases::kCasesPerScene).scene;
+    const double least = scene.dimension == 2 ? -12 : -7;
+    met[kind_of(scene)].insert(static_cast<int>(5 * std::log10(size_of(scene)) / least));
+  }
+  for (const auto& [kind, fifths] : met) {
+    INFO(kind);
+    CHECK(fifths.size() == 5);
+  }
 }

@@ -26,6 +26,20 @@ class SkewedSubject final : public fuzz::Subject {
   std::vector<fuzz::Reply> replies_;
 };
 
+/// Says what it is told to.
+class ToldSubject final : public fuzz::Subject {
+ public:
+  using Says = std::function<Answer(const Query&)>;
+  explicit ToldSubject(Says says) : says_(std::move(says)) {}
+  void ask(const Query& query) override { replies_.push_back({says_(query)}); }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene&) override {}
+  Says says_;
+  std::vector<fuzz::Reply> replies_;
+};
+
 inline fuzz::MakeSubject skewed_subjects() {
   return [] { return std::make_unique<SkewedSubject>(); };
 }

@@ -83,20 +83,6 @@ class WorkingSubject final : public fuzz::Subject {
   std::vector<fuzz::Reply> replies_;
 };
 
-// Says what it is told to.
-class ToldSubject final : public fuzz::Subject {
- public:
-  using Says = std::function<Answer(const Query&)>;
-  explicit ToldSubject(Says says) : says_(std::move(says)) {}
-  void ask(const Query& query) override { replies_.push_back({says_(query)}); }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
- private:
-  void change_scene(const Scene&) override {}
-  Says says_;
-  std::vector<fuzz::Reply> replies_;
-};
-
 // What an answer is taken for with a tolerance of so many ulps.
 Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
   ToldSubject subject([&](const Query&) { return answer; });
@@ -489,7 +475,7 @@ TEST_CASE("A case of a target depends on seed, target and index; new families ke
        {cases::leaving(), cases::scale(), cases::mixture(), cases::rounding(), cases::early(),
         cases::nearly_parallel(), cases::ellipsoid_edges(), cases::drift(), cases::vast_ellipsoids(),
         cases::nearby(), cases::unequal_radii(), cases::dense_rows(), cases::dense_layers(), cases::slender(),
-        cases::far_starts(), cases::skewed_cells(), cases::specks(), cases::skin()}) {
+        cases::far_starts(), cases::skewed_cells(), cases::specks(), cases::skin(), cases::sizes()}) {
     std::map<std::string, int> met;
     for (const cases::Tag& tag : family.tags()) met[std::string(tag.name)] = 0;
     const std::size_t explained = met.size();

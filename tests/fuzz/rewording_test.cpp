@@ -1,15 +1,19 @@
 // The oracle says the same in other words, and so do the engines that claim to be exact.
 #include "tests/fuzz/rewording_support.hpp"
 
+#include <cmath>
 #include <deque>
 #include <filesystem>
+#include <set>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/target.hpp"
 #include "cases/free_start.hpp"
 #include "fuzz/examine/time_limit.hpp"
 #include "fuzz/rewording/notation.hpp"
+#include "fuzz/rewording/rewording_steps.hpp"
 #include "golden/reader.hpp"
 
 using namespace lorentz;
@@ -98,6 +102,92 @@ void require_same_in_other_words(const std::string& path, Tally& tally) {
   }
 }
 
+// Every length of a scene, in its order.
+std::vector<double> numbers_of(const Scene& scene) {
+  std::vector<double> all;
+  const auto add = [&](const Vec& a) { all.insert(all.end(), a.begin(), a.end()); };
+  for (const Lattice& lattice : scene.lattices) {
+    for (const Vec& vector : lattice.vectors) add(vector);
+    for (const Atom& atom : lattice.atoms) {
+      add(atom.position);
+      all.push_back(atom.radius);
+      for (const Vec& axis : atom.semiaxes) add(axis);
+    }
+  }
+  return all;
+}
+
+std::size_t atoms_of(const Scene& scene) {
+  std::size_t all = 0;
+  for (const Lattice& lattice : scene.lattices) all += lattice.atoms.size();
+  return all;
+}
+
+// The largest number of the cells whose vectors are the new ones, in the old words.
+std::int64_t largest_entry(const fuzz::RewordingStep& step, const Scene& before, const Scene& after) {
+  std::int64_t most = 0;
+  for (int l = 0; l < static_cast<int>(before.lattices.size()); ++l)
+    for (int k = 0; before.lattices[l] != after.lattices[l] && k < before.dimension; ++k) {
+      ObstacleId id{l, 0, {}};
+      id.cell[k] = 1;
+      step.back(id);
+      for (const Integer& entry : id.cell) most = std::max(most, std::abs(entry.int64()));
+    }
+  return most;
+}
+
+bool renames(const fuzz::RewordingStep& step, const Scene& scene) {
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
+      ObstacleId id{l, a, {}};
+      step.there(id);
+      if (id.lattice != l || id.atom != a) return true;
+    }
+  return false;
+}
+
+// What one step says that it did, it did: decided by the numbers before and after. Returns its first word.
+std::string require_effect(const fuzz::RewordingStep& step, const Scene& before, const Scene& after) {
+  const std::string words = step.words(), first = words.substr(0, words.find(' '));
+  const auto power = words.find("2^");
+  const long exponent = power == std::string::npos ? 0 : std::stol(words.substr(power + 2));
+  const int dimension = before.dimension;
+  const Vec start{1, 2, dimension == 3 ? 4.0 : 0}, velocity{8, 16, dimension == 3 ? 32.0 : 0};
+  Vec x = start, v = velocity;
+  const bool can = step.reword(x, v);
+  const std::vector<double> old_numbers = numbers_of(before), numbers = numbers_of(after);
+  if (first == "basis" || first == "superlattice") {
+    REQUIRE(std::ilogb(static_cast<double>(largest_entry(step, before, after))) == exponent);
+    const std::size_t cells = first == "basis" ? 1 : std::stoul(words.substr(words.find(" of ") + 4));
+    REQUIRE((before != after && (cells > 1) == (first == "superlattice")));
+    std::size_t expected = 0;
+    for (std::size_t l = 0; l < before.lattices.size(); ++l)
+      expected += before.lattices[l].atoms.size() * (before.lattices[l] == after.lattices[l] ? 1 : cells);
+    REQUIRE(atoms_of(after) == expected);
+  } else if (first == "axes") {
+    REQUIRE((x != start && v != velocity));
+    for (const Vec& a : {x, v}) REQUIRE(length(a) == length(a[0] * a[0] < 64 ? start : velocity));
+  } else if (first == "scene") {
+    Vec by{}, none{};
+    REQUIRE((step.reword(by, none) && by != Vec{} && none == Vec{} && v == velocity));
+    for (std::size_t l = 0; l < before.lattices.size(); ++l)
+      for (std::size_t a = 0; a < before.lattices[l].atoms.size(); ++a)
+        REQUIRE(after.lattices[l].atoms[a].position == sum(before.lattices[l].atoms[a].position, by));
+  } else if (first == "lengths") {
+    REQUIRE((exponent != 0 && step.time_exponent() == exponent && v == velocity));
+    if (can) REQUIRE(x[0] == std::ldexp(start[0], static_cast<int>(exponent)));
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      REQUIRE(numbers[i] == std::ldexp(old_numbers[i], static_cast<int>(exponent)));
+  } else if (first == "plane") {
+    REQUIRE((dimension == 2 && after.dimension == 3));
+  } else if (first == "semiaxes") {
+    REQUIRE((after != before && atoms_of(after) == atoms_of(before)));
+  } else {
+    REQUIRE((first == "order" && renames(step, before)));
+  }
+  return first;
+}
+
 Tally in_golden_sets() {
   Tally tally;
   for (const auto& file : std::filesystem::directory_iterator(LORENTZ_SOURCE_DIR "/data/golden"))
@@ -127,6 +217,96 @@ TEST_CASE("Rewording: the oracle says the same in other words", "[fuzz][rewordin
   CHECK(tally.nearest["lengths"] < -950);
   CHECK(tally.farthest["velocity"] > 1000);  // 1 023 seen
   CHECK(tally.nearest["velocity"] < -1000);
+}
+
+TEST_CASE("Rewording: each step changes what it says, or is none", "[fuzz][rewording]") {
+  constexpr std::pair<const char*, fuzz::DrawStep> kSteps[] = {
+      {"basis", fuzz::draw_basis},    {"superlattice", fuzz::draw_superlattice},
+      {"axes", fuzz::draw_axes},      {"scene", fuzz::draw_moved_scene},
+      {"lengths", fuzz::draw_scaled}, {"plane", fuzz::draw_plane_in_space},
+      {"order", fuzz::draw_order},    {"semiaxes", fuzz::draw_ellipsoids}};
+  std::map<std::string, int> met, none;
+  int middling = 0;
+  int second_at_origin = 0;
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t index = 0; index < 8 * 64; index += 64) {
+      const Scene scene = target.make(kSeed, index).scene;
+      Random random(kSeed, target.name(), index, cases::Use::rewordings);
+      for (const auto& [name, draw] : kSteps)
+        for (int tries = 0; tries < 4; ++tries) {
+          Scene after = scene;
+          const auto step = draw(random, after);
+          INFO("seed " << kSeed << ", " << target.name() << ' ' << index << ": "
+                       << (step ? step->words() : name) << '\n'
+                       << stream(scene, {}) << stream(after, {}));
+          if (step && std::string(name) == "lengths")
+            middling += std::abs(step->time_exponent()) > 16 && std::abs(step->time_exponent()) < 400;
+          if (step && std::string(name) == "scene" && scene.lattices.size() > 1)
+            second_at_origin += after.lattices[1].atoms[0].position == Vec{};
+          if (step)
+            REQUIRE(require_effect(*step, scene, after) == name);
+          else
+            REQUIRE(after == scene);
+          ++(step ? met : none)[name];
+        }
+    }
+  for (const auto& [name, draw] : kSteps) {
+    INFO(name << ": " << met[name] << " and none " << none[name]);
+    CHECK(met[name] > 130);  // 175 seen at least
+  }
+  CHECK(middling > 90);         // 117 seen
+  CHECK(second_at_origin > 0);  // 2 seen
+  // Those that may draw what changes nothing did so, and did not count it.
+  for (const char* name : {"axes", "scene", "semiaxes", "order"}) CHECK(none[name] > 20);
+}
+
+TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fuzz][rewording]") {
+  std::map<std::string, int> met;
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t index = 0; index < 32 * 16; index += 16) {
+      const cases::Case one = target.make(kSeed, index);
+      Random random(kSeed, target.name(), index, cases::Use::rewordings);
+      const Rewording rewording(random, one.scene);
+      if (!rewording.words({}).empty()) continue;  // else the steps have changed the start as well
+      for (int tries = 0; tries < 8; ++tries) {
+        const auto reworded = rewording.reword(random, one.query);
+        REQUIRE(reworded);
+        const std::string words = rewording.words(*reworded);
+        INFO("seed " << kSeed << ", " << target.name() << ' ' << index << ": " << words << '\n'
+                     << stream(one.scene, one.query) << stream(one.scene, reworded->query));
+        const bool moved = words.find("start moved") != std::string::npos,
+                   rounded = words.find("rounded") != std::string::npos,
+                   sped = words.find("velocity") != std::string::npos;
+        REQUIRE(moved == (reworded->query.x != one.query.x));
+        REQUIRE(rounded == reworded->rounded);
+        REQUIRE(sped == (reworded->query.v != one.query.v));
+        for (int i = 0; i < 3; ++i)
+          REQUIRE(reworded->query.v[i] == std::ldexp(one.query.v[i], reworded->speed));
+        for (const std::int64_t k : reworded->periods)
+          met["back"] += k < 0 && (-k & (-k - 1)) != 0;  // and by no power of two
+        met["moved"] += moved, met["rounded"] += rounded, met["sped"] += sped, ++met["asked"];
+      }
+    }
+  INFO(met["asked"] << ' ' << met["moved"] << ' ' << met["rounded"] << ' ' << met["sped"]);
+  CHECK(met["moved"] > 100);
+  CHECK(met["back"] > 30);
+  CHECK(met["rounded"] > 20);
+  CHECK(met["sped"] > 100);
+}
+
+TEST_CASE("Rewording: what cannot be said otherwise is left as it is", "[fuzz][rewording]") {
+  const Scene scene = unit_scene(2, 0.25);
+  Answer timeless = Answer::hit({}, 1);
+  timeless.time.reset();
+  for (std::uint64_t index = 0; index < 64; ++index) {
+    Random random(kSeed, "left alone", index);
+    const Rewording rewording(random, scene);
+    for (const Answer& none : {Answer::undecided(), Answer::later(), Answer::error("no"), timeless})
+      CHECK_FALSE(rewording.carried(none, {}));
+    // From the smallest number to the largest there is no other unit.
+    const auto reworded = rewording.reword(random, {{0, 0}, {0x1.8p1023, 0x1p-1074}, {}});
+    if (reworded) CHECK(reworded->speed == 0);
+  }
 }
 
 TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {

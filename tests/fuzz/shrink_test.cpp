@@ -1,6 +1,7 @@
 // Shrinking: the failure stays, the numbers become readable.
 #include "fuzz/examine/shrink.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -163,4 +164,24 @@ TEST_CASE("A shorter flight, where it is as simple", "[fuzz][shrink]") {
   const Shrunk shrunk = fuzz::shrink(scene, query, hits, [&] { return length; });
   REQUIRE(hits(shrunk.scene, shrunk.query));
   CHECK(length < before);
+}
+
+TEST_CASE("Shrinking leaves out atoms before the one that `from` names, which keeps its obstacle",
+          "[fuzz][shrink]") {
+  Scene scene = unit_scene(2, 0.125);
+  scene.lattices[0].atoms.push_back({{0.5, 0.25}, 0.1, {}});
+  scene.lattices[0].atoms.push_back({{0.25, 0.75}, 0.0625, {}});
+  const Query query{{0.3, 0.8}, {-0.7, -0.3}, ObstacleId{0, 2, {}}};
+  const auto fails = [](const Scene& its, const Query& asked) {
+    const auto& atoms = its.lattices[0].atoms;  // one more must stay
+    if (std::none_of(atoms.begin(), atoms.end(), [](const Atom& one) { return one.radius == 0.1; }))
+      return false;
+    if (flaw_of(its) || flaw_of(asked, its) || !asked.from) return false;
+    return its.lattices[asked.from->lattice].atoms[asked.from->atom].radius == 0.0625 && asked.v[0] < 0 &&
+           asked.v[1] < 0;
+  };
+  const fuzz::Shrunk shrunk = fuzz::shrink(scene, query, fails);
+  CHECK(fails(shrunk.scene, shrunk.query));
+  CHECK(shrunk.scene.lattices[0].atoms.size() == 2);
+  CHECK(shrunk.query.from->atom == 1);
 }

@@ -245,6 +245,48 @@ TEST_CASE("Golden: ids are the beginning of a SHA-256 of scene and question", "[
   CHECK(golden::id_of(golden::Maker(unit_scene(2, 0.2)).scene_line(), c.record.question) != id);
 }
 
+TEST_CASE("Golden: a second opinion that differs in anything stops the maker, and the verifier", "[golden]") {
+  const Query query{{0.5, 0.125}, {1, 0.03125}, {}};
+  const std::string text = golden::question_of(query, 2);
+  const golden::Maker honest(kSquare);
+  const golden::MadeRecord made = honest.make(text, query);
+  REQUIRE(made.walked);
+  REQUIRE(made.record.expect.outcome == Outcome::hit);
+  using Change = std::function<void(Answer&)>;
+  const std::vector<Change> changes{[](Answer& a) { a.time = std::nextafter(*a.time, 9); },
+                                    [](Answer& a) { a.obstacle.cell[0] = 7; },
+                                    [](Answer& a) { a.obstacle.cell[1] = 7; },
+                                    [](Answer& a) { a.obstacle.atom = 1; },
+                                    [](Answer& a) { a.obstacle.lattice = 1; },
+                                    [](Answer& a) { a = Answer::never(); },
+                                    [](Answer& a) { a = Answer::inside(a.obstacle); },
+                                    [](Answer& a) { a.time.reset(); }};
+  for (const Change& change : changes) {
+    golden::Others others;
+    others.walk = [&](const Query&) {
+      Answer walked = made.record.expect;
+      change(walked);
+      return walked;
+    };
+    const golden::Maker maker(kSquare, others);
+    CHECK_THROWS_WITH(maker.make(text, query), Catch::StartsWith("walk does not agree"));
+    CHECK(maker.flaw_of(made.record, query, true) == "walk says otherwise");
+    CHECK_FALSE(maker.flaw_of(made.record, query, false));
+  }
+  // Where it cannot go it says nothing against the record, and does not count.
+  golden::Others lost;
+  lost.walk = [](const Query&) { return Answer::undecided(); };
+  const golden::Maker alone(kSquare, lost);
+  CHECK_FALSE(alone.make(text, query).walked);
+  CHECK_FALSE(alone.flaw_of(made.record, query, true));
+  // A prover whose proof is of something else.
+  golden::Others careless;
+  careless.prove = [&](const Query&, const Answer&) { return *honest.make(text, query).record.certificate; };
+  const Query farther{{0.5, 0.5}, {1, 0.03125}, {}};
+  CHECK_THROWS_WITH(golden::Maker(kSquare, careless).make(golden::question_of(farther, 2), farther),
+                    Catch::StartsWith("the check of the certificate ("));
+}
+
 TEST_CASE("Golden: made records are proved, and nothing is wrong with them", "[golden]") {
   for (const golden::Set& set : golden::sets()) {
     int walked = 0;

@@ -1,0 +1,105 @@
+// sizes: obstacles of every size that engines do, 1e-12 (2D) or 1e-7 (3D) to 1/2 of the cell, in scenes of
+// every kind. A mistake in one octave of the radius, for one kind of scene, shows nowhere else; where sizes
+// are drawn for some other purpose some of these never come up. So nothing is left to chance: kinds and
+// dimensions take turns, and of each the octaves, by steps that have no common factor with their number, so
+// that the first few scenes are as widely spread as they can be, and none comes twice before each has come.
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/scene_edit.hpp"
+
+namespace lorentz::cases {
+namespace {
+
+constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
+
+// The radius, or the shortest semiaxis of an ellipsoid up to 2^5 times as long as wide.
+Atom drawn_obstacle(Random& drawn, int dimension, double size, bool ellipsoid) {
+  Atom atom;
+  atom.radius = size;
+  if (!ellipsoid) return atom;
+  atom.radius = 0;
+  const double most = std::min(0.4, 32 * size);
+  const Vec a = drawn.direction(2);
+  atom.semiaxes = {scaled(a, size), scaled({-a[1], a[0], 0}, drawn.between(size, most))};
+  if (dimension == 3) atom.semiaxes.push_back({0, 0, drawn.between(size, most)});
+  return atom;
+}
+
+Scene drawn_scene(Random& drawn, std::size_t kind, int dimension, double size) {
+  Scene scene = unit_scene(dimension, size);
+  Lattice& lattice = scene.lattices[0];
+  if (kind == 1)
+    for (int i = 1; i < dimension; ++i) lattice.vectors[i] = {drawn.uniform(), 1, i == 2 ? 1.0 : 0.0};
+  if (kind == 2) {
+    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, size * drawn.between(1, 2), false));
+    for (int i = 0; i < dimension; ++i) lattice.atoms[1].position[i] = drawn.uniform();
+  }
+  if (kind == 3) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, true);
+  if (kind >= 4) {
+    Lattice other = lattice;
+    for (int i = 0; i < dimension; ++i) other.vectors[i] = scaled(lattice.vectors[i], drawn.between(1, 2));
+    for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
+    if (kind == 5) other.atoms[0] = drawn_obstacle(drawn, dimension, size, true);
+    scene.lattices.push_back(other);
+  }
+  return scene;
+}
+
+// Off an obstacle of the last lattice, from its surface as far as binary64 has it, and along its normal or
+// near that.
+void leave(Random& random, Case& made) {
+  const int lattice = static_cast<int>(made.scene.lattices.size()) - 1, dimension = made.scene.dimension;
+  const auto& atoms = made.scene.lattices[lattice].atoms;
+  const int which = static_cast<int>(random.below(atoms.size()));
+  const Atom& atom = atoms[which];
+  const Vec n = random.direction(dimension);
+  Vec arm = scaled(n, atom.radius);
+  for (std::size_t k = 0; k < atom.semiaxes.size(); ++k) arm = sum(arm, scaled(atom.semiaxes[k], n[k]));
+  made.query.x = sum(atom.position, arm);
+  made.query.v = sum(scaled(arm, 1 / length(arm)), scaled(random.direction(dimension), random.uniform()));
+  made.query.from = ObstacleId{lattice, which, {}};
+}
+
+Case make_sizes(Source& source) {
+  constexpr std::uint64_t kFlat = 38, kSolid = 22, kStepFlat = 23, kStepSolid = 13;
+  Case made;
+  Random &drawn = source.scene, &random = source.random;
+  const std::uint64_t number = source.index / kCasesPerScene, kind = number % std::size(kKinds),
+                      turn = number / std::size(kKinds);
+  const int dimension = turn % 2 == 0 ? 2 : 3;
+  const std::uint64_t octaves = dimension == 2 ? kFlat : kSolid,
+                      step = dimension == 2 ? kStepFlat : kStepSolid;
+  const int octave = -2 - static_cast<int>(turn / 2 * step % octaves);
+  made.tags.emplace_back(kKinds[kind]);
+  made.scene = drawn_scene(drawn, kind, dimension, drawn.octave(octave, octave + 1));
+  if (random.one_in(3)) {
+    made.tags.push_back("leaving");
+    leave(random, made);
+    return made;
+  }
+  made.query.x = free_point(random, made.scene);
+  made.query.v = random.one_in(4) ? near_integer_direction(random, dimension) : random.direction(dimension);
+  return made;
+}
+
+}  // namespace
+
+Family sizes() {
+  return {"sizes",
+          "Obstacles of every size that engines do, in scenes of every kind.",
+          {{"unit", "the square or cubic lattice"},
+           {"cell", "a skewed one"},
+           {"motif", "two balls a cell"},
+           {"ellipsoid", "an ellipse or ellipsoid, up to 2^5 times as long as wide"},
+           {"superposition", "two lattices of balls"},
+           {"mixed", "two lattices, the second of ellipsoids"},
+           {"leaving", "`from` is the obstacle that the flight starts on"}},
+          make_sizes};
+}
+
+}  // namespace lorentz::cases

@@ -1,0 +1,331 @@
+// Those who watch others, with partners that err: the examiner of an oracle that contradicts itself, the two
+// ways in which `reduction` and batches are asked, the reader that is read back.
+#include "fuzz/examine/examiner.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "cases/families/target.hpp"
+#include "fuzz/examine/batch_subject.hpp"
+#include "fuzz/examine/engine_subject.hpp"
+#include "fuzz/rewording/notation.hpp"
+#include "tests/fuzz/campaign_support.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using fuzz::Kind;
+using fuzz::LimitAt;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1305;
+
+// What becomes of an answer to a question whose exact answer came along from elsewhere.
+fuzz::Examined examined(const Scene& scene, const Query& query, const Answer& carried, const Answer& given,
+                        LimitAt limit = LimitAt::none) {
+  ToldSubject subject([&](const Query&) { return given; });
+  fuzz::Examiner examiner(subject, scene, 0);
+  const fuzz::Question question{query, carried, true, limit};
+  examiner.ask(question);
+  auto replies = subject.replies();
+  return examiner.judge(question, replies.at(0));
+}
+
+std::string said(fuzz::Subject& subject, const Scene& scene, const std::vector<Query>& queries,
+                 double max_time = HUGE_VAL) {
+  subject.set_scene(scene);
+  for (const Query& query : queries) subject.ask_until(query, max_time);
+  std::string text;
+  for (const fuzz::Reply& reply : subject.replies())
+    text += reply.answer.outcome == Outcome::error ? 'e' : reply.answer.outcome == Outcome::later ? 'l' : '.';
+  return text;
+}
+
+Answer disc(long i, long j, double time) {
+  return Answer::hit({0, 0, {i, j, 0}}, time);
+}
+
+}  // namespace
+
+TEST_CASE("An answer that was carried over and is not the question's own is an error, and nobody's answer",
+          "[fuzz][examiner]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0}, {1, 0}, {}};
+  const Answer truth = disc(1, 0, 0.25);
+  CHECK(examined(scene, query, truth, truth).kind == Kind::fine);
+  CHECK(examined(scene, query, truth, Answer::never()).kind == Kind::wrong);
+  // Each part of what is carried may be the one that is another.
+  for (const Answer& carried : {disc(2, 0, 0.25), disc(1, 1, 0.25), disc(1, 0, std::nextafter(0.25, 1)),
+                                Answer::never(), Answer::inside({0, 0, {1, 0, 0}})})
+    for (const LimitAt limit : {LimitAt(), LimitAt(LimitAt::twice)}) {
+      INFO(line(carried, 2));
+      const fuzz::Examined one = examined(scene, query, carried, truth, limit);
+      CHECK(one.kind == Kind::error);
+      CHECK(same(one.given, carried));
+      CHECK(same(one.exact, truth));
+      // Whoever does not know says nothing against it.
+      CHECK(examined(scene, query, carried, Answer::undecided()).kind == Kind::undecided);
+      const fuzz::Examined broken = examined(scene, query, carried, Answer::error("no"));
+      CHECK((broken.kind == Kind::error && broken.given.outcome == Outcome::error));
+    }
+  // Two are entered together: the words decide which one is named, and either is carried over.
+  Scene two = unit_scene(2, 0.625);
+  two.lattices[0].vectors = {Vec{4, 0}, Vec{0, 1}};
+  const Query between{{1, 0.5}, {1, 0}, {}};
+  const Answer below = oracle::Oracle(two).first_hit(between), above = disc(1, 1, *below.time);
+  CHECK(examined(two, between, above, below).kind == Kind::fine);
+  CHECK(examined(two, between, above, disc(1, 2, *below.time)).kind == Kind::wrong);
+  CHECK(examined(two, between, disc(1, 2, *below.time), below).kind == Kind::error);
+}
+
+TEST_CASE("A prepared direction, or a single flight, that says anything else is seen", "[fuzz][examiner]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const std::vector<Query> queries{{{0.5, 0}, {1, 0}, {}}, {{0.5, 0.1}, {1, 0.125}, {}}};
+  using Change = std::function<void(Flight&)>;
+  const std::vector<std::pair<Change, bool>> changes{
+      {[](Flight&) {}, false},
+      {[](Flight& f) { f.outcome = Outcome::never; }, true},
+      {[](Flight& f) { f.time = std::nextafter(f.time, 9); }, true},
+      {[](Flight& f) { ++f.cell[0]; }, true},
+      {[](Flight& f) { --f.cell[1]; }, true},
+      {[](Flight& f) { f.atom = 1; }, true},
+      {[](Flight& f) { f.lattice = 1; }, true}};
+  for (const auto& [change, seen] : changes) {
+    const std::string expected = seen ? ".e" : "..";
+    // In the second flight alone.
+    const auto reduction =
+        fuzz::make_reduction_subject([&](const Reduction& engine, const Query& query, double max_time) {
+          Flight flight = engine.fly(query, max_time);
+          if (query.v[1] != 0) change(flight);
+          return flight;
+        });
+    CHECK(said(*reduction, scene, queries) == expected);
+    for (const auto wrong_in : {Batch::Time::close, Batch::Time::rounded}) {
+      const auto batch = fuzz::make_batch_subject(
+          [&](const Batch& engine, const Query& query, double max_time, Batch::Time time) {
+            Flight flight = engine.one_at_a_time().fly(query, max_time, time);
+            if (query.v[1] != 0 && time == wrong_in) change(flight);
+            return flight;
+          });
+      CHECK(said(*batch, scene, queries) == expected);
+    }
+  }
+  // The limit goes both ways, too.
+  for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
+    CHECK(said(*fuzz::subject_maker(engine)(), scene, queries, 0.125) == "ll");
+}
+
+TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
+  using Change = std::function<void(StreamItem&)>;
+  const auto ulp = [](double& a) { a = std::nextafter(a, 1e308); };
+  const std::map<std::string, Change> faults{
+      {"as it is", [](StreamItem&) {}},
+      {"no from", [](StreamItem& item) { item.query.from.reset(); }},
+      {"from of the first atom",
+       [](StreamItem& item) {
+         if (item.query.from) item.query.from->atom = 0;
+       }},
+      {"from of the cell 0",
+       [](StreamItem& item) {
+         if (item.query.from) item.query.from->cell[1] = 0;
+       }},
+      {"x, second component", [&](StreamItem& item) { ulp(item.query.x[1]); }},
+      {"v, first component", [&](StreamItem& item) { ulp(item.query.v[0]); }},
+      {"no second atom",
+       [](StreamItem& item) {
+         for (Lattice& lattice : item.scene.lattices) lattice.atoms.resize(1);
+       }},
+      {"no second lattice",
+       [](StreamItem& item) {
+         if (!item.scene.lattices.empty()) item.scene.lattices.resize(1);
+       }},
+      {"last vector",
+       [&](StreamItem& item) {
+         if (!item.scene.lattices.empty())
+           ulp(item.scene.lattices.back().vectors[item.scene.dimension - 1][0]);
+       }},
+      {"radius",
+       [&](StreamItem& item) {
+         for_each_atom(item.scene, [&](Atom& atom) {
+           if (atom.is_ball()) ulp(atom.radius);
+         });
+       }},
+      {"semiaxes exchanged",
+       [](StreamItem& item) {
+         for_each_atom(item.scene, [](Atom& atom) {
+           if (!atom.is_ball()) std::swap(atom.semiaxes[0], atom.semiaxes[1]);
+         });
+       }},
+      {"says error", [](StreamItem& item) {
+         if (item.kind == StreamItem::Kind::query) item.kind = StreamItem::Kind::bad;
+       }}};
+  ExchangeReader reader;
+  std::map<std::string, int> met;
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t index = 0; index < 8 * 37; index += 37) {
+      const cases::Case one = target.make(kSeed, index);
+      for (const auto& [name, change] : faults) {
+        bool changed = false;
+        cases::Random random(kSeed, target.name(), index, cases::Use::rewordings);
+        const auto misreading = fuzz::misreading(
+            random, one.scene, one.query, [&, &change = change](const std::string& text, const Scene* scene) {
+              const std::string padded = text + std::string(LineReader::kPadding, ' ');
+              StreamItem item;
+              reader.read_query_line({std::string_view(padded).substr(0, text.size()), 1, false}, scene,
+                                     item);
+              const StreamItem before = item;
+              // A reader keeps what it read last: only what the line is about counts.
+              change(item);
+              changed |= item.kind != before.kind;
+              if (item.kind == StreamItem::Kind::scene) changed |= item.scene != before.scene;
+              if (item.kind == StreamItem::Kind::query)
+                changed |= item.query.x != before.query.x || item.query.v != before.query.v ||
+                           item.query.from != before.query.from;
+              return item;
+            });
+        INFO(target.name() << ' ' << index << ", " << name);
+        CHECK(misreading.has_value() == changed);
+        met[name] += changed;
+      }
+    }
+  for (const auto& [name, change] : faults) {
+    INFO(name);
+    CHECK((met[name] > 1) == (name != "as it is"));
+  }
+}
+
+namespace {
+
+// Right, with so much work: `its` for the first question, then what is drawn, as long as there is some.
+class CountingSubject final : public fuzz::Subject {
+ public:
+  CountingSubject(double its, std::vector<std::optional<double>> drawn)
+      : its_(its), drawn_(std::move(drawn)) {}
+  void ask(const Query& query) override {
+    const std::optional<double> work = asked_ == 0 ? its_ : drawn_[(asked_ - 1) % drawn_.size()];
+    ++asked_;
+    replies_.push_back({oracle_->first_hit(query), work});
+  }
+  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+
+ private:
+  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  double its_;
+  std::vector<std::optional<double>> drawn_;
+  std::size_t asked_ = 0;
+  std::optional<oracle::Oracle> oracle_;
+  std::vector<fuzz::Reply> replies_;
+};
+
+Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
+  CountingSubject subject(its, std::move(drawn));
+  return fuzz::Examiner(subject, unit_scene(2, 0.25), 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
+}
+
+}  // namespace
+
+TEST_CASE("Slow is more than a hundred times the median of drawn flights, of those whose work is known",
+          "[fuzz][examiner]") {
+  CHECK(kind_of_work(1000, {10}) == Kind::fine);
+  CHECK(kind_of_work(1001, {10}) == Kind::slow);
+  CHECK(kind_of_work(499, {1}) == Kind::fine);
+  CHECK(kind_of_work(500, {1}) == Kind::slow);
+  CHECK(kind_of_work(1001, {10, 1e6}) == Kind::slow);  // of 33 most are 10
+  CHECK(kind_of_work(1001, {1e6, 10}) == Kind::fine);
+  // An engine that counts in every other answer, and one that counts in none of the drawn flights.
+  CHECK(kind_of_work(1000, {10, {}}) == Kind::fine);
+  CHECK(kind_of_work(1001, {10, {}}) == Kind::slow);
+  CHECK(kind_of_work(1001, {{}, 10}) == Kind::slow);
+  CHECK(kind_of_work(1e9, {std::nullopt}) == Kind::fine);
+}
+
+TEST_CASE("With a limit at, below or above the time an answer is right or wrong, never ill-posed",
+          "[fuzz][examiner]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0}, {1, 0}, {}};
+  const Answer truth = disc(1, 0, 0.25), missed = disc(2, 0, 1.25);
+  const auto kinds = [&](LimitAt limit) {
+    const bool is_later =
+        oracle::Oracle(scene).first_hit(query, {.max_time = fuzz::limit_of(limit, truth)}).outcome ==
+        Outcome::later;
+    std::string text;
+    for (const Answer& given :
+         {truth, Answer::later(), Answer::never(), missed, Answer::inside({}), Answer::undecided()}) {
+      ToldSubject subject([&](const Query&) { return given; });
+      const fuzz::Examined one = fuzz::Examiner(subject, scene, 4).examine(query, limit);
+      text += std::string(fuzz::name_of(one.kind)).substr(0, 1);
+      CHECK(same(one.given, given));
+      const bool says = given.outcome != Outcome::undecided;
+      CHECK((one.exact.outcome == Outcome::later) == (says && is_later));
+      if (one.exact.outcome != Outcome::later) CHECK(same(one.exact, truth));
+    }
+    return text;
+  };
+  // What is entered at the limit is entered after it: `later`.
+  const bool at_is_later =
+      oracle::Oracle(scene).first_hit(query, {.max_time = 0.25}).outcome == Outcome::later;
+  CHECK(kinds(LimitAt::time) == (at_is_later ? "wffwwu" : "fwwwwu"));
+  CHECK(kinds(LimitAt::below) == "wffwwu");
+  CHECK(kinds(LimitAt::half) == "wffwwu");
+  CHECK(kinds({LimitAt::before, 51}) == "wffwwu");
+  CHECK(kinds(LimitAt::above) == "fwwwwu");
+  CHECK(kinds(LimitAt::twice) == "fwwwwu");
+  CHECK(kinds({LimitAt::after, 51}) == "fwwwwu");
+}
+
+TEST_CASE("What a subject said of one scene it does not say of the next", "[fuzz][examiner]") {
+  const std::vector<Query> queries{{{0.5, 0}, {1, 0}, {}}, {{0.5, 0.25}, {1, 0}, {}}};  // and a tangent
+  const auto outcomes = [&](fuzz::Subject& subject, const Scene& scene) {
+    subject.set_scene(scene);
+    for (const Query& query : queries) subject.ask(query);
+    std::string text;
+    for (const fuzz::Reply& reply : subject.replies()) text += name_of(reply.answer.outcome).substr(0, 1);
+    return text;
+  };
+  Scene beyond = unit_scene(2, 0.25);  // for `reduction`: larger than half the shortest vector
+  beyond.lattices[0].vectors[0][0] = 0.375;
+  REQUIRE(Reduction::beyond(beyond));
+  for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
+    INFO(engine);
+    const auto subject = fuzz::subject_maker(engine)();
+    const bool is_exact = std::string_view(engine).starts_with("certified");
+    const std::string here = outcomes(*subject, unit_scene(2, 0.25));
+    CHECK(here.substr(0, 1) == "h");
+    if (is_exact) CHECK(here == "hn");
+    CHECK(here.size() == 2);
+    if (!is_exact) CHECK(outcomes(*subject, beyond) == "ee");
+    CHECK(outcomes(*subject, unit_scene(2, 0.25)) == here);
+  }
+}
+
+TEST_CASE("A notation is what it is called", "[fuzz][examiner]") {
+  std::map<std::string, int> met;
+  const cases::Target& target = *cases::target_named("mixture");
+  for (std::uint64_t index = 0; index < 400; ++index) {
+    const cases::Case one = target.make(kSeed, index);
+    cases::Random random(kSeed, target.name(), index, cases::Use::rewordings);
+    const auto misread = fuzz::misreading(random, one.scene, one.query, [](const std::string&, const Scene*) {
+      return StreamItem{};  // so that it is told what was written
+    });
+    REQUIRE(misread);
+    const auto& [notation, text] = *misread;
+    const auto says = [&](const char* word) { return notation.find(word) != std::string::npos; };
+    INFO(notation << '\n' << text);
+    CHECK((text.find_first_of(" \t\r") != std::string::npos) == says(", blanks"));
+    if (text.find("\\u") != std::string::npos) CHECK(says("escaped keys"));
+    // The scene's dimension comes first, as a rule.
+    if (!says("another order") && !says("escaped") && !says("blanks"))
+      CHECK(text.starts_with("{\"scene\":{\"dimension\":"));
+    if (says("shortest") || says("%.17g"))
+      CHECK(text.find("00000000000000000000e") == std::string::npos);  // 40 digits
+    for (const char* word : {"blanks", "another order", "escaped", "shortest", "%.17g", "%.20f", "hexa"})
+      met[word] += says(word);
+  }
+  for (const auto& [word, count] : met) {
+    INFO(word);
+    CHECK(count > 30);
+  }
+}

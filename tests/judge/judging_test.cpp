@@ -1,0 +1,426 @@
+// More than one of a thing: threads of a campaign, parts of a source, examinations that are added up, flaws
+// of one engine.
+#include "cli/judging.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <lorentz/geometry.hpp>
+#include "cases/families/target.hpp"
+#include "compare/registry.hpp"
+#include "compare/sampling.hpp"
+#include "flights/sample/free_starts.hpp"
+#include "fuzz/examine/shrink.hpp"
+#include "judge/questions.hpp"
+#include "judge/simplest.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+using namespace lorentz::judge;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20161116;
+constexpr double kForEver = 1e9;
+
+// What was asked, by thread.
+struct Log {
+  std::mutex mutex;
+  std::map<std::thread::id, std::map<std::string, int>> by_thread;
+  std::atomic<bool> is_on = false;  // else nothing is answered, nor written down
+  std::atomic<bool> is_enough = false;
+};
+
+// An engine of ours that is exact but for flights that a fault changes.
+class Faulty final : public compare::Answerer {
+ public:
+  using Fault = std::function<void(const Scene&, const Query&, Answer&)>;
+  explicit Faulty(Fault fault, Log* asked = nullptr) : fault_(std::move(fault)), asked_(asked) {}
+  void set_scene(const Scene& scene) override { scene_ = scene, oracle_.emplace(scene); }
+  void ask(const Id&, const Query& query) override {
+    if (asked_ && !write(query)) {
+      Answer no = Answer::unsupported_because("this is no campaign");
+      return deliver(no);
+    }
+    Answer answer = oracle_->first_hit(query);
+    fault_(scene_, query, answer);
+    deliver(answer);
+  }
+
+ private:
+  bool write(const Query& query) {
+    constexpr std::size_t kEnough = 100;  // of each thread
+    const std::lock_guard lock(asked_->mutex);
+    if (!asked_->is_on) return false;
+    ++asked_->by_thread[std::this_thread::get_id()][stream(scene_, query)];
+    std::size_t threads = 0;
+    for (const auto& [thread, questions] : asked_->by_thread) threads += questions.size() >= kEnough;
+    if (threads == 2) asked_->is_enough = true;
+    return true;
+  }
+
+  Fault fault_;
+  Log* asked_;
+  Scene scene_;
+  std::optional<oracle::Oracle> oracle_;
+};
+
+compare::GuestEngine guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
+  return {name, [=](const compare::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); }};
+}
+
+// Leaves the disc it comes from at once in 2D, and sees nothing in 3D in the direction -x.
+void two_faults(const Scene& scene, const Query& query, Answer& answer) {
+  if (scene.dimension == 2 && query.v[1] > 0 && answer.outcome == Outcome::hit)
+    answer.obstacle.cell[1] = 77777;
+  if (scene.dimension == 3 && query.v[0] < 0 && answer.outcome == Outcome::hit) answer = Answer::never();
+}
+
+Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::size_t number) {
+  const auto all = std::make_shared<std::vector<Question>>();
+  for (const int dimension : dimensions) {
+    const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+    for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), seed, number))
+      all->push_back(
+          {setting, query, setting->oracle().first_hit(query), "seed " + std::to_string(seed), ""});
+  }
+  return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
+    return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
+  };
+}
+
+// All that a finding says.
+std::string text_of(const Finding& finding) {
+  std::string text = finding.explanation() + ", " + std::to_string(finding.count) + ", " + finding.where +
+                     ", " +
+                     stream(finding.simplest.question.setting->scene(), finding.simplest.question.query) +
+                     std::to_string(finding.by_radii.value_or(-1)) + ", " +
+                     std::to_string(finding.share_of_plain) + ", " + std::to_string(finding.share_of_hard);
+  for (const auto& [row, count] : finding.by_row) text += ", " + row + " " + std::to_string(count);
+  return text;
+}
+
+std::string text_of(const Calls& calls) {
+  std::string text;
+  for (const auto& [decade, call] : calls.by_decade())
+    text += std::to_string(decade) + ": " + std::to_string(call.right) + ' ' +
+            std::to_string(call.ill_posed) + ' ' + std::to_string(call.wrong) + ' ' +
+            std::to_string(call.undecided) + '\n';
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judge][questions]") {
+  const auto first_of = [](unsigned part, unsigned parts, std::size_t number) {
+    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, part, parts);
+    std::set<std::string> where;
+    for (std::size_t i = 0; i < number; ++i)
+      if (const auto question = source()) where.insert(question->where);
+    return where;
+  };
+  constexpr std::size_t kNumber = 500;
+  std::map<std::string, int> met;
+  for (unsigned part = 0; part < 3; ++part) {
+    const auto its = first_of(part, 3, kNumber);
+    CHECK(its.size() == kNumber);
+    std::set<std::string> targets;
+    for (const std::string& where : its) {
+      ++met[where];
+      const auto slash = where.find('/');
+      targets.insert(where.substr(0, slash));
+      CHECK(std::stoul(where.substr(slash + 1)) / cases::kCasesPerScene % 3 == part);
+    }
+    CHECK(targets.size() >= 10);  // one has its second turn when all have had one
+  }
+  CHECK(met.size() == 3 * kNumber);
+}
+
+TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",
+          "[judge][judging]") {
+  Log asked;
+  const auto engine = guest("two-threads", two_faults, &asked);
+  cli::JudgeOrder order;
+  order.engine = "two-threads";
+  order.quick = true;
+  order.time = 1e6;  // it ends when both have asked enough, however long that takes
+  order.jobs = 2;
+  order.on_progress = [&](const std::string& row) { asked.is_on = row == "campaign"; };
+  const cli::JudgeReport report = cli::judged(order, asked.is_enough);
+  REQUIRE(asked.by_thread.size() == 2);
+  const auto& first = asked.by_thread[std::this_thread::get_id()];
+  std::size_t both = 0, second = 0;
+  for (const auto& [thread, questions] : asked.by_thread)
+    if (thread != std::this_thread::get_id())
+      for (const auto& [text, times] : questions) both += first.contains(text), ++second;
+  INFO(second << " of the second, " << both << " of both");
+  CHECK(second >= 100);
+  CHECK(both * 4 < second);  // constructed cases may be equal
+  const judge::Row& last = report.rows.back();
+  CHECK(last.name == "campaign");
+  CHECK(last.asked() > second);
+  CHECK(last.tally.wrong > 0);
+  // Both of its faults are told, each with what sets it apart.
+  std::map<Cause, const Finding*> worst;
+  for (const Finding& finding : report.findings)
+    if (finding.severity() == Severity::wrong) worst[finding.cause()] = &finding;
+  REQUIRE(worst.contains(Cause::never_for_hit));
+  CHECK(worst[Cause::never_for_hit]->simplest.question.setting->scene().dimension == 3);
+  CHECK(worst.contains(Cause::false_hit));
+  CHECK(report.verdict() == "wrong");
+}
+
+TEST_CASE("What several examinations come to is what one comes to", "[judge][examination]") {
+  const auto engine = guest("two-faults", two_faults);
+  const std::atomic<bool> stop = false;
+  const auto examined = [&](const std::vector<std::uint64_t>& seeds) {
+    std::unique_ptr<Examination> first;
+    for (const std::uint64_t seed : seeds) {
+      auto one = std::make_unique<Examination>("two-faults", compare::AnswererOptions{}, 4, stop);
+      one->run({"row", ""}, drawn_in({2, 3}, seed, 30), kForEver);
+      if (first)
+        first->take_over(*one);
+      else
+        first = std::move(one);
+    }
+    return first;
+  };
+  // One that asks the same in one row.
+  Examination whole("two-faults", {}, 4, stop);
+  const std::vector<std::uint64_t> seeds{1, 2, 3};
+  std::vector<Source> sources;
+  for (const std::uint64_t seed : seeds) sources.push_back(drawn_in({2, 3}, seed, 30));
+  std::size_t at = 0;
+  whole.run(
+      {"row", ""},
+      [&]() -> std::optional<Question> {
+        for (; at < sources.size(); ++at)
+          if (auto question = sources[at]()) return question;
+        return std::nullopt;
+      },
+      kForEver);
+  const auto parts = examined(seeds), backwards = examined({3, 2, 1});
+  for (const Examination* one : {parts.get(), backwards.get()}) {
+    REQUIRE(one->rows().size() == 1);
+    const compare::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
+    CHECK(its.queries == 3 * 2 * 30);
+    CHECK(its.agree == all.agree);
+    CHECK(its.wrong == all.wrong);
+    CHECK(all.wrong > 30);
+    CHECK(its.ns_per_query > 0);
+    CHECK(text_of(one->calls()) == text_of(whole.calls()));
+    const auto found = one->findings(), expected = whole.findings();
+    REQUIRE(found.size() == expected.size());
+    REQUIRE(found.size() >= 2);
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(text_of(found[i]) == text_of(expected[i]));
+  }
+}
+
+namespace {
+
+// Exact, but for invalid questions: it answers these.
+class Gullible final : public compare::Answerer {
+ public:
+  void set_scene(const Scene& scene) override { oracle_.emplace(scene); }
+  void ask(const Id&, const Query& query) override {
+    Answer answer = oracle_->first_hit(query);
+    deliver(answer);
+  }
+  void ask_text(const Id&, const std::string&) override {
+    Answer answer = Answer::never();
+    deliver(answer);
+  }
+
+ private:
+  std::optional<oracle::Oracle> oracle_;
+};
+
+Example example_in(int dimension, Cause cause) {
+  const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  return {{setting, query, setting->oracle().first_hit(query), "here", ""},
+          Answer::never(),
+          {oracle::Verdict::wrong},
+          {cause, Severity::wrong, 1}};
+}
+
+Place place_of(Scene scene, bool is_answered = true) {
+  Place place{"place", std::make_shared<Setting>(std::move(scene))};
+  place.setting->note(!is_answered);
+  return place;
+}
+
+std::string text_of(const fuzz::Scope& scope) {
+  constexpr const char* kNames[] = {"any", "lattice", "unit"};
+  return std::string(kNames[static_cast<int>(scope.scenes)]) + ' ' + std::to_string(scope.dimension);
+}
+
+}  // namespace
+
+TEST_CASE("What another program failed in, and what was nonsense, is added up, too", "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  const auto examined = [&](const std::string& engine, const Source& source) {
+    auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
+    one->run({"row", ""}, source, kForEver);
+    one->finish();
+    return one;
+  };
+  const std::string fragile = "cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3";
+  const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
+             also = examined(fragile, drawn_in({3}, 2, 20));
+  CHECK_FALSE(fine->failed());
+  fine->take_over(*broken);
+  CHECK(fine->failed());
+  CHECK(fine->rows()[0].scenes_given_up == 1);
+  CHECK(fine->rows()[0].last_failure == broken->rows()[0].last_failure);
+  fine->take_over(*also);
+  CHECK(fine->rows()[0].scenes_given_up == 2);
+  CHECK(fine->findings().size() == 1);
+  CHECK(fine->findings()[0].count == fine->rows()[0].tally.missing);
+  const compare::GuestEngine gullible(
+      "gullible", [](const compare::AnswererOptions&) { return std::make_unique<Gullible>(); });
+  const auto nonsense = [&](std::size_t number) {
+    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+    return examined("gullible", [=, left = number]() mutable -> std::optional<Question> {
+      if (left == 0) return std::nullopt;
+      --left;
+      return Question{setting, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
+    });
+  };
+  const auto two = nonsense(2), three = nonsense(3);
+  two->take_over(*three);
+  CHECK(two->rows()[0].nonsense == 5);
+  CHECK(two->rows()[0].asked() == 5);
+  CHECK(two->findings()[0].count == 5);
+}
+
+TEST_CASE("What sets failures apart is true of all that were added up; equal ones keep their order",
+          "[judge][examination]") {
+  Findings flat, solid;
+  for (int i = 0; i < 20; ++i) {
+    flat.add(example_in(2, Cause::never_for_hit), "row");
+    solid.add(example_in(3, Cause::never_for_hit), "row");
+    Features right = features_of(example_in(2, Cause::tie).question);
+    flat.add_right(right);
+    right.in_space = true;
+    solid.add_right(right);
+  }
+  const judge::Asked asked{{"row", {100, false}}};
+  Findings both = solid;
+  both.add(flat);
+  for (const Finding& finding : both.all(asked))
+    if (finding.circumstance) CHECK_FALSE(finding.circumstance->text.starts_with("in "));
+  Findings half = solid;  // what is true of half of the right answers still sets apart
+  for (int i = 0; i < 20; ++i) half.add_right(features_of(example_in(2, Cause::tie).question));
+  REQUIRE(half.all(asked)[0].circumstance);
+  CHECK(half.all(asked)[0].circumstance->text == "in 3D");
+  CHECK(half.all(asked)[0].circumstance->share == 0.5);
+  Findings equal;
+  for (const Cause cause : {Cause::tie, Cause::behind, Cause::false_hit, Cause::leaving})
+    equal.add(example_in(2, cause), "row");
+  const auto all = equal.all(asked);
+  REQUIRE(all.size() == 4);
+  for (std::size_t i = 1; i < all.size(); ++i) CHECK(all[i - 1].cause() < all[i].cause());
+}
+
+TEST_CASE("A grazing fault says once that it is about grazing", "[judge][examination]") {
+  for (const Cause cause : {Cause::never_for_grazing, Cause::passed_over_grazing, Cause::never_for_hit}) {
+    Finding finding{example_in(2, cause), "here", 1, 3e-10};
+    finding.circumstance = Circumstance{"where the line enters", 0, true};
+    CHECK((finding.summary().find(", only") == std::string::npos) == (cause != Cause::never_for_hit));
+    finding.circumstance = Circumstance{"in 3D", 0, false};
+    CHECK(finding.summary().ends_with(", only in 3D"));
+  }
+}
+
+TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge][repetition]") {
+  const auto engine = guest("two-faults", two_faults);
+  const std::atomic<bool> stop = false;
+  Examination examination("two-faults", {}, 4, stop);
+  const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
+  const auto setting = std::make_shared<Setting>(unit_scene(3, 0.25));
+  const Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
+  CHECK(examination.repeat(question, 3, {Cause::never_for_hit, Severity::wrong}).failed == 1);
+  CHECK_FALSE(examination.repeat(question, 3, {Cause::never_for_hit, Severity::ill_posed}).failed);
+  CHECK_FALSE(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).failed);
+  CHECK(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).all_answered);
+}
+
+TEST_CASE("The scope of a campaign is the narrowest with all that was answered", "[judge][questions]") {
+  Scene skewed = unit_scene(2, 0.2), motif = unit_scene(3, 0.2);
+  skewed.lattices[0].vectors[1][0] = 0.25;
+  motif.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
+  const Scene flat = unit_scene(2, 0.2), solid = unit_scene(3, 0.2);
+  CHECK(text_of(scope_of({place_of(flat)})) == "unit 2");
+  CHECK(text_of(scope_of({place_of(solid)})) == "unit 3");
+  CHECK(text_of(scope_of({place_of(flat), place_of(solid)})) == "unit 0");
+  CHECK(text_of(scope_of({place_of(flat), place_of(skewed)})) == "lattice 2");
+  CHECK(text_of(scope_of({place_of(solid), place_of(skewed)})) == "lattice 0");
+  CHECK(text_of(scope_of({place_of(motif), place_of(solid)})) == "any 3");
+  CHECK(text_of(scope_of({place_of(motif, false), place_of(solid)})) == "unit 3");
+  CHECK(text_of(scope_of({place_of(flat, false)})) == "any 0");
+}
+
+TEST_CASE("Drawn and flown questions come in blocks of each place, and none is left out or comes twice",
+          "[judge][questions]") {
+  const std::vector<Place> places{place_of(unit_scene(2, 0.1)), place_of(unit_scene(2, 0.2)),
+                                  place_of(unit_scene(3, 0.3))};
+  const auto by_place = [&](const Source& source) {
+    std::vector<std::vector<Query>> all(places.size());
+    while (const auto question = source())
+      for (std::size_t p = 0; p < places.size(); ++p)
+        if (question->setting == places[p].setting) all[p].push_back(question->query);
+    return all;
+  };
+  const auto drawn_ones = by_place(drawn(places, compare::Difficulty::drawn, kSeed, 90)),
+             flown_ones = by_place(flown(places, kSeed, 90));
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const Setting& setting = *places[p].setting;
+    REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));
+    REQUIRE(flown_ones[p].size() == drawn_ones[p].size());
+    flights::FreeStarts starts(setting.scene(), flights::Kind::surface, kSeed);
+    for (std::size_t i = 0; i < drawn_ones[p].size(); ++i) {
+      const auto block = compare::hard_queries(compare::Difficulty::drawn, setting.scene(), setting.oracle(),
+                                               kSeed + i / 16, 16);
+      CHECK(stream(setting.scene(), drawn_ones[p][i]) == stream(setting.scene(), block[i % 16]));
+      Query start;
+      starts.draw(i, start);
+      CHECK(stream(setting.scene(), flown_ones[p][i]) == stream(setting.scene(), start));
+    }
+  }
+}
+
+TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][simplest]") {
+  // Starts in a disc: a flight with many bits is said to hit something, others never end.
+  const auto engine = guest("two-sayings", [](const Scene&, const Query& query, Answer& answer) {
+    if (answer.outcome != Outcome::inside) return;
+    answer = fuzz::bits_of(query.x[0]) > 3 ? Answer::hit({0, 0, {5, 0, 0}}, 1) : Answer::never();
+  });
+  const auto liar = guest("inside", [](const Scene&, const Query&, Answer& answer) {
+    answer = Answer::inside({0, 0, {7, 7, 0}});
+  });
+  const std::atomic<bool> stop = false;
+  const auto simplest_of = [&](const std::string& name, const Query& query) {
+    Examination examination(name, {}, 4, stop);
+    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+    const auto example =
+        examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
+    REQUIRE(example);
+    const Example kept = simplest({*example, "here", 1, 1e300}, examination, 1e9);
+    CHECK(kept.diagnosis.cause == example->diagnosis.cause);
+    CHECK(fuzz::complexity(kept.question.setting->scene(), kept.question.query) <
+          fuzz::complexity(setting->scene(), query));
+    return kept;
+  };
+  CHECK(simplest_of("two-sayings", {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome ==
+        Outcome::hit);
+  CHECK(simplest_of("inside", {{0.123456789, 0.5, 0}, {1, 0, 0}, {}}).question.exact.outcome ==
+        Outcome::never);
+  CHECK(simplest_of("inside", {{0.5123456, 0.01, 0}, {1, 0.001, 0}, {}}).question.exact.outcome ==
+        Outcome::hit);
+}
