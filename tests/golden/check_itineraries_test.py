@@ -489,7 +489,14 @@ class CheckerParts(unittest.TestCase):
         self.assertGreater(met, 50)
         self.assertLess(looked_at, 2100)
 
+    def test_inverses(self):
+        for rows in [[0, 1], [1, 0]], [[0, 2], [3, 5]], [[0, 1, 0], [0, 0, 1], [1, 0, 0]], [[0, 1, 1], [1, 0, 1], [1, 1, 0]], [[1, 2, 0], [2, 4, 1], [0, 1, 5]]:
+            for (i, row), (k, dual) in itertools.product(enumerate(rows), enumerate(check.inverse([[*map(Fraction, row)] for row in rows]))):
+                self.assertEqual(sum(a * b for a, b in zip(row, dual)), i == k)
+
     def test_numbers_of_starts(self):
+        for value, exact in (2**53 + 1, 2**53), (0.1, Fraction(0.1)), ("0.1", Fraction(1, 10)), (str(2**53 + 1), 2**53 + 1):
+            self.assertEqual(check.rational(value), exact)  # without quotes it is a binary64
         for text, value in {"golden": "1.61803398874989484820458683436563811772030917980576",
                             "sqrt(2)": "1.41421356237309504880168872420969807856967187537694",
                             "-sqrt(1/3)": "-0.57735026918962576450914878050195745564760175127013",
