@@ -87,9 +87,10 @@ def square_root(x):
 
 
 def reciprocal(x):
-    """|1/(m +- r) - 1/m| <= r / (m (m - r)); of x > 0."""
+    """|1/(m +- r) - 1/m| <= r / (|m| (|m| - r))."""
     x.sign()  # Undecided, if zero may be in it
-    return Interval((1 << 2 * x.bits) // x.mid, (x.rad << 2 * x.bits) // (x.mid * x.low()) + 2, x.bits)
+    size = abs(x.mid)
+    return Interval((1 << 2 * x.bits) // x.mid, (x.rad << 2 * x.bits) // (size * (size - x.rad)) + 2, x.bits)
 
 
 def linear(a, rows):
@@ -350,7 +351,7 @@ def cells_along(particle, shape, until):
     end = start[k] + speed[k] * until
     low = min(start[k].low(), end.low()) - shape.extent[k] >> bits
     high = -(-max(start[k].high(), end.high()) - shape.extent[k] >> bits)
-    inverse_speed = reciprocal(speed[k]) if speed[k].sign() > 0 else -reciprocal(-speed[k])
+    inverse_speed = reciprocal(speed[k])
     lines = []
     for i in others:
         slope = speed[i] * inverse_speed

@@ -434,6 +434,11 @@ class Intervals(unittest.TestCase):
                     check.square_root(x)
                 if high >= 0:
                     self.assertRaises(check.Undecided, check.reciprocal, x)
+                else:
+                    got, other = check.reciprocal(x), check.reciprocal(-x)
+                    self.assertLessEqual(abs(got.mid + other.mid), 1)
+                    self.assertEqual(got.rad, other.rad)
+                    self.hold(got, [1 / low, 1 / high], 9 + 2 * got.rad)
                 continue
             root, one = check.square_root(x), 1 << x.bits
             self.assertLessEqual(max(root.low(), 0) ** 2, low * one**2)
@@ -488,6 +493,11 @@ class CheckerParts(unittest.TestCase):
                     self.assertIn(cell, listed, f"trial {trial}")
         self.assertGreater(met, 50)
         self.assertLess(looked_at, 2100)
+
+    def test_columns(self):
+        self.assertEqual([*check.columns(-1, 2)], [-1, 0, 1, 2])
+        self.assertEqual(len(check.columns(0, check.MOST_COLUMNS)), check.MOST_COLUMNS + 1)
+        self.assertRaises(check.Refuted, check.columns, 0, check.MOST_COLUMNS + 1)
 
     def test_inverses(self):
         for rows in [[0, 1], [1, 0]], [[0, 2], [3, 5]], [[0, 1, 0], [0, 0, 1], [1, 0, 0]], [[0, 1, 1], [1, 0, 1], [1, 1, 0]], [[1, 2, 0], [2, 4, 1], [0, 1, 5]]:
