@@ -261,6 +261,8 @@ ACCEPTED |= {
 
 REFUSED |= {
     "escapes": [golden("hit", '"margin"', '"more":{"%s":1,"%s":2},"margin"' % pair) for pair in SAME],
+    "behind the answer": [golden("error", old, "")[:-2] + b"," + more + b"}\n" for old, more in
+                          ((ERROR[1][ERROR[1].index('"x"'):ERROR[1].index('"v"')], b'"x":[0,0]'), (',"v":[0,0]', b'"v":[0,0]'))],
     "no UTF-8": in_record("hit", *[('"margin"', b'"more":"' + bytes.fromhex(text) + b'","margin"') for text in (
         "80", "bf", "c080", "c1bf", "c27f", "c2c0", "e09fbf", "e18020", "e1c080", "e180c0", "eda080", "f08fbfbf", "f1c08080", "f180c080",
         "f18080c0", "f4908080", "f5808080", "ff")]),
