@@ -282,6 +282,7 @@ class Accepts(unittest.TestCase):
     def test_other_words(self):
         for name, change in [
             *[(name, at(("end", "bits"), bits)) for name in ("disc", "needle in space", "grazing") for bits in (0, 1, 2000)],
+            ("ball", at(("end", "bits"), 25933)),  # just MOST_BITS
             ("disc", at(("x",), ["5e-1", "0.10"])), ("disc", at(("x",), [0.5, "1e-1"])), ("disc", at(("v",), ["3/3", "-0"])),
             ("disc", at(("v",), ["sqrt(1.0)", "-0e+0"])), ("disc", at(("scene", "lattices", 0, "vectors"), [["1.0", 0], ["0e0", "2/2"]])),
             ("degrees", at(("direction", "degrees"), "-173/2")), ("degrees", at(("direction", "degrees"), 1353.5)),
@@ -475,10 +476,11 @@ class CheckerParts(unittest.TestCase):
         draw = random.Random(20161116)
         def number(most): return Fraction(draw.randint(-99, 99), 100) * most
         met, looked_at = 0, 0
-        for trial in range(60):
+        for trial in range(45):
             size = draw.choice((2, 3))
             vectors = [[str(number(1) + (i == k) * 2) for k in range(size)] for i in range(size)]
-            axes = [[str(number(Fraction(1, 2)) + Fraction(i == k, 7)) for k in range(size)] for i in range(size)]
+            size_of_axes = Fraction(1, 2) if trial % 3 else Fraction(5, 2)  # larger than a cell
+            axes = [[str(number(size_of_axes) + Fraction(i == k, 7)) for k in range(size)] for i in range(size)]
             scene = check.Scene({"dimension": size, "lattices": [
                 {"vectors": vectors, "atoms": [{"position": [str(number(1)) for _ in range(size)], "semiaxes": axes}]}]})
             record = {"x": [str(number(2)) for _ in range(size)], "v": [str(number(3) + Fraction(1, 997)) for _ in range(size)]}
@@ -491,8 +493,14 @@ class CheckerParts(unittest.TestCase):
                 if approach.D.mid > 0 and 0 < approach.time().mid < until.mid:
                     met += 1
                     self.assertIn(cell, listed, f"trial {trial}")
-        self.assertGreater(met, 50)
-        self.assertLess(looked_at, 2100)
+                    # Nor of one that begins just before the obstacle, or ends just behind its border.
+                    moment, time = check.interval(Fraction(1, 50), check.COARSE), approach.time()
+                    self.assertIn(cell, check.cells_along(particle, approach.shape, time + moment), f"trial {trial}")
+                    nearer = [q + v * (time - moment) for q, v in zip(particle.offset, particle.v)]
+                    nearer = check.Particle(particle.anchor, nearer, particle.v, particle.speed2)
+                    self.assertIn(cell, check.cells_along(nearer, approach.shape, moment + moment), f"trial {trial}")
+        self.assertGreater(met, 120)
+        self.assertLess(looked_at, 1800)
 
     def test_columns(self):
         self.assertEqual([*check.columns(-1, 2)], [-1, 0, 1, 2])
