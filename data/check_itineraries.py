@@ -61,9 +61,7 @@ class Interval:
         raise Undecided
 
     def with_bits(self, bits):
-        """The same, or what contains it."""
-        if bits >= self.bits:
-            return Interval(self.mid << bits - self.bits, self.rad << bits - self.bits, bits)
+        """What contains it, in fewer bits."""
         shift = self.bits - bits
         return Interval(self.mid >> shift, (self.rad >> shift) + 2, bits)
 
@@ -89,10 +87,10 @@ def square_root(x):
 
 
 def reciprocal(x):
-    """|1/(m +- r) - 1/m| <= r / (m (m - r)); of x > 0."""
-    if x.sign() < 0:
-        raise Refuted("a square is negative")
-    return Interval((1 << 2 * x.bits) // x.mid, (x.rad << 2 * x.bits) // (x.mid * x.low()) + 2, x.bits)
+    """|1/(m +- r) - 1/m| <= r / (|m| (|m| - r))."""
+    x.sign()  # Undecided, if zero may be in it
+    size = abs(x.mid)
+    return Interval((1 << 2 * x.bits) // x.mid, (x.rad << 2 * x.bits) // (size * (size - x.rad)) + 2, x.bits)
 
 
 def linear(a, rows):
@@ -186,11 +184,15 @@ def vector(value, size, read=rational):
     return [read(item) for item in value]
 
 
+def matrix(value, size):
+    return vector(value, size, lambda row: vector(row, size))
+
+
 class Atom:
     """All obstacles c + sum u_i A_i, |u| < 1, with c = position + sum n_i b_i."""
 
     def __init__(self, atom, vectors, size):
-        self.vectors = [vector(b, size) for b in vectors]
+        self.vectors = matrix(vectors, size)
         self.position = vector(atom["position"], size)
         self.is_ball = "radius" in atom
         if self.is_ball == ("semiaxes" in atom):
@@ -201,11 +203,9 @@ class Atom:
                 raise ValueError("a radius is not above zero")
             self.semiaxes = [[radius * (i == k) for k in range(size)] for i in range(size)]
         else:
-            self.semiaxes = [vector(a, size) for a in atom["semiaxes"]]
+            self.semiaxes = matrix(atom["semiaxes"], size)
         self.shape = inverse(self.semiaxes)  # u_k = y . shape_k
         self.dual = inverse(self.vectors)  # n_k = y . dual_k
-        if len(self.vectors) != size or len(self.semiaxes) != size:
-            raise ValueError(f"needs {size} vectors")
 
     def centre(self, cell):
         return [p + sum(n * b[i] for n, b in zip(cell, self.vectors)) for i, p in enumerate(self.position)]
@@ -219,7 +219,7 @@ class Scene:
         self.atoms = {}
         for l, lattice in enumerate(scene["lattices"]):
             for a, atom in enumerate(lattice["atoms"]):
-                self.atoms[l, a] = Atom(atom, vector(lattice["vectors"], self.size, list), self.size)
+                self.atoms[l, a] = Atom(atom, lattice["vectors"], self.size)
 
     def obstacle(self, numbers):
         if type(numbers) is not list or not all(type(n) is int for n in numbers) or len(numbers) != 2 + self.size:
@@ -233,11 +233,11 @@ class Shape:
     """An atom in intervals."""
 
     def __init__(self, atom, speed2, bits):
-        def matrix(rows):
+        def intervals(rows):
             return [[interval(c, bits) for c in row] for row in rows]
 
         self.atom, self.bits = atom, bits
-        self.semiaxes, self.shape, self.dual = matrix(atom.semiaxes), matrix(atom.shape), matrix(atom.dual)
+        self.semiaxes, self.shape, self.dual = intervals(atom.semiaxes), intervals(atom.shape), intervals(atom.dual)
         self.extent = [self.half_width(dual) for dual in atom.dual]
         self.known = None
         if atom.is_ball:  # |V|^2 and the normal's square never change
@@ -351,7 +351,7 @@ def cells_along(particle, shape, until):
     end = start[k] + speed[k] * until
     low = min(start[k].low(), end.low()) - shape.extent[k] >> bits
     high = -(-max(start[k].high(), end.high()) - shape.extent[k] >> bits)
-    inverse_speed = reciprocal(speed[k]) if speed[k].sign() > 0 else -reciprocal(-speed[k])
+    inverse_speed = reciprocal(speed[k])
     lines = []
     for i in others:
         slope = speed[i] * inverse_speed
@@ -379,7 +379,7 @@ def check_first(particle, coarse, atoms, leaving, target, until):
 
 # ---- RECORDS.
 def check_decimal(value, text, digits, what):
-    parts = re.fullmatch(r"-?([0-9]+)\.([0-9]+)(?:e([+-][0-9]+))?", text)
+    parts = re.fullmatch(r"-?([0-9]+)\.([0-9]+)(?:e([+-][0-9]{1,5}))?", text)
     shown = (parts[1] + parts[2]).lstrip("0") if parts else ""
     if not parts or len(shown or parts[2]) != digits:
         raise Refuted(f"{what} has not {digits} digits: {text!r:.60}")
@@ -391,8 +391,6 @@ def check_decimal(value, text, digits, what):
 
 
 def start_of(record, scene, bits):
-    if ("direction" in record) == ("v" in record):
-        raise ValueError("needs v or direction")
     if "v" in record:
         v = vector(record["v"], scene.size, lambda item: surd(item, bits))
         speed2 = dot(v, v)
@@ -435,13 +433,16 @@ def fly(record, scene, digits, bits):
 
 
 def check_form(record, scene):
-    keys = {*record} - {"from"}
-    if keys not in ({"id", "x", "v", "itinerary", "times", "end"}, {"id", "x", "direction", "itinerary", "times", "end"}):
-        raise ValueError(f"keys: {sorted(keys)}")
+    first, *start = record
+    start, rest = {*start[:-3]} - {"from"}, start[-3:]  # the id is that of what stands before the itinerary
+    if first != "id" or start not in ({"x", "v"}, {"x", "direction"}) or rest != ["itinerary", "times", "end"]:
+        raise ValueError(f"keys: {[*record]}")
     count, end = len(record["itinerary"]), record["end"]
     if not {"x", "v", "bits"} == {*end} or len(end["x"]) != scene.size or len(end["v"]) != scene.size:
         raise ValueError("the end has x, v, bits")
-    if str(count) not in record["times"] or not all(1 <= int(n) <= count for n in record["times"]):
+    if type(end["bits"]) is not int or end["bits"] < 0:
+        raise ValueError("bits: an integer, not below 0")
+    if str(count) not in record["times"] or not {*record["times"]} <= {str(n) for n in range(1, count + 1)}:
         raise ValueError("times: of collisions of the itinerary, the last one's among them")
 
 

@@ -27,27 +27,10 @@ def verdict(text):
         return done.returncode, done.stdout + done.stderr
 
 kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode())
-kinds.CHECK = CHECKER  # in test_the_program
+kinds.COMMAND = [CHECKER]
 
 class Accepts(kinds.Accepts):
-    def test_the_program(self):
-        lines = "\n".join(kinds.golden(*kinds.CASES.values()))
-        for arguments, text, status in (
-                (["-"], lines, 0), (["-"], lines.rsplit("\n", 1)[0], 1), (["-"], lines + "\n{", 2),
-                (["no such file"], "", 2), ([], "", 2)):
-            done = subprocess.run([CHECKER, *arguments], input=text, text=True, capture_output=True)
-            self.assertEqual(done.returncode, status, done)
-
-    def test_the_worst_file_decides(self):
-        lines = "\n".join(kinds.golden(*kinds.CASES.values()))
-        with tempfile.TemporaryDirectory() as folder:
-            good, refuted, bad = (pathlib.Path(folder) / name for name in ("good", "refuted", "bad"))
-            for path, text in ((good, lines), (refuted, lines.rsplit("\n", 1)[0]), (bad, lines + "\n{")):
-                path.write_text(text)
-            for files, status in (([refuted, good], 1), ([good, refuted], 1), ([bad, good, refuted], 2),
-                                  ([refuted, bad, good], 2), ([good, good], 0), (["no such file", good], 2)):
-                done = subprocess.run([CHECKER, *files], capture_output=True)
-                self.assertEqual(done.returncode, status, files)
+    pass
 
 class Refuses(kinds.Refuses):
     pass

@@ -1,8 +1,9 @@
 """data/check.py accepts golden records that are right, and no others: python3 -m unittest tests/golden/check_py_test.py"""
-import contextlib, copy, hashlib, importlib.util, io, itertools, json, pathlib, random, subprocess, sys, tempfile, unittest
+import contextlib, copy, hashlib, importlib.util, io, itertools, json, math, pathlib, random, subprocess, sys, tempfile, unittest
 from fractions import Fraction
 
 CHECK = pathlib.Path(__file__).resolve().parents[2] / "data" / "check.py"
+COMMAND = [sys.executable, CHECK]
 SPEC = importlib.util.spec_from_file_location("check", CHECK)
 check = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(check)
@@ -57,20 +58,37 @@ class Accepts(unittest.TestCase):
     def test_each_alone(self):
         for name, case in CASES.items():
             with self.subTest(name):
-                self.assertEqual(run(golden(case))[0], 0, run(golden(case))[1])
+                status, said = run(golden(case))
+                self.assertEqual(status, 0, said)
 
     def test_all_together(self):
         self.assertRegex(run(golden(*CASES.values()))[1], f"ndjson: {len(CASES)} records, all verified\n")
 
     def test_the_program(self):
         def status(*arguments, text=""):
-            return subprocess.run([sys.executable, CHECK, *arguments], input=text, text=True, capture_output=True).returncode
-        lines = golden(*CASES.values())
+            return subprocess.run([*COMMAND, *arguments], input=text, text=True, capture_output=True).returncode
+        lines = golden(CASES["exact"], CASES["never2"])
         self.assertEqual(status("-", text="\n".join(lines)), 0)
         self.assertEqual(status("-", text="\n".join(lines[:-1])), 1)
         self.assertEqual(status("-", text="\n".join(lines + ["{"])), 2)
-        self.assertEqual(status("no such file"), 2)
+        self.assertEqual(status("-"), 2)
         self.assertEqual(status(), 2)
+
+    def test_the_worst_file_decides(self):
+        """Wherever it stands among others, each of which is looked at; a folder, and what is not there, are bad."""
+        good, refuted = golden(CASES["exact"]), golden(CASES["exact"], count=2)
+        worst = {"good": 0, "refuted": 1, "bad": 2, "none": 2, ".": 2}
+        several = [("good",), ("none",), (".",), *itertools.permutations(("good", "refuted", "bad"), 2), ("good", "good"),
+                   *itertools.permutations(("good", "refuted", "bad")), ("good", "refuted", "good"), ("refuted", "good", "good"),
+                   ("good", "bad", "good"), ("none", "good"), ("good", "none"), (".", "good"), ("good", ".", "good"), ("refuted", "none")]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, lines in (("good", good), ("refuted", refuted), ("bad", [*good, "{"])):
+                (pathlib.Path(folder) / name).write_text("\n".join(lines))
+            for files in several:
+                done = subprocess.run([*COMMAND, *files], capture_output=True, text=True, cwd=folder)
+                self.assertEqual(done.returncode, max(map(worst.get, files)), files)
+                for name in {*worst} - {"none", "."} if not {"none", "."} & {*files} else ():
+                    self.assertEqual(f"{name}:" in done.stdout, name in files, done)
 
     def test_proofs_may_say_more(self):
         """What is not needed does no harm: other forms of a number, more windows, larger ones."""
@@ -86,16 +104,17 @@ class Accepts(unittest.TestCase):
             with self.subTest(name):
                 case = copy.deepcopy(CASES[name])
                 change(case)
-                self.assertEqual(run(golden(case))[0], 0, run(golden(case))[1])
+                status, said = run(golden(case))
+                self.assertEqual(status, 0, said)
 
 class Search(unittest.TestCase):
     def test_finds_what_is_met(self):
         """met() against the definition, tried on all obstacles near by, in bases of all kinds."""
         rng = random.Random(20240229)
-        for trial in range(60):
-            size = 2 + trial % 2
-            numbers = [[rng.choice((rng.randint(-3, 3), rng.randint(-16, 16) / 8)) for _ in range(size)] for _ in range(10)]
-            shape = {"radius": rng.choice((0.5, 1.25))} if trial % 3 else {"semiaxes": numbers[:size]}
+        for trial in range(120):
+            size, small = 2 + trial % 2, trial >= 60  # of small integers ends and bounds meet
+            numbers = [[rng.choice((rng.randint(-3, 3), rng.randint(-16, 16) / 8)[: 2 - small]) for _ in range(size)] for _ in range(10)]
+            shape = {"radius": rng.choice((1, 2) if small else (0.5, 1.25))} if trial % 3 else {"semiaxes": numbers[:size]}
             scene = {"dimension": size, "lattices": [{"vectors": numbers[3:3 + size], "atoms": [
                 {"position": numbers[6], **shape}]}]}
             basis = [[int(i == j) for j in range(size)] for i in range(size)]
@@ -145,6 +164,15 @@ class Refuses(unittest.TestCase):
         self.refused("plane", "is no inside", lambda c: [c["expect"].pop("time"), c.pop("time_decimal"), c["expect"].update(outcome="inside")])
         self.refused("inside", "is no hit", lambda c: c.update(time_decimal="1") or c["expect"].update(outcome="hit", time=1))
 
+    def test_touched(self):
+        """A line that touches a disc does not meet it."""
+        def touching(case):
+            case["query"]["x"] = [-0.75, 0.25]
+            case["expect"].update(time=0.75)
+            case.update(time_decimal="0.75" + "0" * 38)
+            case["certificate"]["windows"][0]["to"] = 1
+        self.refused("exact", "is no hit", touching)
+
     def test_later_obstacle(self):
         def later(case):
             case["expect"].update(cell=[1, 0], time=1.5)
@@ -192,6 +220,21 @@ class Refuses(unittest.TestCase):
         self.claim("inf", why, {"time": 1.7976931348623157e308})
         self.claim("at once", why, {"time": -0.0}, {"time": 5e-324}, {"time": "-0x0p0"})
         self.claim("plane", "ValueError", {"time": None}, {"time": "26"}, {"time": True})
+
+    def test_time_below_a_power_of_two(self):
+        """There binary64s are half as far apart."""
+        for off, right in ((3, 1.0), (5, 1 - 2**-53)):
+            t = Fraction(1) - Fraction(off, 2**56)
+            case = copy.deepcopy(CASES["exact"])
+            case["scene"]["lattices"][0].update(vectors=[[4, 0], [0, 4]], atoms=[{"position": [1.25, 0], "radius": 0.25}])
+            case["query"]["x"] = [off * 2.0**-56, 0]
+            case["time_decimal"] = "0." + str(round(t * 10**40))
+            case["certificate"]["windows"][0]["to"] = 1.25
+            for time in (1.0, 1 - 2**-53, 1 - 2**-52, 1 + 2**-52):
+                case["expect"]["time"] = time
+                status, said = run(golden(case))
+                self.assertEqual(status, int(time != right), said)
+                self.assertIn("all verified" if time == right else "time is not correctly rounded", said)
 
     def test_digits(self):
         def digits(*texts):
@@ -244,7 +287,8 @@ class Refuses(unittest.TestCase):
         none = [error(x=x) for x in ([0], [0, 0, 0], "00", None, [0, None], [0, "0"], [0, True], [0, "0x1p1024"], {"0x0p0": 0, "0x1p0": 0})]
         none += [error(v=v) for v in ([0, 0], [-0.0, "0x0p0"], [1], [1, "inf"])]
         none += [error(**{"from": {**at, **change}}) for change in (
-            {"lattice": 1}, {"atom": 1}, {"atom": -1}, {"cell": [0]}, {"cell": [0, 0, 0]}, {"cell": [0, 0.5]}, {"cell": [0, "+1"]}, {"cell": 0}, {"cell": [0, 1e20]})]
+            {"lattice": 1}, {"atom": 1}, {"atom": -1}, {"cell": [0]}, {"cell": [0, 0, 0]}, {"cell": [0, 0.5]}, {"cell": [0, "+1"]}, {"cell": 0}, {"cell": [0, 1e20]},
+            {"cell": [0, 2.0**53 + 2]}, {"cell": [-2.0**53 - 2, 0]})]
         none += [error(**{"from": value}) for value in (None, [], {}, {"lattice": 0})]
         for case in none:
             self.assertEqual(run(golden(case))[0], 0, case)
@@ -252,7 +296,8 @@ class Refuses(unittest.TestCase):
         question = lines[2][lines[2].index('"x"'):lines[2].index(',"expect"')].replace("12345", "1e999")
         identity = hashlib.sha256((lines[1] + "\n" + question).encode()).hexdigest()[:16]
         self.assertEqual(run(lines[:2] + ['{"id":"%s","tags":["t"],%s,"expect":{"outcome":"error"}}' % (identity, question)])[0], 0)
-        for case in error(), error(x=["0x1p3", "-0X.8"]), error(v=[5e-324, 0]), error(**{"from": {**at, "cell": [27.0, "-5"]}}):
+        for case in error(), error(x=["0x1p3", "-0X.8"]), error(v=[5e-324, 0]), error(**{"from": {**at, "cell": [27.0, "-5"]}}), error(
+                **{"from": {**at, "cell": [2.0**53, -2.0**53]}}), error(**{"from": {**at, "cell": [2**53 + 1, -2**53 - 1]}}):
             self.refused("error", "outcome", lambda _: case)
 
     def test_malformed_proofs(self):
@@ -310,6 +355,27 @@ class Refuses(unittest.TestCase):
             got, output = run(lines)
             self.assertEqual(got, status, output)
             self.assertRegex(output, why)
+
+class Parts(unittest.TestCase):
+    def test_ends_of_windows(self):
+        for text in "0x1p16384", "-0X.1P-16380", "0x0p-16384":
+            check.bound(text)
+        for text in "0x1p16385", "-0x.1p-16381", "0x0p-16385":
+            self.assertRaisesRegex(ValueError, "an exponent beyond", check.bound, text)
+
+    def test_steps(self):
+        left = [5]
+        check.spend(left, 2), check.spend(left, 3)
+        self.assertRaisesRegex(ValueError, "too many", check.spend, left, 1)
+        case = CASES["exact"]
+        many = {"windows": case["certificate"]["windows"] * (check.STEPS // 10 + 1)}  # each costs ten
+        self.assertRaisesRegex(ValueError, "too many", check.verify, {**case, **case["query"], "certificate": many}, check.read_scene(case["scene"]))
+
+    def test_signs(self):
+        """Of a + sqrt b - sqrt c."""
+        for a, b, c in itertools.product(range(-5, 6), range(30), range(30)):
+            about = a * 10**30 + math.isqrt(b * 10**60) - math.isqrt(c * 10**60)
+            self.assertEqual(check.sign(a, b, c), 0 if abs(about) < 9 else 1 if about > 0 else -1, (a, b, c))
 
 class Rounds(unittest.TestCase):
     def test_binary(self):

@@ -74,6 +74,12 @@ LATTICE, TIME = '[{"lattice":0,', '"time":0.1469403008318714'
 FROM, TO = '"from":-0.23876953125', '"to":0.3857421875'
 DEEP = 62  # further brackets in a record
 
+# A character and its escape; a character and that of the one behind.
+SAME = [(chr(code), f"\\u{code:04{case}}") for code in (0x30, 0x39, 0x4a, 0x4f, 0x6a, 0x7e, 0xaf, 0xfa) for case in "xX"]
+SAME += [("\U0001f600", "\\ud83d\\ude00"), ("\U0010ffff", "\\uDBFF\\uDFFF"), ("\U00010000", "\\ud800\\udc00"), ("/", "\\/")]
+UTF_8 = 0x80, 0x7ff, 0x800, 0xfff, 0x1000, 0xcfff, 0xd7ff, 0xe000, 0xffff, 0x10000, 0x3ffff, 0x40000, 0xfffff, 0x100000, 0x10ffff
+NEAR = [(chr(ord(a) + 1), b) for a, b in SAME if a != "\U0010ffff"]
+
 ACCEPTED = {
     "as it is": [golden(kind) for kind in CASES],
     "line ends": [golden(kind).replace(b"\n", b"\r\n") for kind in CASES] +
@@ -108,6 +114,8 @@ ACCEPTED = {
                       ('"v":', '"note":"\\ud83d\\ude00","v":')) +
             [golden("hit", '"scene":{', '"scene":{"more":1,', "scene"),
              golden("hit", '{"golden"', '{"more":1,"golden"', "header")],
+    "escapes": [golden("hit", '"margin"', '"more":{"%s":1,"%s":2},"margin"' % pair) for pair in NEAR] +
+               [golden("hit", '"margin"', '"more":"%s","margin"' % "".join(map(chr, UTF_8)))],
     "nested": in_record("hit", ('"margin"', '"deep":' + "[" * DEEP + "]" * DEEP + ',"margin"')),
     "errors": in_record("error", ("[0,0]", "[0,1e400]"), ("[0,0]", "[null,true]"), ("[0,0]", '"0"'),
                         ("[0,0]", '["0x",1]'), ("[0,0]", '["1.5",1]'), ("[0,0]", '["0x1p9999",1]'),
@@ -178,6 +186,7 @@ REFUSED = {
     "texts": in_record("hit", ('"margin"', '"bad":"\\ud83d","margin"'),
                        ('"margin"', '"bad":"\\ude00","margin"'),
                        ('"margin"', '"bad":"\\ude00\\ud83d","margin"'), ('"margin"', '"\\udc00":1,"margin"'),
+                       *[('"margin"', f'"bad":"\\u00{digit}0","margin"') for digit in "Gg:/@`"],
                        ('"margin"', '"bad":"\\x","margin"'), ('"margin"', '"bad":"\t","margin"'),
                        ('"margin"', b'"bad":"\xff","margin"'), ('"margin"', b'"bad":"\xed\xa0\x80","margin"'),
                        ('"margin"', "'bad':1,\"margin\""), ('"margin"', '"bad":tru,"margin"'),
@@ -251,6 +260,12 @@ ACCEPTED |= {
     "long lines": [golden("hit") + b" " * 2**25 + b"\n", golden("hit") + b" " * (2**25 - 1) + b"\r\n\n"]}
 
 REFUSED |= {
+    "escapes": [golden("hit", '"margin"', '"more":{"%s":1,"%s":2},"margin"' % pair) for pair in SAME],
+    "behind the answer": [golden("error", old, "")[:-2] + b"," + more + b"}\n" for old, more in
+                          ((ERROR[1][ERROR[1].index('"x"'):ERROR[1].index('"v"')], b'"x":[0,0]'), (',"v":[0,0]', b'"v":[0,0]'))],
+    "no UTF-8": in_record("hit", *[('"margin"', b'"more":"' + bytes.fromhex(text) + b'","margin"') for text in (
+        "80", "bf", "c080", "c1bf", "c27f", "c2c0", "e09fbf", "e18020", "e1c080", "e180c0", "eda080", "f08fbfbf", "f1c08080", "f180c080",
+        "f18080c0", "f4908080", "f5808080", "ff")]),
     "twice": before(PLACES, lambda key: f'"{name_of(key)}":0,') +
              before(PLACES, lambda key: f'"{escaped(key)}":null,') +
              before(PLACES, lambda key: '"more":{"k":1,"k":1},') +
