@@ -251,6 +251,9 @@ TEST_CASE("A finding in the plane: what stands beside the flight, both its ends,
   check_plane_panel(sheet);
   check_hints(sheet);
   check_compass(sheet);
+  for (const Ink& text : picture.all("text"))
+    for (const auto& [who, colour] : {std::pair{"exact: ", kExact}, {"given: ", kGiven}})
+      if (text.words.find(who) == 0) CHECK(text["fill"] == colour);
   // The colours of what the answers name, and of their lines; the words beside these.
   for (const Ink& ink : sheet.obstacles(kFlightPanel)) {
     const ObstacleId id = *named(ink.hint);
@@ -274,6 +277,7 @@ TEST_CASE("A finding in the plane: what stands beside the flight, both its ends,
   for (const Ink& line : cross) {
     const Spot centre{(line.points[0].x + line.points[1].x) / 2, (line.points[0].y + line.points[1].y) / 2};
     CHECK(same_place(centre, found, sheet.plane));
+    CHECK(line["stroke"] == kGiven);
   }
   // What the inset is about: an order, or the line; a square is around that place, and lines lead to it.
   const Inks squares = picture.all("polygon", [](const Ink& ink) {
@@ -323,6 +327,7 @@ TEST_CASE("An inset shows the surface as a circle, on the side on which it is",
   const SvgPicture picture(finding_drawing(scene, query, share < 1 ? never : met, share < 1 ? met : never));
   const Measured inset = measured(picture);
   CHECK(inset.radii == Approx(std::fabs(share - 1)).epsilon(1e-3));
+  CHECK(inset.from.y + inset.to.y == Approx(2 * 333).margin(0.03));
   const double radius = pixels_per_radius(picture), gap = (share - 1) * radius;
   // From the line to the surface: upwards on paper if the obstacle is on that side and missed.
   CHECK(inset.to.y - inset.from.y == Approx(-side * gap).margin(0.03));
@@ -364,6 +369,8 @@ TEST_CASE("An inset shows the start and the surface nearest to it", "[pictures][
   const SvgPicture picture(finding_drawing(scene, query, given, exact));
   const Measured inset = measured(picture);
   CHECK(inset.radii == Approx(std::fabs(share - 1)).epsilon(1e-3));
+  CHECK(inset.from.x + inset.to.x == Approx(2 * 472).margin(0.03));
+  CHECK(inset.from.y + inset.to.y == Approx(2 * 333).margin(0.03));
   const double radius = pixels_per_radius(picture);
   // The start is the first; the circle's middle lies against `away`, as the drawing turns it.
   const Inks starts = picture.all(

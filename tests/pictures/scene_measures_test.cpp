@@ -98,6 +98,8 @@ TEST_CASE("2D: every obstacle in the window is drawn, once, as it is", "[picture
   options.title = "A crowd";
   const SvgPicture picture(draw_scene(crowd(), options, {}).svg);
   CHECK(picture.title == "A crowd");
+  std::set<std::pair<double, double>> places;  // no text on another
+  for (const Ink& text : picture.all("text")) CHECK(places.emplace(text.centre.x, text.centre.y).second);
   CHECK(picture.beyond_page() == "");
   const Inks drawn = drawn_obstacles(picture);
   REQUIRE(drawn.size() > 20);
@@ -156,17 +158,19 @@ TEST_CASE("2D: without a window the cell is in its middle, and all flights in it
   std::vector<Flight> flights;
   for (const Vec& end : {Vec{0.4, -6}, Vec{-5, 0.3}})
     flights.push_back({{{0.4, 0.3}, {end[0] - 0.4, end[1] - 0.3}, {}}, Answer::hit({0, 0, {}}, 1)});
+  flights.push_back({{{7, 0.4}, {-1, 0}, {}}, Answer::hit({0, 0, {}}, 1)});
   const SvgPicture far(draw_scene(crowd(), {}, flights).svg);
   CHECK(far.beyond_page() == "");
   const Inks starts = clipped(far, "ellipse", "fill", "white"),
              ends = clipped(far, "ellipse", "fill", kFlight);
-  REQUIRE(starts.size() == 2);
-  REQUIRE(ends.size() == 2);
+  REQUIRE(starts.size() == 3);
+  REQUIRE(ends.size() == 3);
   const Plane wide{{starts[0].centre.x, starts[0].centre.y}, (ends[0].centre.y - starts[0].centre.y) / 6.3};
   CHECK(same_place(ends[0].centre, {0, -6.3}, wide));
   CHECK(same_place(ends[1].centre, {-5.4, 0}, wide));
   const Rectangle whole = *starts[0].clip;
   CHECK(wide(whole.low).x == Approx(-5.4 - 0.6 * std::sqrt(0.96)).margin(1e-3));
+  CHECK(wide(whole.high).x == Approx(6.6 + 0.6 * std::sqrt(0.96)).margin(1e-3));
   CHECK(wide(whole.high).y == Approx(-6.3 - 0.6 * std::sqrt(0.96)).margin(1e-3));
 }
 
@@ -508,7 +512,7 @@ TEST_CASE("3D: a layer's faces and a cylinder are where they are, as wide as the
   // z.
   DrawOptions options;
   options.title = "Ways";
-  options.ways = {{FreeWay::Kind::layer, {0, -3.5, 0}, {0, 1, 0}, 0.6, "layer"},
+  options.ways = {{FreeWay::Kind::layer, {0, -3.5, 0}, {0, GENERATE(1.0, -1.0), 0}, 0.6, "layer"},
                   {FreeWay::Kind::cylinder, {-3.5, 7.5, 1.25}, {0, 0, 1}, 0.4, "cylinder"}};
   const SvgPicture picture(draw_scene(unit_scene(3, 0.2), options, {}).svg);
   CHECK(picture.beyond_page() == "");
@@ -567,13 +571,13 @@ TEST_CASE("3D: a layer's faces and a cylinder are where they are, as wide as the
 
 TEST_CASE("A path: obstacles, both paths, where they part, and what is written of them",
           "[pictures][path_drawing]") {
-  PathDrawing drawing{crowd(), 2, {{0.5, 0}, {1.5, 0.5}, {0.7, 1.9}, {-0.4, 1}}, {}, 0, "", 700};
+  PathDrawing drawing{crowd(), 3, {{0.5, 0}, {1.5, 0.5}, {0.7, 1.9}, {-0.4, 1}}, {}, 0, "", 700};
   drawing.other = {{0.5, 0}, {1.5, 0.5}, {-1, 1.2}, {-1.5, -0.4}};
   drawing.parting = 2;
   drawing.other_name = "reduction";
   const SvgPicture picture(draw_path(drawing));
   CHECK(picture.beyond_page() == "");
-  const Ink note = picture.text("the certified path, from the ring on: 2 collisions"),
+  const Ink note = picture.text("the certified path, from the ring on: 3 collisions"),
             other = picture.text("reduction: another obstacle at collision 2");
   const Inks lines = picture.all("line");
   REQUIRE(lines.size() == 2);
@@ -631,10 +635,47 @@ TEST_CASE("A path: obstacles, both paths, where they part, and what is written o
   const SvgPicture tall(draw_path(drawing));
   CHECK(tall.beyond_page() == "");
   CHECK(tall.all("line").size() == 1);
+  CHECK(tall.page.height() < 900);
   CHECK_FALSE(tall.says("another"));
   CHECK_FALSE(tall.says("left out"));
   drawing.path[1] = {60, 60};
   const SvgPicture many(draw_path(drawing));
   CHECK(many.says("obstacles are left out: there are too many to be seen"));
   CHECK(many.all("ellipse").size() == 2);
+}
+
+TEST_CASE("Windows that are tall, lattices by long vectors, needles", "[pictures][scene_drawing]") {
+  DrawOptions options;
+  options.window = {{-0.5, -0.5, 0.5, 7.5}};
+  Scene scene = unit_scene(2, 0.2);
+  scene.lattices[0].vectors[1] = {1e6, 1, 0};  // the square lattice still
+  scene.lattices[0].atoms.push_back({{0.2, 0.5, 0}, 0, {{0.1, 0, 0}, {0, 0.001, 0}}});
+  const Drawing drawing = draw_scene(scene, options, {});
+  CHECK(drawing.remarks.empty());
+  const SvgPicture picture(drawing.svg);
+  CHECK(picture.beyond_page() == "");
+  const Inks drawn = drawn_obstacles(picture);
+  const Rectangle seen = *drawn.at(0).clip;
+  CHECK(seen.height() == Approx(1000));
+  CHECK(seen.low.x + seen.high.x == Approx(800));
+  CHECK(drawn.size() == 16);
+  for (const Ink& ink : drawn)
+    CHECK(std::sqrt(ink.oval.xx) == Approx(125 * (ink.radius() > 0 ? 0.2 : 0.1)).epsilon(1e-3));
+  CHECK_FALSE(picture.says("smaller"));
+}
+
+TEST_CASE("Flights that start far away, together; the legend of flights in space",
+          "[pictures][scene_drawing]") {
+  const Flight far{{{1000.5, 0.5}, {1, 0}, {}}, Answer::never()};
+  CHECK(draw_scene(unit_scene(2, 0.1), {}, {far, far}).remarks.empty());
+  const Flight inside{{{0.05, 0, 0}, {1, 0, 0}, {}}, Answer::inside({0, 0, {}})},
+      goes_on{{{0.5, 0.5, 0.5}, {1, 0, 0}, {}}, Answer::hit({0, 0, {}}, 1000)};
+  Scene many = unit_scene(3, 0.1);
+  for (int i = 1; i < 12; ++i)
+    many.lattices[0].atoms.push_back({{i / 12.0, i / 12.0, 0.1 * (i % 3)}, 0.02, {}});
+  const SvgPicture picture(draw_scene(many, {}, {inside, goes_on}).svg);
+  CHECK(picture.says("starts inside"));
+  CHECK(picture.says("goes on"));
+  CHECK_FALSE(picture.says("first hit"));
+  for (const Ink& ball : balls_of(picture)) CHECK(picture.shades.count(ball["fill"]) == 1);
 }
