@@ -658,7 +658,7 @@ TEST_CASE("Windows that are tall, lattices by long vectors, needles", "[pictures
   const Rectangle seen = *drawn.at(0).clip;
   CHECK(seen.height() == Approx(1000));
   CHECK(seen.low.x + seen.high.x == Approx(800));
-  CHECK(drawn.size() == 16);
+  CHECK(drawn.size() == 17);  // 8 discs, 9 needles
   for (const Ink& ink : drawn)
     CHECK(std::sqrt(ink.oval.xx) == Approx(125 * (ink.radius() > 0 ? 0.2 : 0.1)).epsilon(1e-3));
   CHECK_FALSE(picture.says("smaller"));
