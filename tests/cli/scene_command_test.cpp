@@ -91,7 +91,7 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
 
   // Of discs on lines that are far apart: 2 pairs overlap and 3 touch, ellipses among them.
   const std::string file = folder.write("pairs.toml", R"(dimension = 2
-[[lattice]]
+[[lattices]]
 vectors = [[64, 0], [0, 64]]
 atoms = [{ position = [0, 0], radius = 1 }, { position = [2, 0], radius = 1 },
          { position = [20, 0], radius = 1 }, { position = [21.5, 0], radius = 1 },
