@@ -2,20 +2,16 @@
 
 #include <algorithm>
 
-#include <lorentz/environment.hpp>
-#include "fitness/digests/digests.hpp"
 #include "fitness/known_answers.hpp"
 
 namespace lorentz::fitness {
-namespace {
 
-// How many digests are not those that are known, and the first of them by name.
-Finding examine_digests() {
-  const std::vector<Digest> found = digests(kKnownFlights), &known = known_digests();
+Finding examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known) {
   std::vector<std::string> others;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (i >= known.size() || !(found[i] == known[i])) others.push_back(found[i].name);
-  const std::string all = std::to_string(found.size());
+  for (std::size_t i = 0; i < std::max(found.size(), known.size()); ++i)
+    if (i >= known.size() || i >= found.size() || !(found[i] == known[i]))
+      others.push_back(i < found.size() ? found[i].name : known[i].name + ", which is missing");
+  const std::string all = std::to_string(std::max(found.size(), known.size()));
   return {"digests of seeded flights",
           others.empty(),
           others.empty()
@@ -23,8 +19,6 @@ Finding examine_digests() {
               : std::to_string(others.size()) + " of " + all + " differ, first of them: " + others[0],
           {Use::engines}};
 }
-
-}  // namespace
 
 const char* name_of(Use use) {
   switch (use) {
@@ -41,8 +35,12 @@ const char* name_of(Use use) {
 }
 
 std::vector<Finding> examine_arithmetic() {
+  return findings_of(arithmetic_checks());
+}
+
+std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks) {
   std::vector<Finding> findings;
-  for (const ArithmeticCheck& check : arithmetic_checks())
+  for (const ArithmeticCheck& check : checks)
     findings.push_back({check.name,
                         check.fit,
                         check.fit ? check.found : check.found + "; it should be: " + check.expected,
@@ -51,7 +49,7 @@ std::vector<Finding> examine_arithmetic() {
 }
 
 std::vector<Finding> examine_answers() {
-  std::vector<Finding> findings{examine_digests()};
+  std::vector<Finding> findings{examine_digests(digests(kKnownFlights), known_digests())};
   for (Finding& finding : examine_known_answers()) findings.push_back(std::move(finding));
   return findings;
 }

@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/environment.hpp>
+#include "fitness/digests/digests.hpp"
+
 namespace lorentz::fitness {
 
 /// What a machine may be fit for.
@@ -25,6 +28,13 @@ struct Finding {
   std::string found;         ///< "upward"; of what failed, also what should have been
   std::vector<Use> spoiled;  ///< if it is not fit: what must not be relied on then
 };
+
+/// What follows from checks of the arithmetic: one that is not fit spoils everything.
+std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks);
+
+/// How many digests are not those that are known, and the first of them by name; a missing one is none of
+/// these either.
+Finding examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known);
 
 /// What is wrong with this thread's arithmetic in this build. Microseconds.
 std::vector<Finding> examine_arithmetic();

@@ -1,14 +1,30 @@
 // Questions whose exact answers are known, put to everybody who claims to be exact.
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include <lorentz/problem.hpp>
 #include "fitness/examination.hpp"
 
 namespace lorentz::fitness {
 
-/// By both oracles, `certified`, the check of certificates, and the certified path of problem 2 of the
-/// 100-digit challenge.
+using Ask = std::function<Answer(const Scene&, const Query&)>;
+
+/// Whether `claimed` is refuted by a proof that was made for `proven`.
+using Refuted = std::function<bool(const Scene&, const Query&, const Answer& proven, const Answer& claimed)>;
+
+/// What the party answers, which may leave so many of the eight undecided: that is no wrong answer. What it
+/// cannot even compute, it is not fit for either.
+Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask);
+
+/// Each true answer is proved, and the same with another obstacle, or none where there is one, is not.
+Finding examine_certificates(const Refuted& refuted);
+
+/// The certified path of problem 2 of the 100-digit challenge, by its distance from the origin at t = 10.
+Finding examine_itinerary(const std::function<std::string()>& distance);
+
+/// By both oracles, `certified`, the check of certificates, and the certified path.
 std::vector<Finding> examine_known_answers();
 
 }  // namespace lorentz::fitness

@@ -41,11 +41,15 @@ EllipseShape shape_of(const Atom& atom, double scale) {
   return ellipse_of({scale * a[0], scale * b[0], 0}, {-scale * a[1], -scale * b[1], 0});
 }
 
-// False if there are too many.
+// Those at the edge are cut there. False if there are too many.
 bool add_obstacles(Svg& svg, const PathDrawing& drawing, const Frame& frame) {
   bool cut = false;
   const std::vector<Placed> obstacles = obstacles_in(drawing.scene, frame.box, cut);
   if (cut || obstacles.size() > kMostDrawn) return false;
+  svg.raw(
+      fmt::format("<clipPath id=\"window\"><rect width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n",
+                  frame.width(), frame.height()));
+  svg.open("clip-path=\"url(#window)\"");
   for (const Placed& obstacle : obstacles) {
     const Atom& atom = drawing.scene.lattices[obstacle.lattice].atoms[obstacle.atom];
     const Colour& its = colour(colour_index(drawing.scene, obstacle));
@@ -53,6 +57,7 @@ bool add_obstacles(Svg& svg, const PathDrawing& drawing, const Frame& frame) {
                 fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"0.7\"", its.light, its.dark),
                 name_of(drawing.scene, obstacle));
   }
+  svg.close();
   return true;
 }
 

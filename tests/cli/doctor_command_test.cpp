@@ -1,11 +1,18 @@
 // lorentz doctor: this machine is fit, and one with broken arithmetic is not.
 #include <catch2/catch.hpp>
 #include <cfenv>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
 
 #include <lorentz/environment.hpp>
+#include <lorentz/oracle.hpp>
+#include "fitness/known_answers.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
@@ -77,4 +84,158 @@ TEST_CASE("Broken arithmetic is seen, and named", "[cli][doctor]") {
   CHECK(flushed == Names{"subnormal results: flushed to zero"});
   CHECK(taken == Names{"subnormal operands: taken for zero"});
 #endif
+}
+
+namespace {
+
+using namespace lorentz::fitness;
+
+// An oracle that gives its known answers but this one, which it spoils.
+Ask oracle_but(int which, const std::function<void(Answer&)>& spoil) {
+  return [=, asked = std::make_shared<int>(0)](const Scene& scene, const Query& query) {
+    Answer answer = oracle::Oracle(scene).first_hit(query);
+    if ((*asked)++ == which) spoil(answer);
+    return answer;
+  };
+}
+
+const std::vector<Use> kSpoiled{Use::oracle, Use::itineraries};
+
+}  // namespace
+
+TEST_CASE("Who gives one wrong answer, or leaves one too many undecided, is not fit", "[doctor]") {
+  const auto nothing = [](Answer&) {};
+  const Finding good = examine("it", kSpoiled, 0, oracle_but(-1, nothing));
+  CHECK(good.fit);
+  CHECK(good.name == "it");
+  CHECK(good.found == "8 of 8 answers right");
+  CHECK(good.spoiled == kSpoiled);
+  for (int which = 0; which < 8; ++which) {
+    INFO("question " << which);
+    const Finding wrong =
+        examine("it", kSpoiled, 3, oracle_but(which, [](Answer& answer) {
+                  answer = answer.outcome == Outcome::never ? Answer::hit({}, 1) : Answer::never();
+                }));
+    CHECK_FALSE(wrong.fit);
+    CHECK(wrong.found == "7 of 8 answers right");
+    const Ask silent = oracle_but(which, [](Answer& answer) { answer = Answer::undecided(); });
+    const Finding left = examine("it", kSpoiled, 0, silent);
+    CHECK_FALSE(left.fit);
+    CHECK(left.found == "7 of 8 answers right, 1 left undecided");
+    CHECK(examine("it", kSpoiled, 1, oracle_but(which, [](Answer& answer) { answer = Answer::undecided(); }))
+              .fit);
+    // The right obstacle an ulp too late; at the right time another cell, atom or lattice.
+    int spoilt = 0;
+    const std::function<void(Answer&)> spoils[] = {[](Answer& a) {
+                                                     if (a.time) a.time = std::nextafter(*a.time, 0);
+                                                   },
+                                                   [](Answer& a) {
+                                                     if (a.outcome == Outcome::hit) a.obstacle.cell[1] = 77;
+                                                   },
+                                                   [](Answer& a) {
+                                                     if (a.outcome == Outcome::inside) ++a.obstacle.atom;
+                                                   },
+                                                   [](Answer& a) {
+                                                     if (a.outcome == Outcome::hit) ++a.obstacle.lattice;
+                                                   }};
+    for (const auto& spoil : spoils) {
+      bool changes = false;
+      const Finding found = examine("it", kSpoiled, 0, oracle_but(which, [&](Answer& answer) {
+                                      const Answer before = answer;
+                                      spoil(answer);
+                                      changes =
+                                          !(answer.time == before.time && answer.obstacle == before.obstacle);
+                                    }));
+      CHECK(found.fit == !changes);
+      spoilt += changes;
+    }
+    CHECK(spoilt == (which == 1 ? 0 : which == 3 ? 1 : 3));
+  }
+  CHECK_FALSE(examine("it", kSpoiled, 3, [](const Scene&, const Query&) { return Answer::undecided(); }).fit);
+  const Finding broken = examine(
+      "it", kSpoiled, 8, [](const Scene&, const Query&) -> Answer { throw std::runtime_error("no memory"); });
+  CHECK_FALSE(broken.fit);
+  CHECK(broken.found == "no memory");
+  CHECK(broken.name == "it");
+  CHECK(broken.spoiled == kSpoiled);
+}
+
+TEST_CASE("A check of certificates that refuses a true one, or takes a false one, is not fit", "[doctor]") {
+  // The party is asked about the true answer, and then about a false one, eight times.
+  const auto with = [](int which, bool broken) {
+    return examine_certificates([=, asked = std::make_shared<int>(0)](
+                                    const Scene&, const Query&, const Answer& proven, const Answer& claimed) {
+      const bool is_false = proven.outcome != claimed.outcome || !(proven.obstacle == claimed.obstacle);
+      return is_false != (broken && (*asked)++ == which);
+    });
+  };
+  CHECK(with(0, false).fit);
+  for (int which = 0; which < 16; ++which) {
+    const Finding found = with(which, true);
+    CHECK_FALSE(found.fit);
+    CHECK(found.found == (which % 2 == 0 ? "7 of 8 true ones accepted, 8 false ones refused"
+                                         : "8 of 8 true ones accepted, 7 false ones refused"));
+    CHECK(found.spoiled == std::vector<Use>{Use::certificates});
+  }
+  const Finding broken =
+      examine_certificates([](const Scene&, const Query&, const Answer&, const Answer&) -> bool {
+        throw std::runtime_error("no proof");
+      });
+  CHECK_FALSE(broken.fit);
+  CHECK(broken.found == "no proof");
+  CHECK(broken.spoiled == std::vector<Use>{Use::certificates});
+}
+
+TEST_CASE("A path whose last digit is another is not fit", "[doctor]") {
+  CHECK(examine_itinerary([] { return "0.9952629194433541608903118094"; }).fit);
+  const Finding other = examine_itinerary([] { return "0.9952629194433541608903118095"; });
+  CHECK_FALSE(other.fit);
+  CHECK(other.found == "0.9952629194433541608903118095");
+  CHECK(other.spoiled == std::vector<Use>{Use::itineraries});
+  CHECK(examine_itinerary([] { return ""; }).found == "no answer");
+  CHECK_FALSE(examine_itinerary([]() -> std::string { throw std::runtime_error("stuck"); }).fit);
+}
+
+TEST_CASE("Digests that differ, are too few or too many, are counted, and the first is named", "[doctor]") {
+  const std::vector<Digest> known{{"discs a", 1}, {"discs b", 2}, {"spheres a", 3}};
+  CHECK(examine_digests(known, known).fit);
+  CHECK(examine_digests(known, known).found == "all 3 as known");
+  CHECK(examine_digests(known, known).spoiled == std::vector<Use>{Use::engines});
+  auto found = known;
+  found[1].value = found[2].value = 7;
+  CHECK_FALSE(examine_digests(found, known).fit);
+  CHECK(examine_digests(found, known).found == "2 of 3 differ, first of them: discs b");
+  found = known;
+  found[2].name = "spheres b";
+  CHECK_FALSE(examine_digests(found, known).fit);
+  found = known;
+  found.pop_back();
+  CHECK_FALSE(examine_digests(found, known).fit);
+  CHECK(examine_digests(found, known).found == "1 of 3 differ, first of them: spheres a, which is missing");
+  CHECK(examine_digests(known, found).found == "1 of 3 differ, first of them: spheres a");
+}
+
+TEST_CASE("What is spoiled is what some unfit finding spoils, and nothing else", "[doctor]") {
+  const Finding fit{"a", true, "", {Use::engines, Use::oracle}}, one{"b", false, "", {Use::certificates}},
+      two{"c", false, "", {Use::oracle, Use::certificates}};
+  CHECK(unfit_uses({fit}).empty());
+  CHECK(unfit_uses({fit, one}) == std::vector<Use>{Use::certificates});
+  CHECK(unfit_uses({one, fit, two}) == std::vector<Use>{Use::oracle, Use::certificates});
+  const auto findings = findings_of({{"rounding", true, "up", "up"}, {"precision", false, "24", "53"}});
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].fit);
+  CHECK(findings[0].found == "up");
+  CHECK_FALSE(findings[1].fit);
+  CHECK(findings[1].name == "precision");
+  CHECK(findings[1].found == "24; it should be: 53");
+  CHECK(unfit_uses(findings).size() == 4);
+  std::map<std::string, std::vector<Use>> spoiled;
+  for (const Finding& finding : examine_known_answers()) spoiled[finding.name] = finding.spoiled;
+  CHECK(spoiled.size() == 5);
+  CHECK(spoiled["the oracle"] == std::vector<Use>{Use::oracle, Use::certificates, Use::itineraries});
+  CHECK(spoiled["the second oracle"] == std::vector<Use>{Use::oracle});
+  CHECK(spoiled["certified"] == std::vector<Use>{Use::oracle, Use::engines});
+  std::set<std::string> names;
+  for (const Use use : kUses) names.insert(name_of(use));
+  CHECK(names.size() == 4);
 }

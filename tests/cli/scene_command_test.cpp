@@ -89,6 +89,27 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   CHECK(contains(json.out, R"("scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]])"));
   CHECK(contains(folder.lorentz("scene show overlapping --json").out, R"("filling":null)"));
 
+  // Of discs on lines that are far apart: 2 pairs overlap and 3 touch, ellipses among them.
+  const std::string file = folder.write("pairs.toml", R"(dimension = 2
+[[lattices]]
+vectors = [[64, 0], [0, 64]]
+atoms = [{ position = [0, 0], radius = 1 }, { position = [2, 0], radius = 1 },
+         { position = [20, 0], radius = 1 }, { position = [21.5, 0], radius = 1 },
+         { position = [0, 20], semiaxes = [[2, 0], [0, 1]] }, { position = [4, 20], semiaxes = [[2, 0], [0, 1]] },
+         { position = [20, 20], semiaxes = [[2, 0], [0, 1]] }, { position = [20, 21.75], semiaxes = [[2, 0], [0, 1]] },
+         { position = [0, 40], semiaxes = [[2, 0], [0, 1]] }, { position = [0, 42.5], radius = 1.5 }]
+)");
+  const Run pairs = folder.lorentz("scene show " + file + " --no-horizon");
+  INFO(pairs.out << pairs.err);
+  CHECK(contains(pairs.out, "2 overlap, 3 touch"));
+  for (const char* part :
+       {"atom 0 touches atom 1 of", "atom 2 overlaps atom 3 of", "atom 4 touches atom 5 of",
+        "atom 6 overlaps atom 7 of", "atom 8 touches atom 9 of"})
+    CHECK(contains(pairs.out, part));
+  const Run counted = folder.lorentz("scene show " + file + " --no-horizon --json");
+  CHECK(contains(counted.out, R"("contacts":{"count":5,"complete":true)"));
+  CHECK(contains(counted.out, R"("other_atom":3,"cell":[0,0],"kind":"overlap"})"));
+
   const Run mistyped = folder.lorentz("scene show fccc");
   CHECK(mistyped.status == 3);
   CHECK(contains(mistyped.err, "diamond, "));
