@@ -337,7 +337,7 @@ TEST_CASE("long-flight: flights of 10^12 to 10^30", "[cases][family_claims]") {
   CHECK(beyond_2_63 > 400);  // 523 seen
 }
 
-TEST_CASE("boundary-starts: on the surface exactly; inwards at t = 0, outwards and tangential not at all",
+TEST_CASE("boundary-starts: on the surface exactly, inwards at t = 0, outwards and tangential not at all",
           "[cases][family_claims]") {
   int at_once = 0, left = 0, touched = 0, inside = 0, soon = 0, around = 0, around_of = 0;
   each("boundary-starts", 3000, [&](const Case& one) {

@@ -110,7 +110,7 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
   CHECK(contains(shown.out, "published-float: wrong in 1 of 1 answers"));
 }
 
-TEST_CASE("bench: one process at a time writes a store; no page without a name; times only of who has some",
+TEST_CASE("bench: one process at a time writes a store, no page without a name, times only of who has some",
           "[cli][bench_command]") {
   const Folder folder;
   const std::string bench =

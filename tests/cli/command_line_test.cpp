@@ -94,7 +94,7 @@ TEST_CASE("Mistyped subcommands, options, scenes and engines get the nearest nam
   }
 }
 
-TEST_CASE("Without a subcommand the help is shown; every help has an example", "[cli][command_line]") {
+TEST_CASE("Without a subcommand the help is shown, every help has an example", "[cli][command_line]") {
   const Folder folder;
   for (const std::string bare : {"", "golden", "scene"}) {
     const Run run = folder.lorentz(bare), help = folder.lorentz(bare + " --help");
@@ -132,7 +132,7 @@ TEST_CASE("Without a subcommand the help is shown; every help has an example", "
   }
 }
 
-TEST_CASE("A wrong LORENTZ_DATA is an error; without a catalogue it is said where it was looked for",
+TEST_CASE("A wrong LORENTZ_DATA is an error, without a catalogue it is said where it was looked for",
           "[cli][command_line]") {
   const Folder folder;
   const auto with_data = [&](const std::string& data, const std::string& arguments) {

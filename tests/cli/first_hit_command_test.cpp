@@ -112,7 +112,7 @@ TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one 
   CHECK(query.out.ends_with(kGoodAnswer));
 }
 
-TEST_CASE("An unknown key is warned of once a stream; with --strict it is an error",
+TEST_CASE("An unknown key is warned of once a stream, with --strict it is an error",
           "[cli][first_hit_command]") {
   const Folder folder;
   const std::string misspelt = R"({"id":1,"x":[0.5,0],"v":[1,0],"form":{"lattice":0,"atom":0,"cell":[1,0]}})"

@@ -77,7 +77,7 @@ TEST_CASE("What sample writes first-hit reads, and nothing is inside", "[cli][sa
     }
 }
 
-TEST_CASE("A seed's starts are the same, and another's others; fewer are the first of many",
+TEST_CASE("A seed's starts are the same, and another's others, fewer are the first of many",
           "[cli][sample]") {
   const Folder folder;
   const std::string few = folder.lorentz("sample --count 20").out,

@@ -300,7 +300,7 @@ TEST_CASE("Ids of the user's, bad lines and scenes around another program", "[co
   CHECK(other.out == own.out);
 }
 
-TEST_CASE("A time limit and the detail are added to other programs' answers; digits are the oracle's",
+TEST_CASE("A time limit and the detail are added to other programs' answers, digits are the oracle's",
           "[compare][command_engine]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood + R"({"id":7,"x":[0,0.5],"v":[1,0]})" + "\n");

@@ -27,7 +27,7 @@ TEST_CASE("The engines come first among the answerers, in their order", "[compar
   CHECK(Names(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(engines.size())) == engines);
 }
 
-TEST_CASE("Answerers are told apart by their traits; of another program nothing is known",
+TEST_CASE("Answerers are told apart by their traits, of another program nothing is known",
           "[compare][registry]") {
   CHECK(names_with(&Traits::is_exact) == Names{"certified", "certified-batch", "oracle", "walk"});
   CHECK(names_with(&Traits::knows_digits) == Names{"oracle"});

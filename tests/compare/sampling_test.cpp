@@ -24,7 +24,7 @@ TEST_CASE("Drawn queries depend on seed and index only", "[compare][sampling]") 
   }
 }
 
-TEST_CASE("Drawn starts are free and fill the cell evenly; directions are isotropic", "[compare][sampling]") {
+TEST_CASE("Drawn starts are free and fill the cell evenly, directions are isotropic", "[compare][sampling]") {
   for (const int dimension : {2, 3}) {
     const Scene scene = unit_scene(dimension, 0.3);
     const oracle::Oracle oracle(scene);

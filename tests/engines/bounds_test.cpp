@@ -379,7 +379,7 @@ TEST_CASE("The time from binary64: kRoughTime", "[engines][bounds]") {
   covers(kRoughTime, rough_time_of(one, none, v2).error + rough_time_of(none, q, v2).error);
 }
 
-TEST_CASE("At the boundary the predicate is never wrong; with a bound 50 times smaller it is",
+TEST_CASE("At the boundary the predicate is never wrong, with a bound 50 times smaller it is",
           "[engines][bounds]") {
   Draw draw(17);
   long decided = 0, doubtful = 0, wrong_if_shrunk = 0;

@@ -135,7 +135,7 @@ TEST_CASE("Nothing is undecided on drawn queries, down to the smallest radii", "
     }
 }
 
-TEST_CASE("Radii and cells beyond the engine are named; certified does them all the same",
+TEST_CASE("Radii and cells beyond the engine are named, certified does them all the same",
           "[engines][reduction]") {
   CHECK_FALSE(Reduction::beyond(square(0.4999)));
   CHECK_FALSE(Reduction::beyond(square(0.5)));

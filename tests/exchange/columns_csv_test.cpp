@@ -86,7 +86,7 @@ TEST_CASE("CSV: numbers are the nearest to their text, however long it is", "[ex
   }
 }
 
-TEST_CASE("CSV: the obstacle that is left; integers as tables write them", "[exchange][csv]") {
+TEST_CASE("CSV: the obstacle that is left, integers as tables write them", "[exchange][csv]") {
   const Reading reading = read(
       "x1,x2,x3,v1,v2,v3,from_lattice,from_atom,from_cell1,from_cell2,from_cell3\n"
       "0,0,0,1,0,0,1,2,-3,4,9223372036854775807\n"

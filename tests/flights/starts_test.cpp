@@ -377,7 +377,7 @@ TEST_CASE("An obstacle of next to no surface among others is not chosen, whereve
   }
 }
 
-TEST_CASE("Any unit of length will do; where binary64 ends it is said", "[flights][starts]") {
+TEST_CASE("Any unit of length will do, where binary64 ends it is said", "[flights][starts]") {
   const auto in_units = [](double unit) {
     Scene scene = superposition(3);
     for (Lattice& lattice : scene.lattices) {

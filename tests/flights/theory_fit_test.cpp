@@ -256,7 +256,7 @@ TEST_CASE("Tail constant: extrapolated, and its error is one", "[flights][fit]")
   }
 }
 
-TEST_CASE("Tail constant: exactly of exact counts; nothing where there is too little", "[flights][fit]") {
+TEST_CASE("Tail constant: exactly of exact counts, nothing where there is too little", "[flights][fit]") {
   const std::vector<double> edges{1, 2, 4, 8, 16};
   // Of 2^12 paths P(path > t) = 1/t: no second term.
   const Counts counts{0, 2048, 1024, 512, 256, 256};

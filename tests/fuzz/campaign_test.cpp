@@ -454,7 +454,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   }
 }
 
-TEST_CASE("A case of a target depends on seed, target and index; new families keep the rules of all",
+TEST_CASE("A case of a target depends on seed, target and index, new families keep the rules of all",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   for (const cases::Target& target : cases::targets()) {
@@ -514,7 +514,7 @@ TEST_CASE("Flights of the target leaving start on the obstacle they leave, and g
   CHECK(on_surface > 300);  // 389 seen
 }
 
-TEST_CASE("A climb is repeatable and comes to smaller margins; its variants are queries with their answers",
+TEST_CASE("A climb is repeatable and comes to smaller margins, its variants are queries with their answers",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   int improved = 0, at_the_edge = 0;

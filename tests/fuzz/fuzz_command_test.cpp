@@ -332,7 +332,7 @@ TEST_CASE("Where stderr is no terminal a line there says now and then how it goe
   CHECK(folder.lorentz(what).err.empty());  // one a minute
 }
 
-TEST_CASE("What is wrong comes first; without a store the simplest of each cause is printed",
+TEST_CASE("What is wrong comes first, without a store the simplest of each cause is printed",
           "[fuzz][fuzz_command]") {
   std::vector<fuzz::Stored> findings;
   for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"}) {

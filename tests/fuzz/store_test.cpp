@@ -99,7 +99,7 @@ TEST_CASE("What is put in a store comes out of it", "[fuzz][store]") {
   CHECK(store.findings()[0].label() == "2/leaving/12345678901.7");
 }
 
-TEST_CASE("What was not committed is not there; readers see what was", "[fuzz][store]") {
+TEST_CASE("What was not committed is not there, readers see what was", "[fuzz][store]") {
   const Folder folder;
   Store store(folder.file("store"), Store::Access::write);
   store.open_campaign(manifest());
@@ -109,7 +109,7 @@ TEST_CASE("What was not committed is not there; readers see what was", "[fuzz][s
   CHECK(Store(folder.file("store"), Store::Access::read).findings().size() == 1);
 }
 
-TEST_CASE("Two writers are refused, with what to do; also another process", "[fuzz][store]") {
+TEST_CASE("Two writers are refused, with what to do, also another process", "[fuzz][store]") {
   const Folder folder;
   const std::string path = folder.file("store");
   {

@@ -134,7 +134,7 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   CHECK(folder.run("ls " + folder.file("") + " | grep page").status == 1);  // nor a part of one
 }
 
-TEST_CASE("judge: starting takes no part in the speed; free paths that are cut show where",
+TEST_CASE("judge: starting takes no part in the speed, free paths that are cut show where",
           "[judge][judge_command]") {
   const Folder folder;
   const std::string judge = std::string("judge --quick --time 3 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;

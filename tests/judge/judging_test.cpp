@@ -299,7 +299,7 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   CHECK(two->findings()[0].count == 5);
 }
 
-TEST_CASE("What sets failures apart is true of all that were added up; equal ones keep their order",
+TEST_CASE("What sets failures apart is true of all that were added up, equal ones keep their order",
           "[judge][examination]") {
   Findings flat, solid;
   for (int i = 0; i < 20; ++i) {

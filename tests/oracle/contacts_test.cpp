@@ -104,7 +104,7 @@ Axes drawn_axes(Draw& draw, int dimension) {
 
 }  // namespace
 
-TEST_CASE("An ellipse and a disc at distance 2: touching; an ulp nearer or farther: not",
+TEST_CASE("An ellipse and a disc at distance 2: touching, an ulp nearer or farther: not",
           "[oracle][contacts]") {
   const Axes ellipse{Vec{1, 0}, Vec{0, 0.5}}, disc{Vec{1, 0}, Vec{0, 1}};
   for (const bool as_ball : {false, true}) {
@@ -286,7 +286,7 @@ TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all 
   CHECK(contacts > 3400);  // 4 273 seen
 }
 
-TEST_CASE("Ten thousand atoms are checked in seconds; what would take too long is given up, and said so",
+TEST_CASE("Ten thousand atoms are checked in seconds, what would take too long is given up, and said so",
           "[oracle][contacts]") {
   Scene scene = unit_scene(3, 0.4 / 22);
   auto& atoms = scene.lattices[0].atoms;

@@ -61,7 +61,7 @@ TEST_CASE("On a boundary: inwards hits at 0, outwards and along the tangent do n
   CHECK_FALSE(first_hit(scene, {{3, 4}, {4, -3}, {}}).obstacle == at(0, 0));
 }
 
-TEST_CASE("Inside is the open obstacle; of several the smallest", "[oracle][first_hit]") {
+TEST_CASE("Inside is the open obstacle, of several the smallest", "[oracle][first_hit]") {
   CHECK(first_hit(kQuarter, {{0.24, 0}, {1, 0}, {}}).outcome == Outcome::inside);
   CHECK(first_hit(kQuarter, {{0.25, 0}, {1, 0}, {}}).outcome == Outcome::hit);
   const Answer answer = first_hit(unit_scene(2, 0.75), {{0.5, 0.5}, {1, 0}, {}});

@@ -216,7 +216,7 @@ TEST_CASE("Two entries, drawn as far apart as they are", "[pictures][finding_dra
   CHECK(ends[0][1] == ends[1][1]);
 }
 
-TEST_CASE("Texts of engines stay texts; no ids, no scripts, nothing from elsewhere",
+TEST_CASE("Texts of engines stay texts, no ids, no scripts, nothing from elsewhere",
           "[pictures][finding_drawing]") {
   const Scene scene = unit_scene(2, 0.25);
   const Query query{{-0.5, 0}, {1, 0}, {}};

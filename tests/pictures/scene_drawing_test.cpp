@@ -24,7 +24,7 @@ const std::string kSeen = "stroke=\"#111111\" stroke-width=\"1.6\"/>", kHidden =
 
 }  // namespace
 
-TEST_CASE("3D: the farthest obstacle first; the eye is in front of the cell, on the side of -y",
+TEST_CASE("3D: the farthest obstacle first, the eye is in front of the cell, on the side of -y",
           "[pictures][scene_drawing]") {
   Scene scene = unit_scene(3, 0.1);
   scene.lattices[0].atoms = {{{0, 0.25, 0}, 0.1, {}}, {{0, 0.75, 0}, 0.1, {}}};
@@ -127,7 +127,7 @@ TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pic
   CHECK(through.find("atom 0") == std::string::npos);
 }
 
-TEST_CASE("The legend explains what is there, and nothing else; or is left out",
+TEST_CASE("The legend explains what is there, and nothing else, or is left out",
           "[pictures][scene_drawing]") {
   const std::string plain = draw_scene(unit_scene(2, 0.2), {}, {}).svg;
   for (const char* word : {"flight", "goes on", "never", "inside", "corridor"})

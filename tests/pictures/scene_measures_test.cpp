@@ -385,7 +385,7 @@ std::optional<bool> hidden(const Scene& scene, const std::vector<Wanted>& obstac
 
 }  // namespace
 
-TEST_CASE("3D: every obstacle of the block is drawn, once, as it is seen; the farthest first",
+TEST_CASE("3D: every obstacle of the block is drawn, once, as it is seen, the farthest first",
           "[pictures][scene_drawing]") {
   const Scene scene = crowd_in_space();
   const std::vector<std::string> names{"", "lattice 0, atom 1: radius 0.08",
@@ -441,7 +441,7 @@ TEST_CASE("3D: every obstacle of the block is drawn, once, as it is seen; the fa
   CHECK(unsure < 200);
 }
 
-TEST_CASE("3D: flights begin at x and end on what they hit; the others go on", "[pictures][scene_drawing]") {
+TEST_CASE("3D: flights begin at x and end on what they hit, the others go on", "[pictures][scene_drawing]") {
   const Scene scene = crowd_in_space();
   const std::vector<std::string> names{"0", "1", "2"};
   std::vector<Flight> flights;
@@ -664,7 +664,7 @@ TEST_CASE("Windows that are tall, lattices by long vectors, needles", "[pictures
   CHECK_FALSE(picture.says("smaller"));
 }
 
-TEST_CASE("Flights that start far away, together; the legend of flights in space",
+TEST_CASE("Flights that start far away, together, the legend of flights in space",
           "[pictures][scene_drawing]") {
   const Flight far{{{1000.5, 0.5}, {1, 0}, {}}, Answer::never()};
   CHECK(draw_scene(unit_scene(2, 0.1), {}, {far, far}).remarks.empty());

@@ -123,7 +123,7 @@ TEST_CASE("Groups that were kept are gone on with, to the bit, and impossible on
   }
 }
 
-TEST_CASE("Statistics of trajectories: killed, they go on; the result is the same",
+TEST_CASE("Statistics of trajectories: killed, they go on, the result is the same",
           "[chaos][chaos_command]") {
   const Folder folder;
   for (const std::string what : {"lyapunov --json --radius 0.3 --collisions 4e5",
