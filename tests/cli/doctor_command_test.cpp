@@ -230,7 +230,10 @@ TEST_CASE("What is spoiled is what some unfit finding spoils, and nothing else",
   CHECK(findings[1].found == "24; it should be: 53");
   CHECK(unfit_uses(findings).size() == 4);
   std::map<std::string, std::vector<Use>> spoiled;
-  for (const Finding& finding : examine_known_answers()) spoiled[finding.name] = finding.spoiled;
+  for (const Finding& finding : examine_known_answers()) {
+    CHECK(finding.fit);
+    spoiled[finding.name] = finding.spoiled;
+  }
   CHECK(spoiled.size() == 5);
   CHECK(spoiled["the oracle"] == std::vector<Use>{Use::oracle, Use::certificates, Use::itineraries});
   CHECK(spoiled["the second oracle"] == std::vector<Use>{Use::oracle});

@@ -7,6 +7,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cases/random.hpp"
+#include "report/curves.hpp"
 #include "report/power_fit.hpp"
 #include "report/query_text.hpp"
 
@@ -88,6 +89,7 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   cell.missing = 7;
   cell.ulps = histogram_of({0, 1, 1e9});
   cell.conditions = histogram_of({0.1});
+  cell.conditions.p99 = 0.0625;  // which of few is the largest, too
   Query query{{0.75, 0, 0}, {1, -0x1p-30, 0}, ObstacleId{0, 0, {Integer(1), Integer(-2), Integer(0)}}};
   cell.worst = Worst{"wrong", {}, hexadecimal_query(query, 2), "echo '\n"};
   CHECK(
@@ -128,13 +130,17 @@ TEST_CASE("A cell that no engine can have come to has a flaw", "[report][cell]")
       [](Cell& c) { c.wrong = share_of(49, 50), c.error = 2; },
       [](Cell& c) { c.unsupported = 51; },
       [](Cell& c) { c.missing = ~std::size_t{0}; },
+      [](Cell& c) { c.wrong = share_of(49, 50), c.unsupported = 2; },
+      [](Cell& c) { c.skipped = true, c.unsupported = 51; },
       [](Cell& c) { c.ns.q1 = 1.6; },
+      [](Cell& c) { c.ns.q3 = 1.4; },
       [](Cell& c) { c.ns.mean = NAN; },
       [](Cell& c) { c.instructions = -1; },
       [](Cell& c) { c.mean_path = NAN; },
       [](Cell& c) { c.ulps.exact = 49; },
       [](Cell& c) { c.ulps.counts[1] = ~std::size_t{0}; },
       [](Cell& c) { c.ulps.first = 1; },
+      [](Cell& c) { c.ulps.counts.insert(c.ulps.counts.begin(), 0), --c.ulps.first; },
       [](Cell& c) { c.ulps.max = 1e8; },
       [](Cell& c) { c.ulps.p99 = -1; },
       [](Cell& c) { c.conditions.mean = 1; },
@@ -147,4 +153,20 @@ TEST_CASE("A cell that no engine can have come to has a flaw", "[report][cell]")
     INFO("edit " << i);
     CHECK_FALSE(flaw_of(bad, 50).empty());
   }
+}
+
+TEST_CASE("Curves are written with every number under its own name", "[report][curves]") {
+  FreePathCurve path{"square", "batch", 0.25, "surface", "law", {{1, 0.5, 0.75, {}}, {2, 0.125, {}, 0.0625}}};
+  std::string text;
+  append_curve(text, path);
+  CHECK(text == R"({"scene":"square","engine":"batch","radius":0.25,"from":"surface","law":"law","points":[)"
+                R"({"t":1,"survival":0.5,"exact":0.75,"theory":null},)"
+                R"({"t":2,"survival":0.125,"exact":null,"theory":0.0625}]})");
+  const SurvivalCurve right{
+      "fcc", "reduction", {}, {{3, 0.5, {2, 0.25, 0.75}}, {4, 0.125, {1, 0.0625, 0.5}}}};
+  text.clear(), append_curves(text, "curves", std::vector{right, right});
+  const std::string one =
+      R"({"scene":"fcc","engine":"reduction","radius":null,"points":[)"
+      R"({"collisions":3,"share":0.5,"low":0.25,"high":0.75},{"collisions":4,"share":0.125,"low":0.0625,"high":0.5}]})";
+  CHECK(text == ",\"curves\":[" + one + "," + one + "]");
 }
