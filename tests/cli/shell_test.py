@@ -73,6 +73,8 @@ def page_failures(page):
     names += [f"{page.stem}-{name}" for name in re.findall(r"^  ([\w-]+)", subcommands, re.M)]
     names += [line.strip() for line in help_text.splitlines() if line.startswith("  lorentz ")]
     failures = [f"{page.name} has no {name}" for name in names if name not in text]
+    prose = [plain(line) for line in page.read_text().splitlines() if not re.match(r"\.|\\fB|lorentz.* \\- ", line)]
+    failures += [f"{page.name} has a long line: {line}" for line in prose if len(line) > 80 and not line.startswith("  ")]
     for formatter in (["groff", "-man", "-ww", "-z"], ["mandoc", "-T", "lint", "-W", "warning"]):
         if shutil.which(formatter[0]):
             run = subprocess.run([*formatter, page], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

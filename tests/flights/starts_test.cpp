@@ -397,6 +397,13 @@ TEST_CASE("Any unit of length will do, where binary64 ends it is said", "[flight
         REQUIRE(query.from == here.from);
       }
   CHECK_THROWS_AS(Starts(in_units(0x1p1010), Ensemble::uniform, kSeed), InputError);
+  for (const int dimension : {2, 3})
+    for (int axis = 0; axis < dimension; ++axis) {
+      Scene far = unit_scene(dimension, 0.1);
+      far.lattices[0].atoms.push_back(far.lattices[0].atoms[0]);
+      far.lattices[0].atoms[1].position[axis] = 0x1p1001;
+      CHECK_THROWS_AS(Starts(far, Ensemble::uniform, kSeed), InputError);
+    }
   Scene speck = unit_scene(3, 1e-320);
   CHECK_THROWS_AS(Starts(speck, Ensemble::surface, kSeed), InputError);
   CHECK_NOTHROW(Starts(speck, Ensemble::uniform, kSeed));

@@ -50,6 +50,7 @@ TEST_CASE("Numbers with a square root from texts") {
   CHECK(std::get<double>(golden->shift) == 0.5);
   CHECK(std::get<double>(*golden->root) == 5);
   CHECK(!surd_from("1/3")->root);
-  for (const char* text : {"sqrt(-2)", "sqrt()", "sqrt(2", "sqrt 2", "silver", "sqrt(sqrt(2))"})
+  for (const char* text :
+       {"sqrt(-2)", "sqrt()", "sqrt(2", "sqrt 2", "silver", "sqrt(sqrt(2))", "sqr", "sqrt[2)", "sqrt2)"})
     CHECK(!surd_from(text));
 }

@@ -140,6 +140,7 @@ TEST_CASE("Statistics of trajectories: killed, they go on, the result is the sam
     INFO(what << rest.err);
     CHECK(rest.status == 0);
     CHECK(rest.out == whole);
+    CHECK(contains(rest.err, " of 64 parts are done"));
     CHECK(lines(folder.read("store")) == 65);
     CHECK(folder.lorentz(what + " --seed 1" + store).status == 2);
   }

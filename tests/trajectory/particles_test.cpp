@@ -102,4 +102,12 @@ TEST_CASE("Particles in a batch stop one by one", "[trajectory]") {
   while (particles.advance(1000, go_on) > 0) continue;
   CHECK(particles.stop(1) == Stop::time);
   CHECK(particles[3].time == 1000);
+  // Nothing is left of those that are cleared away.
+  particles.clear();
+  CHECK(particles.size() == 0);
+  particles.add(Query{{0.5, 0.25, 0}, {0.3, 0.7, 0}, {}});
+  CHECK(particles.going() == 1);
+  CHECK(particles.stop(0) == Stop::none);
+  while (particles.advance(10, go_on) > 0) continue;
+  CHECK(particles.stop(0) == Stop::time);
 }
