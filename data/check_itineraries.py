@@ -433,9 +433,9 @@ def fly(record, scene, digits, bits):
 
 
 def check_form(record, scene):
-    first, *start = record
+    _, *start = record  # the id is first: else it would be part of what it is the sum of
     start, rest = {*start[:-3]} - {"from"}, start[-3:]  # the id is that of what stands before the itinerary
-    if first != "id" or start not in ({"x", "v"}, {"x", "direction"}) or rest != ["itinerary", "times", "end"]:
+    if start not in ({"x", "v"}, {"x", "direction"}) or rest != ["itinerary", "times", "end"]:
         raise ValueError(f"keys: {[*record]}")
     count, end = len(record["itinerary"]), record["end"]
     if not {"x", "v", "bits"} == {*end} or len(end["x"]) != scene.size or len(end["v"]) != scene.size:

@@ -30,7 +30,13 @@ kinds.run = lambda lines: verdict("".join(line + "\n" for line in lines).encode(
 kinds.COMMAND = [CHECKER]
 
 class Accepts(kinds.Accepts):
-    pass
+    def test_errors_are_counted(self):
+        """No theorem is about them."""
+        error, exact = kinds.CASES["error"], kinds.CASES["exact"]
+        for cases, said in (((error, exact), ": 1 of them of the outcome error"), ((exact, kinds.CASES["never2"]), None)):
+            status, output = kinds.run(kinds.golden(*cases))
+            self.assertEqual(status, 0, output)
+            self.assertTrue(said in output if said else "of the outcome" not in output, output)
 
 class Refuses(kinds.Refuses):
     pass

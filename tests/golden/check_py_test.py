@@ -342,6 +342,8 @@ class Refuses(unittest.TestCase):
                 ([header, scene, record(CASES["plane"], "0" * 16)], 1, "does not belong"),
                 ([header, scene.replace("0.1", "0.10"), line], 1, "does not belong"),
                 ([header, line], 1, "does not belong"),
+                *[([header, scene, f'{{"id":{none}{line[line.index(",", 1):]}'], 2, "Error") for none in ("null", "false", '""', "[]", "{}")],
+                ([header, scene, f'{{"id":5{line[line.index(",", 1):]}'], 1, "does not belong"),
                 (golden(CASES["plane"], CASES["plane"]), 1, "twice"),
                 (golden(CASES["plane"], count=2), 1, "are not"),
                 ([header.replace('"t"', '"u"'), scene, line], 1, "tags"),
