@@ -150,7 +150,6 @@ bool CsvQueryReader::next(QueryRows& rows, std::size_t most) {
 
 void CsvQueryReader::read_row(const LineReader::Line& line, QueryRows& rows) {
   Row row;
-  fields_.clear();
   try {
     row = row_of(line);
   } catch (const InputError& error) {

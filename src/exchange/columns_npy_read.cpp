@@ -10,6 +10,8 @@ namespace lorentz {
 namespace {
 
 constexpr std::size_t kLargestPart = std::size_t{1} << 26;  // bytes that are held
+// Of what a pipe gives, which is held whole; each next part doubles it.
+constexpr std::size_t kFirstPart = std::size_t{1} << 16;
 
 template <class Bits>
 Bits swapped(Bits bits) {
@@ -167,7 +169,7 @@ std::size_t NpyQueryReader::fill_columns(std::size_t most) {
   if (!place_ && all_.empty()) {
     const std::uint64_t size = row_bytes_ * promised_;
     for (std::size_t end = 0; end < size; end = all_.size()) {
-      all_.resize(std::min<std::uint64_t>(size, end + std::max(end, kLargestPart / 16)));
+      all_.resize(std::min<std::uint64_t>(size, end + std::max(end, kFirstPart)));
       all_.resize(end + file_.read_all(all_.data() + end, all_.size() - end));
       if (all_.size() == end) break;
     }
