@@ -73,6 +73,28 @@ TEST_CASE("A program may answer line by line, in blocks, or when its input ends"
   }
 }
 
+TEST_CASE("A key that no answer has is told of once, and of twenty at the most",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const std::string command = "first-hit --engine " + odd("own-keys"),
+                    queries = " " + folder.write("q", stream());
+  const Run run = folder.lorentz(command + queries);
+  CHECK(run.status == 0);
+  check_all_but_fifth(run.out, "");
+  const auto times_told = [&](int n) {
+    const std::string told = "writes the key \"own" + std::to_string(n) + "\", which no answer has";
+    const auto first = run.err.find(told);
+    return first == std::string::npos ? 0 : run.err.find(told, first + 1) == std::string::npos ? 1 : 2;
+  };
+  for (int n = 0; n < 30; ++n) {
+    INFO(n << run.err);
+    CHECK(times_told(n) == (n < 20 ? 1 : 0));
+  }
+  const Run strict = folder.lorentz(command + " --strict" + queries);
+  CHECK(strict.status == 3);  // as where there is no answer
+  CHECK(contains(strict.out, "the key \\\"own0\\\" is not known"));
+}
+
 TEST_CASE("A program's fault costs the query that it shows at, is reported with it, and nothing else is lost",
           "[compare][command_engine]") {
   const Folder folder;

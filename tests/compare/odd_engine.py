@@ -59,6 +59,9 @@ def fail(query):
         write(answer(query, lattice=1))
     elif FAULT == "nameless":
         write('{"id":null,"outcome":"error","message":"not mine"}')
+    elif FAULT == "own-keys":
+        write(answer(query, **{f"own{n}": n for n in range(30)}))
+        write(answer(json.loads(sys.stdin.readline()), own1=1))
     elif FAULT == "skips":
         pass
     else:
