@@ -2,6 +2,7 @@
 // that carry a bound of their error, and the predicates on cases at their boundary, with the bounds as they
 // are and 50 times too small. What an ellipsoid brings is measured besides: shape_test.cpp.
 #include "src/engines/reduction/bounds.hpp"
+#include "src/engines/reduction/basis_3d.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
@@ -420,4 +421,28 @@ TEST_CASE("Times that are soon rounded: kSoonSlack, kSoonTime", "[engines][bound
   const double own = (2 * low.error + rest.error) * kRoundoff;
   // Twice the bound of double-double, so that this is certain, too.
   is_enough(kSoonTime, 2 * own + 2 * 2 * (2 * kStable + kStableTime));
+}
+
+TEST_CASE("A basis in 3D is usable only if each of its vectors is", "[engines][bounds]") {
+  const auto usable = [](int i, double coefficient, double tilt) {
+    Basis3 basis{};
+    for (int k = 0; k < 3; ++k) {
+      Arm3& arm = basis.b[k];
+      double* const components[] = {&arm.p[0], &arm.p[1], &arm.z};
+      *components[k] = arm.n[k] = 1;
+      if (k != i) continue;  // this one is turned towards both others, which stand upright all the same
+      *components[(k + 1) % 3] = *components[(k + 2) % 3] = tilt;
+      arm.n[(k + 1) % 3] = coefficient;
+    }
+    basis.set_dual();
+    return basis.usable;
+  };
+  for (int i = 0; i < 3; ++i) {
+    CHECK(usable(i, 0x1p53 - 1, 1));
+    CHECK_FALSE(usable(i, 0x1p53, 1));
+    CHECK_FALSE(usable(i, -0x1p53, 1));
+    CHECK(usable(i, 0, 1.8));        // sqrt(1 + 2 * 1.8^2) = 2.74
+    CHECK_FALSE(usable(i, 0, 1.9));  // 2.87; the others' is 2.15
+    CHECK_FALSE(usable(i, 0, NAN));
+  }
 }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include "src/engines/reduction/bravais.hpp"
 #include "tests/engines/reduction_support.hpp"
@@ -383,4 +384,58 @@ TEST_CASE("certified: a time that vanishes in other units is rounded by the orac
   const Query query{{0x1p-59, 0, -7.71944638627542e-05}, {0, 0, 0x1p1023}, {}};
   CHECK(oracle::Oracle(scene).first_hit(query).time == 0x1p-1074);
   CHECK(oracle::Certified(scene).first_hit(query).time == 0x1p-1074);
+}
+
+TEST_CASE("Starts in a corner of two obstacles, or of four: whoever is left, and whichever way",
+          "[engines][reduction]") {
+  // Balls that overlap: a corner lies on all of them, a quarter of a cell from the middle. What the start
+  // moves into is hit at once, the smallest name first; what the particle leaves, or moves away from, is not.
+  struct Corner {
+    Scene scene;
+    Vec x;
+    std::vector<ObstacleId> obstacles;
+  };
+  Scene wide = unit_scene(2, 1), superposed = unit_scene(2, 0.625);
+  wide.lattices[0].vectors[0][0] = 2, wide.lattices[0].atoms = {{{}, 0, {{1.25, 0, 0}, {0, 0.625, 0}}}};
+  superposed.lattices[0].vectors[0][0] = 2;
+  superposed.lattices.push_back({superposed.lattices[0].vectors, {{{1, 0, 0}, 0.625, {}}}});
+  Scene motif = superposed;
+  motif.lattices[0].atoms.push_back(motif.lattices[1].atoms[0]), motif.lattices.pop_back();
+  for (const Corner& corner : std::vector<Corner>{
+           {unit_scene(2, 0.625), {0.5, 0.375, 0}, {{0, 0, {}}, {0, 0, {1}}}},
+           {unit_scene(3, 0.75), {0.5, 0.5, 0.25}, {{0, 0, {}}, {0, 0, {0, 1}}, {0, 0, {1}}, {0, 0, {1, 1}}}},
+           {wide, {1, 0.375, 0}, {{0, 0, {}}, {0, 0, {1}}}},
+           {superposed, {0.5, 0.375, 0}, {{0, 0, {}}, {1, 0, {}}}},
+           {motif, {0.5, 0.375, 0}, {{0, 0, {}}, {0, 1, {}}}}}) {
+    const Scene& scene = corner.scene;
+    const int d = scene.dimension;
+    const oracle::Oracle oracle(scene);
+    const oracle::Certified certified(scene);
+    const auto reduction = make_engine("reduction", scene);
+    for (int code = 0; code < (d == 3 ? 343 : 49); ++code)
+      for (std::size_t left = 0; left <= corner.obstacles.size(); ++left) {
+        Query query{corner.x, {code % 7 - 3.0, code / 7 % 7 - 3.0, d == 3 ? code / 49 - 3.0 : 0}, {}};
+        if (query.v == Vec{}) continue;
+        if (left > 0) query.from = corner.obstacles[left - 1];
+        const ObstacleId* entered = nullptr;
+        for (const ObstacleId& obstacle : corner.obstacles) {
+          const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
+          Vec offset = sum(query.x, scaled(centre_of(scene, obstacle), -1));
+          if (!atom.is_ball())  // its inverse square of semiaxes along the axes
+            for (int k = 0; k < d; ++k) offset[k] /= atom.semiaxes[k][k] * atom.semiaxes[k][k];
+          if (!entered && obstacle != query.from && dot(offset, query.v) < 0) entered = &obstacle;
+        }
+        INFO(stream(scene, query));
+        const Answer exact = oracle.first_hit(query);
+        CHECK(exact.outcome == Outcome::hit);
+        CHECK((exact.time == 0) == (entered != nullptr));
+        if (entered) CHECK(exact.obstacle == *entered);
+        for (const Answer& answer : {certified.first_hit(query), reduction->first_hit(query)}) {
+          if (answer.outcome == Outcome::undecided || answer.outcome == Outcome::error) continue;
+          CHECK(answer.outcome == exact.outcome);
+          CHECK(answer.obstacle == exact.obstacle);
+          if (exact.outcome == Outcome::hit) CHECK(*answer.time == Approx(*exact.time).margin(1e-15));
+        }
+      }
+  }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/random.hpp"
+#include "flights/run.hpp"
 #include "flights/theory/fit.hpp"
 #include "flights/theory/laws.hpp"
 #include "tests/support/command_line.hpp"
@@ -180,6 +181,59 @@ TEST_CASE("Tail exponent: intervals hold the local exponent of what is no power 
     INFO("exponent " << exponent << ": " << inside << " of " << kSamples);
     CHECK(is_95_in_100(inside, kSamples));
   }
+}
+
+TEST_CASE("Flights: means, survivals and p-values of 1000 seeds", "[flights][coverage][long]") {
+  // Discs of a triangular lattice with a finite horizon, off their surfaces: Santalo's mean. Discs so small
+  // that the limit law is theirs, up to far less than chance: the p-values of the law.
+  constexpr int kSeeds = 1000;
+  const double w = 0.2;
+  const Scene finite = test::one_atom(2, {Vec{2 + w, 0, 0}, {(2 + w) / 2, (2 + w) * std::sqrt(0.75), 0}}, 1);
+  const double exact = mean_free_path_of(finite).value.value();
+  const Scene small = unit_scene(2, 1e-5);
+  const Law law = laws_of(small, Ensemble::uniform).laws.at(0);
+  int means = 0;
+  std::map<double, std::vector<double>> survivals;  // by time, each seed's
+  std::vector<int> tenths(10);
+  constexpr std::uint64_t kFlights = 4000;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const auto tally_of = [&](const Scene& scene, Ensemble from) {
+      Plan plan;
+      plan.scene = scene, plan.from = from;
+      plan.seed = static_cast<std::uint64_t>(seed), plan.count = kFlights;
+      Account account = Account::begun(plan);
+      run(plan, {}, account);
+      return account.tally;
+    };
+    const Tally one = tally_of(finite, Ensemble::surface), other = tally_of(small, Ensemble::uniform);
+    means += std::fabs(one.mean() - exact) < 1.96 * one.standard_error();
+    std::vector<double> edges;
+    std::vector<std::uint64_t> counts{other.bins.logarithmic};
+    double beyond = static_cast<double>(one.hits);
+    for (int i = 0; i <= Bins::kLogarithmic; ++i) {
+      edges.push_back(other.bins.log_edge(i));
+      beyond -= static_cast<double>(one.bins.logarithmic[static_cast<std::size_t>(i)]);
+      if (i % 8 == 0) survivals[one.bins.log_edge(i)].push_back(beyond / kFlights);
+    }
+    const double p = chi_squared(edges, counts, kFlights, law.survival).p_value.value();
+    ++tenths[static_cast<std::size_t>(std::min(9.0, 10 * p))];
+  }
+  fmt::print("mean: {} of {}\n", means, kSeeds);
+  CHECK(is_95_in_100(means, kSeeds));
+  for (const auto& [time, of_seeds] : survivals) {
+    double truth = 0;
+    for (const double p : of_seeds) truth += p / kSeeds;
+    if (truth * kFlights < 100 || (1 - truth) * kFlights < 100) continue;  // where counts are normal
+    const auto inside = std::count_if(of_seeds.begin(), of_seeds.end(), [&](double p) {
+      return std::fabs(p - truth) < 1.96 * std::sqrt(p * (1 - p) / kFlights);
+    });
+    fmt::print("survival {:.3g} at {:.3g}: {} of {}\n", truth, time, inside, kSeeds);
+    CHECK(is_95_in_100(static_cast<int>(inside), kSeeds));
+  }
+  double statistic = 0;  // of 9 degrees, 27.9 is the 0.1 % point
+  for (const int count : tenths) statistic += std::pow(count - kSeeds / 10.0, 2) / (kSeeds / 10.0);
+  fmt::print("tenths of p-values: chi-squared {:.3g}\n", statistic);
+  CHECK(statistic < 27.9);
 }
 
 TEST_CASE("Tail exponent: the same of 10^5 to 10^8 paths, 2000 samples of each law",

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>
+#include <set>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
@@ -138,6 +139,21 @@ TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights
   starts.draw(0, 1, query);
   CHECK(query.x != first.x);
   CHECK(query.v != first.v);
+  // Every bit of index, attempt and seed counts; columns count on beyond 2^32 and 2^53.
+  std::set<double> seen{first.x[0]};
+  StartColumns columns;
+  for (int bit = 0; bit < 64; ++bit) {
+    const std::uint64_t number = std::uint64_t{1} << bit;
+    starts.draw(number, 0, query);
+    CHECK(seen.insert(query.x[0]).second);
+    Starts(scene, Ensemble::uniform, kSeed ^ number).draw(0, 0, query);
+    CHECK(seen.insert(query.x[0]).second);
+    starts.draw(0, number, query);
+    CHECK(seen.insert(query.x[0]).second);
+    starts.draw(number - 1, 2, columns);
+    starts.draw(number, 0, query);
+    CHECK(columns.x[0][1] == query.x[0]);
+  }
 }
 
 // FNV-1a of the bits of some starts: a change of any is a change of every statistic that was published with

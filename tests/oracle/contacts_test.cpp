@@ -239,6 +239,71 @@ TEST_CASE("Touching balls are counted once a pair, and told from overlapping one
   CHECK(contacts_in(unit_scene(3, 1e9), 10).end == SearchEnd::limit);
 }
 
+namespace {
+
+// All components times these, each ball written as semiaxes.
+Scene stretched(Scene scene, const Vec& by) {
+  const auto stretch = [&](Vec& a) {
+    for (int i = 0; i < 3; ++i) a[i] *= by[i];
+  };
+  for (Lattice& lattice : scene.lattices) {
+    for (Vec& u : lattice.vectors) stretch(u);
+    for (Atom& atom : lattice.atoms) {
+      stretch(atom.position);
+      for (int i = 0; i < scene.dimension; ++i) {
+        Vec axis{};
+        axis[i] = atom.radius * by[i];
+        atom.semiaxes.push_back(axis);
+      }
+      atom.radius = 0;
+    }
+  }
+  return scene;
+}
+
+// Touches and overlaps.
+std::pair<int, int> counts_in(const Scene& scene) {
+  const auto contacts = contacts_in(scene, 1000);
+  REQUIRE(contacts.end == SearchEnd::complete);
+  std::pair<int, int> counts;
+  for (const Contact& contact : contacts.found) ++(contact.overlap ? counts.second : counts.first);
+  return counts;
+}
+
+}  // namespace
+
+TEST_CASE("Touches and overlaps of the same obstacles are counted apart, as balls or stretched",
+          "[oracle][contacts]") {
+  // 3-4-5: neighbours along either vector overlap, those along the diagonals touch.
+  Scene plane = unit_scene(2, 0.625), space = unit_scene(3, 0.625);
+  for (Scene* scene : {&plane, &space}) scene->lattices[0].vectors[1][1] = 0.75;
+  space.lattices[0].vectors[2][2] = 2;
+  for (const Vec& by : {Vec{1, 1, 1}, Vec{2, 0.5, 4}}) {
+    for (const Scene& scene : {stretched(plane, by), stretched(space, by)})
+      CHECK(counts_in(scene) == std::pair(2, 2));
+    // Two atoms that differ, of which the second has no contact with itself.
+    Scene two = plane;
+    two.lattices[0].vectors = {Vec{4, 0, 0}, {0, 4, 0}};
+    two.lattices[0].atoms = {{{}, 2, {}}, {{3, 0, 0}, 1, {}}};
+    CHECK(counts_in(stretched(two, by)) == std::pair(3, 1));  // 3 and 1 apart; its own translates, twice
+    // Two lattices that overlap in one place and touch in another, whichever is looked at first.
+    for (const double aside : {-0.25, 0.25})
+      for (const int axis : {0, 1})
+        for (const std::size_t small : {0, 1}) {
+          Scene pair = unit_scene(2, 0.5);
+          pair.lattices.push_back(pair.lattices[0]);
+          pair.lattices[small].atoms[0].radius = 0.25, pair.lattices[small].atoms[0].position[axis] = aside;
+          pair = stretched(pair, by);
+          CHECK(counts_in(pair) == std::pair(2, 1));  // the larger touch their own translates
+          const Contact last = contacts_in(pair, 100).found.back();
+          CHECK(last.lattice == 0);
+          CHECK(last.other_lattice == 1);
+          CHECK(last.overlap);
+          CHECK_FALSE(last.cell);
+        }
+  }
+}
+
 TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all pairs finds",
           "[oracle][contacts]") {
   Draw draw(64);

@@ -3,9 +3,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include "chaos/theory.hpp"
 #include "flights/theory/laws.hpp"
+#include "tests/trajectory/coverage_support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::chaos;
@@ -105,6 +107,23 @@ TEST_CASE("Errors of displacements are those of other seeds", "[chaos][coverage]
   // 1 +- 0.07 of a hundred.
   for (const auto& estimates : {coefficients, squares, from_velocities})
     CHECK(in_errors(estimates) == Approx(1).margin(0.3));
+}
+
+TEST_CASE("Errors of D, of its slope and of displacements at all times hold the mean of other seeds",
+          "[chaos][coverage][long]") {
+  for (const Scene& scene : {triangular(0.3), unit_scene(2, 0.4), unit_scene(3, 0.4)}) {
+    std::map<std::string, std::vector<Estimate>> found;
+    for (std::uint64_t seed = 1; seed <= test::kCoverageSeeds; ++seed) {
+      const Diffusion one = diffusion_of({scene, flights::Ensemble::uniform, seed, 6'400, 8});
+      found["D"].push_back(one.coefficient);
+      found["slope in ln t"].push_back(one.logarithmic);
+      for (const Displacement& at : one.displacements) {
+        found[fmt::format("MSD({:.3g})", at.time)].push_back(at.square);
+        found[fmt::format("MSD({:.3g}) from velocities", at.time)].push_back(at.from_velocity);
+      }
+    }
+    for (const auto& [name, estimates] : found) test::check_coverage(name, estimates);
+  }
 }
 
 TEST_CASE("Of one particle no error is told", "[chaos]") {

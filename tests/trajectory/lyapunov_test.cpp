@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
@@ -10,6 +11,7 @@
 #include "chaos/tangents.hpp"
 #include "chaos/theory.hpp"
 #include "tests/support/support.hpp"
+#include "tests/trajectory/coverage_support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::chaos;
@@ -134,6 +136,21 @@ TEST_CASE("The sum above zero has the error of its groups, with the whole spectr
   CHECK(half.growing.error == half.sum.error);
   // Errors of parts don't add up.
   CHECK(whole.growing.error < 0.99 * (whole.map[0].error + whole.map[1].error));
+}
+
+TEST_CASE("Errors of exponents, of their sum and of the mean flight hold the mean of other seeds",
+          "[chaos][coverage][long]") {
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3)}) {
+    std::map<std::string, std::vector<Estimate>> found;
+    for (std::uint64_t seed = 1; seed <= kCoverageSeeds; ++seed) {
+      const Lyapunov one = lyapunov_of({scene, seed, 20'000, false});
+      for (std::size_t k = 0; k < one.map.size(); ++k)
+        found[fmt::format("exponent {}", k)].push_back(one.map[k]);
+      found["sum"].push_back(one.growing);
+      found["mean flight"].push_back(one.mean_flight);
+    }
+    for (const auto& [name, estimates] : found) check_coverage(name, estimates);
+  }
 }
 
 TEST_CASE("Scenes without exponents are refused", "[chaos]") {

@@ -7,6 +7,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
+#include <lorentz/trajectory_batch.hpp>
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -330,6 +331,40 @@ TEST_CASE("At a time that is asked for a particle is where it is then, and goes 
   }
 }
 
+TEST_CASE("A collision exactly at the time asked for is made, one an ulp later is not", "[trajectory]") {
+  // Head-on, from surface to surface: at 0.25, 0.75, 1.25 and 1.75.
+  Scene superposed = unit_scene(2, 0.25);
+  superposed.lattices.push_back({{Vec{1, 0, 0}, {0, 2, 0}}, {{{0, 1, 0}, 0.125, {}}}});
+  for (const Scene& scene : {unit_scene(2, 0.25), unit_scene(3, 0.25), superposed})
+    for (const Precision precision : {Precision::binary64, Precision::double_double})
+      for (const int n : {0, 1, 3})
+        for (const bool late : {false, true}) {
+          const Batch engine(scene);
+          const auto classical = make_engine("classical", scene);
+          const Query start{{0.5, 0, 0}, {-1, 0, 0}, {}};
+          Trajectory alone(engine.one_at_a_time(), scene, start, precision),
+              walked(*classical, scene, start, precision);
+          Particles together(engine, scene, precision);
+          together.add(start), together.add(start);
+          const auto visit = [](std::size_t, const Particle&, const Collision&) { return true; };
+          for (int before = 0; before < n; ++before) {
+            REQUIRE(alone.advance());
+            REQUIRE(walked.advance());
+            REQUIRE(together.advance(kForEver, visit) == 2);
+          }
+          const double time = 0.25 + 0.5 * n, until = late ? std::nextafter(time, 0) : time;
+          INFO("collision " << n << " at " << time << ", until " << until);
+          CHECK(alone.advance(until) == !late);
+          CHECK(walked.advance(until) == !late);
+          CHECK(together.advance(until, visit) == (late ? 0 : 2));
+          for (const Particle& now : {alone.state(), walked.state(), together[0], together[1]}) {
+            CHECK(now.time == until);
+            CHECK(now.collisions == static_cast<std::uint64_t>(n + !late));
+            CHECK(now.velocity[0] == ((n % 2 == 0) == late ? -1 : 1));
+          }
+        }
+}
+
 TEST_CASE("A trajectory that ends says why", "[trajectory]") {
   const Scene scene = unit_scene(2, 0.1);
   const Reduction engine(scene);
@@ -366,10 +401,14 @@ TEST_CASE("Whatever an engine says is an end with a name", "[trajectory]") {
   CHECK(told(Answer::undecided()) == Stop::undecided);
   CHECK(told(Answer::error("no")) == Stop::error);
   CHECK(told(Answer::unsupported_because("no")) == Stop::error);
-  CHECK(told(Answer::hit({0, 0, {5, 5}}, 1)) == Stop::missed);                        // beside the line
-  CHECK(told(Answer::hit({0, 0, {-500, 0}}, 1)) == Stop::missed);                     // behind
-  CHECK(told(Answer::hit({0, 3, {1, 0}}, 1)) == Stop::error);                         // no such atom
-  CHECK(told(Answer::hit({0, 0, {std::int64_t{1} << 60, 0}}, 1)) == Stop::overflow);  // out of sight
+  CHECK(told(Answer::hit({0, 0, {5, 5}}, 1)) == Stop::missed);     // beside the line
+  CHECK(told(Answer::hit({0, 0, {-500, 0}}, 1)) == Stop::missed);  // behind
+  CHECK(told(Answer::hit({0, 3, {1, 0}}, 1)) == Stop::error);      // no such atom
+  constexpr std::int64_t kFar = std::int64_t{1} << 53;
+  for (const std::int64_t last : {kFar, -kFar}) {  // beside the line, or out of sight
+    CHECK(told(Answer::hit({0, 0, {last, 5}}, 1)) == Stop::missed);
+    CHECK(told(Answer::hit({0, 0, {last + (last > 0 ? 1 : -1), 5}}, 1)) == Stop::overflow);
+  }
   CHECK(told(Answer::hit({0, 0, {*Integer::from_decimal("1" + std::string(30, '0')), 0}}, 1)) ==
         Stop::overflow);
 }
@@ -410,6 +449,16 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
   CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {0, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {1e200, 0, 0}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(particle_at(scene, {{1e30, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+  for (const double end : {0x1p53, -0x1p53}) {
+    CHECK_THROWS_AS(particle_at(scene, {{0.5, end, 0}, {1, 0, 0}, {}}), std::invalid_argument);
+    CHECK(particle_at(scene, {{0.5, std::nextafter(end, 0), 0}, {1, 0, 0}, {}}).cell[1] ==
+          static_cast<std::int64_t>(std::nextafter(end, 0)));
+  }
+  for (const double size : {0x1p-100, 0x1p100}) {  // the ends themselves are in range
+    CHECK_NOTHROW(particle_at(scene, {{0.5, 0.5, 0}, {size, 0, 0}, {}}));
+    const double beyond = std::nextafter(size, size < 1 ? 0 : HUGE_VAL);
+    CHECK_THROWS_AS(particle_at(scene, {{0.5, 0.5, 0}, {beyond, 0, 0}, {}}), std::invalid_argument);
+  }
   CHECK_THROWS_AS(particle_at(unit_scene(2, 1e-60), {{0.5, 0.5, 0}, {1, 0, 0}, {}}), std::invalid_argument);
   const Particle good = particle_at(scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
   Trajectory trajectory(AskFirstHit(), scene, {{0.5, 0.25, 0}, {1, 0, 0}, {}});
