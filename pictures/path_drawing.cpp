@@ -46,9 +46,8 @@ bool add_obstacles(Svg& svg, const PathDrawing& drawing, const Frame& frame) {
   bool cut = false;
   const std::vector<Placed> obstacles = obstacles_in(drawing.scene, frame.box, cut);
   if (cut || obstacles.size() > kMostDrawn) return false;
-  svg.raw(
-      fmt::format("<clipPath id=\"window\"><rect width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n",
-                  frame.width(), frame.height()));
+  svg.raw(fmt::format("<clipPath id=\"window\"><rect width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n",
+                      frame.width(), frame.height()));
   svg.open("clip-path=\"url(#window)\"");
   for (const Placed& obstacle : obstacles) {
     const Atom& atom = drawing.scene.lattices[obstacle.lattice].atoms[obstacle.atom];
