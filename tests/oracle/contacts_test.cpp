@@ -304,6 +304,36 @@ TEST_CASE("Touches and overlaps of the same obstacles are counted apart, as ball
   }
 }
 
+TEST_CASE("Lattices of other periods meet somewhere; slender ellipses reach beyond the next box",
+          "[oracle][contacts]") {
+  for (const int axis : {0, 1})
+    for (const double first : {3.0, 4.0}) {  // periods of 3 and 4: centres differ by any integer
+      Scene scene = unit_scene(2, 0.25);
+      scene.lattices.push_back(scene.lattices[0]);
+      for (Lattice& lattice : scene.lattices) lattice.vectors = {Vec{12, 0, 0}, {0, 12, 0}};
+      const auto i = static_cast<std::size_t>(axis);
+      scene.lattices[0].vectors[i][axis] = first, scene.lattices[1].vectors[i][axis] = 7 - first;
+      scene.lattices[1].atoms[0].position[axis] = 1.5;
+      CHECK(counts_in(scene) == std::pair(1, 0));
+      scene.lattices[1].atoms[0].position[axis] = 1;
+      CHECK(counts_in(scene) == std::pair(0, 1));
+    }
+  // Four columns of four in a period, each with those at distances 1 and 2 along its length; and a speck.
+  for (const int along : {0, 1}) {
+    Scene scene = unit_scene(2, 0.01);
+    scene.lattices[0].vectors = {Vec{4, 0, 0}, {0, 4, 0}};
+    std::vector<Atom> atoms;
+    for (int i = 0; i < 16; ++i) {
+      Atom atom{{i % 4 + 0.0, i / 4 + 0.0, 0}, 0, {Vec{0.05, 0, 0}, {0, 0.05, 0}}};
+      atom.semiaxes[static_cast<std::size_t>(along)][along] = 1.4;
+      atoms.push_back(atom);
+    }
+    atoms.push_back({{0.5, 0.5, 0}, 0.01, {}});
+    scene.lattices[0].atoms = atoms;
+    CHECK(counts_in(scene) == std::pair(0, 32));
+  }
+}
+
 TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all pairs finds",
           "[oracle][contacts]") {
   Draw draw(64);
