@@ -318,6 +318,20 @@ TEST_CASE("Lattices of other periods meet somewhere; slender ellipses reach beyo
       scene.lattices[1].atoms[0].position[axis] = 1;
       CHECK(counts_in(scene) == std::pair(0, 1));
     }
+  // Of three lattices with two atoms each the last atoms of the last two lattices, or of the outer two.
+  for (const std::size_t one : {0, 1}) {
+    Scene scene = unit_scene(2, 0.125);
+    scene.lattices[0].vectors = {Vec{8, 0, 0}, {0, 8, 0}};
+    scene.lattices[0].atoms.push_back(scene.lattices[0].atoms[0]);
+    scene.lattices.resize(3, scene.lattices[0]);
+    for (int l = 0; l < 3; ++l)
+      for (int a = 0; a < 2; ++a) scene.lattices[l].atoms[a].position = {l + 0.0, 3.0 * a, 0};
+    scene.lattices[2].atoms[1].position[0] = static_cast<double>(one) + 0.125;
+    const auto found = contacts_in(scene, 10).found;
+    REQUIRE(found.size() == 1);
+    CHECK(std::array{found[0].lattice, found[0].atom, found[0].other_lattice, found[0].other_atom} ==
+          std::array{static_cast<std::int32_t>(one), 1, 2, 1});
+  }
   // Four columns of four in a period, each with those at distances 1 and 2 along its length; and a speck.
   for (const int along : {0, 1}) {
     Scene scene = unit_scene(2, 0.01);
