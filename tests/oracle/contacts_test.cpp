@@ -318,6 +318,12 @@ TEST_CASE("Lattices of other periods meet somewhere; slender ellipses reach beyo
       scene.lattices[1].atoms[0].position[axis] = 1;
       CHECK(counts_in(scene) == std::pair(0, 1));
     }
+  Scene narrow = unit_scene(2, 0.125);  // of two lattices the second meets its own translates
+  narrow.lattices.push_back(narrow.lattices[0]);
+  narrow.lattices[0].vectors = {Vec{8, 0, 0}, {0, 8, 0}},
+  narrow.lattices[1].vectors = {Vec{0.2, 0, 0}, {0, 8, 0}};
+  narrow.lattices[1].atoms[0].position = {0, 4, 0};
+  CHECK(counts_in(narrow) == std::pair(0, 1));
   // Of three lattices with two atoms each the last atoms of the last two lattices, or of the outer two.
   for (const std::size_t one : {0, 1}) {
     Scene scene = unit_scene(2, 0.125);

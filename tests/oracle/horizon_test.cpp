@@ -306,6 +306,7 @@ TEST_CASE("Horizon: three lattices with long common periods are undecided, if no
   REQUIRE(horizon.undecided.size() == 1);
   CHECK(key_of(horizon.undecided[0]) == "1 0 0");
   CHECK_FALSE(horizon.is_finite());
+  CHECK_FALSE(horizon.tail_constant);
   scene.lattices[2].atoms[0].radius = 0.6;
   CHECK(horizon_of(scene).is_finite());
 }
