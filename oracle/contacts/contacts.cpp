@@ -314,7 +314,7 @@ class Boxes {
     for (std::size_t index = 0; index < bodies.size(); ++index) {
       std::array<long, D> box;
       for (std::size_t i = 0; i < D; ++i) {
-        const Z place = floor_div(sgn(det) * count_[i] * dot(across[i], bodies[index].position), size);
+        const Z place = floor_div(count_[i] * dot(across[i], bodies[index].position), size);
         box[i] = Z(place - count_[i] * floor_div(place, count_[i])).get_si();
       }
       box_of_.push_back(box);

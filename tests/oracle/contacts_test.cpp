@@ -304,6 +304,56 @@ TEST_CASE("Touches and overlaps of the same obstacles are counted apart, as ball
   }
 }
 
+TEST_CASE("Lattices of other periods meet somewhere; slender ellipses reach beyond the next box",
+          "[oracle][contacts]") {
+  for (const int axis : {0, 1})
+    for (const double first : {3.0, 4.0}) {  // periods of 3 and 4: centres differ by any integer
+      Scene scene = unit_scene(2, 0.25);
+      scene.lattices.push_back(scene.lattices[0]);
+      for (Lattice& lattice : scene.lattices) lattice.vectors = {Vec{12, 0, 0}, {0, 12, 0}};
+      const auto i = static_cast<std::size_t>(axis);
+      scene.lattices[0].vectors[i][axis] = first, scene.lattices[1].vectors[i][axis] = 7 - first;
+      scene.lattices[1].atoms[0].position[axis] = 1.5;
+      CHECK(counts_in(scene) == std::pair(1, 0));
+      scene.lattices[1].atoms[0].position[axis] = 1;
+      CHECK(counts_in(scene) == std::pair(0, 1));
+    }
+  Scene narrow = unit_scene(2, 0.125);  // of two lattices the second meets its own translates
+  narrow.lattices.push_back(narrow.lattices[0]);
+  narrow.lattices[0].vectors = {Vec{8, 0, 0}, {0, 8, 0}},
+  narrow.lattices[1].vectors = {Vec{0.2, 0, 0}, {0, 8, 0}};
+  narrow.lattices[1].atoms[0].position = {0, 4, 0};
+  CHECK(counts_in(narrow) == std::pair(0, 1));
+  // Of three lattices with two atoms each the last atoms of the last two lattices, or of the outer two.
+  for (const std::size_t one : {0, 1}) {
+    Scene scene = unit_scene(2, 0.125);
+    scene.lattices[0].vectors = {Vec{8, 0, 0}, {0, 8, 0}};
+    scene.lattices[0].atoms.push_back(scene.lattices[0].atoms[0]);
+    scene.lattices.resize(3, scene.lattices[0]);
+    for (int l = 0; l < 3; ++l)
+      for (int a = 0; a < 2; ++a) scene.lattices[l].atoms[a].position = {l + 0.0, 3.0 * a, 0};
+    scene.lattices[2].atoms[1].position[0] = static_cast<double>(one) + 0.125;
+    const auto found = contacts_in(scene, 10).found;
+    REQUIRE(found.size() == 1);
+    CHECK(std::array{found[0].lattice, found[0].atom, found[0].other_lattice, found[0].other_atom} ==
+          std::array{static_cast<std::int32_t>(one), 1, 2, 1});
+  }
+  // Four columns of four in a period, each with those at distances 1 and 2 along its length; and a speck.
+  for (const int along : {0, 1}) {
+    Scene scene = unit_scene(2, 0.01);
+    scene.lattices[0].vectors = {Vec{4, 0, 0}, {0, 4, 0}};
+    std::vector<Atom> atoms;
+    for (int i = 0; i < 16; ++i) {
+      Atom atom{{i % 4 + 0.0, i / 4 + 0.0, 0}, 0, {Vec{0.05, 0, 0}, {0, 0.05, 0}}};
+      atom.semiaxes[static_cast<std::size_t>(along)][along] = 1.4;
+      atoms.push_back(atom);
+    }
+    atoms.push_back({{0.5, 0.5, 0}, 0.01, {}});
+    scene.lattices[0].atoms = atoms;
+    CHECK(counts_in(scene) == std::pair(0, 32));
+  }
+}
+
 TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all pairs finds",
           "[oracle][contacts]") {
   Draw draw(64);

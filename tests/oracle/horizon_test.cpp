@@ -306,6 +306,7 @@ TEST_CASE("Horizon: three lattices with long common periods are undecided, if no
   REQUIRE(horizon.undecided.size() == 1);
   CHECK(key_of(horizon.undecided[0]) == "1 0 0");
   CHECK_FALSE(horizon.is_finite());
+  CHECK_FALSE(horizon.tail_constant);
   scene.lattices[2].atoms[0].radius = 0.6;
   CHECK(horizon_of(scene).is_finite());
 }
@@ -425,10 +426,50 @@ TEST_CASE("Horizon: the oracle flies for ever in a channel, and nowhere else", "
   CHECK(finite > 5);           // 7 seen
 }
 
+TEST_CASE("Horizon: the tail constant counts each atom, and touching ones do not overlap",
+          "[oracle][horizon]") {
+  for (const int d : {2, 3}) {
+    const Scene one = unit_scene(d, 0.2);
+    Scene doubled = one;
+    doubled.lattices[0].vectors[0][0] = 2;
+    doubled.lattices[0].atoms.push_back({{1, 0, 0}, 0.2, {}});
+    CHECK(*horizon_of(doubled, 0, false).tail_constant ==
+          Approx(*horizon_of(one, 0, false).tail_constant).epsilon(1e-12));
+  }
+  // Of corridors of one width those along short vectors come first.
+  Scene two = unit_scene(2, 0.2);
+  two.lattices[0].vectors[0][0] = 2;
+  two.lattices[0].atoms.push_back({{1, 0, 0}, 0.2, {}});
+  CHECK(horizon_of(two).channels[0].vector == Vec{0, 1, 0});
+  Scene touching = unit_scene(2, 0.5);
+  touching.lattices[0].vectors[1][1] = 1.5;  // a corridor of width 1/2 beside each row
+  CHECK(*horizon_of(touching).tail_constant == Approx(0.25 / (M_PI * (1.5 - M_PI / 4))).epsilon(1e-12));
+  touching.lattices[0].vectors[0][0] = std::nextafter(1, 0);
+  CHECK_FALSE(horizon_of(touching).tail_constant);
+}
+
 TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {
   CHECK(horizon_of(unit_scene(2, 0.5)).tail_constant == 0.0);
   CHECK(horizon_of(unit_scene(3, 0.5)).tail_constant == 0.0);   // touching planes
   CHECK(horizon_of(unit_scene(3, 0.55)).tail_constant == 0.0);  // cylinders; overlaps are no matter
   CHECK_FALSE(horizon_of(unit_scene(2, 0.5), 0.1).tail_constant.has_value());
   CHECK_FALSE(horizon_of(unit_scene(2, 0.25), 0.9).tail_constant.has_value());
+}
+
+TEST_CASE("Horizon: finite is what is known to have nothing open", "[oracle][horizon]") {
+  Horizon horizon;
+  CHECK(horizon.is_finite());
+  horizon.families = {{}};
+  CHECK_FALSE(horizon.is_finite());
+  CHECK_FALSE(horizon.is_infinite());
+  horizon.families.push_back({{}, true, 0});
+  CHECK(horizon.is_infinite());
+  CHECK_FALSE(horizon.is_finite());
+  horizon.families.clear();
+  horizon.undecided = {{}};
+  CHECK_FALSE(horizon.is_finite());
+  horizon.undecided.clear();
+  horizon.no_cylinders = "not asked for";
+  CHECK_FALSE(horizon.is_finite());
+  CHECK_FALSE(horizon.is_infinite());
 }
