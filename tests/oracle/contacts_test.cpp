@@ -304,7 +304,7 @@ TEST_CASE("Touches and overlaps of the same obstacles are counted apart, as ball
   }
 }
 
-TEST_CASE("Lattices of other periods meet somewhere; slender ellipses reach beyond the next box",
+TEST_CASE("Lattices of other periods meet somewhere, slender ellipses reach beyond the next box",
           "[oracle][contacts]") {
   for (const int axis : {0, 1})
     for (const double first : {3.0, 4.0}) {  // periods of 3 and 4: centres differ by any integer
