@@ -23,4 +23,13 @@ inline Estimate estimate_of(const std::vector<double>& parts) {
   return estimate;
 }
 
+/// The mean of the first over that of the second, of as many equal parts; to first order the error of what
+/// each part departs from it.
+inline Estimate estimate_of_ratio(const std::vector<double>& above, const std::vector<double>& below) {
+  const double mean = estimate_of(below).value, ratio = estimate_of(above).value / mean;
+  std::vector<double> parts;
+  for (std::size_t k = 0; k < above.size(); ++k) parts.push_back((above[k] - ratio * below[k]) / mean);
+  return {ratio, estimate_of(parts).error};
+}
+
 }  // namespace lorentz::chaos

@@ -65,6 +65,10 @@ class Group {
 Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   Lyapunov result;
   std::vector<double> part, sum(groups.size()), growing(groups.size()), flight;
+  for (const Sums& group : groups) {
+    flight.push_back(group.values[kFlight] / static_cast<double>(group.collisions));
+    result.collisions += group.collisions, result.stopped += group.stopped;
+  }
   for (int k = 0; k < exponents; ++k) {
     part.clear();
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -73,13 +77,10 @@ Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
       if (k < half) growing[g] += part.back();
     }
     result.map.push_back(estimate_of(part));
+    result.flow.push_back(estimate_of_ratio(part, flight));
   }
   result.sum = estimate_of(sum);
   result.growing = estimate_of(growing);
-  for (const Sums& group : groups) {
-    flight.push_back(group.values[kFlight] / static_cast<double>(group.collisions));
-    result.collisions += group.collisions, result.stopped += group.stopped;
-  }
   result.mean_flight = estimate_of(flight);
   return result;
 }

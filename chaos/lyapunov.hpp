@@ -27,9 +27,10 @@ inline constexpr std::uint64_t kUncounted = 64;
 
 /// Exponents in nats, the largest first; errors are those of independent groups of particles.
 struct Lyapunov {
-  std::vector<Estimate> map;  ///< a collision
-  Estimate sum;               ///< of those
-  Estimate growing;           ///< the sum of those above zero, the first d - 1
+  std::vector<Estimate> map;   ///< a collision
+  std::vector<Estimate> flow;  ///< a unit of time, by the measured flights
+  Estimate sum;                ///< of those
+  Estimate growing;            ///< the sum of those above zero, the first d - 1
   Estimate mean_flight;  ///< as measured; with open corridors its error is too small (docs/free_paths.md)
   std::uint64_t collisions = 0;  ///< counted
   std::uint64_t stopped = 0;     ///< particles that ended (undecided, or in a corner); what they did counts

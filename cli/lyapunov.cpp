@@ -31,9 +31,9 @@ struct Report {
   flights::MeanFreePath exact;
   std::optional<double> limit;  ///< of the first exponent (2D) or the sum of those above zero (3D), as r -> 0
 
-  double mean_free_path() const { return exact.value.value_or(found.mean_flight.value); }
   Estimate flow(std::size_t k) const {
-    return {found.map[k].value / mean_free_path(), found.map[k].error / mean_free_path()};
+    if (!exact.value) return found.flow[k];
+    return {found.map[k].value / *exact.value, found.map[k].error / *exact.value};
   }
   const char* limit_of() const {
     return plan.scene.dimension == 2 ? "the exponent above zero" : "the sum of those above zero";

@@ -140,17 +140,35 @@ TEST_CASE("The sum above zero has the error of its groups, with the whole spectr
 
 TEST_CASE("Errors of exponents, of their sum and of the mean flight hold the mean of other seeds",
           "[chaos][coverage][long]") {
-  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3)}) {
+  Scene overlapping = unit_scene(2, 0.35);
+  overlapping.lattices[0].atoms.push_back({{0.5, 0.2, 0}, 0.3, {}});
+  for (const Scene& scene : {unit_scene(2, 0.3), unit_scene(3, 0.3), overlapping}) {
     std::map<std::string, std::vector<Estimate>> found;
     for (std::uint64_t seed = 1; seed <= kCoverageSeeds; ++seed) {
       const Lyapunov one = lyapunov_of({scene, seed, 20'000, false});
-      for (std::size_t k = 0; k < one.map.size(); ++k)
+      for (std::size_t k = 0; k < one.map.size(); ++k) {
         found[fmt::format("exponent {}", k)].push_back(one.map[k]);
+        found[fmt::format("exponent {} a unit of time", k)].push_back(one.flow[k]);
+      }
       found["sum"].push_back(one.growing);
       found["mean flight"].push_back(one.mean_flight);
     }
     for (const auto& [name, estimates] : found) check_coverage(name, estimates);
   }
+}
+
+TEST_CASE("The error of a ratio is that of what its parts depart from it", "[chaos]") {
+  // Twice the same, part by part: no error, whatever theirs. Else both count.
+  const Estimate same = estimate_of_ratio({2, 4, 6}, {1, 2, 3});
+  CHECK(same.value == Approx(2));
+  CHECK(same.error == Approx(0).margin(1e-12));
+  const Estimate other = estimate_of_ratio({2, 4, 6}, {3, 2, 1});
+  CHECK(other.value == Approx(2));  // departures -4, 0, 4 over 2
+  CHECK(other.error == Approx(2 / std::sqrt(3.0)));
+  const Scene overlapping = {2, {{{Vec{1, 0}, {0, 1}}, {{{}, 0.35, {}}, {{0.5, 0.2}, 0.3, {}}}}}};
+  const Lyapunov result = measured(overlapping, 100'000);
+  CHECK(result.flow[0].value == Approx(result.map[0].value / result.mean_flight.value));
+  CHECK(result.flow[0].error > result.map[0].error / result.mean_flight.value);
 }
 
 TEST_CASE("Scenes without exponents are refused", "[chaos]") {
