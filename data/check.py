@@ -197,7 +197,7 @@ def check(name):
                 verify(box, scene)
         except Exception as e: flaws.append((2 - bool(identity), f"{name}:{i}: {identity}: {type(e).__name__}: {e}"))
     if (version, count) != (1, records):
-        flaws.append((1 + (version is None), f"{name}:1: {version, count} are not (1, {records})"))
+        flaws.append((1 + (version != 1), f"{name}:1: {version, count} are not (1, {records})"))
     print(*[flaw for _, flaw in flaws] or [f"{name}: {records} records, all verified"], sep="\n")
     return max(flaws, default=(0,))[0]
 if __name__ == "__main__":

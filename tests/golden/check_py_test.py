@@ -140,6 +140,14 @@ class Search(unittest.TestCase):
             self.assertTrue(all(D > 0 for _, D in found.values()))
 
 class Refuses(unittest.TestCase):
+    def test_a_format_that_is_not_known_is_bad_input(self):
+        header, *lines = golden(CASES["exact"])
+        for other in (0, 2, -1):
+            status, output = run([header.replace('"format":1', f'"format":{other}'), *lines])
+            self.assertEqual(status, 2, output)
+        status, output = run([header.replace('"count":1', '"count":2'), *lines])
+        self.assertEqual(status, 1, output)
+
     def refused(self, name, why, *changes):
         """Each change of the case is refused, for that reason."""
         for change in changes:
