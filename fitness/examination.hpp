@@ -32,8 +32,7 @@ struct Finding {
 /// What follows from checks of the arithmetic: one that is not fit spoils everything.
 std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks);
 
-/// How many digests are not those that are known, and the first of them by name; a missing one is none of
-/// these either.
+/// Counts the digests that differ from the known ones, or are missing, and names the first of them.
 Finding examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known);
 
 /// What is wrong with this thread's arithmetic in this build. Microseconds.

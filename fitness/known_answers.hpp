@@ -14,8 +14,8 @@ using Ask = std::function<Answer(const Scene&, const Query&)>;
 /// Whether `claimed` is refuted by a proof that was made for `proven`.
 using Refuted = std::function<bool(const Scene&, const Query&, const Answer& proven, const Answer& claimed)>;
 
-/// What the party answers, which may leave so many of the eight undecided: that is no wrong answer. What it
-/// cannot even compute, it is not fit for either.
+/// Holds a party's answers to the eight known questions against the known answers. It may leave `may_leave`
+/// of them undecided; an answer that it cannot compute makes it unfit.
 Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask);
 
 /// Each true answer is proved, and the same with another obstacle, or none where there is one, is not.

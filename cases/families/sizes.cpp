@@ -15,13 +15,14 @@
 namespace lorentz::cases {
 namespace {
 
+enum Kind : std::size_t { unit, cell, motif, ellipsoid, superposition, mixed };
 constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
 
 // The radius, or the shortest semiaxis of an ellipsoid up to 2^5 times as long as wide.
-Atom drawn_obstacle(Random& drawn, int dimension, double size, bool ellipsoid) {
+Atom drawn_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
   Atom atom;
   atom.radius = size;
-  if (!ellipsoid) return atom;
+  if (is_ball) return atom;
   atom.radius = 0;
   const double most = std::min(0.4, 32 * size);
   const Vec a = drawn.direction(2);
@@ -33,18 +34,18 @@ Atom drawn_obstacle(Random& drawn, int dimension, double size, bool ellipsoid) {
 Scene drawn_scene(Random& drawn, std::size_t kind, int dimension, double size) {
   Scene scene = unit_scene(dimension, size);
   Lattice& lattice = scene.lattices[0];
-  if (kind == 1)
+  if (kind == cell)
     for (int i = 1; i < dimension; ++i) lattice.vectors[i] = {drawn.uniform(), 1, i == 2 ? 1.0 : 0.0};
-  if (kind == 2) {
-    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, size * drawn.between(1, 2), false));
+  if (kind == motif) {
+    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, size * drawn.between(1, 2), true));
     for (int i = 0; i < dimension; ++i) lattice.atoms[1].position[i] = drawn.uniform();
   }
-  if (kind == 3) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, true);
-  if (kind >= 4) {
+  if (kind == ellipsoid) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
+  if (kind == superposition || kind == mixed) {
     Lattice other = lattice;
     for (int i = 0; i < dimension; ++i) other.vectors[i] = scaled(lattice.vectors[i], drawn.between(1, 2));
     for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
-    if (kind == 5) other.atoms[0] = drawn_obstacle(drawn, dimension, size, true);
+    if (kind == mixed) other.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
     scene.lattices.push_back(other);
   }
   return scene;

@@ -386,7 +386,7 @@ TEST_CASE("certified: a time that vanishes in other units is rounded by the orac
   CHECK(oracle::Certified(scene).first_hit(query).time == 0x1p-1074);
 }
 
-TEST_CASE("Starts in a corner of two obstacles, or of four: whoever is left, and whichever way",
+TEST_CASE("Starts in a corner of two obstacles, or of four: any of them left, in any direction",
           "[engines][reduction]") {
   // Balls that overlap: a corner lies on all of them, a quarter of a cell from the middle. What the start
   // moves into is hit at once, the smallest name first; what the particle leaves, or moves away from, is not.

@@ -92,10 +92,10 @@ TEST_CASE("Chi-squared: bad bins, and laws that give no chance", "[flights][fit]
   const auto none = chi_squared(edges, Counts{1000, 0, 1}, 1001, [](double t) { return t < 1 ? 1 - t : 0; });
   CHECK(none.degrees == 0);  // one bin: nothing is expected beyond, and nothing tested
   CHECK_FALSE(none.p_value);
-  const auto nobody =
+  const auto uncounted =
       chi_squared(edges, Counts{0, 0, 0}, 0, kExponential);  // nothing counted, nothing expected
-  CHECK(nobody.statistic == 0);
-  CHECK_FALSE(nobody.p_value);
+  CHECK(uncounted.statistic == 0);
+  CHECK_FALSE(uncounted.p_value);
   for (const auto& no_law : {std::function<double(double)>([](double) { return 1.5; }),
                              std::function<double(double)>([](double t) { return t < 2 ? 0.3 : 0.4; }),
                              std::function<double(double)>([](double t) { return 1 - t; })})

@@ -386,7 +386,7 @@ TEST_CASE("Tails: of a superposition what the horizon says", "[flights][tails]")
     CHECK(surface.exponent == (open == true ? std::optional(3.0) : std::nullopt));
     CHECK((uniform.remark.find("not known whether") != std::string::npos) == !open.has_value());
     CHECK(uniform.remark.find("incommensurate") == std::string::npos);
-    if (open == true) {  // of no constant it is said why there is none
+    if (open == true) {  // the remark says why the constant is not known
       CHECK_FALSE(uniform.constant);
       CHECK(uniform.remark.find("the constant is not known (") != std::string::npos);
     }

@@ -1,4 +1,4 @@
-"""The mutants of an OCaml file, by its words: the language has no tree here, and its compiler refuses what is none."""
+"""The mutants of an OCaml file, by its words: no syntax tree is at hand, and the compiler refuses what is not OCaml."""
 
 import re
 
