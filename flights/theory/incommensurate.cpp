@@ -115,7 +115,7 @@ std::optional<double> nearly_common_way(const Scene& scene) {
       for (const Vec& other : normals) nearest = std::min(nearest, angle_between(normal, other));
       largest = std::max(largest, nearest);
     }
-    if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(1), largest);
+    if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(largest), largest);
   }
   return least;
 }

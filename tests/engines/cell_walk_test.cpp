@@ -309,6 +309,13 @@ TEST_CASE("What classical does not do, it says, at once", "[engines][cell_walk]"
   CHECK_THAT(message(scene), Contains("flat"));
   scene.lattices[0].vectors[1] = {1e300, 1e300};
   CHECK_THAT(message(scene), Contains("2^500"));
+  for (const int exponent : {-501, -500, 500, 501}) {
+    const double unit = std::ldexp(1, exponent);
+    scene = scene_with(2, {lattice_of_vectors({Vec{unit, 0}, Vec{unit / 8, unit}}, unit / 8)});
+    const Answer answer = make_engine("classical", scene)->first_hit({{unit / 2, unit / 16}, {1, 0}, {}});
+    CHECK(answer.unsupported == (std::abs(exponent) > 500));
+    if (!answer.unsupported) CHECK(answer.obstacle == ObstacleId{0, 0, {1, 0}});
+  }
   scene = scene_with(2, {hexagonal(0.1)});
   CHECK(make_engine("classical", scene)->first_hit({{0x1p60, 0}, {1, 0}, {}}).unsupported);
   CHECK(make_engine("classical", scene)->first_hit({{1e308, 1e308}, {1, 0}, {}}).unsupported);

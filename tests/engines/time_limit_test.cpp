@@ -247,6 +247,36 @@ Held hold_targets(std::uint64_t seed, std::uint64_t rows) {
 
 }  // namespace
 
+TEST_CASE(
+    "Limits in units of the scaled velocity: zero and what is no limit stay, others stay above zero and "
+    "finite",
+    "[engines][time_limit]") {
+  using Range = std::numeric_limits<double>;
+  for (const int exponent : {-1070, -500, -3, 0, 3, 500, 1020}) {
+    for (const double limit : {0.0, -1.0, -kNoLimit, kNoLimit}) CHECK(scaled_limit(limit, exponent) == limit);
+    CHECK(std::isnan(scaled_limit(NAN, exponent)));
+    for (const double limit : {Range::denorm_min(), Range::min(), 1.0, Range::max()})
+      CHECK(scaled_limit(limit, exponent) ==
+            std::clamp(std::scalbn(limit, exponent), Range::min(), Range::max()));
+  }
+}
+
+TEST_CASE("A component is tiny below 2^-450 of a scaled velocity, unless it is zero as given",
+          "[engines][time_limit]") {
+  const auto is_tiny = [](double component, double given, int at) {
+    Vec v{1, 1, 1}, given_v{1, 1, 1};
+    v[at] = component, given_v[at] = given;
+    return Ray{v, v, nullptr, given_v}.has_tiny_component();
+  };
+  for (int at = 0; at < 3; ++at)
+    for (const double sign : {-1, 1}) {
+      CHECK_FALSE(is_tiny(sign * kTinyComponent, sign, at));
+      CHECK(is_tiny(std::nextafter(sign * kTinyComponent, 0), sign, at));
+      CHECK(is_tiny(0, sign, at));
+      CHECK_FALSE(is_tiny(0, 0, at));
+    }
+}
+
 TEST_CASE("A hit is before a limit iff its exact time is, and certified says what the oracle says",
           "[engines][time_limit]") {
   std::map<Side, int> sides;

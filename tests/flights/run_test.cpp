@@ -10,7 +10,9 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/oracle.hpp>
 #include "flights/flyer.hpp"
+#include "flights/plan.hpp"
 #include "flights/run.hpp"
+#include "ranks/world.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -128,4 +130,30 @@ TEST_CASE("Where obstacles leave no room there is nowhere to start", "[flights]"
   CHECK_THROWS_WITH(flown(plan), Catch::Contains("certified does such scenes"));
   plan.engine = "certified";
   CHECK_THROWS_WITH(flown(plan), Catch::Contains("no free start in 100000 draws"));
+}
+
+TEST_CASE("A run that has time enough is whole", "[flights]") {
+  const Plan plan = plan_of(unit_scene(2, 0.3), 3 * kBlock);
+  for (const double seconds : {3600.0, 1e300}) CHECK(flown(plan, {.seconds = seconds}) == flown(plan));
+}
+
+TEST_CASE("Engines that fly in columns", "[flights]") {
+  for (const char* name : {"batch", "reduction", "certified-batch", "certified"})
+    CHECK(flies_in_columns(name));
+  for (const char* name : {"classical", "published", "oracle", "walk", ""})
+    CHECK_FALSE(flies_in_columns(name));
+}
+
+TEST_CASE("Two processes or more are several, and need MPI", "[flights]") {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    for (const auto& [size, several] : {std::pair("0", false), {"1", false}, {"2", true}, {"3", true}}) {
+      ::setenv(name, size, 1);
+      INFO(name << "=" << size);
+      if (!several || ranks::has_mpi())
+        CHECK(ranks::are_several("--shard") == several);
+      else
+        CHECK_THROWS_WITH(ranks::are_several("--shard"), Catch::EndsWith("--shard"));
+      ::unsetenv(name);
+    }
+  CHECK_FALSE(ranks::are_several("--shard"));
 }

@@ -30,6 +30,19 @@ TEST_CASE("Garbage is refused with a reason, and in time", "[oracle][certificate
     require_refused(tampered(good, [&](Case& c) { c.answer.obstacle.cell[0] = huge; }), "characters");
     require_refused(tampered(good, [&](Case& c) { c.query.from = ObstacleId{0, 0, {huge}}; }), "characters");
   }
+  // As long as a text may be, and longer by one; an end's mantissa has more digits than its hexadecimal text.
+  for (const auto& [most, change] : std::vector<std::pair<std::size_t, void (*)(Case&, const Integer&)>>{
+           {2500, [](Case&c, const Integer&n) { c.answer.obstacle.cell[0] = n; }},
+           {2500, [](Case&c, const Integer&n) { c.proof.windows[0].basis[1][0] = n; }},
+           {2500, [](Case&c, const Integer&n) { c.query.from = ObstacleId{0, 0, {n}}; }},
+           {3125, [](Case&c, const Integer&n) { c.proof.windows[0].from = n; }}})
+    for (const std::string sign : {"", "-"})
+      for (const std::size_t length : {most, most + 1}) {
+        Case c = good;
+        change(c, *Integer::from_decimal(sign + std::string(length - sign.size(), '9')));
+        INFO(length << " characters");
+        CHECK((refutation(c).find("characters") != std::string::npos) == (length > most));
+      }
   require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[0][2] = 1; }), "third coordinate");
   require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[2][2] = 1; }), "third vector");
   require_refused(tampered(good, [](Case& c) { c.answer.obstacle.cell[2] = 1; }), "third coordinate");

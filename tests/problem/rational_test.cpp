@@ -33,6 +33,10 @@ TEST_CASE("Rational numbers from texts") {
   CHECK(told("123456789012345678901234567890/3") == "123456789012345678901234567890/3");
   CHECK(told("0x1.8p-1") == "double 0.750000");
   CHECK(told("-0x1p+3") == "double -8.000000");
+  for (const char* mark : {"p", "P"}) {  // what follows it is no digit of the fraction
+    CHECK(told(std::string("0x1.8000000000000") + mark + "-1") == "double 0.750000");
+    CHECK(told(std::string("0x1.80000000000000") + mark + "-1") == "none");
+  }
   for (const char* text :
        {"",   "-",     "1/0",  "1/", "/3",     "1/-3", "1//3", "1/3/5",   "a",   "1e",
         "e5", "1.2.3", "1 /3", "0x", "0x1.8p", "inf",  "nan",  "1e99999", "--1", "0x1.00000000000001p0",
@@ -53,4 +57,23 @@ TEST_CASE("Numbers with a square root from texts") {
   for (const char* text :
        {"sqrt(-2)", "sqrt()", "sqrt(2", "sqrt 2", "silver", "sqrt(sqrt(2))", "sqr", "sqrt[2)", "sqrt2)"})
     CHECK(!surd_from(text));
+}
+
+TEST_CASE("A flaw of any atom of any lattice is found, by its place") {
+  RationalScene good = rational(unit_scene(2, 0.25));
+  good.lattices.push_back(good.lattices[0]);
+  for (RationalLattice& lattice : good.lattices) lattice.atoms.resize(2, lattice.atoms[0]);
+  CHECK_FALSE(flaw_of(good));
+  for (std::size_t l = 0; l < 2; ++l)
+    for (std::size_t a = 0; a < 2; ++a) {
+      const std::string where = "lattice " + std::to_string(l) + ", atom " + std::to_string(a) + ": ";
+      RationalScene bad = good;
+      bad.lattices[l].atoms[a].radius = 0.0;
+      CHECK(flaw_of(bad) == where + "radius must be above zero");
+      bad = good;
+      bad.lattices[l].atoms[a].semiaxes.resize(3);
+      CHECK(flaw_of(bad) == where + "needs as many semiaxes as dimensions (2)");
+    }
+  good.lattices[1].atoms.clear();
+  CHECK(flaw_of(good) == "lattice 1: needs at least one atom");
 }

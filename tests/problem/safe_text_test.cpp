@@ -54,6 +54,21 @@ TEST_CASE("Bytes that are not UTF-8 become the replacement character", "[problem
   CHECK(printable("\xf4\x90\x80\x80") == "\ufffd");
 }
 
+TEST_CASE("The first and last characters of each length are text, forms that are too long are not",
+          "[problem][safe_text]") {
+  for (const std::string text : {"\x7e", "\xc2\xa0", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+                                 "\xee\x80\x80", "\xef\xbf\xbd", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    INFO(text);
+    CHECK(is_utf8(text));
+    CHECK(printable(text) == text);
+  }
+  for (const std::string text :
+       {"\xc1\xbf", "\xe0\x9f\xbf", "\xed\xbf\xbf", "\xf0\x8f\xbf\xbf", "\xf5\x80\x80\x80"}) {
+    CHECK_FALSE(is_utf8(text));
+    CHECK(printable(text).starts_with("\ufffd"));
+  }
+}
+
 TEST_CASE("A cut lies between two characters", "[problem][safe_text]") {
   const std::string text = "a\u00e9\u4e2d\U0001f600z";  // 1, 2, 3, 4, 1 bytes
   for (std::size_t most = 0; most < text.size(); ++most) {

@@ -128,3 +128,16 @@ TEST_CASE("Filling does not depend on the unit of length, up to the ends of bina
   needle.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-170}}};
   CHECK_FALSE(filling_of(needle).has_value());
 }
+
+TEST_CASE("Dual vectors of lengths far apart, whichever is the shortest", "[problem][scene_geometry]") {
+  for (const int dimension : {2, 3})
+    for (const int longest : {0, 600})
+      for (int shortest = 0; shortest < dimension; ++shortest) {
+        std::array<Vec, 3> vectors{};
+        for (int i = 0; i < dimension; ++i)
+          vectors[i][i] = std::ldexp(1, i == shortest ? longest - 600 : longest);
+        const std::array<Vec, 3> dual = dual_of(vectors, dimension);
+        for (int i = 0; i < dimension; ++i)
+          for (int k = 0; k < 3; ++k) CHECK(dual[i][k] == (i == k ? 1 / vectors[i][i] : 0));
+      }
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "chaos/free_starts.hpp"
 #include "chaos/theory.hpp"
 #include "flights/theory/laws.hpp"
 #include "tests/trajectory/coverage_support.hpp"
@@ -70,6 +71,42 @@ TEST_CASE("In open corridors displacements grow faster than the time", "[chaos]"
   CHECK(at_100.time == 100);
   INFO(at_100.square.value / 100 << " +- " << at_100.square.error / 100);
   CHECK(std::fabs(at_100.square.value / 100 - 1.323) < 4 * std::hypot(at_100.square.error / 100, 0.015));
+}
+
+TEST_CASE("The slope in ln t is that of the straight line nearest to MSD / t", "[chaos]") {
+  // Of groups alike in size, the slope of the mean is the mean of the slopes.
+  const Diffusion result = measured(unit_scene(2, 0.4), 640, 10);
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const Displacement& at : result.displacements) {
+    if (at.time < 0.99 * 10 / 16) continue;
+    const double log = std::log(at.time), rate = at.square.value / at.time;
+    n += 1, x += log, y += rate, xx += log * log, xy += log * rate;
+  }
+  CHECK(n == 9);
+  CHECK(result.logarithmic.value == Approx((n * xy - x * y) / (n * xx - x * x)).epsilon(1e-10));
+}
+
+TEST_CASE("Starts are the first of the attempts that are free, of every index", "[chaos]") {
+  const Scene scene = unit_scene(2, 0.45);
+  const Batch engine(scene);
+  const flights::Starts starts(scene, flights::Ensemble::uniform, 9202);
+  Particles particles(engine, scene);
+  constexpr std::uint64_t kFirst = 5, kLast = 205;
+  add_free_starts(starts, engine.one_at_a_time(), kFirst, kLast, particles);
+  REQUIRE(particles.size() == kLast - kFirst);
+  std::map<std::uint64_t, int> attempts;
+  for (std::uint64_t index = kFirst; index < kLast; ++index) {
+    Query start;
+    std::uint64_t attempt = 0;
+    do starts.draw(index, attempt++, start);
+    while (std::hypot(start.x[0] - std::round(start.x[0]), start.x[1] - std::round(start.x[1])) < 0.45);
+    ++attempts[attempt];
+    CHECK(particles[index - kFirst].velocity == start.v);
+    const Vec place = place_of(scene, particles[index - kFirst]);
+    for (int k = 0; k < 2; ++k) CHECK(place[k] == Approx(start.x[k]).margin(1e-15));
+  }
+  CHECK(attempts[1] > 40);
+  CHECK(attempts[2] > 20);
 }
 
 TEST_CASE("Diffusion does not depend on the threads", "[chaos]") {

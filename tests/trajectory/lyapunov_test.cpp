@@ -65,6 +65,36 @@ TEST_CASE("The exponents of a scene add up to nothing, and come in pairs", "[cha
   }
 }
 
+TEST_CASE("Tangent vectors are orthonormal and across the flight, from the start and after collisions",
+          "[chaos]") {
+  Draw draw(43);
+  for (const int dimension : {2, 3}) {
+    const Scene scene = unit_scene(dimension, 0.3);
+    const Reduction engine(scene);
+    const Curvatures curvatures(scene);
+    const int count = 2 * (dimension - 1);
+    for (int n = 0; n < 20; ++n) {
+      const Vec v = scaled(draw.vec(dimension, -1, 1), std::exp2(draw.between(-3, 3)));
+      Trajectory trajectory(engine, scene, {{0.5, 0.5, dimension == 3 ? 0.5 : 0}, v, {}});
+      Tangents tangents(v, dimension, count);
+      for (int step = 0; step < 3; ++step) {
+        const Vec velocity = trajectory.state().velocity;
+        for (int i = 0; i < count; ++i)
+          for (int k = 0; k <= i; ++k) {
+            Vec q, p, other_q, other_p;
+            tangents.deviation(i, q, p), tangents.deviation(k, other_q, other_p);
+            CHECK(dot(q, other_q) + dot(p, other_p) == Approx(i == k ? 1 : 0).margin(1e-7));
+            CHECK(dot(q, velocity) == Approx(0).margin(1e-7 * length(v)));
+            CHECK(dot(p, velocity) == Approx(0).margin(1e-7 * length(v)));
+          }
+        REQUIRE(trajectory.advance());
+        std::array<double, Tangents::kMost> growth{};
+        tangents.pass(trajectory.state(), trajectory.collision(), curvatures, growth);
+      }
+    }
+  }
+}
+
 TEST_CASE("A tangent vector is the difference of two trajectories", "[chaos]") {
   // In double-double, 1e-20 apart: after six collisions the difference is that of the first order to 1e-8.
   Scene ellipsoids = unit_scene(3, 1);

@@ -110,4 +110,7 @@ TEST_CASE("Particles in a batch stop one by one", "[trajectory]") {
   CHECK(particles.stop(0) == Stop::none);
   while (particles.advance(10, go_on) > 0) continue;
   CHECK(particles.stop(0) == Stop::time);
+  particles.resume();
+  CHECK(particles.going() == 1);
+  CHECK(particles.stop(0) == Stop::none);
 }

@@ -403,7 +403,8 @@ TEST_CASE("Whatever an engine says is an end with a name", "[trajectory]") {
   CHECK(told(Answer::unsupported_because("no")) == Stop::error);
   CHECK(told(Answer::hit({0, 0, {5, 5}}, 1)) == Stop::missed);     // beside the line
   CHECK(told(Answer::hit({0, 0, {-500, 0}}, 1)) == Stop::missed);  // behind
-  CHECK(told(Answer::hit({0, 3, {1, 0}}, 1)) == Stop::error);      // no such atom
+  for (const auto& [lattice, atom] : {std::pair(0, 3), {0, 1}, {0, -1}, {-1, 0}, {1, 0}})
+    CHECK(told(Answer::hit({lattice, atom, {1, 0}}, 1)) == Stop::error);  // no such atom
   constexpr std::int64_t kFar = std::int64_t{1} << 53;
   for (const std::int64_t last : {kFar, -kFar}) {  // beside the line, or out of sight
     CHECK(told(Answer::hit({0, 0, {last, 5}}, 1)) == Stop::missed);
@@ -411,6 +412,24 @@ TEST_CASE("Whatever an engine says is an end with a name", "[trajectory]") {
   }
   CHECK(told(Answer::hit({0, 0, {*Integer::from_decimal("1" + std::string(30, '0')), 0}}, 1)) ==
         Stop::overflow);
+}
+
+TEST_CASE("Atoms are those of the lattice that is named", "[trajectory]") {
+  Scene scene = unit_scene(2, 0.1);
+  scene.lattices.push_back(scene.lattices[0]);
+  for (const int rich : {0, 1}) {
+    Scene its = scene;
+    its.lattices[rich].atoms.push_back({{0.5, 0.5, 0}, 0.1, {}});
+    for (const int lattice : {0, 1}) {
+      Trajectory trajectory(
+          [=](const Query&, double, Answer& given) {
+            given = Answer::hit({lattice, 1, {1, 0}}, 1);
+          },
+          its, {{0.5, 0.5, 0}, {1, 0, 0}, ObstacleId{rich, 1, {}}});
+      CHECK(trajectory.advance() == (lattice == rich));
+      CHECK(trajectory.stop() == (lattice == rich ? Stop::none : Stop::error));
+    }
+  }
 }
 
 TEST_CASE("Cells beyond 64 bits are an overflow, and the state stays", "[trajectory]") {
