@@ -44,10 +44,11 @@ struct Heard {
   bool overflow = false;
 };
 
+// Negative numbers become very large ones.
 bool has(const Scene& scene, const ObstacleId& obstacle) {
-  return obstacle.lattice >= 0 && obstacle.lattice < static_cast<int>(scene.lattices.size()) &&
-         obstacle.atom >= 0 &&
-         obstacle.atom < static_cast<int>(scene.lattices[obstacle.lattice].atoms.size());
+  const auto lattice = static_cast<std::size_t>(obstacle.lattice),
+             atom = static_cast<std::size_t>(obstacle.atom);
+  return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
 }
 
 Heard heard(const Flight& flight) {
