@@ -16,10 +16,6 @@ bool follows(unsigned byte) {
   return (byte & 0xc0) == 0x80;
 }
 
-bool is_plain(char c) {
-  return c >= ' ' && c <= '~';
-}
-
 // Besides control characters: ends of lines and paragraphs, the marks and overrides of the direction of
 // writing, the byte order mark, and the two codes that XML does not have.
 bool acts(char32_t code) {
@@ -45,7 +41,6 @@ Character first_character(std::string_view text) {
 }
 
 std::string printable(std::string_view text, Lines lines) {
-  if (std::all_of(text.begin(), text.end(), is_plain)) return std::string(text);
   std::string out;
   while (!text.empty()) {
     const Character c = first_character(text);
