@@ -120,6 +120,19 @@ TEST_CASE("Groups that were kept are gone on with, to the bit, and impossible on
       INFO(bad);
       CHECK_THROWS_AS(text(keeping(1), lyapunov), InputError);
     }
+    // All of a group may have stopped before anything was counted.
+    std::uint64_t group = 0;
+    chaos::Sums none = chaos::sums_in(all[0], group);
+    none.stopped = lyapunov ? chaos::kParticles : none.particles;
+    none.particles = none.collisions = 0;
+    for (const double value : {0.0, -1.0}) {
+      none.values.assign(none.values.size(), value);
+      kept = {chaos::text_of(group, none)};
+      if (value == 0)
+        CHECK_NOTHROW(text(keeping(1), lyapunov));
+      else if (lyapunov)
+        CHECK_THROWS_AS(text(keeping(1), lyapunov), InputError);  // a negative flight
+    }
   }
 }
 
