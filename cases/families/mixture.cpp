@@ -47,8 +47,9 @@ void leave(Random& random, Case& made) {
   const oracle::Oracle& oracle = oracle_of(made.scene);
   for (int i = 0; i < 3; ++i) {
     const Answer answer = oracle.first_hit(made.query);
-    if (answer.outcome == Outcome::inside) made.query.from = answer.obstacle;
-    if (answer.outcome != Outcome::inside || random.one_in(2)) return;
+    if (answer.outcome != Outcome::inside) return;
+    made.query.from = answer.obstacle;
+    if (random.one_in(2)) return;
   }
 }
 

@@ -20,12 +20,12 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-// v with V_0 W_1 2^22 - V_1 W_0 = j times their common divisor.
+// v with V_0 W_1 2^22 - V_1 W_0 = j times their common divisor g. V_0 is not 0: u_0 K / g is 1 modulo W_0 /
+// g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and W_0 / g > 2^22 > j.
 Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j) {
   const std::int64_t K = W1 << 22;
   const IntVec u = bezout({K, W0, 0});
-  Wide V0 = static_cast<Wide>(j) * u[0] % W0;
-  if (V0 <= 0) V0 += W0;
+  const Wide V0 = (static_cast<Wide>(j) * u[0] % W0 + W0) % W0;
   const Wide V1 = (V0 * K - static_cast<Wide>(j) * content_of({K, W0, 0})) / W0;
   return {std::ldexp(static_cast<double>(V0), -52), std::ldexp(static_cast<double>(V1), -76), 0};
 }

@@ -9,8 +9,9 @@
 
 #include <lorentz/continued_fraction.hpp>
 #include <lorentz/engine.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/families/family.hpp"
+#include "cases/families/target.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
@@ -43,7 +44,8 @@ bool only(const Case& one, const char* tag) {
 
 void each(const char* family, std::uint64_t count, const std::function<void(const Case&)>& check) {
   for (std::uint64_t index = 0; index < count; ++index) {
-    const Case one = cases::family_named(family)->make(kSeed, index);
+    const cases::Family* known = cases::family_named(family);  // else a target's own
+    const Case one = known ? known->make(kSeed, index) : cases::target_named(family)->make(kSeed, index);
     INFO(family << " " << index << " " << one.tags.front() << "\n" << stream(one.scene, one.query));
     check(one);
   }
@@ -340,9 +342,15 @@ TEST_CASE("long-flight: flights of 10^12 to 10^30", "[cases][family_claims]") {
 TEST_CASE("boundary-starts: on the surface exactly, inwards at t = 0, outwards and tangential not at all",
           "[cases][family_claims]") {
   int at_once = 0, left = 0, touched = 0, inside = 0, soon = 0, around = 0, around_of = 0;
+  std::array<int, 3> far{};  // obstacles that `from` names, far along an axis
   each("boundary-starts", 3000, [&](const Case& one) {
     const Answer answer = answer_to(one);
     const Query& query = one.query;
+    if (has(one, "from-elsewhere"))
+      for (int i = 0; i < 3; ++i) {
+        if (i >= one.scene.dimension) REQUIRE(query.from->cell[i] == Integer(0));
+        far[i] += std::fabs(static_cast<double>(query.from->cell[i].int64())) > 1e6;
+      }
     if (has(one, "from-around-x")) {
       ++around_of;
       Query bare = query;
@@ -380,6 +388,7 @@ TEST_CASE("boundary-starts: on the surface exactly, inwards at t = 0, outwards a
     REQUIRE_FALSE(hits_own);
     ++touched;
   });
+  for (const int along_axis : far) CHECK(along_axis > 20);
   CHECK(at_once > 80);  // 127 seen
   CHECK(left > 80);     // 142 seen
   CHECK(touched > 80);  // 116 seen
@@ -573,4 +582,46 @@ TEST_CASE("never: nothing is hit, but beside it", "[cases][family_claims]") {
   for (const auto& [kind, count] : kinds) CHECK(count > 120);  // 160 seen at least
   CHECK(near_hits > near / 3);
   CHECK(far > near / 4);
+}
+
+TEST_CASE("Obstacles of mixtures and ellipsoids' edges: how many, how large, and where in the cell",
+          "[cases][family_claims]") {
+  int motifs = 0, several = 0, balls = 0, ellipsoids = 0, left = 0;
+  each("mixture", 1000, [&](const Case& one) {
+    REQUIRE(one.scene.lattices.size() <= 3);
+    several += one.scene.lattices.size() > 1;
+    for (std::size_t l = 0; l < one.scene.lattices.size(); ++l) {
+      const auto& atoms = one.scene.lattices[l].atoms;
+      REQUIRE(atoms.size() <= 3);
+      motifs += atoms.size() > 1;
+      for (std::size_t a = 0; a < atoms.size(); ++a) {
+        ++(atoms[a].is_ball() ? balls : ellipsoids);
+        const double size = atoms[a].is_ball() ? atoms[a].radius : length(atoms[a].semiaxes[0]);
+        const bool is_large = has(one, "many-cells") && l + 1 == one.scene.lattices.size() && a == 0;
+        REQUIRE((is_large ? size > 0.9 : size > 0x1p-10 && size < 0x1p-2));
+      }
+    }
+    if (!has(one, "leaving") || !one.query.from) return;
+    ++left;  // it does contain x
+    const ObstacleId& from = *one.query.from;
+    const Lattice& lattice = one.scene.lattices.at(from.lattice);
+    const Atom& atom = lattice.atoms.at(from.atom);
+    Vec arm = sum(one.query.x, scaled(atom.position, -1));
+    for (int i = 0; i < one.scene.dimension; ++i)
+      arm = sum(arm, scaled(lattice.vectors[i], -static_cast<double>(from.cell[i].int64())));
+    const double size = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
+    REQUIRE(length(arm) < size * (1 + 1e-9));
+  });
+  CHECK(several > 300);
+  CHECK(motifs > 300);
+  CHECK(balls > 300);
+  CHECK(ellipsoids > 300);
+  CHECK(left > 50);
+  std::array<std::array<int, 3>, 2> off{};  // centres off the corner along an axis, by dimension
+  each("ellipsoid-edges", 1000, [&](const Case& one) {
+    for (int i = 0; i < 3; ++i)
+      off[one.scene.dimension - 2][i] += one.scene.lattices[0].atoms[0].position[i] != 0;
+  });
+  for (int dimension : {2, 3})
+    for (int i = 0; i < 3; ++i) CHECK((off[dimension - 2][i] > 50) == (i < dimension));
 }

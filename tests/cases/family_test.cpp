@@ -12,6 +12,8 @@
 
 #include <lorentz/scene_check.hpp>
 #include "cases/bad_queries.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/ulps.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -63,6 +65,42 @@ TEST_CASE("Random numbers are Philox4x64-10 of (seed, name), (index, use, block)
   CHECK(scenes.bits() == philox({7, 1, 0, 0}, {20161115, kNameA})[0]);
   cases::Random once_more(20161115, "a", 7);
   CHECK(once_more.uniform() == std::ldexp(philox({7, 0, 0, 0}, {20161115, kNameA})[0] >> 11, -53));
+}
+
+TEST_CASE("Binary64 values by their order: both zeros are one, and the largest is the end", "[cases][ulps]") {
+  constexpr double kTiny = 0x1p-1074, kLargest = std::numeric_limits<double>::max();
+  for (const double zero : {0.0, -0.0}) {
+    CHECK(cases::moved(zero, 0) == 0);
+    CHECK(cases::moved(zero, 3) == 3 * kTiny);
+    CHECK(cases::moved(zero, -3) == -3 * kTiny);
+    CHECK(cases::middle(zero, 4 * kTiny) == 2 * kTiny);
+    CHECK(cases::middle(-4 * kTiny, zero) == -2 * kTiny);
+  }
+  CHECK(cases::moved(kTiny, -2) == -kTiny);
+  CHECK(cases::moved(1, 1) == std::nextafter(1, 2));
+  CHECK(cases::moved(-1, 1) == std::nextafter(-1, 0));
+  CHECK(cases::moved(kLargest, 1) == kLargest);
+  CHECK(cases::moved(-kLargest, -1) == -kLargest);
+  CHECK(cases::middle(-1, 1) == 0);
+}
+
+TEST_CASE("Drawn integer vectors have integer lengths, no common divisor, and are many", "[cases]") {
+  INFO("seed 4");
+  cases::Random random(4, "integer vectors", 0);
+  std::set<cases::IntVec> triples, quadruples;
+  const auto check = [](const cases::Squared& one, std::set<cases::IntVec>& met) {
+    const auto& [v, across, w] = one;
+    REQUIRE(cases::content_of(v) == 1);
+    for (const cases::IntVec& a : {v, across}) REQUIRE(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] == w * w);
+    REQUIRE(v[0] * across[0] + v[1] * across[1] + v[2] * across[2] == 0);
+    met.insert(v);
+  };
+  for (int i = 0; i < 500; ++i) {
+    check(cases::drawn_triple(random, 9), triples);
+    check(cases::drawn_quadruple(random, 3), quadruples);
+  }
+  CHECK(triples.size() > 20);
+  CHECK(quadruples.size() > 100);
 }
 
 TEST_CASE("A case depends on seed, family and index: not on the order, the thread, or other families",
@@ -118,6 +156,9 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
       }
       REQUIRE_FALSE(flaw_of(one.query, one.scene));
       if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
+      for (const std::string& tag : one.tags)  // "tiny-2d"
+        if (tag.ends_with("-2d") || tag.ends_with("-3d"))
+          REQUIRE(tag[tag.size() - 2] - '0' == one.scene.dimension);
       REQUIRE_FALSE(one.tags.empty());
       REQUIRE(std::set<std::string>(one.tags.begin(), one.tags.end()).size() == one.tags.size());
       for (const std::string& tag : one.tags) {

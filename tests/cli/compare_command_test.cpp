@@ -103,6 +103,26 @@ TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][compa
                  "x lies outside of lattice 0, atom 0, cell (0, 0) by 1 of its radii\n"));
 }
 
+TEST_CASE("compare shows so many wrong answers as are asked for", "[cli][compare_command]") {
+  const Folder folder;
+  std::string queries = kScene, answers;
+  for (int i = 0; i < 4; ++i) {
+    queries += R"({"id":)" + std::to_string(i) + R"(,"x":[0.5,0.)" + std::to_string(i + 1) +
+               R"(],"v":[1,0]})" + "\n";
+    answers += R"({"id":)" + std::to_string(i) +
+               R"(,"outcome":"hit","lattice":0,"atom":0,"cell":[7,7],"time":9})" + "\n";
+  }
+  const std::string asked = "compare --queries " + folder.write("q", queries) +
+                            " --answers mine=" + folder.write("a", answers) + " --failures ";
+  for (const int most : {0, 1, 3, 9}) {
+    const std::string out = folder.lorentz(asked + std::to_string(most)).out;
+    int shown = 0;
+    for (auto at = out.find("(7, 7) by"); at != std::string::npos; at = out.find("(7, 7) by", at + 1))
+      ++shown;
+    CHECK(shown == std::min(most, 4));
+  }
+}
+
 TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_command]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood +
@@ -134,6 +154,12 @@ TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_co
                                                       "\n"));
   CHECK(other.status == 2);
   CHECK(contains(other.err, "no answer matches any query"));
+  // A file that is empty is said to be that, and nothing else.
+  const Run none =
+      folder.lorentz("compare --queries " + queries + " --answers mine=" + folder.write("a5", ""));
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, "is empty"));
+  CHECK_FALSE(contains(none.err, "no answer matches any query"));
   // Ids that come twice in the queries cannot be matched; lines without an id are passed over.
   CHECK(folder
             .lorentz("compare --queries " + folder.write("q2", kScene + kGood + kGood) +

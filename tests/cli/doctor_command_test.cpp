@@ -56,6 +56,7 @@ TEST_CASE("lorentz doctor needs no large stack", "[cli][doctor]") {
 TEST_CASE("lorentz doctor calls a machine that rounds otherwise not fit, and says for what",
           "[cli][doctor]") {
   const auto [status, out, err] = Folder().lorentz("doctor --pretend-rounding toward-zero");
+  CHECK(out.find("\nlibraries: GMP ") != std::string::npos);
   INFO(out << err);
   CHECK(status == 1);
   CHECK(contains(out, "rounding mode                          toward zero; it should be: to nearest"));

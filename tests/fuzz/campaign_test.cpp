@@ -424,6 +424,32 @@ TEST_CASE("With no ulp forgiven a tie decided the other way is wrong, and so is 
   }
 }
 
+TEST_CASE("The cause of a finding says what is special about it, and nothing else", "[fuzz][campaign]") {
+  fuzz::Examined wrong;
+  wrong.kind = Kind::wrong;
+  wrong.given = Answer::never();
+  wrong.exact = Answer::hit({}, 1);
+  const auto features = [&](const Scene& scene, const Query& query) {
+    const std::string cause = fuzz::cause_of(scene, query, wrong);
+    const auto at = cause.find("unit lattice");
+    REQUIRE(at != std::string::npos);
+    return cause.substr(at + 12);
+  };
+  const Scene flat = unit_scene(2, 0.25), solid = unit_scene(3, 0.25);
+  CHECK(features(flat, {{0.5, 0.5}, {1, 2}, {}}) == "");
+  CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 2, 3}, {}}) == "");
+  CHECK(features(flat, {{0.5, 0.5}, {0, 2}, {}}) == ", along an axis");
+  CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 0, 0}, {}}) == ", along an axis");
+  CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 0, 2}, {}}) == ", in a plane of axes");
+  CHECK(features(flat, {{0.5, 0.5}, {1, 2}, cases::obstacle(0, 0)}) == ", leaving");
+  CHECK(features(flat, {{0.5, 0x1p200}, {1, 2}, {}}).find(", far start") == 0);
+  for (const double extreme : {0x1p900, -0x1p900, 0x1p-900, -0x1p-900}) {
+    CHECK(features(flat, {{0.5, 0.5}, {1, extreme}, {}}) == ", extreme numbers");
+    CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 1, extreme}, {}}) == ", extreme numbers");
+  }
+  CHECK(features(flat, {{0.5, 0x1p-900}, {1, 1}, {}}) == ", extreme numbers");
+}
+
 TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is true", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   Plan plan = plan_of({"generic", "boundary", "never"});

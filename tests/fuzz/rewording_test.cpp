@@ -262,6 +262,7 @@ TEST_CASE("Rewording: each step that is counted changes what it says", "[fuzz][r
 
 TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fuzz][rewording]") {
   std::map<std::string, int> met;
+  std::set<int> speeds;  // those near 1, as powers of two
   for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 32 * 16; index += 16) {
       const cases::Case one = target.make(kSeed, index);
@@ -282,6 +283,7 @@ TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fu
         REQUIRE(sped == (reworded->query.v != one.query.v));
         for (int i = 0; i < 3; ++i)
           REQUIRE(reworded->query.v[i] == std::ldexp(one.query.v[i], reworded->speed));
+        if (std::abs(reworded->speed) <= 8) speeds.insert(reworded->speed);
         for (const std::int64_t k : reworded->periods)
           met["back"] += k < 0 && (-k & (-k - 1)) != 0;  // and by no power of two
         met["moved"] += moved, met["rounded"] += rounded, met["sped"] += sped, ++met["asked"];
@@ -292,6 +294,7 @@ TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fu
   CHECK(met["back"] > 30);
   CHECK(met["rounded"] > 20);
   CHECK(met["sped"] > 100);
+  CHECK(speeds.size() == 17);
 }
 
 TEST_CASE("Rewording: what cannot be said otherwise is left as it is", "[fuzz][rewording]") {

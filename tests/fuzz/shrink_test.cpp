@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "cases/scene_edit.hpp"
 #include "fuzz/campaign/campaign.hpp"
 #include "fuzz/examine/engine_subject.hpp"
 #include "fuzz/examine/examiner.hpp"
@@ -184,4 +185,44 @@ TEST_CASE("Shrinking leaves out atoms before the one that `from` names, which ke
   CHECK(fails(shrunk.scene, shrunk.query));
   CHECK(shrunk.scene.lattices[0].atoms.size() == 2);
   CHECK(shrunk.query.from->atom == 1);
+}
+
+TEST_CASE("Shrinking leaves out one lattice of two, before or after the one that `from` names",
+          "[fuzz][shrink]") {
+  const std::size_t kept = GENERATE(0, 1);
+  Scene scene = unit_scene(2, 0.125);
+  scene.lattices.push_back(scene.lattices[0]);
+  scene.lattices[kept] = {{Vec{1, 0.25}, Vec{0, 1}, Vec{}}, {{{}, 0.0625, {}}}};
+  const Query query{{0.3, 0.8}, {0.7, 0.3}, ObstacleId{static_cast<int>(kept), 0, {}}};
+  // The unit lattice will not do.
+  const auto fails = [](const Scene& its, const Query& asked) {
+    if (flaw_of(its) || flaw_of(asked, its) || !asked.from) return false;
+    const Lattice& left = its.lattices[asked.from->lattice];
+    return left.atoms[0].radius == 0.0625 && left.vectors[0][1] == 0.25;
+  };
+  const Shrunk shrunk = fuzz::shrink(scene, query, fails);
+  CHECK(fails(shrunk.scene, shrunk.query));
+  CHECK(shrunk.scene.lattices.size() == 1);
+}
+
+TEST_CASE("Of two numbers the one that is simpler to read", "[fuzz][shrink]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const auto score = [&](double x) { return fuzz::complexity(scene, {{x, 0}, {1, 0}, {}}); };
+  const double in_order[] = {0, 1, -1, 2, -2, 0x1p-2, -0x1p-2, 3, 0.1};
+  for (std::size_t i = 1; i < std::size(in_order); ++i) {
+    INFO(in_order[i]);
+    CHECK(score(in_order[i - 1]) < score(in_order[i]));
+  }
+  CHECK(score(1024) == score(0x1p-10));
+  const Query left{{}, {1, 0}, cases::obstacle(0, 0)}, far{{}, {1, 0}, cases::obstacle(5, 0)};
+  CHECK(fuzz::complexity(scene, left) > score(0));
+  CHECK(fuzz::complexity(scene, far) > fuzz::complexity(scene, left));
+  Scene two = scene, ellipse = scene, lattices = scene;
+  two.lattices[0].atoms.push_back(two.lattices[0].atoms[0]);
+  ellipse.lattices[0].atoms[0] = {{}, 0, {{0.25, 0}, {0, 0.25}}};
+  lattices.lattices.push_back(lattices.lattices[0]);
+  const Query query{{}, {1, 0}, {}};
+  CHECK(fuzz::complexity(scene, query) < fuzz::complexity(ellipse, query));
+  CHECK(fuzz::complexity(ellipse, query) < fuzz::complexity(two, query));
+  CHECK(fuzz::complexity(two, query) < fuzz::complexity(lattices, query));
 }

@@ -323,7 +323,13 @@ TEST_CASE("An inset shows the surface as a circle, on the side on which it is",
   const ObstacleId id{0, 0, {0, 0}};
   const Meeting meeting(scene, query, id);
   CHECK(meeting.gap == Approx(share - 1));
-  const Answer met = Answer::hit(id, meeting.entry / 2), never = Answer::never();
+  // The other flight goes on for ever, or to an obstacle behind.
+  Query beyond = query;
+  beyond.from = id;
+  const bool is_endless = GENERATE(true, false);
+  const Answer met = Answer::hit(id, meeting.entry / 2),
+               never = is_endless ? Answer::never() : oracle::Oracle(scene).first_hit(beyond);
+  REQUIRE((is_endless || never.outcome == Outcome::hit));
   const SvgPicture picture(finding_drawing(scene, query, share < 1 ? never : met, share < 1 ? met : never));
   const Measured inset = measured(picture);
   CHECK(inset.radii == Approx(std::fabs(share - 1)).epsilon(1e-3));
@@ -455,6 +461,7 @@ TEST_CASE("A finding in space: sections by the plane of the drawing, shadows, an
       CHECK(same_place(ink.centre, sheet.seen(centre), sheet.plane));
       CHECK(same_oval(ink.oval, shadow(atom, 3, along, across), sheet.plane));
       if (id != exact.obstacle) CHECK((ink.hint.find("in front") != std::string::npos) == (before > 0));
+      CHECK(std::fabs(before) < 0.5);
       continue;
     }
     ++sections;

@@ -383,7 +383,10 @@ TEST_CASE("Free paths: the legend stands where it hides the fewest points, and h
     CHECK(box.holds(words.centre));
     CHECK(box.holds({words.centre.x + 20 * 0.56 * static_cast<double>(series.name.size()), words.centre.y},
                     0.02));
-    CHECK(box.holds(middle(read.picture.mark_of(series.name))));
+    const Spot mark = middle(read.picture.mark_of(series.name));
+    CHECK(mark.x - box.low.x == Approx(28).margin(0.02));
+    CHECK(words.centre.x - mark.x == Approx(28).margin(0.02));
+    CHECK(words.centre.y - mark.y == Approx(7).margin(0.02));
   }
 }
 
@@ -398,4 +401,31 @@ TEST_CASE("Free paths: long lines are written smaller, so that they fit", "[pict
   CHECK(title.centre.x == Approx(read.frame.low.x));
   plot.title = "short";
   CHECK(SvgPicture(draw_free_paths(plot)).text("short").number("font-size") == 22);
+}
+
+TEST_CASE("Free paths: within a decade there are eight more marks, if there is room for them",
+          "[pictures][free_path_plot]") {
+  // As many decades as these along t; the marks at its foot.
+  const auto marks_over = [](int decades) {
+    FreePathPlot plot;
+    plot.series = {{"one", {{1, 0.1, 0}, {std::pow(10, decades), 1, 0}}}};
+    const Reading read(draw_free_paths(plot), true);
+    std::set<long> feet;
+    const double low = read.t.ticks.front().first;
+    for (const Ink& line : read.picture.all("line"))
+      if (line.is("stroke", "#222222") && std::fabs(line.points[0].y - read.frame.high.y) < 0.02 &&
+          line.points[1].y < line.points[0].y - 2 && std::fabs(line.points[0].x - line.points[1].x) < 0.02)
+        feet.insert(std::lround(100 * (line.points[0].x - low)));
+    return std::pair(feet, read);
+  };
+  const auto [few, read] = marks_over(3);
+  const double decade = (read.t.ticks.back().first - read.t.ticks.front().first) /
+                        std::log10(read.t.ticks.back().second / read.t.ticks.front().second);
+  for (int exponent = 0; exponent < 3; ++exponent)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double at = 100 * decade * (std::log10(digit) + exponent);
+      INFO(digit << " times 10^" << exponent);
+      CHECK(std::any_of(few.begin(), few.end(), [&](long foot) { return std::fabs(foot - at) < 4; }));
+    }
+  CHECK(marks_over(30).first.size() <= 33);
 }

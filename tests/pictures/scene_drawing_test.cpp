@@ -99,6 +99,9 @@ TEST_CASE("2D: one long flight does not shrink the others", "[pictures][scene_dr
   CHECK(cells_high(with_flights({3, 35}).svg) > 35);
   CHECK(with_flights({3, 35}).remarks.empty());
   CHECK(with_flights({3, 45}).remarks.size() == 1);
+  // So are three; of four the longest is left out.
+  CHECK(with_flights({3, 3, 35}).remarks.empty());
+  CHECK(with_flights({3, 3, 3, 35}).remarks.size() == 1);
 }
 
 TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pictures][scene_drawing]") {
@@ -168,6 +171,10 @@ TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
   // Hexagonal, and face-centred but a thousandth too long.
   CHECK(cell_of({Vec{1, 0, 0}, Vec{-0.5, std::sqrt(0.75), 0}, Vec{0, 0, 1.6}}).primitive_cells == 1);
   CHECK(cell_of({Vec{0, 0.5, 0.5005}, Vec{0.5, 0, 0.5005}, Vec{0.5, 0.5, 0}}).primitive_cells == 1);
+  // Two edges at 30 degrees, and half the cube's volume: no two of the three right angles make a cube.
+  const Vec a{1, 0, 0}, b{std::sqrt(0.75), 0.5, 0}, up{0, 0, 1};
+  for (const auto& prism : {std::array{a, b, up}, {a, up, b}, {up, a, b}})
+    CHECK(shown_cell({prism, {{{}, 0.1, {}}}}, prism).primitive_cells == 1);
   // In the picture: the corners and the middles of the faces; of bcc, the middle.
   Scene scene = unit_scene(3, 0.1);
   scene.lattices[0].vectors = fcc;

@@ -50,6 +50,10 @@ TEST_CASE("Power laws are fitted in logarithms, with Student's interval", "[repo
   CHECK(other.high == Approx(0.9 + 4.302652730 * 0.2645751311));
   CHECK_FALSE(power_fit({{1, 1}, {2, 2}}));
   CHECK_FALSE(power_fit({{1, 1}, {1, 2}, {1, 3}}));
+  for (const double bad : {0.0, -1.0, double(INFINITY), double(NAN)}) {
+    CHECK_THROWS_AS(power_fit({{1, 1}, {2, 2}, {3, bad}}), std::invalid_argument);
+    CHECK_THROWS_AS(power_fit({{1, 1}, {2, 2}, {bad, 3}}), std::invalid_argument);
+  }
   CHECK_THROWS_AS(power_fit({{1, 1}, {2, 0}, {3, 1}}), std::invalid_argument);
 }
 
