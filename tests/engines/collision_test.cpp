@@ -2,6 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+#include <tuple>
+
+#include <lorentz/engine.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include "tests/support/support.hpp"
@@ -45,6 +49,30 @@ Scene one_ellipsoid(int dimension, std::vector<Vec> semiaxes) {
 }
 
 }  // namespace
+
+TEST_CASE("An answer that held another one is as a new one", "[engines]") {
+  const auto everything = [] {
+    Answer answer = Answer::hit({3, 2, {7, 8, 9}}, 5.5);
+    answer.time_decimal = "5.5", answer.detail = Detail{}, answer.message = "none", answer.unsupported = true;
+    return answer;
+  };
+  const auto parts = [](const Answer& a) {
+    return std::tuple(a.outcome, a.obstacle, a.time, a.time_decimal, a.detail.has_value(), a.message,
+                      a.unsupported);
+  };
+  const double endless = std::numeric_limits<double>::infinity();
+  for (const std::string& name : engine_names()) {
+    const auto engine = make_engine(name, unit_scene(2, 0.1));
+    for (const Query& query : {Query{{0.3, 0.2, 0}, {0.61, 0.23, 0}, {}}, Query{{0.5, 0.5, 0}, {1, 0, 0}, {}},
+                               Query{{0.05, 0, 0}, {1, 0.3, 0}, {}}, Query{{0, 0.5, 0}, {0, 0, 0}, {}}})
+      for (const double limit : {1e-3, endless}) {
+        Answer answer = everything();
+        engine->first_hit(query, limit, answer);
+        INFO(name << ", limit " << limit);
+        CHECK((parts(answer) == parts(engine->first_hit(query, limit))));
+      }
+  }
+}
 
 TEST_CASE("Collision detail of balls is the oracle's, which is correctly rounded", "[engines][collision]") {
   Draw draw(1301);
