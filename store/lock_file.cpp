@@ -35,17 +35,11 @@ LockFile::LockFile(const std::string& file, bool writes, const std::string& busy
     close();
     const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
     lock_ = ::open(path_.c_str(), flags, 0666);
-    if (lock_ < 0 && !writes_) return;
-    if (lock_ < 0) throw write_error(path_, errno);
-    if (writes_ && !is_empty_file()) {
-      close();
-      throw FileError(path_ +
-                      ": is there and is not a lock of this program; move it away, or name another store");
-    }
-    if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
-      close();
-      throw FileError(file + ": " + busy);
-    }
+    if (lock_ == -1 && !writes_) return;
+    if (lock_ == -1) throw write_error(path_, errno);
+    if (writes_ && !is_empty_file())
+      fail(path_ + ": is there and is not a lock of this program; move it away, or name another store");
+    if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) fail(file + ": " + busy);
   } while (!is_the_one_there());
 }
 
@@ -68,8 +62,13 @@ bool LockFile::is_the_one_there() const {
 }
 
 void LockFile::close() {
-  if (lock_ >= 0) ::close(lock_);
-  lock_ = -1;
+  ::close(lock_);  // -1 is refused, and nothing else happens
+}
+
+// A constructor that throws has no destructor.
+void LockFile::fail(const std::string& what) {
+  close();
+  throw FileError(what);
 }
 
 }  // namespace lorentz::store

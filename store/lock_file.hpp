@@ -22,6 +22,7 @@ class LockFile {
   bool is_empty_file() const;
   bool is_the_one_there() const;
   void close();
+  [[noreturn]] void fail(const std::string& what);
 
   const std::string path_;
   const bool writes_;

@@ -1,7 +1,13 @@
 // Stores that something changed: refused with file, line and remedy, or the result is the same to the byte.
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <iterator>
 
+#include <lorentz/errors.hpp>
 #include "cases/random.hpp"
+#include "store/check.hpp"
+#include "store/lock_file.hpp"
+#include "store/pieces.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
@@ -156,4 +162,103 @@ TEST_CASE("What stands beside a store is not written over, and not removed", "[c
   for (const char* end : {".lock", "-wal", "-shm", "-journal"})
     CHECK(folder.lorentz(flights + " --csv " + store + end).status == 2);
   CHECK(folder.lorentz(flights).status == 0);
+}
+
+TEST_CASE("The text of a run in pieces is read back by the same plan, and what differs is said",
+          "[cli][store]") {
+  const store::Plan plan{{"version", "1"}, {"scene", "a \"square\""}, {"count", "12"}};
+  const std::vector<std::string> pieces{R"({"a":1})", R"({"b":[2,3]})", "{}"};
+  const std::string text = store::text_of("flights", plan, pieces);
+  CHECK(store::pieces_in(text, "flights", plan) == pieces);
+  CHECK(store::pieces_in(store::text_of("x", {}, {}), "x", {}).empty());
+  const auto refused = [&](const store::Plan& other, const std::string& what, const char* kind = "flights") {
+    CHECK_THROWS_WITH(store::pieces_in(text, kind, other),
+                      "line 1 " + what + "; give what it was begun with, or name another file");
+  };
+  refused(plan, "is a store of `lorentz flights`", "bench");
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    store::Plan other = plan;
+    other[i].second = "0";
+    const std::string was = i == 1 ? R"(a \"square\")" : plan[i].second;
+    refused(other, "is of another run: its " + plan[i].first + " is \"" + was + "\", not \"0\"");
+    other[i].first = "other";
+    refused(other, "is of another version of this program");
+    refused({plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(i)},
+            "is of another version of this program");
+  }
+  store::Plan longer = plan;
+  longer.emplace_back("more", "1");
+  refused(longer, "is of another version of this program");
+}
+
+TEST_CASE("What is no piece is refused, also with the right checksum", "[cli][store]") {
+  const store::Plan plan{{"version", "1"}};
+  const std::string header = store::text_of("flights", plan, {});
+  const auto with_line = [&](const std::string& line) {
+    const std::uint64_t check = store::check_of(line, store::check_of(header.substr(0, header.size() - 1)));
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(check));
+    return store::pieces_in(header + line + ",\"check\":\"" + digits + "\"}\n", "flights", plan);
+  };
+  CHECK(with_line(R"({"piece":{"a":1})") == std::vector<std::string>{R"({"a":1})"});
+  for (const auto& [line, why] : {std::pair{R"({"peace":{"a":1})", "line 2 is not a piece of a run"},
+                                  {R"({"a":1)", "line 2 is not a piece of a run"},
+                                  {R"({"piece":{"a":1} {})", "line 2 is more than one piece"},
+                                  {R"({"piece":{"a":tru})", "line 2 is not JSON: "},
+                                  {R"({"piece":)", "line 2 is not JSON: "}}) {
+    INFO(line);
+    CHECK_THROWS_WITH(with_line(line), Catch::StartsWith(why) && Catch::EndsWith(store::kRemedy));
+  }
+}
+
+namespace {
+
+std::ptrdiff_t open_files() {
+  return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+}
+
+}  // namespace
+
+TEST_CASE("A lock that is refused or given back leaves nothing open", "[cli][store]") {
+  const Folder folder;
+  const std::string store = folder.file("store"), notes = folder.file("notes");
+  folder.write("notes.lock", "my notes\n");
+  const std::ptrdiff_t before = open_files();
+  for (int i = 0; i < 3; ++i) {
+    CHECK_NOTHROW(store::LockFile(store, false, "busy"));  // nobody writes: it makes no file
+    CHECK_FALSE(fs::exists(store + ".lock"));
+    CHECK_THROWS_WITH(store::LockFile(notes, true, "busy"),
+                      Catch::Contains("notes.lock: is there and is not a lock"));
+    CHECK_THROWS_WITH(store::LockFile(folder.file("no/store"), true, "busy"),
+                      Catch::Contains("No such file"));
+    const store::LockFile lock(store, true, "busy");
+    for (const bool writes : {false, true})
+      CHECK_THROWS_WITH(store::LockFile(store, writes, "busy"), store + ": busy");
+  }
+  CHECK(open_files() == before);
+  CHECK_FALSE(fs::exists(store + ".lock"));
+}
+
+TEST_CASE("A lock that another removes and makes anew in between is held by one at a time", "[cli][store]") {
+  const Folder folder;
+  const std::ptrdiff_t before = open_files();
+  std::atomic<int> holders = 0, most = 0, held = 0;
+  const auto work = [&] {
+    for (int i = 0; i < 8000; ++i) {
+      try {
+        const store::LockFile lock(folder.file("store"), true, "busy");
+        most = std::max(most.load(), ++holders);
+        ++held;
+        std::this_thread::yield();
+        --holders;
+      } catch (const FileError&) {
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  CHECK(held > 0);
+  CHECK(most == 1);
+  CHECK(open_files() == before);
 }
