@@ -95,6 +95,8 @@ class Accepts(unittest.TestCase):
         for name, change in {
             "plane": lambda c: c["certificate"]["windows"].insert(1, {**c["certificate"]["windows"][0], "to": 5}),
             "exact": lambda c: c["certificate"]["windows"][0].update({"from": "-0x1p0", "to": "0x3p0"}),
+            "at once": lambda c: c["certificate"]["windows"].append({**c["certificate"]["windows"][0], "from": 0.25}) or
+            c["certificate"]["windows"][0].update(to=0.25),  # one begins where the other ends
             "inside3": lambda c: c["certificate"]["windows"].pop(0) and c["certificate"]["windows"].insert(
                 0, {"lattice": 0, "atom": 0, "from": -3, "to": 3, "basis": [[0, 1, 0], ["1", 0, "-0"], [0, 0, 1]]}),
             "superposition": lambda c: c["certificate"]["windows"].append({**c["certificate"]["windows"][0], "to": 0}),
@@ -342,6 +344,7 @@ class Refuses(unittest.TestCase):
         scene(lambda s: s["lattices"][0].update(vectors=[[1, 2], [2, 4]]))
         scene(lambda s: s["lattices"][0].update(atoms=[]))
         scene(lambda s: s.update(lattices=[]))
+        scene(lambda s: s["lattices"].append({**s["lattices"][0], "atoms": []}))  # the second one's
 
     def test_files(self):
         header, scene, line = golden(CASES["plane"])
