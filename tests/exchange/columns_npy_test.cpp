@@ -1,6 +1,7 @@
 // Arrays of NumPy, in and out, byte by byte.
 #include "src/exchange/columns_npy.hpp"
 
+#include <unistd.h>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -24,18 +25,33 @@ struct Reading {
   bool more = false;
 };
 
-Reading read(const std::string& content, int dimension, std::size_t part = 7) {
-  const Folder folder;
+Reading read_path(const std::string& path, int dimension, std::size_t part) {
   Reading reading;
   try {
-    NpyQueryReader reader(
-        folder.write("q.npy", content), dimension,
-        [&](const std::string&, const std::string& column) { reading.unknown.push_back(column); });
+    NpyQueryReader reader(path, dimension, [&](const std::string&, const std::string& column) {
+      reading.unknown.push_back(column);
+    });
     while (reader.next(reading.rows, part)) continue;
     reading.more = reader.has_more();
   } catch (const InputError& error) {
     reading.failure = error.what();
   }
+  return reading;
+}
+
+Reading read(const std::string& content, int dimension, std::size_t part = 7) {
+  const Folder folder;
+  return read_path(folder.write("q.npy", content), dimension, part);
+}
+
+// The same out of a pipe, which has no places to go to. It holds 64 KiB.
+Reading read_piped(const std::string& content, int dimension, std::size_t part) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  REQUIRE(write(ends[1], content.data(), content.size()) == static_cast<ssize_t>(content.size()));
+  close(ends[1]);
+  Reading reading = read_path("/dev/fd/" + std::to_string(ends[0]), dimension, part);
+  close(ends[0]);
   return reading;
 }
 
@@ -218,11 +234,13 @@ TEST_CASE("A file that ends too early: its rows are read, and those that are mis
   for (const bool fortran : {false, true}) {
     const std::string whole = npy_rows(rows, false, fortran);
     for (std::size_t missing = 1; missing <= 10 * 40; missing += 3) {
-      const Reading reading = read(whole.substr(0, whole.size() - missing), 2, 4);
+      const std::string content = whole.substr(0, whole.size() - missing);
       const std::size_t gone = fortran ? std::min<std::size_t>((missing + 7) / 8, 10) : (missing + 39) / 40;
-      INFO(fortran << " " << missing);
-      CHECK(contains(reading.failure, "q.npy: ends too early: " + std::to_string(gone) + " of 10 rows"));
-      if (gone < 10) check_rows(reading.rows, Rows(rows.begin(), rows.end() - static_cast<int>(gone)), 2);
+      for (const Reading& reading : {read(content, 2, 4), read_piped(content, 2, 4)}) {
+        INFO(fortran << " " << missing);
+        CHECK(contains(reading.failure, ": ends too early: " + std::to_string(gone) + " of 10 rows"));
+        if (gone < 10) check_rows(reading.rows, Rows(rows.begin(), rows.end() - static_cast<int>(gone)), 2);
+      }
     }
   }
   CHECK(read(npy_rows(rows) + "x", 2).more);
@@ -287,4 +305,56 @@ TEST_CASE("Answers as an array: the header as NumPy pads it, and every byte of t
                      row(std::string("\1\3\0", 3), 0, 0, {}, nan) +
                      row(std::string("\5\xff\0", 3), 0, 0, {}, nan));
   }
+}
+
+TEST_CASE("Rows of queries that are cleared are as new ones, and queries as an array hold their bytes alone",
+          "[exchange][npy]") {
+  std::mt19937_64 random(5);
+  for (const int dimension : {2, 3}) {
+    const Rows numbers = drawn_rows(random, 5, static_cast<std::size_t>(2 * dimension));
+    QueryRows rows = read(npy_rows(numbers), dimension).rows;
+    std::string bytes;
+    append_npy_queries(bytes, rows, dimension);
+    CHECK(bytes.size() == 5 * 16 * static_cast<std::size_t>(dimension));
+    check_rows(read(npy_query_header(5, dimension, false) + bytes, dimension).rows, numbers, dimension);
+
+    rows.from_lattice = rows.from_atom = std::vector<std::int32_t>(5, 1);
+    for (int k = 0; k < dimension; ++k) rows.from_cell[k] = {1, 2, 3, 4, 5};
+    bytes.clear();
+    append_npy_queries(bytes, rows, dimension);
+    CHECK(bytes.size() == 5 * (24 * static_cast<std::size_t>(dimension) + 8));
+
+    rows.max_time = {1, 2, 3, 4, 5}, rows.large_from = {{2, ObstacleId{}}};
+    rows.id = {"1"}, rows.flaws = {{3, "no number"}}, rows.lines = {7};
+    rows.clear();
+    CHECK(rows.count == 0);
+    std::size_t left = rows.max_time.size() + rows.from_lattice.size() + rows.from_atom.size() +
+                       rows.large_from.size() + rows.id.size() + rows.flaws.size() + rows.lines.size();
+    for (int k = 0; k < 3; ++k) left += rows.x[k].size() + rows.v[k].size() + rows.from_cell[k].size();
+    CHECK(left == 0);
+  }
+}
+
+TEST_CASE("Answers whose cells a column does not hold are refused once, each with its row",
+          "[exchange][npy]") {
+  AnswerRows answers;
+  answers.resize(3, 2);
+  const Integer large = *Integer::from_decimal("1180591620717411303424");
+  answers.set(0, Answer::inside({0, 0, {large, 1}}), 0, false);
+  answers.set(1, Answer::hit({0, 0, {1, 2}}, 2.5), 0, true);
+  answers.set(2, Answer::hit({1, 2, {3, large}}, 3.5), 0, true);
+  REQUIRE(answers.large_cells.size() == 2);
+  for (int times = 0; times < 2; ++times) {
+    answers.refuse_large_cells();
+    CHECK(answers.large_cells.empty());
+    REQUIRE(answers.reasons.size() == 2);
+    CHECK(answers.reasons[0].row == 0);
+    CHECK(answers.reasons[1].row == 2);
+    CHECK(contains(answers.reasons[1].message, "(3, 1180591620717411303424)"));
+    CHECK((answers.outcome[0] == Outcome::error && answers.outcome[2] == Outcome::error));
+    CHECK((answers.outcome[1] == Outcome::hit && answers.time[1] == 2.5 && answers.cell[1][1] == 2));
+  }
+  answers.set(0, Answer::inside({0, 0, {large, 1}}), 0, false);
+  answers.resize(3, 2);
+  CHECK((answers.large_cells.empty() && answers.reasons.empty()));
 }
