@@ -33,7 +33,7 @@ Fault of_false_inside(const Question& question, const Answer& given, const Obsta
   const double gap = question.setting->margins().approach(question.query, given.obstacle).start_gap;
   if (question.exact.outcome == Outcome::inside && (gap < 0 || decisive != given.obstacle))
     return {Cause::inside_another};
-  return {Cause::inside_not_so, std::fabs(gap)};
+  return {Cause::inside_not_so, gap};  // x lies outside: else it were the one above, or right
 }
 
 // The answer says that another obstacle is hit than the exact one, or that one is where none is.
@@ -49,11 +49,11 @@ Fault of_false_hit(const Question& question, const Answer& given, const Obstacle
   return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 
-// Is the obstacle that is said to be hit only touched, or not ahead?
-bool is_not_entered(const Question& question, const Answer& given) {
-  if (given.outcome != Outcome::hit) return false;
-  const oracle::Approach named = question.setting->margins().approach(question.query, given.obstacle);
-  return named.gap >= 0 || (!named.ahead && named.start_gap >= 0);
+// Is the obstacle that is said to be hit only touched? (Asked where the inputs need not move: such a one is
+// not missed, nor does it lie behind.)
+bool is_touched(const Question& question, const Answer& given) {
+  return given.outcome == Outcome::hit &&
+         question.setting->margins().approach(question.query, given.obstacle).gap >= 0;
 }
 
 Fault of_another_answer(const Question& question, const Answer& given,
@@ -64,8 +64,9 @@ Fault of_another_answer(const Question& question, const Answer& given,
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
     return {Cause::other_quantity};
-  const bool is_about_exact = names_obstacle(exact) && !is_not_entered(question, given);
-  const ObstacleId& decisive = needed ? *needed : is_about_exact ? exact.obstacle : given.obstacle;
+  const ObstacleId& decisive = needed                                                  ? *needed
+                               : names_obstacle(exact) && !is_touched(question, given) ? exact.obstacle
+                                                                                       : given.obstacle;
   if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
   const oracle::Approach approach = question.setting->margins().approach(query, decisive);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)

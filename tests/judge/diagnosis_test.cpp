@@ -145,6 +145,52 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   for (Features& f : failing) f.depth = 0.04;
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->is_of_depth);
+  // Of 3 failures, in something that no right answer has, as many right ones are needed as leave 1 in 1000 to
+  // chance: (3 / n)^3 <= 1 / 1000.
+  failing.assign(3, Features{}), failing[0].in_space = failing[1].in_space = failing[2].in_space = true;
+  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(29)));
+  REQUIRE(circumstance_of(failing, std::vector<Features>(31)));
+  failing.resize(1);
+  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(2999)));
+  CHECK(circumstance_of(failing, std::vector<Features>(3001)));
+}
+
+TEST_CASE("What only touches the line is told of as that", "[judge][diagnosis]") {
+  // The line touches the disc (0, 0) and enters (1, 1). No input needs to move for the one that is named.
+  const Question question = asked(0.3125, {0.203125, -0.25, 0}, {3, 4, 0});
+  REQUIRE(question.exact.obstacle == disc(1, 1));
+  CHECK(question.setting->margins().approach(question.query, disc(0, 0)).gap == 0);
+  CHECK(cause(question, Answer::hit(disc(0, 0), 0.05)) == "~false-hit-grazing");
+}
+
+TEST_CASE("Features are those of the whole scene, in lengths of its shortest vector", "[judge][features]") {
+  Scene scene = unit_scene(2, 0.3);
+  scene.lattices[0].vectors = {{{2, 0, 0}, {0, 3, 0}, {}}};
+  scene.lattices[0].atoms.push_back(Atom{{1, 1.5, 0}, 0.2, {}});
+  scene.lattices.push_back({{{{0, 1.5, 0}, {7, 0, 0}, {}}}, {Atom{{0.5, 0.7, 0}, 0.25, {}}}});
+  const auto of = [](const Scene& asked_of, const Query& query) {
+    const auto setting = std::make_shared<Setting>(asked_of);
+    return std::pair(features_of({setting, query, setting->oracle().first_hit(query), "here", ""}),
+                     setting->oracle().first_hit(query));
+  };
+  const Query query{{0.8, -0.7, 0}, {1.75, 6, 0}, {}};
+  const auto [its, exact] = of(scene, query);
+  REQUIRE(exact.outcome == Outcome::hit);
+  CHECK((its.several_lattices && its.several_atoms && its.other_cell));
+  CHECK_FALSE((its.in_space || its.zero_component || its.leaving || its.ellipsoids || its.never));
+  CHECK(its.radius == Approx(0.2 / 1.5));
+  CHECK(its.speed == Approx(6.25));
+  CHECK(its.start == Approx(std::hypot(0.8, 0.7) / 1.5));
+  CHECK(its.flight == Approx(*exact.time * 6.25 / 1.5));
+  scene.lattices[1].atoms[0] = Atom{{0.5, 0.7, 0}, 0, {{{0.25, 0, 0}, {0, 0.0625, 0}}}};
+  const Features slender = of(scene, query).first;
+  CHECK(slender.ellipsoids);
+  CHECK(slender.radius == Approx(0.0625 / 1.5));
+  scene.lattices[0].atoms[1].radius = 0.03125;
+  CHECK(of(scene, query).first.radius == Approx(0.03125 / 1.5));
+  const Features plain = of(unit_scene(3, 0.25), {{0.5, 0, 0}, {1, 0, 0.5}, ObstacleId{}}).first;
+  CHECK((plain.in_space && plain.zero_component && plain.leaving));
+  CHECK_FALSE((plain.several_lattices || plain.several_atoms || plain.other_cell));
 }
 
 TEST_CASE("Questions about far cells are told from others", "[judge][circumstance]") {

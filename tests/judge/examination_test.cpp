@@ -10,8 +10,10 @@
 #include "compare/registry.hpp"
 #include "compare/sampling.hpp"
 #include "judge/repetition.hpp"
+#include "tests/support/command_line.hpp"
 
 using namespace lorentz;
+using namespace lorentz::test;
 using namespace lorentz::judge;
 
 namespace {
@@ -95,6 +97,45 @@ TEST_CASE("A program that never answered is not asked on and on", "[judge][exami
   CHECK(examination.rows()[0].tally.missing == 5);
   CHECK(examination.rows()[1].tally.queries == 0);
   CHECK(examination.rows()[1].scenes_given_up > 0);
+}
+
+TEST_CASE("An engine that is slow on the mean of its first questions is asked no more there",
+          "[judge][examination]") {
+  Setting setting(unit_scene(2, 0.25));
+  for (int i = 0; i < 4; ++i) setting.note(false);
+  setting.note_time(0.4);
+  CHECK_FALSE(setting.is_beyond_engine());  // 0.1 s each is not slow
+  setting.note_time(1e-9);
+  CHECK(setting.is_beyond_engine());
+  setting.note(false);
+  CHECK_FALSE(setting.is_beyond_engine());
+}
+
+TEST_CASE("Of each row the first 500 questions are compared; a row without any has no speed",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  Examination whole("oracle", {}, 4, stop), none("oracle", {}, 4, stop);
+  whole.run({"row", ""}, questions({2}, 510), kForEver);
+  long calls = 0;
+  for (const auto& [decade, call] : whole.calls().by_decade())
+    calls += static_cast<long>(call.right + call.ill_posed + call.wrong + call.undecided);
+  CHECK(whole.rows()[0].tally.agree == 510);
+  CHECK(calls == 500);
+  none.run({"row", ""}, questions({2}, 0), kForEver);
+  Examination more("oracle", {}, 4, stop);
+  more.run({"row", ""}, questions({2}, 0), kForEver);
+  more.take_over(none);
+  CHECK(more.rows()[0].tally.ns_per_query == 0);
+}
+
+TEST_CASE("The first question to another program is at an empty place", "[judge][examination]") {
+  const Folder folder;
+  const std::atomic<bool> stop = false;
+  Examination examination("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE, {}, 4,
+                          stop);
+  examination.warm_up();
+  examination.finish();
+  CHECK(contains(folder.read("asked"), R"("x":[0.5,0],"v":[1,0])"));
 }
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
