@@ -39,8 +39,9 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   Batch batch;
   std::optional<Maker> maker;
   std::string scene_line;
-  const std::uint64_t end = std::min((number + 1) * kBatch, order.set->most);
-  for (std::uint64_t index = number * kBatch; index < end; ++index) {
+  for (std::uint64_t i = 0; i < kBatch; ++i) {
+    const std::uint64_t index = number * kBatch + i;
+    if (index >= order.set->most) break;
     const Question question = order.set->question(order.seed, index);
     scene_line.clear();
     append_scene_line(scene_line, question.scene);
@@ -180,7 +181,7 @@ class PartFile {
         }()) {}
   ~PartFile() {
     if (file_) std::fclose(file_);
-    if (lock_ >= 0) close(lock_);
+    close(lock_);
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -193,10 +194,10 @@ class PartFile {
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
       throw FileError(path_ + ": is no regular file; name another, or use standard output");
     lock_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (lock_ < 0) fail(part_);
+    if (lock_ == -1) fail(part_);
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) throw FileError(part_ + ": another run is writing it");
     const bool resumed = read_note(state);
-    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0 || ::lseek(lock_, 0, SEEK_END) < 0) fail(part_);
+    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0 || ::lseek(lock_, 0, SEEK_END) == -1) fail(part_);
     file_ = ::fdopen(::dup(lock_), "wb");
     if (!file_) fail(part_);
     if (!resumed) write(header_, state);
@@ -216,9 +217,9 @@ class PartFile {
     std::remove(fresh.c_str());  // no link is followed, and no file of another name is written
     const int note = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     const std::string line = state_text.str();
-    const bool written =
-        note >= 0 && ::write(note, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-    if (note >= 0) ::close(note);
+    if (note == -1) fail(note_);
+    const bool written = ::write(note, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    ::close(note);
     if (!written || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
   }
 

@@ -306,8 +306,7 @@ struct Reader::Impl {
       throw InputError("a golden set has one header, its first line");
     StreamItem item;
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
-    if (item.kind == StreamItem::Kind::bad && (item.bad_scene || item.no_scene))
-      throw InputError(item.message);
+    if (item.kind == StreamItem::Kind::bad && item.bad_scene) throw InputError(item.message);
     // A query that is bad for another reason does not say that it has no scene besides.
     if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {

@@ -2,6 +2,7 @@
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <openssl/sha.h>
 
 #include <stdexcept>
 
@@ -72,14 +73,13 @@ void append_text(std::string& out, const char* key, const std::string& text) {
 }  // namespace
 
 std::string sha256(std::string_view text) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest, &size, EVP_sha256(), nullptr) != 1)
+  unsigned char digest[SHA256_DIGEST_LENGTH];
+  if (EVP_Digest(text.data(), text.size(), digest, nullptr, EVP_sha256(), nullptr) != 1)
     throw std::runtime_error("SHA-256 failed");
   std::string hexadecimal;
-  for (unsigned int i = 0; i < size; ++i) {
-    hexadecimal += "0123456789abcdef"[digest[i] >> 4];
-    hexadecimal += "0123456789abcdef"[digest[i] & 15];
+  for (const unsigned char byte : digest) {
+    hexadecimal += "0123456789abcdef"[byte >> 4];
+    hexadecimal += "0123456789abcdef"[byte & 15];
   }
   return hexadecimal;
 }

@@ -18,13 +18,10 @@ type reader = { text : string; mutable at : int }
 
 let peek r = if r.at < String.length r.text then r.text.[r.at] else '\000'
 let next r = r.at <- r.at + 1
-let expect r c = if peek r = c && r.at < String.length r.text then next r else bad r.at (Printf.sprintf "no %C" c)
+let expect r c = if peek r = c then next r else bad r.at (Printf.sprintf "no %C" c)  (* c is never '\000' *)
 let rec space r = match peek r with ' ' | '\t' | '\n' | '\r' -> next r; space r | _ -> ()
 
-let word r w value =
-  let n = String.length w in
-  if r.at + n <= String.length r.text && String.sub r.text r.at n = w then (r.at <- r.at + n; value)
-  else bad r.at "no value"
+let word r w value = String.iter (expect r) w; value
 
 let rec digits r = match peek r with '0' .. '9' -> next r; digits r | _ -> ()
 let some_digits r = match peek r with '0' .. '9' -> digits r | _ -> bad r.at "no digit"

@@ -171,7 +171,7 @@ let without_line_end line =
   String.sub line 0 (length (String.length line))
 
 let without_mark line =
-  if String.length line >= 3 && String.sub line 0 3 = "\xef\xbb\xbf" then String.sub line 3 (String.length line - 3) else line
+  if String.starts_with ~prefix:"\xef\xbb\xbf" line then String.sub line 3 (String.length line - 3) else line
 
 let is_blank line = String.for_all (function ' ' | '\t' | '\r' -> true | _ -> false) line
 

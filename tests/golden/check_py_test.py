@@ -94,9 +94,8 @@ class Accepts(unittest.TestCase):
         """What is not needed does no harm: other forms of a number, more windows, larger ones."""
         for name, change in {
             "plane": lambda c: c["certificate"]["windows"].insert(1, {**c["certificate"]["windows"][0], "to": 5}),
+            "space": lambda c: [w.update({"from": v["to"]}) for v, w in zip(c["certificate"]["windows"], c["certificate"]["windows"][1:])],
             "exact": lambda c: c["certificate"]["windows"][0].update({"from": "-0x1p0", "to": "0x3p0"}),
-            "at once": lambda c: c["certificate"]["windows"].append({**c["certificate"]["windows"][0], "from": 0.25}) or
-            c["certificate"]["windows"][0].update(to=0.25),  # one begins where the other ends
             "inside3": lambda c: c["certificate"]["windows"].pop(0) and c["certificate"]["windows"].insert(
                 0, {"lattice": 0, "atom": 0, "from": -3, "to": 3, "basis": [[0, 1, 0], ["1", 0, "-0"], [0, 0, 1]]}),
             "superposition": lambda c: c["certificate"]["windows"].append({**c["certificate"]["windows"][0], "to": 0}),
@@ -326,11 +325,12 @@ class Refuses(unittest.TestCase):
         self.window("exact", "too many", lambda w: w[0].update(to=10**7))
 
     def test_scenes(self):
-        def scene(change):
+        def scene(change, why="Error"):
             case = copy.deepcopy(CASES["never2"])
             change(case["scene"])
             status, output = run(golden(case))
             self.assertEqual(status, 2, output)
+            self.assertRegex(output, why)
         def atom(**atom):
             scene(lambda s: s["lattices"][0]["atoms"].__setitem__(0, {"position": [0, 0], **atom}))
         for radius in 0, -0.25, "0.25", None, [0.25]:
@@ -342,9 +342,10 @@ class Refuses(unittest.TestCase):
             scene(lambda s: s.update(dimension=d))
             scene(lambda s: s.update(dimension=d, lattices=[{"vectors": [[1] * 4] * 4, "atoms": [{"position": [0] * 4, "radius": 1}]}]))
         scene(lambda s: s["lattices"][0].update(vectors=[[1, 2], [2, 4]]))
-        scene(lambda s: s["lattices"][0].update(atoms=[]))
-        scene(lambda s: s.update(lattices=[]))
-        scene(lambda s: s["lattices"].append({**s["lattices"][0], "atoms": []}))  # the second one's
+        scene(lambda s: s["lattices"][0].update(atoms=[]), "an empty scene")
+        scene(lambda s: s["lattices"].insert(0, {**s["lattices"][0], "atoms": []}), "an empty scene")
+        scene(lambda s: s["lattices"].append({**s["lattices"][0], "atoms": []}), "an empty scene")
+        scene(lambda s: s.update(lattices=[]), "an empty scene")
 
     def test_files(self):
         header, scene, line = golden(CASES["plane"])

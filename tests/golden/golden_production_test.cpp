@@ -77,10 +77,9 @@ void require_made(const Folder& folder, const Order& order, const Production& wh
   CHECK(counts.errors == whole.counts.errors);
 }
 
-std::size_t scenes_in(const std::string& text) {
+std::size_t times_in(const std::string& text, const std::string& part) {
   std::size_t count = 0;
-  for (auto at = text.find("{\"scene\""); at != std::string::npos; at = text.find("{\"scene\"", at + 1))
-    ++count;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
 }
 
@@ -126,6 +125,26 @@ TEST_CASE("Golden: a set is the same whatever the number of threads, and no id c
   }
 }
 
+TEST_CASE("Golden: what was made is counted", "[golden][golden_production]") {
+  for (const char* name : {"boundary-starts", "never", "bad-queries"}) {
+    const Order order = order_of(name, 70);
+    const Production made = produced(order);
+    INFO(name << ", seed " << kSeed);
+    const golden::RecordCounts& a = made.counts;
+    CHECK(a.records == 70);
+    const std::pair<const char*, std::uint64_t> outcomes[] = {
+        {"hit", a.hits}, {"inside", a.insides}, {"never", a.nevers}, {"error", a.errors}};
+    for (const auto& [outcome, counted] : outcomes)
+      CHECK(counted == times_in(made.text, std::string("\"expect\":{\"outcome\":\"") + outcome + '"'));
+    std::uint64_t walked = 0;
+    for (std::uint64_t index = 0; index < 70; ++index) {
+      const golden::Question question = order.set->question(kSeed, index);
+      walked += golden::Maker(question.scene).make(question.text, question.query).walked;
+    }
+    CHECK(a.walked == walked);
+  }
+}
+
 TEST_CASE("Golden: another seed makes other records, and a longer set begins like a shorter one",
           "[golden][golden_production]") {
   const auto records = [](const Order& order) {
@@ -160,7 +179,7 @@ TEST_CASE("Golden: a question that comes twice is left out, and another made in 
   CHECK(golden::produce_file(order, folder.file("set"), {}).records == 100);
   const std::string text = folder.read("set");
   CHECK(text.starts_with(part));
-  CHECK(lines(text) - scenes_in(text) == 101);
+  CHECK(lines(text) - times_in(text, "{\"scene\"") == 101);
   CHECK(text.find(record, text.find(record) + 1) == std::string::npos);
   CHECK(text.find(scene, part.size()) == std::string::npos);  // the scene in force is known
   CHECK(whole.text.ends_with(text.substr(text.size() - 1000)));
@@ -191,10 +210,13 @@ TEST_CASE("Golden: a production killed at any moment is gone on with, and makes 
 }
 
 TEST_CASE("Golden: what was made before the kill is not made again", "[golden][golden_production]") {
-  const Folder folder;
   const Order order = order_of("ties", 200);
-  killed(order, folder.file("set"), 4);
-  CHECK(records_made_anew(folder, order) == 40);
+  for (const Moment moment : {Moment::after_note, Moment::in_write, Moment::in_note}) {
+    const Folder folder;
+    killed(order, folder.file("set"), 4);
+    leave(folder, moment);
+    CHECK(records_made_anew(folder, order) == 40);
+  }
 }
 
 TEST_CASE("Golden: killed before the first note, or after the last", "[golden][golden_production]") {

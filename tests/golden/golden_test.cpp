@@ -211,8 +211,6 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
   CHECK(
       complaint(replaced(good, "\"windows\":[{", "\"panes\":[{")).starts_with("3: certificate: has either"));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
-  CHECK(complaint(replaced(good, "]]}", "],[0,0]]}")).starts_with("3: basis: has more than 2 vectors"));
-  CHECK(complaint(replaced(good, "]]}", ",0]]}")).starts_with("3: basis"));
   CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is no number"));
   CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
   CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
@@ -228,6 +226,45 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
   CHECK_THAT(complaint(no_scene), Catch::Contains("2: no scene"));
   CHECK_THAT(complaint(replaced(no_scene, "\"x\":[0.5,0.125]", "\"x\":null")),
              Catch::Contains("2: no scene"));
+}
+
+TEST_CASE("Golden: a basis has as many vectors and components as the scene dimensions", "[golden]") {
+  const Folder folder;
+  const GoldenCase in_space =
+      golden_case(unit_scene(3, 0.25), {{0.5, 0.125, 0.125}, {1, 0.03125, 0.0625}, {}});
+  for (const GoldenCase& c : {hit_case(), in_space}) {
+    const int dimension = c.scene.dimension;
+    const std::string good = set_of({c});
+    const std::size_t begin = good.find("\"basis\":") + 8, end = good.find("]]", begin) + 2;
+    const auto read_with = [&](int rows, int longest, int components) {
+      std::string basis;
+      for (int i = 0; i < rows; ++i) {
+        basis += i == 0 ? "[" : ",[";
+        for (int k = 0; k < (i == longest ? components : dimension); ++k) basis += k == 0 ? "0" : ",0";
+        basis += ']';
+      }
+      return read_all(folder.write("set", good.substr(0, begin) + '[' + basis + ']' + good.substr(end)));
+    };
+    CHECK(read_with(dimension, 0, dimension).size() == 1);
+    for (int count = 0; count <= 6; ++count) {
+      if (count == dimension) continue;
+      INFO(count << " for " << dimension);
+      const auto complaint =
+          Catch::EndsWith(std::string("basis: has ") + (count < dimension ? "less" : "more") + " than " +
+                          std::to_string(dimension) + " vectors or components");
+      CHECK_THROWS_WITH(read_with(count, -1, 0), complaint);
+      for (int row = 0; row < dimension; ++row)
+        CHECK_THROWS_WITH(read_with(dimension, row, count), complaint);
+    }
+  }
+}
+
+TEST_CASE("Golden: a header has a format, a count and tags", "[golden]") {
+  const Folder folder;
+  for (const char* part : {"\"format\":1,", "\"count\":0,", ",\"tags\":{\"drawn\":\"a tag\"}"})
+    CHECK_THROWS_WITH(read_all(folder.write("set", replaced(set_of({}), part, ""))),
+                      Catch::EndsWith("set:1: the header needs format, count and tags"));
+  CHECK(read_all(folder.write("set", set_of({}))).empty());
 }
 
 TEST_CASE("Golden: ids are the beginning of a SHA-256 of scene and question", "[golden]") {
