@@ -140,7 +140,7 @@ void add_flight(Svg& svg, const Window& window, const Line& line, Legend& legend
     const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
     const Vec& v = line.flight->query.v;
     const Vec start = plus(line.from, box.centre(), -1);
-    const double speed = std::hypot(v[0], v[1]), reach = 2 * size + std::hypot(start[0], start[1]);
+    const double speed = std::hypot(v[0], v[1]), reach = size + std::hypot(start[0], start[1]);
     to = plus(line.from, {v[0] / speed, v[1] / speed, 0}, reach);
   }
   double first = 0, last = 1;

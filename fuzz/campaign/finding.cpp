@@ -92,7 +92,7 @@ Answer read_answer(const std::string& line) {
 // As a line that can be read back. What no answer stream has a word for is left out: a time that is no
 // number, and the bytes of a message that are not ASCII, where they are not UTF-8.
 std::string answer_text(const std::string& id, Answer answer, int dimension) {
-  if (answer.time && !(*answer.time > -HUGE_VAL)) answer.time.reset();
+  if (!(answer.time.value_or(0) > -HUGE_VAL)) answer.time.reset();
   const auto line_of = [&] {
     std::string line;
     append_answer_line(line, id, answer, dimension);

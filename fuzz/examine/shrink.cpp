@@ -218,8 +218,8 @@ class Shrinker {
       offer([](Candidate& one) { one.query.from.reset(); });
     }
     go_home();
-    for (int i = 0; i < best_.scene.dimension; ++i)  // a reflection, which the unit lattices do not mind
-      if (best_.query.v[i] < 0 || (best_.query.v[i] == 0 && best_.query.x[i] < 0)) reflect(i);
+    // Unit lattices do not mind a reflection; it is offered where it leaves fewer numbers below 0.
+    for (int i = 0; i < best_.scene.dimension; ++i) reflect(i);
   }
 
   void reflect(int i) {
@@ -284,8 +284,7 @@ class Shrinker {
   }
 
   void simplify_number(std::size_t index) {
-    const double x = number_at(best_, index);
-    if (x == 0) return;
+    const double x = number_at(best_, index);  // 0 stays: nothing is simpler
     const auto set = [&](double y) {
       return y != x && offer([&](Candidate& one) { number_at(one, index) = y; });
     };
