@@ -111,7 +111,7 @@ TEST_CASE("An engine that is slow on the mean of its first questions is asked no
   CHECK_FALSE(setting.is_beyond_engine());
 }
 
-TEST_CASE("Of each row the first 500 questions are compared; a row without any has no speed",
+TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination whole("oracle", {}, 4, stop), none("oracle", {}, 4, stop);
