@@ -142,3 +142,41 @@ TEST_CASE("What is wrong is shrunk first, and what was cut short when there is t
   bounds.seconds = 60;
   CHECK(order() == std::vector<std::uint64_t>{4, 3, 2, 1, 0});
 }
+
+TEST_CASE("Shrinking under way counts as long as it usually takes", "[fuzz][ledger]") {
+  const fuzz::Plan plan = plan_of({"generic", "grazing"});
+  std::vector<fuzz::TargetTally> tallies(2);
+  NoJournal journal;
+  std::vector<fuzz::Finding> unshrunk;
+  for (std::uint64_t i = 0; i < 6; ++i)
+    for (const char* target : {"generic", "grazing"}) unshrunk.push_back(finding_of(target, "wrong", i));
+  fuzz::Bounds bounds;
+  bounds.count = 0;
+  fuzz::Ledger ledger(plan, bounds, 1, tallies, journal, unshrunk);
+  const auto take = [&] {
+    const fuzz::Assignment next = *ledger.take(1);
+    REQUIRE(next.due);
+    return next;
+  };
+  const fuzz::Assignment first = take(), other = take();
+  CHECK(first.batch.target == 0);  // of equal ones the first
+  CHECK(other.batch.target == 1);
+  const auto hand_in = [&](const fuzz::Assignment& one, double seconds) {
+    ledger.hand_in({one.batch, {}, one.due, seconds});
+  };
+  hand_in(first, 0.1);
+  hand_in(other, 0.35);
+  hand_in(take(), 0.1);  // 0.2 against 0.35, and 0.1 for each that is under way
+  std::string targets;
+  for (int i = 0; i < 3; ++i) targets += std::to_string(take().batch.target);
+  CHECK(targets == "001");
+}
+
+TEST_CASE("What a campaign that goes on has to shrink comes before its first case", "[fuzz][ledger]") {
+  const fuzz::Plan plan = plan_of({"generic"});
+  std::vector<fuzz::TargetTally> tallies(1);
+  NoJournal journal;
+  fuzz::Ledger ledger(plan, {}, 1, tallies, journal, {finding_of("generic", "wrong", 3)});
+  CHECK(ledger.take(1)->due);
+  CHECK_FALSE(ledger.take(1)->due);
+}

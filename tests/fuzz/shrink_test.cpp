@@ -2,6 +2,7 @@
 #include "fuzz/examine/shrink.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -225,4 +226,63 @@ TEST_CASE("Of two numbers the one that is simpler to read", "[fuzz][shrink]") {
   CHECK(fuzz::complexity(scene, query) < fuzz::complexity(ellipse, query));
   CHECK(fuzz::complexity(ellipse, query) < fuzz::complexity(two, query));
   CHECK(fuzz::complexity(two, query) < fuzz::complexity(lattices, query));
+}
+
+TEST_CASE("Shrinking reflects, brings home, and makes velocities and radii small", "[fuzz][shrink]") {
+  const Scene solid = unit_scene(3, 0.25);
+  const Query reflected{{-0.25, 0.5, -0.75}, {-1, -2, -4}, ObstacleId{0, 0, {1, -2, 3}}};
+  const auto on_same_sides = [&](const Scene& its, const Query& q) {
+    if (!(its == solid) || !q.from) return false;
+    for (int i = 0; i < 3; ++i) {
+      const double sign = q.v[i] / reflected.v[i];
+      if (std::fabs(sign) != 1 || q.x[i] != sign * reflected.x[i] ||
+          double(q.from->cell[i].int64()) != sign * double(reflected.from->cell[i].int64()))
+        return false;
+    }
+    return true;
+  };
+  const Query ahead = fuzz::shrink(solid, reflected, on_same_sides).query;
+  CHECK(ahead.v == Vec{1, 2, 4});
+  CHECK(on_same_sides(solid, ahead));
+
+  const Scene flat = unit_scene(2, 0.25);
+  for (const bool leaves : {false, true}) {
+    const Query far{{5.25, -2.5}, {1, 0}, leaves ? std::optional(cases::obstacle(5, -3)) : std::nullopt};
+    const auto as_far = [&](const Scene& its, const Query& q) {
+      if (!(its == flat) || q.from.has_value() != leaves || q.v != far.v) return false;
+      for (int i = 0; i < 2; ++i) {
+        const double n = leaves ? double(q.from->cell[i].int64() - far.from->cell[i].int64())
+                                : std::round(q.x[i] - far.x[i]);
+        if (q.x[i] - far.x[i] != n) return false;
+      }
+      return true;
+    };
+    CHECK(fuzz::shrink(flat, far, as_far).query.x == Vec{0.25, 0.5});
+  }
+
+  const auto velocity = [&](const Vec& v) {
+    const auto along = [&](const Scene&, const Query& q) {
+      return q.v[0] * v[1] == q.v[1] * v[0] && q.v[0] * v[0] > 0;
+    };
+    return fuzz::shrink(flat, {{}, v, {}}, along).query.v;
+  };
+  CHECK(velocity({-4.5, 7.5}) == Vec{-0.75, 1.25});
+  CHECK(velocity({0x1p40, 0x1.234567p40}) == Vec{1, 0x1.234567p0});
+
+  const auto radius = [&](double r, double least, double most) {  // 3 * 2^k
+    const auto is_three = [&](const Scene& its, const Query&) {
+      const double now = its.lattices[0].atoms[0].radius;
+      return now >= least && now <= most && std::frexp(now, std::array<int, 1>{}.data()) == 0.75;
+    };
+    return fuzz::shrink(unit_scene(2, r), {{}, {1, 0}, {}}, is_three).scene.lattices[0].atoms[0].radius;
+  };
+  CHECK(radius(96, 1, 100) == 1.5);
+  CHECK(radius(0x3p-10, 0, 1) == 0.75);
+}
+
+TEST_CASE("Shrinking leaves out `from` alone", "[fuzz][shrink]") {
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors[0][1] = 0.25;
+  const auto fails = [&](const Scene& its, const Query& q) { return its == scene && q.v == Vec{1, 0}; };
+  CHECK_FALSE(fuzz::shrink(scene, {{}, {1, 0}, cases::obstacle(0, 0)}, fails).query.from);
 }

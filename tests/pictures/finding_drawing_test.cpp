@@ -194,6 +194,10 @@ TEST_CASE("What is in question: start, order, time, the hardest decision", "[pic
   for (const Answer* given : {static_cast<const Answer*>(nullptr), &none, &strange})
     CHECK(about(low, given, low_hit) == Found{Issue::line, -0x1p-53});
   CHECK(about({{0.5, 0.5}, {1, 0}, {}}, nullptr, Answer::never()).first == Issue::none);
+  // What is hardly met, and another one far behind it: no matter of their order.
+  const Answer next = Answer::hit(cell(1, 0), 1.5);
+  CHECK(about(low, &next, low_hit) == Found{Issue::line, -0x1p-53});
+  CHECK_FALSE(FindingCase(scene, low, &next, low_hit).second);
   // Two discs 2^-60 apart on the line: of radius 1/4, entered 2^-58 radii after one another; and at once.
   scene.lattices[0].atoms.push_back({{0x1p-60, 0}, 0.25, {}});
   const Answer second = Answer::hit({0, 1, {}}, 0.25);

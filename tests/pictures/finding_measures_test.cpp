@@ -393,6 +393,19 @@ TEST_CASE("An inset shows the start and the surface nearest to it", "[pictures][
   CHECK(surfaces[0]["fill"] == (share < 1 || exact.obstacle == id ? kExact : kGiven));
 }
 
+TEST_CASE("An inset of the start shows both flights", "[pictures][finding_drawing]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.3, 0, 0}, {1, 0.5, 0}, {}};
+  const Answer exact = oracle::Oracle(scene).first_hit(query);
+  const SvgPicture picture(finding_drawing(scene, query, Answer::hit({}, 1), exact));  // behind the start
+  for (const std::string& ink : {kExact, kGiven}) {
+    int lines = 0;
+    for (const Ink& line : picture.all("line", "stroke", ink))
+      lines += line.clip && kInset.holds(line.clip->low, 0.02);
+    CHECK(lines == 1);
+  }
+}
+
 TEST_CASE("An inset shows two entries: which is first, and whose surface is whose",
           "[pictures][finding_drawing]") {
   const bool wrong_order = GENERATE(true, false);

@@ -37,6 +37,22 @@ FreePathPlot hyperbola() {
   return plot;
 }
 
+// At every corner to the same side.
+bool is_convex(const std::string& corners) {
+  static const std::regex kCorner(R"(([0-9.]+),([0-9.]+))");
+  std::vector<Point> p;
+  for (std::sregex_iterator it(corners.begin(), corners.end(), kCorner), end; it != end; ++it)
+    p.push_back({std::stod((*it)[1]), std::stod((*it)[2])});
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Point &a = p[i], &b = p[(i + 1) % p.size()], &c = p[(i + 2) % p.size()];
+    const double turn = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+    left += turn > 0.1;
+    right += turn < -0.1;
+  }
+  return left + right == static_cast<int>(p.size()) && (left == 0 || right == 0);
+}
+
 std::vector<Point> circles(const std::string& svg) {
   static const std::regex kCircle(R"re(<circle cx="([0-9.]+)" cy="([0-9.]+)")re");
   std::vector<Point> found;
@@ -130,6 +146,7 @@ TEST_CASE("Free paths: series differ in shape, not in colour alone", "[pictures]
     }
     shapes.insert(shape);
     colours.insert((*it)[2]);
+    CHECK(is_convex(corners));
   }
   CHECK(colours.size() == 5);
   CHECK(shapes.size() >= 5);
