@@ -329,28 +329,3 @@ TEST_CASE("A notation is what it is called", "[fuzz][examiner]") {
     CHECK(count > 30);
   }
 }
-
-TEST_CASE("What a program was not asked in its second batch is that batch's", "[fuzz][examiner]") {
-  const std::string engine = std::string("cmd:exec ") + LORENTZ_TOLERANT_ENGINE + " dies 4";
-  const auto subject = fuzz::subject_maker(engine)();
-  const Scene scene = unit_scene(2, 0.25);
-  const oracle::Oracle oracle(scene);
-  subject->set_scene(scene);
-  int right = 0;
-  for (const int batch : {0, 1}) {
-    std::vector<Query> queries;
-    for (int i = 0; i < 2 + 2 * batch; ++i)
-      queries.push_back({{0.5, 0.25}, {1, 0.25 + 0.125 * i + 0.5 * batch}, {}});
-    for (const Query& query : queries) subject->ask(query);
-    const auto replies = subject->replies();
-    REQUIRE(replies.size() == queries.size());
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (replies[i].answer.outcome == Outcome::error) continue;
-      const Answer exact = oracle.first_hit(queries[i]);
-      CHECK(replies[i].answer.obstacle == exact.obstacle);
-      CHECK(replies[i].answer.time == exact.time);
-      ++right;
-    }
-  }
-  CHECK(right >= 4);
-}

@@ -279,10 +279,3 @@ TEST_CASE("Shrinking reflects, brings home, and makes velocities and radii small
   CHECK(radius(96, 1, 100) == 1.5);
   CHECK(radius(0x3p-10, 0, 1) == 0.75);
 }
-
-TEST_CASE("Shrinking leaves out `from` alone", "[fuzz][shrink]") {
-  Scene scene = unit_scene(2, 0.25);
-  scene.lattices[0].vectors[0][1] = 0.25;
-  const auto fails = [&](const Scene& its, const Query& q) { return its == scene && q.v == Vec{1, 0}; };
-  CHECK_FALSE(fuzz::shrink(scene, {{}, {1, 0}, cases::obstacle(0, 0)}, fails).query.from);
-}
