@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/engine.hpp>
+#include "compare/column_engine.hpp"
 
 using namespace lorentz;
 using namespace lorentz::compare;
@@ -46,5 +47,37 @@ TEST_CASE("Whoever is in the table answers in a scene", "[compare][registry]") {
     make_first_hit(name, scene)({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, answer);
     CHECK(answer.outcome == Outcome::hit);
     CHECK(answer.obstacle.cell == Cell{1, 1, 0});
+  }
+}
+
+TEST_CASE("Names come in lists and alone, and one that is empty is one", "[compare][registry]") {
+  CHECK(names_in({"oracle", "walk,batch"}) == Names{"oracle", "walk", "batch"});
+  CHECK(names_in({"oracle,", "", ",walk"}) == Names{"oracle", "", "", "", "walk"});
+  CHECK(names_in({"cmd:a,b", "oracle,cmd:a,b,"}) == Names{"cmd:a,b", "oracle", "cmd:a,b,"});
+  CHECK(names_in({}).empty());
+}
+
+TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of a skewed lattice",
+          "[compare][columns]") {
+  // (0, k) is k (2^70, 1) - k 2^70 (1, 0), whose number needs more than 64 bits.
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors[1] = {0x1p70, 1, 0};
+  QueryRows rows;
+  rows.count = 5;
+  for (const double k : {1.0, 2.0, 3.0, 4.0, 5.0}) {
+    rows.x[0].push_back(0.125), rows.x[1].push_back(k);
+    rows.v[0].push_back(1), rows.v[1].push_back(0);
+  }
+  rows.large_from = {{1, {0, 0, {*Integer::from_decimal("-2361183241434822606848"), 2, 0}}},
+                     {3, {0, 0, {*Integer::from_decimal("-4722366482869645213696"), 4, 0}}}};
+  for (const char* name : {"certified", "certified-batch", "oracle"}) {
+    INFO(name);
+    AnswerRows answers;
+    ColumnEngine(name, scene, std::nullopt, 1).answer(rows, answers);
+    for (std::size_t i = 0; i < 5; ++i) {
+      INFO(i);
+      CHECK(answers.outcome[i] == (i % 2 == 0 ? Outcome::inside : Outcome::hit));
+    }
+    CHECK(answers.time[3] == 0.625);
   }
 }
