@@ -64,9 +64,10 @@ Fault of_another_answer(const Question& question, const Answer& given,
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
     return {Cause::other_quantity};
-  const ObstacleId& decisive = needed                                                  ? *needed
-                               : names_obstacle(exact) && !is_touched(question, given) ? exact.obstacle
-                                                                                       : given.obstacle;
+  // A judgement that rests on no obstacle is one of margin 0: of a tie, or of an obstacle that is touched.
+  const ObstacleId& decisive = needed                        ? *needed
+                               : is_touched(question, given) ? given.obstacle
+                                                             : exact.obstacle;
   if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
   const oracle::Approach approach = question.setting->margins().approach(query, decisive);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)

@@ -32,14 +32,6 @@ std::size_t next_number(std::size_t asked, double took) {
 // were.
 constexpr std::size_t kCompared = 500;
 
-// Answers that are the same need no judge, which most scenes therefore never get.
-bool is_exact(const Answer& exact, const Answer& given) {
-  if (given.outcome != exact.outcome) return false;
-  if (exact.outcome == Outcome::never) return true;
-  if (exact.outcome == Outcome::inside) return given.obstacle == exact.obstacle;
-  return exact.outcome == Outcome::hit && given.obstacle == exact.obstacle && given.time == exact.time;
-}
-
 }  // namespace
 
 Examination::Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
@@ -68,10 +60,9 @@ Examination::Start Examination::warm_up() {
     longest = std::max(longest, last = ask({question}));
     if (!answerer_->failed()) continue;
     Row row{"first question", "an empty place in the square lattice, before anything else"};
-    std::size_t compared = 0;
     if (answers_.empty())
       answers_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
-    take(question, answers_[0], row, compared);
+    take(question, answers_[0], row);
     rows_.push_back(std::move(row));
     break;
   }
@@ -99,7 +90,7 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
   setting_.reset();
   answerer_->try_again();
   double asking = 0;
-  std::size_t compared = 0, at_once = kFewestAtOnce;
+  std::size_t at_once = kFewestAtOnce;
   std::vector<Question> questions;
   while (!row.is_exhausted && !is_over() && seconds_since(start) < seconds) {
     questions.clear();
@@ -114,7 +105,7 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
     at_once = next_number(questions.size(), took);
     for (std::size_t i = 0; i < answers_.size(); ++i) {
       questions[i].setting->note_time(took / static_cast<double>(answers_.size()));
-      take(questions[i], answers_[i], row, compared);
+      take(questions[i], answers_[i], row);
       if (look && answers_[i].was_asked()) look(questions[i], answers_[i].answer);
     }
     if (answerer_->given_up() && setting_) leave(*setting_, row);
@@ -149,11 +140,6 @@ void Examination::leave(Setting& setting, Row& row) const {
 Judgement Examination::judgement_of(const Question& question, const Given& given) const {
   if (given.origin == Origin::fault) return {Verdict::missing};
   if (!question.is_query()) return compare::judgement_of_invalid(given.answer);
-  if (is_exact(question.exact, given.answer)) {
-    Judgement agrees{Verdict::agree};
-    if (given.answer.outcome == Outcome::hit) agrees.ulps = 0;
-    return agrees;
-  }
   return question.setting->judge().judge(question.query, question.exact, given.answer, ulps_);
 }
 
@@ -164,7 +150,7 @@ std::optional<Example> Examination::departing(const Question& question, const Gi
   return diagnosis ? std::optional(Example{question, given.answer, judgement, *diagnosis}) : std::nullopt;
 }
 
-void Examination::take(const Question& question, const Given& given, Row& row, std::size_t& compared) {
+void Examination::take(const Question& question, const Given& given, Row& row) {
   if (!given.was_asked()) return leave(*question.setting, row);
   const Judgement judgement = judgement_of(question, given);
   if (given.origin == Origin::fault) last_fault_ = given.answer.message;
@@ -176,7 +162,7 @@ void Examination::take(const Question& question, const Given& given, Row& row, s
     row.tally.count(judgement);
   question.setting->note(judgement.verdict == Verdict::unsupported);
   if (diagnosis) findings_.add({question, given.answer, judgement, *diagnosis}, row.name);
-  if (!question.is_query() || compared++ >= kCompared) return;
+  if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(question);
   if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
   calls_.add(diagnosis && diagnosis->by_radii ? diagnosis->by_radii : features.depth, judgement.verdict);

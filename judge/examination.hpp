@@ -99,7 +99,7 @@ class Examination {
 
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
-  void take(const Question& question, const Given& given, Row& row, std::size_t& compared);
+  void take(const Question& question, const Given& given, Row& row);
   void leave(Setting& setting, Row& row) const;
   oracle::Judgement judgement_of(const Question& question, const Given& given) const;
   std::optional<Example> departing(const Question& question, const Given& given) const;

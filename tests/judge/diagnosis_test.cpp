@@ -65,6 +65,18 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
   CHECK(diagnosed(inside, Answer::never())->by_radii == Approx(0.5));
   const Question inside_two = asked(0.6, {0.5, 0, 0}, {1, 0, 0});
   CHECK(cause(inside_two, Answer::inside(disc(1, 0))) == "inside-another");
+  // Only touched, which is a margin of 0 and told without an obstacle.
+  const Question touched = asked(0.25, {0.5, 0.25, 0}, {1, 0, 0});
+  REQUIRE(touched.exact.outcome == Outcome::never);
+  CHECK(cause(touched, Answer::hit(disc(2, 0), 1.5)) == "~false-hit-grazing");
+  Scene two = unit_scene(2, 0.25);
+  two.lattices[0].atoms.push_back({{0.25, 0, 0}, 0.125, {}});
+  // On the edge of one and within another: rounding decides which.
+  const auto overlapping = std::make_shared<Setting>(two);
+  const Query on_edge{{0.25, 0, 0}, {0, 1, 0}, {}};
+  const Question within{overlapping, on_edge, overlapping->oracle().first_hit(on_edge), "", ""};
+  REQUIRE(within.exact.obstacle == ObstacleId{0, 1, {0, 0, 0}});
+  CHECK(cause(within, Answer::inside(disc(0, 0))) == "~inside-another");
   const Question two_at_once = asked(0.6, {0.5, 0.5, 0}, {0, 1, 0});
   CHECK(cause(two_at_once, Answer::hit(disc(1, 1), *two_at_once.exact.time)) == "~tie");
 

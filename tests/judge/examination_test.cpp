@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "compare/registry.hpp"
@@ -99,16 +100,25 @@ TEST_CASE("A program that never answered is not asked on and on", "[judge][exami
   CHECK(examination.rows()[1].scenes_given_up > 0);
 }
 
-TEST_CASE("An engine that is slow on the mean of its first questions is asked no more there",
+TEST_CASE("An engine is asked no more where it is slow, or does none of the first questions",
           "[judge][examination]") {
-  Setting setting(unit_scene(2, 0.25));
-  for (int i = 0; i < 4; ++i) setting.note(false);
-  setting.note_time(0.4);
-  CHECK_FALSE(setting.is_beyond_engine());  // 0.1 s each is not slow
-  setting.note_time(1e-9);
-  CHECK(setting.is_beyond_engine());
-  setting.note(false);
-  CHECK_FALSE(setting.is_beyond_engine());
+  const auto setting_with = [](int asked, int unsupported, double seconds) {
+    Setting setting(unit_scene(2, 0.25));
+    for (int i = 0; i < asked; ++i) setting.note(i < unsupported);
+    setting.note_time(seconds / 2), setting.note_time(seconds / 2);
+    return setting;
+  };
+  CHECK_FALSE(setting_with(4, 0, 0.1 * 4).is_beyond_engine());
+  CHECK(setting_with(4, 0, std::nextafter(0.1 * 4, 1)).is_beyond_engine());
+  CHECK_FALSE(setting_with(3, 0, 100).is_beyond_engine());
+  CHECK(setting_with(4, 4, 0).is_beyond_engine());
+  CHECK_FALSE(setting_with(4, 3, 0).is_beyond_engine());
+  CHECK_FALSE(setting_with(3, 3, 0).is_beyond_engine());
+  CHECK(setting_with(4, 3, 0).was_answered());
+  CHECK_FALSE(setting_with(4, 4, 0).was_answered());
+  Setting given_up = setting_with(1, 0, 0);
+  given_up.give_up();
+  CHECK((given_up.is_beyond_engine() && !given_up.was_answered()));
 }
 
 TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
