@@ -26,11 +26,10 @@ bool is_bare(char c) {
 // exponent zeros may lead (in JSON's, too). Empty if the piece is none.
 std::string as_json_number(std::string_view piece) {
   if (piece.starts_with('+')) piece.remove_prefix(1);
+  const std::string framed = ' ' + std::string(piece) + ' ';
   std::string number;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    const bool between = i > 0 && i + 1 < piece.size() && is_digit(piece[i - 1]) && is_digit(piece[i + 1]);
-    if (piece[i] != '_' || !between) number += piece[i];
-  }
+  for (std::size_t i = 1; i + 1 < framed.size(); ++i)
+    if (framed[i] != '_' || !is_digit(framed[i - 1]) || !is_digit(framed[i + 1])) number += framed[i];
   return is_json_number(number) ? number : "";
 }
 

@@ -102,6 +102,30 @@ TEST_CASE("CSV: the obstacle that is left, integers as tables write them", "[exc
   CHECK(reading.rows.query(3, 3).from == ObstacleId{0, 0, {27, 0, std::int64_t{1} << 53}});
 }
 
+TEST_CASE("CSV: of rows that were removed nothing is left in those that come after", "[exchange][csv]") {
+  const Folder folder;
+  std::string text = "id,x1,x2,v1,v2,max_time,from_lattice,from_atom,from_cell1,from_cell2\n";
+  for (int i = 0; i < 9; ++i) {
+    const std::string n = std::to_string(i);
+    text += "q" + n + ',' + n + ",0," + (i % 4 == 2 ? "bad" : "1") + ",0,1" + n + ',' +
+            (i % 2 == 0 ? ",,,\n" : "0,0," + n + ",0\n");
+  }
+  const QueryRows whole = read(text).rows;
+  REQUIRE((whole.count == 9 && whole.flaws.size() == 2));
+  CsvQueryReader reader(folder.write("q.csv", text), 2, [](const std::string&, const std::string&) {});
+  QueryRows part;
+  for (std::size_t done = 0; reader.next(part, 3); done += 3, part.clear()) {
+    REQUIRE(part.count == 3);
+    CHECK((part.flaws.size() == (done == 3 ? 0 : 1) && part.lines[0] == done + 2));
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(part.id[i] == whole.id[done + i]);
+      CHECK(part.max_time[i] == whole.max_time[done + i]);
+      CHECK(part.query(i, 2).x == whole.query(done + i, 2).x);
+      CHECK(part.query(i, 2).from == whole.query(done + i, 2).from);
+    }
+  }
+}
+
 TEST_CASE("CSV: a bad line is told with its column, and the next is read", "[exchange][csv]") {
   CHECK(flaw("0,0,1,0").empty());
   CHECK(flaw("0,zero,1,0") == "column x2: \"zero\" is no number");
@@ -176,6 +200,7 @@ TEST_CASE("CSV: answers, a line each", "[exchange][csv]") {
   answers.refuse_large_cells();
   CHECK(answers.outcome[2] == Outcome::error);
   REQUIRE(answers.reasons.size() == 2);
+  CHECK(answers.large_cells.empty());
   CHECK((answers.reasons[1].row == 2 && answers.reasons[1].unsupported));
   out.clear();
   append_csv_names(out, 3, false);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include <lorentz/errors.hpp>
 #include "src/exchange/npy_literal.hpp"
@@ -40,18 +41,25 @@ Reading read_path(const std::string& path, int dimension, std::size_t part) {
 }
 
 Reading read(const std::string& content, int dimension, std::size_t part = 7) {
-  const Folder folder;
-  return read_path(folder.write("q.npy", content), dimension, part);
+  static const Folder folder;  // one for thousands of files
+  const Reading reading = read_path(folder.write("q.npy", content), dimension, part);
+  fs::remove(folder.file("q.npy"));  // faster than to write over it
+  return reading;
 }
 
-// The same out of a pipe, which has no places to go to. It holds 64 KiB.
+// The same out of a pipe, which has no places to go to.
 Reading read_piped(const std::string& content, int dimension, std::size_t part) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
-  REQUIRE(write(ends[1], content.data(), content.size()) == static_cast<ssize_t>(content.size()));
-  close(ends[1]);
+  std::thread writer([&] {
+    ssize_t more = 1;
+    for (std::size_t done = 0; done < content.size() && more > 0; done += static_cast<std::size_t>(more))
+      more = write(ends[1], content.data() + done, content.size() - done);
+    close(ends[1]);
+  });
   Reading reading = read_path("/dev/fd/" + std::to_string(ends[0]), dimension, part);
   close(ends[0]);
+  writer.join();
   return reading;
 }
 
@@ -245,7 +253,61 @@ TEST_CASE("A file that ends too early: its rows are read, and those that are mis
   }
   CHECK(read(npy_rows(rows) + "x", 2).more);
   CHECK(read(npy_rows(rows, false, true) + "x", 2).more);
+  CHECK(read_piped(npy_rows(rows, false, true) + "x", 2, 7).more);
+  // What a header promises is not taken before it is there.
+  const std::string promises =
+      npy_file(npy_dictionary("'<f8'", "(1099511627776, 4)", true), std::string(100, '\0'));
+  for (const auto& reads : {read, read_piped})
+    CHECK(contains(reads(promises, 2, 7).failure, "ends too early: 1099511627776 of 1099511627776 rows"));
   CHECK(read(npy_rows({}), 2).failure.empty());
+}
+
+TEST_CASE("Arrays longer than a pipe holds, and than what is read of them at once", "[exchange][npy]") {
+  std::mt19937_64 random(3);
+  for (const std::size_t count : {1638, 1639, 4000, 10'000}) {  // 64 KiB are 1638.4 rows
+    const Rows rows = drawn_rows(random, count, 5);
+    for (const bool fortran : {false, true}) {
+      const Reading reading = read_piped(npy_rows(rows, false, fortran), 2, 3000);
+      INFO(count << fortran << reading.failure);
+      CHECK((reading.failure.empty() && !reading.more));
+      check_rows(reading.rows, rows, 2);
+    }
+  }
+}
+
+TEST_CASE("Queries as an array, with and without obstacles that they leave, are read back",
+          "[exchange][npy]") {
+  std::mt19937_64 random(4);
+  for (const std::size_t d : {2, 3})
+    for (const bool with_from : {false, true}) {
+      const Rows rows = drawn_rows(random, 5, 2 * d);
+      QueryRows queries;
+      for (const auto& row : rows) {
+        for (std::size_t k = 0; k < d; ++k)
+          queries.x[k].push_back(row[k]), queries.v[k].push_back(row[d + k]);
+        if (with_from) {
+          const auto n = static_cast<std::int32_t>(queries.count);
+          queries.from_lattice.push_back(n - 1), queries.from_atom.push_back(7 * n);
+          for (std::size_t k = 0; k < d; ++k)
+            queries.from_cell[k].push_back((std::int64_t{1} << 60) - n - static_cast<int>(k));
+        }
+        ++queries.count;
+      }
+      std::string text = npy_query_header(10, static_cast<int>(d), with_from);
+      for (int twice = 0; twice < 2; ++twice) append_npy_queries(text, queries, static_cast<int>(d));
+      const Reading reading = read(text, static_cast<int>(d));
+      INFO(d << with_from << reading.failure);
+      CHECK((reading.failure.empty() && !reading.more));
+      Rows both = rows;
+      both.insert(both.end(), rows.begin(), rows.end());
+      check_rows(reading.rows, both, d);
+      for (std::size_t i = 0; i < 10; ++i) {
+        const Query read = reading.rows.query(i, static_cast<int>(d)),
+                    written = queries.query(i % 5, static_cast<int>(d));
+        CHECK(read.from == written.from);
+        CHECK(read.from.has_value() == (with_from && i % 5 > 0));
+      }
+    }
 }
 
 TEST_CASE("Spoilt .npy files never do worse than an error", "[exchange][npy]") {
