@@ -240,7 +240,7 @@ Ending Process::end(std::chrono::milliseconds grace) {
   }
   kill(-pid_, SIGKILL);
   int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(pid_, &status, 0) == -1 && errno == EINTR) {
   }
   replace_group(pid_, 0);
   pid_ = -1;

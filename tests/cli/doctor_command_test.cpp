@@ -216,6 +216,18 @@ TEST_CASE("Digests that differ, are too few or too many, are counted, and the fi
   CHECK(examine_digests(known, found).found == "1 of 3 differ, first of them: spheres a");
 }
 
+TEST_CASE("Digests are of the families that are asked for", "[doctor]") {
+  const std::vector<Digest> all = digests(2);
+  REQUIRE(all.size() == known_digests().size());
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK(all[i].name == known_digests()[i].name);
+  std::vector<Digest> starts;
+  for (const Digest& one : all)
+    if (one.name.starts_with("starts ")) starts.push_back(one);
+  CHECK(starts.size() == 5);
+  CHECK(digests(2, "starts ") == starts);
+  CHECK(digests(2, "no such family").empty());
+}
+
 TEST_CASE("What is spoiled is what some unfit finding spoils, and nothing else", "[doctor]") {
   const Finding fit{"a", true, "", {Use::engines, Use::oracle}}, one{"b", false, "", {Use::certificates}},
       two{"c", false, "", {Use::oracle, Use::certificates}};

@@ -1,9 +1,13 @@
 // cmd:COMMAND: other programs as engines, and what is made of their faults. tests/compare/odd_engine.py and
 // tests/compare/silent_engine.sh have the faults.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
-
 #include <chrono>
+#include <csignal>
 
+#include "compare/process.hpp"
+#include "compare/registry.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -130,6 +134,150 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
   if (fault.name != "dies-buffered")
     CHECK(contains(run.err, ":\n" + kScene + "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
   CHECK(contains(run.err, "{\"id\":\"q5\",\"x\":[5,0.5],\"v\":[1,1]}\n"));
+}
+
+TEST_CASE("What a program wrote in place of an answer is told of the first that it kept back",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("first-hit --engine " + odd("garbage-skips") + " " + folder.write("q", stream()));
+  const std::string no_answer = "cmd gave no answer to this query before that to a later one";
+  CHECK(contains(run.out, answer_to(4) + "\n" + error_to(5, no_answer + "; before that it wrote a line")));
+  CHECK(contains(run.out, error_to(6, no_answer + "\"}\n") + answer_to(7)));
+  // What it wrote before a right answer is none of this.
+  const Run later =
+      folder.lorentz("first-hit --engine " + odd("skips-later") + " " + folder.write("q", stream()));
+  CHECK(contains(later.err, "no answer, rubbish (not JSON"));
+  check_all_but_fifth(later.out, no_answer + "\"}");
+}
+
+TEST_CASE("Of many complaints twenty are said, and how many more there are", "[compare][command_engine]") {
+  const Folder folder;
+  for (const int count : {20, 21, 25}) {
+    const Run run =
+        folder.lorentz("first-hit --engine " + silent("stammers") + " " + folder.write("q", stream(count)));
+    INFO(count << run.err);
+    CHECK(run.status == 3);
+    std::size_t said = 0;
+    for (auto at = run.err.find("again:\n"); at != std::string::npos; at = run.err.find("again:\n", at + 1))
+      ++said;
+    CHECK(said == 20);
+    CHECK(contains(run.err, std::to_string(count - 20) + " more failures\n") == (count > 20));
+    CHECK(contains(run.err, " more failures") == (count > 20));
+  }
+}
+
+namespace {
+
+using Answers = std::vector<lorentz::Answer>;
+
+// What a program answers to `count` queries asked at once.
+Answers asked(lorentz::compare::Answerer& program, const lorentz::Scene& scene, int count) {
+  Answers answers;
+  program.on_answer([&](lorentz::Answer& answer) { answers.push_back(answer); });
+  program.set_scene(scene);
+  for (int k = 0; k < count; ++k) program.ask("null", {{static_cast<double>(k), 0.5, 0}, {1, 1, 0}, {}});
+  program.drain();
+  return answers;
+}
+
+double processor_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+}  // namespace
+
+TEST_CASE("A program that closes its input is waited for, but nothing more is written",
+          "[compare][command_engine]") {
+  // The line of the scene is longer than what a pipe holds, so that it is not all written by then.
+  lorentz::Scene scene = lorentz::unit_scene(2, 0.001);
+  scene.lattices[0].atoms.resize(5000, scene.lattices[0].atoms[0]);
+  lorentz::compare::AnswererOptions options;
+  options.timeout = 0.6;
+  const auto program = lorentz::compare::make_answerer("cmd:exec <&-; exec sleep 1000", options);
+  const double before = processor_seconds();
+  const Answers answers = asked(*program, scene, 1);
+  REQUIRE(answers.size() == 1);
+  CHECK(answers[0].message == "cmd closed its input and gave no answer within 0.6 s");
+  CHECK(processor_seconds() - before < 0.3);  // it sleeps meanwhile
+}
+
+TEST_CASE("A program that is known to hold back its last answers is told the end at once",
+          "[compare][command_engine]") {
+  // It answers in pairs, and at the end.
+  const Folder folder;
+  const std::string script = folder.write("pairs.sh", R"(echo >>"$1"
+held=""
+while read -r line; do
+  case $line in *scene*) continue ;; esac
+  id=${line#*:} && id=${id%%,*}
+  answer="{\"id\":$id,\"outcome\":\"never\"}"
+  if [ -n "$held" ]; then printf '%s\n' "$held" "$answer"; held=""; else held=$answer; fi
+done
+[ -n "$held" ] && echo "$held"
+)");
+  const auto program =
+      lorentz::compare::make_answerer("cmd:exec sh " + script + " " + folder.file("starts"), {});
+  const auto ask = [&] { CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 3).size() == 3); };
+  ask(), ask();  // it is told the end after a while, and twice is enough to know it
+  const auto start = std::chrono::steady_clock::now();
+  constexpr int kTimes = 20;
+  for (int i = 0; i < kTimes; ++i) ask();
+  CHECK(seconds_since(start) < kTimes * 0.5 * 0.8);  // 0.5 s is the while
+  CHECK(lines(folder.read("starts")) == 2 + kTimes);
+  CHECK_FALSE(program->failed());
+}
+
+TEST_CASE("A program that answers line by line may take its time, and is not started again",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const std::string script = folder.write("slow.sh", R"(echo >>"$1"
+while read -r line; do
+  case $line in *scene*) continue ;; esac
+  id=${line#*:} && id=${id%%,*}
+  [ -e "$2" ] && sleep 0.8
+  echo "{\"id\":$id,\"outcome\":\"never\"}"
+done
+)");
+  lorentz::compare::AnswererOptions options;
+  options.enough = [] { return false; };  // so that the clock is looked at often
+  const auto program = lorentz::compare::make_answerer(
+      "cmd:exec sh " + script + " " + folder.file("starts") + " " + folder.file("slowly"), options);
+  const auto starts_after = [&](int queries) {
+    for (int i = 0; i < queries; ++i) CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 1).size() == 1);
+    return lines(folder.read("starts"));
+  };
+  // Once it answers two without a new start it is known; on a busy machine that takes more than one.
+  std::size_t starts = starts_after(1);
+  for (std::size_t before = 0; before != starts; starts = starts_after(1)) before = starts;
+  folder.write("slowly", "");
+  const double seconds = processor_seconds();
+  CHECK(starts_after(1) == starts);
+  CHECK(processor_seconds() - seconds < 0.15);  // it sleeps meanwhile
+  fs::remove(folder.file("slowly"));
+  CHECK(starts_after(1) == starts);
+  program->finish();
+  CHECK_FALSE(program->failed());
+}
+
+TEST_CASE("How a program ended, in words", "[compare][command_engine]") {
+  using lorentz::compare::Ending;
+  const auto exit = [](int code) { return Ending{Ending::How::exited, code}.text(); };
+  CHECK(exit(0) == "exit 0");
+  CHECK(exit(126) == "exit 126");
+  CHECK(exit(127) == "exit 127, no such command");
+  CHECK(exit(128) == "exit 128");
+  CHECK(exit(129) == "exit 129, signal 1, Hangup");
+  CHECK(exit(139) == "exit 139, signal 11, Segmentation fault");
+  CHECK(exit(128 + SIGRTMAX).starts_with("exit 192, signal 64, "));
+  CHECK(exit(129 + SIGRTMAX) == "exit 193");
+  CHECK(Ending{Ending::How::signalled, 9}.text() == "signal 9, Killed");
+  CHECK(Ending{Ending::How::still_ran, 0}.text() == "still running");
+  CHECK((Ending{}.is_good() && !Ending{Ending::How::exited, 1}.is_good()));
+  CHECK_FALSE(Ending{Ending::How::signalled, 0}.is_good());
 }
 
 TEST_CASE("An obstacle that the scene does not have is an answer, and a wrong one, whoever is asked",

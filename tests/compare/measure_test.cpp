@@ -86,3 +86,36 @@ TEST_CASE("Exact answers are the same from the oracle and from certified, scenes
   CHECK(met[Outcome::hit] > 380);
   CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
 }
+
+TEST_CASE("Of each name as many cases are asked as it is to be asked, in each round, and judged once",
+          "[compare][measure]") {
+  compare::CaseSet set;
+  set.scenes = {unit_scene(2, 0.25), unit_scene(3, 0.25)};
+  for (std::size_t i = 0; i < 40; ++i)
+    set.cases.push_back({"null", i / 20, {{0.5, 0.5, 0.5}, {1, 1, 1}, {}}});
+  for (std::size_t i = 0; i < 20; ++i) set.cases[i].query = {{0.5, 0.5, 0}, {1, 1, 0}, {}};
+  const auto exact = compare::exact_answers(set);
+  compare::MeasureOptions options;
+  options.rounds = 2;
+  options.counts = {0, 17, 30, 99};
+  std::vector<std::size_t> judged(4);
+  std::map<std::string, std::size_t> asked;
+  options.on_judged = [&](std::size_t name, std::size_t, const oracle::Judgement&) { ++judged[name]; };
+  options.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
+    if (done == total) asked[name] += done;
+  };
+  const auto tallies = compare::measure(set, exact, {"oracle", "reduction", "batch", "walk"}, {}, options);
+  REQUIRE(tallies.size() == 4);
+  const std::size_t counts[] = {0, 17, 30, 40};
+  for (std::size_t i = 0; i < 4; ++i) {
+    INFO(tallies[i].name);
+    CHECK((tallies[i].queries == counts[i] && tallies[i].agree == counts[i] && judged[i] == counts[i]));
+    CHECK(asked[tallies[i].name] == 2 * counts[i]);
+    for (const double ns : {tallies[i].ns_per_query, tallies[i].ns_median, tallies[i].ns_low})
+      CHECK((counts[i] > 0 ? ns > 0 : ns == 0));
+  }
+  options.rounds = 0;
+  for (const auto& tally :
+       compare::measure(set, exact, {"oracle", "batch", "walk", "published"}, {}, options))
+    CHECK((tally.queries == 0 && tally.ns_per_query == 0));
+}

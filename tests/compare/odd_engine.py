@@ -62,8 +62,11 @@ def fail(query):
     elif FAULT == "own-keys":
         write(answer(query, **{f"own{n}": n for n in range(30)}))
         write(answer(json.loads(sys.stdin.readline()), own1=1))
-    elif FAULT == "skips":
+    elif FAULT.startswith("skips"):
         pass
+    elif FAULT == "garbage-skips":  # this one and the next
+        write("rubbish")
+        sys.stdin.readline()
     else:
         write(answer(query))
 
@@ -85,6 +88,8 @@ for line in sys.stdin:
     if FAULT == "ends-after" and answered == AT:
         sys.exit(4)
     answered += 1
+    if FAULT == "skips-later" and answered == 3:
+        write("rubbish")
     if FAULT == "at-end":
         at_end.append(answer(query))
     elif int(query["x"][0]) == AT:

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/engine.hpp>
+#include <lorentz/exchange.hpp>
 #include "compare/column_engine.hpp"
+#include "compare/instruction_counter.hpp"
 
 using namespace lorentz;
 using namespace lorentz::compare;
@@ -80,4 +82,53 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
     }
     CHECK(answers.time[3] == 0.625);
   }
+}
+
+TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compare][registry]") {
+  InstructionCounter counter;
+  CHECK_FALSE(counter.count());
+  counter.resume();
+  volatile double sum = 0;
+  for (int i = 0; i < 10'000; ++i) sum = sum + i;
+  counter.pause();
+  const auto first = counter.count();
+  if (!first) return;
+  CHECK(*first > 10'000);
+  CHECK(counter.count() == first);  // it pauses
+}
+
+TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compare][registry]") {
+  const std::vector<Scene> scenes{unit_scene(2, 0.25), unit_scene(3, 0.3), unit_scene(2, 0.1)};
+  for (const bool detail : {false, true})
+    for (const auto& [name, alone] : {std::pair{"batch", "reduction"}, {"certified-batch", "certified"}}) {
+      AnswererOptions options;
+      options.request.detail = detail;
+      const auto together = make_answerer(name, options), single = make_answerer(alone, options);
+      std::vector<std::string> lines[2];
+      int dimension = 2;
+      together->on_answer(
+          [&](Answer& answer) { append_answer_line(lines[0].emplace_back(), "1", answer, dimension); });
+      single->on_answer(
+          [&](Answer& answer) { append_answer_line(lines[1].emplace_back(), "1", answer, dimension); });
+      for (const Scene& scene : scenes) {
+        together->set_scene(scene), single->set_scene(scene);  // answers what was asked before
+        CHECK(lines[0] == lines[1]);
+        dimension = scene.dimension;
+        for (int i = 0; i < 5; ++i) {
+          const Query query{{0.5, 0.5, 0.5}, {1, 0.1 * i, 0.01 * i * (dimension - 2)}, {}};
+          together->ask("1", query), single->ask("1", query);
+        }
+      }
+      together->drain();
+      CHECK(lines[0] == lines[1]);
+      CHECK(lines[0].size() == 15);
+    }
+  const auto together = make_answerer("batch", {});
+  std::size_t answered = 0;
+  together->on_answer([&](Answer&) { ++answered; });
+  together->set_scene(scenes[0]);
+  for (int i = 1; i < 8192; ++i) together->ask("1", {{0.5, 0.5, 0}, {1, 0, 0}, {}});
+  CHECK(answered == 0);
+  together->ask("1", {{0.5, 0.5, 0}, {1, 0, 0}, {}});
+  CHECK(answered == 8192);
 }

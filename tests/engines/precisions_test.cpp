@@ -8,6 +8,7 @@
 #include "compare/measure.hpp"
 #include "compare/precisions/big_number.hpp"
 #include "compare/precisions/published_in.hpp"
+#include "compare/precisions/wide_number.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -60,6 +61,22 @@ TEST_CASE("What grazes at r = 1e-6 is beyond 24 bits and 53, and not beyond 106"
     CHECK(tallies[i].agree == 60);
     CHECK(tallies[i].max_ulp <= (i == 2 ? 1 : 0));  // times are rounded rightly
   }
+}
+
+TEST_CASE("Double-double numbers become integers of any size below 2^126", "[engines][precisions]") {
+  const auto integer = [](double hi, double lo) {
+    return published_search::NumberType<Wide>::integer(Wide::ordered_sum(hi, lo)).decimal();
+  };
+  CHECK(integer(0, 0) == "0");
+  CHECK(integer(-3, 0) == "-3");
+  CHECK(integer(0x1p53, 1) == "9007199254740993");
+  CHECK(integer(0x1p63, -1) == "9223372036854775807");
+  CHECK(integer(0x1p63, 0) == "9223372036854775808");
+  CHECK(integer(-0x1p63, 0) == "-9223372036854775808");
+  CHECK(integer(-0x1p63, -1) == "-9223372036854775809");
+  CHECK(integer(0x1p70, 3) == "1180591620717411303427");
+  CHECK(integer(-0x1p125, 0x1p60) == "-42535295865117307931768904424364179456");
+  CHECK(integer(0x1p126, 0) == "0");
 }
 
 TEST_CASE("Precisions know their limits", "[engines][precisions]") {
