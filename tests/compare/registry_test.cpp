@@ -82,6 +82,14 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
     }
     CHECK(answers.time[3] == 0.625);
   }
+  // A batch does not fly what leaves such a one: that row is asked alone, and has no stage.
+  rows.x[0].assign(5, 0.5), rows.x[1].assign(5, 0);
+  AnswerRows answers;
+  ColumnEngine("batch", unit_scene(2, 0.25), std::nullopt, 1).answer(rows, answers);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK((answers.stage[i] == AnswerRows::kNoStage) == (i % 2 == 1));
+    CHECK(answers.time[i] == 0.25);
+  }
 }
 
 TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compare][registry]") {
