@@ -132,9 +132,8 @@ Starts::Start Starts::start(std::uint64_t index, std::uint64_t attempt) const {
 void Starts::draw(std::uint64_t index, std::uint64_t attempt, Query& query) const {
   const Start drawn = start(index, attempt);
   query.x = drawn.x, query.v = drawn.v;
-  query.from.reset();
-  if (drawn.lattice < 0) return;
-  query.from = ObstacleId{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
+  const ObstacleId from{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
+  query.from = drawn.lattice < 0 ? std::nullopt : std::optional(from);
 }
 
 void Starts::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const {

@@ -58,9 +58,9 @@ Corner highest(const std::vector<Constraint>& some) {
 
 }  // namespace
 
-// Few walls matter: those that the step for the walls before comes too near to are added one by one.
+// Few walls matter: those that the step for the walls before comes too near to are added one by one, each
+// once, for it comes to none of those before by more than its slack.
 Step widest_step(const std::vector<Wall>& walls, const StepBounds& bounds) {
-  constexpr std::size_t kMost = 24;
   std::vector<Constraint> some{{1, 0, 0, bounds.high_x},
                                {-1, 0, 0, -bounds.low_x},
                                {0, 1, 0, bounds.high_y},
@@ -80,7 +80,7 @@ Step widest_step(const std::vector<Wall>& walls, const StepBounds& bounds) {
       most = over;
       worst = &wall;
     }
-    if (!worst || some.size() >= kMost) return {corner.x, corner.y};
+    if (!worst) return {corner.x, corner.y};
     some.push_back(constraint(*worst));
   }
 }

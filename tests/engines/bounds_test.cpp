@@ -8,8 +8,10 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/engine.hpp>
+#include "src/engines/reduction/bravais.hpp"
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
+#include "src/engines/reduction/reduce_3d.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -445,4 +447,41 @@ TEST_CASE("A basis in 3D is usable only if each of its vectors is", "[engines][b
     CHECK_FALSE(usable(i, 0, 1.9));  // 2.87; the others' is 2.15
     CHECK_FALSE(usable(i, 0, NAN));
   }
+}
+
+TEST_CASE("A step of the greedy reduction by a large quotient, of either sign, wants exact coordinates",
+          "[engines][bounds]") {
+  const auto reduces = [](double s, double t, double turn) {  // turn b - a = (0, t), of which a holds s / t
+    Basis3 basis{};
+    const double places[3][3] = {{1, s, 0}, {turn, turn * (s + t), 0}, {0, 0, 8}};
+    for (int i = 0; i < 3; ++i) {
+      Arm3& arm = basis.b[i];
+      arm.p[0] = places[i][0], arm.p[1] = places[i][1], arm.z = places[i][2], arm.n[i] = 1;
+    }
+    return GreedyReduction(basis).run();
+  };
+  for (const double s : {0.5, -0.5})
+    for (const double sign : {1., -1.})
+      for (const double turn : {1., -1.}) {
+        CHECK(reduces(s, sign * 0x1p-20, turn));
+        CHECK_FALSE(reduces(s, sign * 0x1p-22, turn));
+      }
+}
+
+TEST_CASE("A basis is exact only if each of its components is", "[engines][bounds]") {
+  for (const int dimension : {2, 3})
+    for (int k = 0; k < dimension; ++k)
+      for (const double rest : {0., 0x1p-60}) {
+        // u_1 - u_0 is (0.1 - rest) e_k: rounded, if there is a rest.
+        const int other = (k + 1) % dimension;
+        Scene scene{dimension, {{{}, {Atom{{}, 0.01, {}}}}}};
+        auto& u = scene.lattices[0].vectors;
+        u[0][other] = u[1][other] = 1;
+        u[0][k] = rest, u[1][k] = 0.1;
+        if (dimension == 3) u[2][(k + 2) % 3] = 1;
+        const PreparedScene prepared = prepare(scene);
+        REQUIRE(prepared.beyond == "");
+        CHECK(prepared.atoms.at(0).exact == (rest == 0));
+        CHECK((prepared.atoms[0].basis_error == 0) == (rest == 0));
+      }
 }

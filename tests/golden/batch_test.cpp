@@ -36,7 +36,7 @@ void check(const Scene& scene, const QueryTable& table, const std::vector<Answer
         }
       }
     }
-  std::vector<std::size_t> uncertain;
+  std::vector<std::size_t> uncertain{table.size()};  // as of another table
   oracle::CertifiedBatch(scene).first_hits(table.columns(), flights.columns(), uncertain);
   std::size_t next = 0;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -49,6 +49,7 @@ void check(const Scene& scene, const QueryTable& table, const std::vector<Answer
     INFO(stream(scene, table[i]));
     REQUIRE(same(answer_of(flights[i]), expected[i]));
   }
+  REQUIRE(next == uncertain.size());
 }
 
 Counts check_set(const std::string& path) {

@@ -146,3 +146,17 @@ TEST_CASE("Conditions: what each input makes of the time", "[oracle][margin_valu
   CHECK(condition(unit_scene(3, 0.375), {{0.5, 0.125, 0.25}, {1, 0, 0}, {}}) ==
         about((2.5 * kUlp + later * kUlp + 1.5 * kUlp / 4) / (kUlp / 4)));
 }
+
+TEST_CASE("Obstacles that are passed are named once each, however far one looks for them",
+          "[oracle][margin_value]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Query query{{0.5, 0.5}, {1, 0.125}, {}};  // past (1, 0), (1, 1), (2, 0) and (2, 1)
+  const Answer exact = truth(scene, query);
+  for (const std::size_t most : {2, 4, 100}) {
+    const auto passed = Margins(scene).passed(query, exact, most);
+    CHECK(passed.size() <= most);
+    CHECK(passed.size() >= 2);
+    for (std::size_t i = 0; i < passed.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(passed[i].obstacle == passed[j].obstacle);
+  }
+}

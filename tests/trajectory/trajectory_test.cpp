@@ -8,6 +8,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include <lorentz/trajectory_batch.hpp>
+#include "src/trajectory/meeting.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -527,4 +528,14 @@ TEST_CASE("A displacement is exact where both places are far away", "[trajectory
   to.offset[0] += 0x1p-20;
   CHECK(displacement(scene, from, to) == Vec{3 + 0x1p-20, 1, 0});
   CHECK(place_of(scene, to)[0] == 0x1p62);
+}
+
+TEST_CASE("A way whose square is beyond the range leads nowhere", "[trajectory]") {
+  const auto on_the_line = [](double way) {
+    Shape<double> shape;
+    shape.radius = 1;
+    return meeting_of(shape, Point<double>{-way, 0, 0}, Point<double>{1, 0, 0}, 0).on_the_line;
+  };
+  CHECK(on_the_line(1e150));
+  CHECK_FALSE(on_the_line(1e160));
 }

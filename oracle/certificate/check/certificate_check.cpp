@@ -19,6 +19,7 @@ struct Range {
   Z lo, hi;
 
   bool empty() const { return lo > hi; }
+  Z size() const { return hi - lo + 1; }  ///< of one that is not empty
   bool contains(const Z& a) const { return lo <= a && a <= hi; }
 };
 
@@ -131,7 +132,7 @@ class WindowSearch {
   /// The obstacles w + k_1 b_1 + k_2 b_2 with s in the window and k_2 in the range.
   void search_plane(const ZVec<D>& w, const Z& k3, const Range& k2) {
     if (k2.empty()) return;
-    budget_.spend(k2.hi - k2.lo + 1);
+    budget_.spend(k2.size());
     const Z s0 = dot(view_.v, w), h01 = view_.across(w, s0, b_[0], s1_),
             h02 = view_.across(w, s0, b_[1], s2_);
     const Z c0 = view_.across(w, s0, w, s0) - view_.rho2;
@@ -155,7 +156,7 @@ class WindowSearch {
         return;
     }
     if (k.empty()) return;
-    budget_.spend(k.hi - k.lo + 1);
+    budget_.spend(k.size());
     for (Z k1 = k.lo; k1 <= k.hi; ++k1)
       claim_.hold_against(view_, s0 + k1 * s1_, -c - k1 * (2 * b + k1 * h11_), [&] {
         ZVec<D> coefficients{k1, k2};
@@ -216,7 +217,7 @@ void WindowSearch<3>::run() {
   const Range bounds = image(dot(normal, view_.v), window_, 0, floor_sqrt(most_h2_ * dot(e, e)));
   const Range k3 = quotients(bounds, view_.v2 * dot(normal, view_.w0), view_.v2 * dot(normal, b_[2]));
   if (k3.empty()) return;
-  budget_.spend(k3.hi - k3.lo + 1);
+  budget_.spend(k3.size());
   for (Z k = k3.lo; k <= k3.hi; ++k) {
     const ZVec<3> w = sum(view_.w0, k, b_[2]);
     search_plane(w, k, rows_in_plane(w, normal, e));

@@ -177,11 +177,12 @@ std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights
       left += inside_->fly(queries.part(begin, length), flights.part(begin), time);
     }
   };
-  std::vector<std::jthread> others;
-  for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
-    others.emplace_back(work);
-  work();
-  others.clear();
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
+      others.emplace_back(work);
+    work();
+  }
   return left;
 }
 

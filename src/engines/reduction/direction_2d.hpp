@@ -226,15 +226,19 @@ struct Direction2 {
         arm->S_error =
             shape.along_error * (std::fabs(arm->n[0]) * size_of[0] + std::fabs(arm->n[1]) * size_of[1]);
       if (!kUnit) arm->D_error = kAnchorTerms * (std::fabs(arm->n[0]) * M[0] + std::fabs(arm->n[1]) * M[1]);
-      const bool forward = arm->S >= 0 || (kUnit && !kBall && arm == &R);
-      usable = usable && forward && L.D < passable;
-      if (!kTurned || arm == &L)  // in the first octant coefficients grow with each step
-        usable = usable && std::fabs(arm->n[0]) < kMaxCoefficient && std::fabs(arm->n[1]) < kMaxCoefficient;
     }
-    usable = usable && knows_slope(lattice);
+    usable = usable && L.D < passable && is_usable(R) && is_usable(L) && knows_slope(lattice);
     inverse_A = 1 / (kUnit ? v2 : v2 * lattice.volume);
     inverse_D_L = 1 / L.D;
     inverse_S_L = 1 / L.S;
+  }
+
+  // It points forward, and its coefficients are small: in the first octant they grow with each step, and L's
+  // is the later one.
+  bool is_usable(const Arm2& arm) const {
+    const bool forward = arm.S >= 0 || (kUnit && !kBall && &arm == &R);
+    return forward && ((kTurned && &arm == &R) ||
+                       (std::fabs(arm.n[0]) < kMaxCoefficient && std::fabs(arm.n[1]) < kMaxCoefficient));
   }
 
   // Rows are parallel to the line, exactly, or they certainly rise towards it: by a height of whose error the
