@@ -65,9 +65,8 @@ IntVec drawn_primitive(Random& random, int dimension, std::int64_t range) {
 std::array<IntVec, 2> across_of(const IntVec& n) {
   std::array<IntVec, 2> found{};
   std::size_t count = 0;
-  for (int i = 0; i < 3 && count < 2; ++i) {
-    IntVec axis{};
-    axis[i] = 1;
+  for (const IntVec& axis : {IntVec{1, 0, 0}, IntVec{0, 1, 0}, IntVec{0, 0, 1}}) {
+    if (count == 2) break;
     const IntVec g = cross(n, axis);
     if (g != IntVec{} && (count == 0 || cross(found[0], g) != IntVec{})) found[count++] = primitive(g);
   }

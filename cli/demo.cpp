@@ -32,24 +32,25 @@ CaseSet paper_example() {
   return set;
 }
 
-// Where the published algorithm skips discs.
-CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
+CaseSet set_of(std::string_view kind, int dimension, double radius, const std::vector<Query>& queries) {
   CaseSet set;
   set.scenes.push_back(unit_scene(dimension, radius));
-  for (const Query& query : draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count))
+  for (std::size_t i = 0; i < queries.size(); ++i)
     set.cases.push_back(
-        {json_quoted(fmt::format("leaving-{}d/{}/{}", dimension, radius, set.cases.size())), 0, query});
+        {json_quoted(fmt::format("{}-{}d/{}/{}", kind, dimension, radius, i)), 0, queries[i]});
   return set;
 }
 
+// Where the published algorithm skips discs.
+CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
+  return set_of("leaving", dimension, radius,
+                draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count));
+}
+
 CaseSet drawn(int dimension, double radius, std::size_t count) {
-  CaseSet set;
-  set.scenes.push_back(unit_scene(dimension, radius));
-  for (const Query& query :
-       draw_queries(set.scenes[0], oracle::Oracle(set.scenes[0]), kDefaultSeed, count, terminal()))
-    set.cases.push_back(
-        {json_quoted(fmt::format("drawn-{}d/{}/{}", dimension, radius, set.cases.size())), 0, query});
-  return set;
+  const Scene scene = unit_scene(dimension, radius);
+  return set_of("drawn", dimension, radius,
+                draw_queries(scene, oracle::Oracle(scene), kDefaultSeed, count, terminal()));
 }
 
 class Report {

@@ -193,11 +193,11 @@ class PartFile {
     const auto there = std::filesystem::symlink_status(path_, error);
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
       throw FileError(path_ + ": is no regular file; name another, or use standard output");
-    lock_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    lock_ = ::open(part_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (lock_ == -1) fail(part_);
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) throw FileError(part_ + ": another run is writing it");
     const bool resumed = read_note(state);
-    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0 || ::lseek(lock_, 0, SEEK_END) == -1) fail(part_);
+    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0) fail(part_);
     file_ = ::fdopen(::dup(lock_), "wb");
     if (!file_) fail(part_);
     if (!resumed) write(header_, state);

@@ -83,6 +83,9 @@ def test_memory_is_used_again():
     assert same(again, engine.first_hit(x[::-1], v[::-1]))
     with pytest.raises(lorentz.Error, match="out: is of 5000 queries in 2"):
         engine.first_hit(x[1:], v[1:], out=first)
+    in_space = lorentz.first_hit("cubic", *lorentz.draw_starts("cubic", 5000, seed=SEED)[:2])
+    with pytest.raises(lorentz.Error, match="out: is of 5000 queries in 3"):
+        engine.first_hit(x, v, out=in_space)
 
 
 def test_nothing_half_written_is_left_in_out():
@@ -165,7 +168,7 @@ def test_an_obstacle_beyond_64_bits_can_be_left(engine):
     obstacles = [None if i % 2 else (0, 0, first.large_cells.get(i, tuple(first.cell[i]))) for i in range(9000)]
     then = lorentz.first_hit("square", x, v, 0.1, engine=engine, start_from=first)
     some = lorentz.first_hit("square", x, v, 0.1, engine=engine, start_from=obstacles)
-    for i in (6, 7, 8, 4999, 5000):
+    for i in (6, 7, 8, 7 + 16, 7 + 4096, 4999, 5000):  # of other rows that fly together, too
         cell = first.large_cells.get(i, first.cell[i])
         exact = lorentz.oracle.first_hit(lorentz.Scene("square", 0.1), x[i], v[i], start_from=(0, 0, cell))
         assert exact.cell == then.large_cells.get(i, tuple(then.cell[i])) != tuple(cell)

@@ -21,6 +21,17 @@ def test_a_scene_has_the_obstacles_in_the_box():
     assert patches(lorentz.plot.scene("honeycomb", (0, 6, 0, 6))) > 20
 
 
+@pytest.mark.parametrize("box", [(0, 1, 0), (1, 1, 0, 2), (0, 2, 1, 1), (1, 0, 0, 2), (0, 2, 1, 0)])
+def test_a_box_has_sides(box):
+    with pytest.raises(lorentz.Error, match="box: .* is not x low, x high, y low, y high"):
+        lorentz.plot.scene("square", box)
+
+
+def test_what_is_drawn_leaves_a_margin_of_a_twentieth_or_a_half():
+    for size, margin in ((4, 0.5), (40, 2)):
+        assert lorentz.plot._around(np.array([[0, 0], [size, 1]])) == (-margin, size + margin, -margin, 1 + margin)
+
+
 def test_ellipses_are_turned():
     ellipse = next(lorentz.plot._obstacles({"vectors": [[9, 0], [0, 9]], "atoms": [
         {"position": [0, 0], "semiaxes": [[0.3, 0.4], [-0.08, 0.06]]}]}, (-1, 1, -1, 1)))

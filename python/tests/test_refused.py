@@ -73,6 +73,7 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=[1, 2])),
     ("max_time: has numbers that floats", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=Fraction(1, 3))),
     ("max_time: is no array", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=True)),
+    ("start_from: 2147483648", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=[(2**31, 0, (2**70, 0))])),
     ("start_from: 1099511627776", lambda: lorentz.first_hit(SQUARE, [X], [V], start_from=[(2**40, 0, (2**70, 0))])),
     ("most: -1 ", lambda: oracle.passed(SQUARE, X, V, most=-1)),
     ("limit: -1 ", lambda: oracle.convergents(0.5, limit=-1)),

@@ -25,6 +25,7 @@ COMPLETIONS = [
     (["compare", "--scene", "triangul"], ["triangular"]),
     (["golden", "check", "graz"], ["grazing"]),
     (["golden", "check", "-e", "reduction", "my"], ["my-set.ndjson"]),
+    (["golden", "check", "grazing", "gen"], ["generic-2d", "generic-3d"]),
     (["golden", "make", "--set", "near-r"], ["near-rational"]),
     (["fuzz", "--target", "long-"], ["long-flight"]),
     (["fuzz", "exp"], ["export"]),

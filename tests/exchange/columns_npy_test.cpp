@@ -177,6 +177,7 @@ TEST_CASE("Names of fields are in Latin-1 at first, then in UTF-8", "[exchange][
     return read(npy_file(npy_dictionary(description, "(1,)"), row, version), 2).unknown.at(0);
   };
   CHECK(unknown("\xfc", 1) == "\xc3\xbc");
+  CHECK(unknown("\x80", 1) == "\xc2\x80");
   CHECK(unknown("\xfc", 2) == "\xc3\xbc");
   CHECK(unknown("\xc3\xbc", 3) == "\xc3\xbc");
 }

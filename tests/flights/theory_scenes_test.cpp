@@ -55,6 +55,7 @@ TEST_CASE("Laws: one lattice of discs, in any cell", "[flights][laws]") {
     CHECK(laws.none.empty());
     CHECK(laws.laws[0].when == "r -> 0");
     CHECK(laws.laws[0].scale == Approx(500));
+    CHECK(laws.laws[0].smooth_from == (ensemble == Ensemble::uniform ? 0 : 128));  // 64 of the longest vector
     for (const double s : {0.3, 1.7, 12.0})
       CHECK(laws.laws[0].survival(500 * s) == Approx(ensemble == Ensemble::uniform
                                                          ? limit_survival_from_uniform(s)

@@ -87,6 +87,7 @@ TEST_CASE("golden check: tables of numbers, as JSON and as a page", "[golden][go
   CHECK(page.status == 1);
   CHECK(page.out.starts_with(
       "| set | records | published | reduction |\n|---|---|---|---|\n| published-faults | 47 | "));
+  CHECK_FALSE(contains(page.out, "not run"));
   CHECK(contains(page.out, "\n## published\n\n| set | tag | records | of these |"));
   CHECK(contains(page.out, "skipped-disc"));
   CHECK(contains(page.out, "\n## reduction\n\nNo wrong answer.\n"));

@@ -267,6 +267,8 @@ TEST_CASE("Golden: a file that is there is replaced, one that cannot be written 
   const Folder folder;
   folder.write("set", "something else");
   require_made(folder, order, whole);
+  folder.write("new", "made by the shell's rules");
+  CHECK(fs::status(folder.file("set")).permissions() == fs::status(folder.file("new")).permissions());
   CHECK_THROWS_AS(golden::produce_file(order, folder.file("no/folder/set"), {}), FileError);
   fs::create_directory(folder.file("taken"));
   CHECK_THROWS_AS(golden::produce_file(order, folder.file("taken"), {}), FileError);
