@@ -13,7 +13,7 @@ std::string Table::text() const {
   std::string out;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     for (std::size_t i = 0; i < rows_[r].size(); ++i)
-      if (prose_ && i + 1 == rows_[r].size())
+      if (prose_ && i + 1 == width.size())
         out += "  " + rows_[r][i];
       else
         out += i == 0 ? fmt::format("{:<{}}", rows_[r][i], width[i])

@@ -40,8 +40,8 @@ class AnswererSubject final : public Subject {
   }
   std::vector<Reply> replies() override {
     answerer_->drain();
-    for (const std::size_t i : std::exchange(not_asked_, {})) ask_again(i);
-    asked_.clear();
+    const Asked asked = std::exchange(asked_, {});
+    for (const std::size_t i : std::exchange(not_asked_, {})) ask_again(asked[i], i);
     return std::exchange(replies_, {});
   }
   std::uint64_t batch_size() const override { return is_command_ ? 256 : Subject::batch_size(); }
@@ -53,11 +53,13 @@ class AnswererSubject final : public Subject {
     answerer_->set_scene(scene);
   }
 
-  void ask_again(std::size_t i) {
+  using Asked = std::vector<std::pair<std::shared_ptr<const Scene>, Query>>;
+
+  void ask_again(const Asked::value_type& question, std::size_t i) {
     if (answerer_->is_hopeless()) return;
     answerer_->try_again();
-    answerer_->set_scene(*asked_[i].first);
-    answerer_->ask("null", asked_[i].second);
+    answerer_->set_scene(*question.first);
+    answerer_->ask("null", question.second);
     answerer_->drain();
     replies_[i] = std::move(replies_.back());
     replies_.pop_back();
@@ -67,8 +69,8 @@ class AnswererSubject final : public Subject {
   std::unique_ptr<Answerer> answerer_;
   bool is_command_;
   std::shared_ptr<const Scene> scene_;
-  std::vector<std::pair<std::shared_ptr<const Scene>, Query>> asked_;  // a reply to each is due
-  std::vector<std::size_t> not_asked_;                                 // of these, by number
+  Asked asked_;                         // a reply to each is due
+  std::vector<std::size_t> not_asked_;  // of these, by number
   std::vector<Reply> replies_;
 };
 

@@ -179,6 +179,13 @@ def test_an_obstacle_beyond_64_bits_can_be_left(engine):
     assert one.large_cells == {0: then.large_cells[7], 1: then.large_cells[7]}
 
 
+def test_a_bad_row_behind_one_that_is_not_supported_is_named():
+    x, v = [[1e300, 0.5], [0.5, 0.5]], [[1, 0.25], [0, 0]]
+    assert lorentz.first_hit("square", x[:1], v[:1], engine="classical").outcome[0] == Outcome.ERROR
+    with pytest.raises(lorentz.Error, match="row 1: "):
+        lorentz.first_hit("square", x, v, engine="classical", on_error="raise")
+
+
 @pytest.mark.parametrize("engine", ["batch", "certified-batch", "oracle"])
 def test_a_bad_row_is_named(engine):
     x, v, _ = lorentz.draw_starts("square", 9000, seed=SEED)

@@ -42,6 +42,27 @@ TEST_CASE("Characters that act on a terminal are escaped, others are not", "[pro
   CHECK(printable("two\nlines\tand\x1b", Lines::kept) == "two\nlines\tand\\x1b");
 }
 
+TEST_CASE("The first and the last characters that act, and those beside them", "[problem][safe_text]") {
+  const auto utf8 = [](char32_t code) {
+    if (code < 0x80) return std::string(1, static_cast<char>(code));
+    const char last = static_cast<char>(0x80 | (code & 0x3f));
+    if (code < 0x800) return std::string{static_cast<char>(0xc0 | code >> 6), last};
+    return std::string{static_cast<char>(0xe0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 0x3f)),
+                       last};
+  };
+  const auto acts = [&](char32_t code) { return printable(utf8(code)) != utf8(code); };
+  constexpr std::pair<char32_t, char32_t> kThose[] = {{0, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},
+                                                      {0x200e, 0x200f}, {0x2028, 0x202e}, {0x2066, 0x2069},
+                                                      {0xfeff, 0xfeff}, {0xfffe, 0xffff}};
+  for (const auto& [first, last] : kThose) {
+    INFO(static_cast<unsigned long>(first));
+    CHECK(acts(first));
+    CHECK(acts(last));
+    if (first > 0) CHECK_FALSE(acts(first - 1));
+    if (last < 0xffff) CHECK_FALSE(acts(last + 1));
+  }
+}
+
 TEST_CASE("Bytes that are not UTF-8 become the replacement character", "[problem][safe_text]") {
   CHECK(printable("\x9b"
                   "31m") ==
