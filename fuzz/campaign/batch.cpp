@@ -289,8 +289,9 @@ Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const 
   finding.kind = name_of(examined.kind);
   finding.sort = sort;
   finding.text = text_of(label_of(finding), scene, one.question.query, examined);
-  finding.text.margin = margin_of(one.context->margins(), one.question.query, examined.exact);
-  take_for_shrunk(finding, scene, one.question.query, examined, finding.text.margin);
+  const auto margin = margin_of(one.context->margins(), one.question.query, examined.exact);
+  finding.text.margin = margin;
+  take_for_shrunk(finding, scene, one.question.query, examined, margin);
   if (one.misread || subject_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include <lorentz/trajectory.hpp>
 #include "chaos/free_starts.hpp"
+#include "chaos/groups.hpp"
 #include "chaos/theory.hpp"
 #include "flights/theory/laws.hpp"
 #include "tests/trajectory/coverage_support.hpp"
@@ -107,6 +109,30 @@ TEST_CASE("Starts are the first of the attempts that are free, of every index", 
   }
   CHECK(attempts[1] > 40);
   CHECK(attempts[2] > 20);
+}
+
+TEST_CASE("Every particle of a group is flown once, of the second piece of it, too", "[chaos]") {
+  const Scene scene = unit_scene(2, 0.3);
+  constexpr std::uint64_t kCount = 600 * kGroups;  // of which 512 fly together
+  constexpr double kTime = 2;
+  const Diffusion all = measured(scene, kCount, kTime);
+  const flights::Starts starts(scene, flights::Ensemble::uniform, 9201);
+  const Reduction engine(scene);
+  std::uint64_t collisions = 0;
+  double squares = 0;
+  for (std::uint64_t index = 0; index < kCount; ++index) {
+    Query start;
+    std::uint64_t attempt = 0;
+    do starts.draw(index, attempt++, start);
+    while (std::hypot(start.x[0] - std::round(start.x[0]), start.x[1] - std::round(start.x[1])) < 0.3);
+    Trajectory one(engine, scene, start);
+    while (one.advance(kTime)) ++collisions;
+    const Vec place = one.place();
+    squares += std::pow(place[0] - start.x[0], 2) + std::pow(place[1] - start.x[1], 2);
+  }
+  CHECK(all.particles == kCount);
+  CHECK(all.collisions == collisions);
+  CHECK(all.displacements.back().square.value == Approx(squares / kCount).epsilon(1e-10));
 }
 
 TEST_CASE("Diffusion does not depend on the threads", "[chaos]") {
