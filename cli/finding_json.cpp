@@ -58,14 +58,11 @@ std::string answer_object(const Answer& answer, int dimension) {
   return without_id(std::move(line));
 }
 
-std::string printed(const Scene& scene, const std::string& query_members) {
-  return fmt::format("printf '%s\\n' {} {}", shell_quoted(scene_line(scene)),
-                     shell_quoted("{\"id\":1," + query_members + '}'));
-}
-
-std::string printed_often(const Scene& scene, const std::string& query_members, std::size_t times) {
-  return fmt::format("{{ printf '%s\\n' {}; yes {} | head -n {}; }}", shell_quoted(scene_line(scene)),
-                     shell_quoted("{\"id\":1," + query_members + '}'), times);
+std::string printed(const Scene& scene, const std::string& query_members, std::size_t times) {
+  const std::string first = fmt::format("printf '%s\\n' {}", shell_quoted(scene_line(scene))),
+                    query = shell_quoted("{\"id\":1," + query_members + '}');
+  return times == 1 ? fmt::format("{} {}", first, query)
+                    : fmt::format("{{ {}; yes {} | head -n {}; }}", first, query, times);
 }
 
 std::string array_of(const std::vector<std::string>& texts) {

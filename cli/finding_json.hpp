@@ -22,11 +22,8 @@ std::string query_object(const Query& query, int dimension);
 /// An answer without its id.
 std::string answer_object(const Answer& answer, int dimension);
 
-/// The shell command that prints a query stream of one query.
-std::string printed(const Scene& scene, const std::string& query_members);
-
-/// The same of the query so many times.
-std::string printed_often(const Scene& scene, const std::string& query_members, std::size_t times);
+/// The shell command that prints a query stream of one query, so many times.
+std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);
 
 std::string array_of(const std::vector<std::string>& texts);
 std::string number_or_null(const std::optional<double>& value);

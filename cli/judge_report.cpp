@@ -58,10 +58,8 @@ const char* option_for(Severity severity) {
 
 // The shell command that prints the question, as often as it takes.
 std::string lines_of_question(const Finding& finding) {
-  const Scene& scene = finding.simplest.question.setting->scene();
-  const std::string members = members_of(finding.simplest);
-  return finding.repetitions > 1 ? printed_often(scene, members, finding.repetitions)
-                                 : printed(scene, members);
+  return printed(finding.simplest.question.setting->scene(), members_of(finding.simplest),
+                 finding.repetitions);
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {

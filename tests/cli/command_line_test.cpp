@@ -1,5 +1,6 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
 #include "tests/support/command_line.hpp"
+#include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 
 #include <catch2/catch.hpp>
@@ -217,4 +218,19 @@ TEST_CASE("convergents prints the expansion", "[cli][command_line]") {
   CHECK(folder.lorentz("convergents 0x1.8p+0").out == folder.lorentz("convergents 1.5").out);
   CHECK(folder.lorentz("convergents -- -1.5").status == 0);
   CHECK(contains(folder.lorentz("convergents 3.14159 --limit 3").out, "stopped after --limit 3"));
+}
+
+TEST_CASE("The command that prints a question prints it as often as it is to be asked",
+          "[cli][command_line]") {
+  const Folder folder;
+  const Scene scene = unit_scene(2, 0.25);
+  const std::string asked = cli::query_members({{0.5, 0.25}, {1, 0.5}, {}}, 2);
+  for (const std::size_t times : {1, 2, 7}) {
+    const std::string file = folder.file("asked");
+    REQUIRE(std::system((cli::printed(scene, asked, times) + " >" + file).c_str()) == 0);
+    const std::vector<std::string> lines = cli::lines_of(folder.read("asked"));
+    REQUIRE(lines.size() == times + 1);
+    CHECK(lines[0] == cli::scene_line(scene));
+    for (std::size_t i = 1; i <= times; ++i) CHECK(lines[i] == "{\"id\":1," + asked + '}');
+  }
 }
