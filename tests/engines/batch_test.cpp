@@ -280,6 +280,70 @@ TEST_CASE("A batch says what one flight at a time says of the families of hard c
   }
 }
 
+TEST_CASE("What a batch cannot name or time is left to single flights: far cells, ends of the range",
+          "[engines][batch]") {
+  const auto scaled = [](Vec a, int exponent) {
+    for (double& component : a) component = std::ldexp(component, exponent);
+    return a;
+  };
+  for (const std::string& instructions : Batch::instruction_sets()) {
+    Compared compared;
+    const auto fly = [&](const Scene& scene, const QueryTable& table) {
+      const Batch batch(scene, instructions);
+      compared.add(scene, batch, table, Batch::Time::close);
+      compared.add(scene, batch, table, Batch::Time::rounded);
+    };
+    // Out of corridors, along the shortest vectors of cells that are upright, and of such that are not.
+    for (const double skew : {0., 1., 1000.})
+      for (const int dimension : {2, 3})
+        for (const double radius : {0.1, dimension == 2 ? 1e-11 : 1e-6}) {
+          Scene scene = unit_scene(dimension, radius);
+          if (skew != 0) scene.lattices[0].vectors[1][0] = skew;
+          QueryTable table;
+          for (int k = 1; k <= 62; ++k)
+            for (const double sign : {1., -1.}) {
+              const double drift = sign * std::ldexp(1, -k);
+              if (dimension == 2) table.push_back({{0, 0.5, 0}, {sign, drift, 0}, {}});
+              if (dimension == 3) table.push_back({{0, 0, 0.5}, {1, 0.618, drift}, {}});
+              if (dimension == 3) table.push_back({{0.5, 0.5, 0.5}, {0.53, -0.618, drift}, {}});
+            }
+          fly(scene, table);
+        }
+    // Starts far out.
+    for (const double skew : {0., 1., 1000.})
+      for (const int dimension : {2, 3}) {
+        Scene scene = unit_scene(dimension, 0.1);
+        if (skew != 0) scene.lattices[0].vectors[1][0] = skew;
+        QueryTable table;
+        const double z = dimension == 2 ? 0 : 0.4375;
+        for (int k = 20; k <= 70; ++k)
+          for (const double sign : {1., -1.}) {
+            table.push_back({{sign * std::ldexp(1, k), 0.375, z}, {1, 0.618, z}, {}});
+            table.push_back({{0.375, sign * std::ldexp(1, k), z}, {1, 0.618, z}, {}});
+          }
+        fly(scene, table);
+      }
+    // Times of 2^-60 and less in cells and at speeds near the ends of what lanes do: numbers below the
+    // normal.
+    for (const int dimension : {2, 3})
+      for (const int length : {-390, 0, 390}) {
+        Scene scene = unit_scene(dimension, std::ldexp(0.25, length));
+        scene.lattices[0].atoms[0].position[0] = scene.lattices[0].atoms[0].radius;  // 0 is on its surface
+        for (int k = 0; k < dimension; ++k)
+          scene.lattices[0].vectors[k] = scaled(scene.lattices[0].vectors[k], length);
+        QueryTable table;
+        for (int speed = -480; speed <= 480; speed += 40)
+          for (int k = 1; k <= 200; ++k)
+            table.push_back(
+                {scaled({-1.1 * std::ldexp(1, -k), 0, 0}, length), scaled({1.3, 0, 0}, speed), {}});
+        fly(scene, table);
+      }
+    INFO(instructions << ": " << compared.first);
+    CHECK(compared.different == 0);
+    CHECK(compared.hits > 1000);
+  }
+}
+
 TEST_CASE("Ten million flights in batches are those of single flights", "[engines][batch][long]") {
   for (const std::string& instructions : Batch::instruction_sets()) {
     if (instructions == "none") continue;

@@ -230,10 +230,7 @@ class Block {
       time = rounded(here, times, entry, is_rounded);
     else
       time = close(here, times, entry);
-    M in_range;
-    time = velocity_.time_of(time, scene_.exponent, in_range);
-    lanes_.leave(AndNot(in_range, here));
-    time_ = select(here, time, time_);
+    time_ = select(here, velocity_.time_of(time, scene_.exponent), time_);
     rounded_ = Or(rounded_, And(here, is_rounded));
   }
 

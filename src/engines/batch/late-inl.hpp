@@ -52,15 +52,13 @@ class LateTimes {
     for (int k = 0; k < D; ++k) entry.n[k] = load(n_[k] + at);
     entry.s = load(s_ + at), entry.slack = load(slack_ + at), entry.slack_error = load(slack_error_ + at);
     const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
-    M in_range;
     M is_rounded = no_lane();
     const V found = stretch.rounded ? times.rounded(is_rounded) : times.grazed();
-    store(scaled.time_of(found, scene.exponent, in_range), time);
-    const unsigned good = bits_of(in_range), rounded = bits_of(is_rounded);
+    store(scaled.time_of(found, scene.exponent), time);
+    const unsigned rounded = bits_of(is_rounded);
     for (std::size_t lane = 0; lane < length; ++lane) {
       stretch.time[index_[at + lane]] = time[lane];
       stretch.time_is_rounded[index_[at + lane]] = rounded >> lane & 1;
-      if (!(good >> lane & 1)) stretch.left_over[stretch.left_count++] = index_[at + lane];
     }
   }
 

@@ -64,13 +64,13 @@ class Search2 {
     if (any(tiny)) set_near_anchor(tiny, h, lanes);
   }
 
-  // Among tiny balls: the lattice point nearest to the start in the coordinates of R and L.
+  // Among tiny balls: the lattice point nearest to the start in the coordinates of R and L, or another one
+  // nearby: any will do whose coefficients are integers without rounding.
   HWY_INLINE void set_near_anchor(M tiny, Pair h, Lanes& lanes) {
     const Arm2 &R = to_.R, &L = to_.L;
     const V big = all(kMaxCoefficient);
     const V n = Round(Neg(L.S * y_ + L.D * s_) * to_.inverse_A);
     const V m = Round((R.S * y_ - R.D * s_) * to_.inverse_A);
-    lanes.leave(And(tiny, Not(And(Abs(n) < big, Abs(m) < big))));
     V anchor[2], terms = none(), along = none(), s_error = s_error_;
     for (int i = 0; i < 2; ++i) {
       const Pair sum = product_of(n, R.n[i]) + product_of(m, L.n[i]);

@@ -134,7 +134,7 @@ struct Window3 {
     for (int j = 0; j < 3; ++j) {
       Pair sum = pair_of(before[j]);
       for (int i = 0; i < 3; ++i) sum = sum + product_of(k[i], basis->b[i].n[j]);
-      lanes.leave(And(wide, Not(And(sum.lo == none(), Abs(sum.hi) < all(kMaxCoefficient)))));
+      lanes.leave(And(wide, Not(Abs(sum.hi) < all(kMaxCoefficient))));  // below, an integer has no low part
       anchor[j] = select(wide, sum.hi, anchor[j]);
     }
   }
@@ -321,15 +321,13 @@ class Search3 {
     const M beyond = And(candidate, s - s_error > Min(found.s + found.s_error, s_limit_));
     candidate = AndNot(beyond, candidate);
     if (nowhere(candidate)) return beyond;
-    V N[3], size = largest(Abs(point.n[0]), Abs(point.n[1]), Abs(point.n[2]));
+    V N[3];
     M same = Not(no_lane()), left = candidate;
     for (int i = 0; i < 3; ++i) {
       N[i] = window_.anchor[i] + point.n[i];
-      size = Max(size, Abs(N[i]));
       same = And(same, N[i] == found.n[i]);
       if (leaving_ != nullptr) left = And(left, N[i] == leaving_->n[i]);
     }
-    lanes.leave(And(candidate, Not(size < all(kMaxCoefficient))));
     if (leaving_ != nullptr) candidate = AndNot(And(left, leaving_->any), candidate);
     const M sure = And(yes, s > s_error), sooner = s + s_error < found.s - found.s_error;
     lanes.leave(And(candidate, Not(And(sure, Or(sooner, same)))));
