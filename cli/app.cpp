@@ -1,5 +1,6 @@
 #include "cli/app.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -24,36 +25,69 @@ std::string versions() {
                      fmt::join(library_versions(), "\n"));
 }
 
+// ---- The parser's tree, of ours
+
+CLI::Option* add_option(CLI::App& app, const Option& option) {
+  return std::visit(
+      [&](auto target) -> CLI::Option* {
+        using To = std::remove_pointer_t<decltype(target)>;
+        if constexpr (std::is_same_v<To, std::monostate>)
+          return app.get_option("--" + option.long_names().at(0));
+        else if constexpr (std::is_same_v<To, bool>)
+          return app.add_flag(option.names, *target, option.help);
+        else
+          return app.add_option(option.names, *target, option.help)->type_name(option.type);
+      },
+      option.target);
+}
+
+void add(CLI::App& app, const Command& command) {
+  for (const Option& option : command.options) {
+    CLI::Option* added = add_option(app, option);
+    if (!option.default_text().empty()) added->capture_default_str();
+    if (option.traits & kRequired) added->required();
+    if (option.traits & kCommas) added->delimiter(',');
+    if (option.traits & kOneAtATime) added->allow_extra_args(false);
+    if (option.is_hidden()) added->group("");
+  }
+  for (const Option& option : command.options)
+    if (!option.excludes.empty()) app.get_option(option.name())->excludes(app.get_option(option.excludes));
+  if (!command.commands.empty()) app.require_subcommand(command.act ? 0 : 1, 1);
+  app.footer(command.footer);
+  for (const Command& one : command.commands) add(*app.add_subcommand(one.name, one.description), one);
+}
+
+// ---- What the words ask for
+
 // A subcommand, and what it is called on the command line.
 struct Called {
-  const CLI::App& app;
+  const Command& command;
   std::string name;
 };
 
 // The one that the words ask for. It must exist, and so must its own; the parser itself would only say that
 // one is required.
-Called subcommand_of(const CLI::App& app, const std::string& before, int argc, char** argv) {
-  const std::string name = (before.empty() ? "" : before + ' ') + app.get_name();
-  const auto commands = app.get_subcommands({});
-  if (argc < 2 && app.get_require_subcommand_min() > 0) {
+Called subcommand_of(CLI::App& app, const Command& command, const std::string& before, int argc,
+                     char** argv) {
+  const std::string name = (before.empty() ? "" : before + ' ') + command.name;
+  if (argc < 2 && !command.act) {
     print(app.help(before));
     throw InputError("name a subcommand");
   }
-  if (argc < 2 || argv[1][0] == '-' || commands.empty()) return {app, name};
+  if (argc < 2 || argv[1][0] == '-' || command.commands.empty()) return {command, name};
+  if (const Command* one = command.called(argv[1]))
+    return subcommand_of(*app.get_subcommand(argv[1]), *one, name, argc - 1, argv + 1);
   std::vector<std::string> names;
-  for (const CLI::App* command : commands) {
-    if (command->get_name() == argv[1]) return subcommand_of(*command, name, argc - 1, argv + 1);
-    names.push_back(command->get_name());
-  }
+  for (const Command& one : command.commands) names.push_back(one.name);
   throw InputError(fmt::format("no subcommand is called {}{}; there are {}", json_quoted(argv[1]),
                                compare::did_you_mean(argv[1], names), fmt::join(names, ", ")));
 }
 
 // Of the words that no option took those that look like options, with what they may have been meant for.
-std::string unknown_options(const CLI::App& app, const CLI::App& command) {
+std::string unknown_options(const CLI::App& app, const Command& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const Option& option : command.options)
+    for (const std::string& name : option.long_names()) names.push_back("--" + name);
   std::string text;
   for (const std::string& word : app.remaining(true))
     if (word.starts_with('-'))
@@ -70,18 +104,20 @@ std::string in_words(const std::string& error) {
   return error.substr(0, at) + ": needs a value, " + value.substr(0, value.size() - missing.size());
 }
 
-void parse(CLI::App& app, int argc, char** argv) {
-  const Called command = subcommand_of(app, "", argc, argv);
+// What is to be done.
+const Action& parse(CLI::App& app, const Command& program, int argc, char** argv) {
+  const Called called = subcommand_of(app, program, "", argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) throw;  // --help, --version
-    const std::string options = unknown_options(app, command.app);
+    const std::string options = unknown_options(app, called.command);
     throw InputError(fmt::format("{}; {} --help has all",
                                  options.empty() ? in_words(error.what()) : "no such option: " + options,
-                                 command.name));
+                                 called.name));
   }
-  check_files(command.app);
+  check_files(called.command);
+  return called.command.act;
 }
 
 std::string& called() {
@@ -98,24 +134,23 @@ void help_as_option(int argc, char** argv) {
 }
 
 // What shells and the build ask for, and no person: not in --help.
-bool serves(const CLI::App& app, int argc, char** argv) {
+bool serves(const Command& program, int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
   const std::string service = argc > 1 ? argv[1] : "";
   if (service == "--complete") {
-    print(completions(app, words));
+    print(completions(program, words));
     return true;
   }
   if (service != "--manuals" || words.size() != 1) return false;
-  write_manuals(app, words[0]);
+  write_manuals(program, words[0]);
   return true;
 }
 
-int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
+int parse_and_act(CLI::App& app, const Command& program, int argc, char** argv) {
   try {
-    if (serves(app, argc, argv)) return kDone;
+    if (serves(program, argc, argv)) return kDone;
     help_as_option(argc, argv);
-    parse(app, argc, argv);
-    return action();
+    return parse(app, program, argc, argv)();
   } catch (const CLI::ParseError& help) {
     app.exit(help);  // prints it
     return kDone;
@@ -152,41 +187,50 @@ void finish_output() {
   if (is_lost) throw write_error("standard output", errno);
 }
 
+namespace {
+
+// Each command's own rows, behind those that the parser has of itself.
+void add_help(Command& command) {
+  command.options.insert(command.options.begin(), {"-h,--help", {}, "", "Print this help message and exit"});
+  for (Command& one : command.commands) add_help(one);
+}
+
+Command program() {
+  Command program{
+      "lorentz",
+      "Exact first hits in periodic Lorentz gases: the reference that engines are checked against.",
+      {},
+      "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not "
+      "be done.\n"
+      "Example: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
+      "  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
+      "--radius 0.1",
+      {},
+      {first_hit_command(), compare_command(), judge_command(), convergents_command(), horizon_command(),
+       sample_command(), demo_command(), bench_command(), scene_command(), golden_command(), fuzz_command(),
+       flights_command(), trajectory_command(), survival_command(), lyapunov_command(), diffusion_command(),
+       doctor_command()}};
+  add_help(program);
+  program.options.push_back({"--version", {}, "", "Display program version information and exit"});
+  return program;
+}
+
+}  // namespace
+
+std::string parser_library() {
+  return std::string("CLI11 ") + CLI11_VERSION;
+}
+
 int run(int argc, char** argv) {
   end_in_order();
   called() = "lorentz";
   for (int i = 1; i < argc; ++i) called() += ' ' + shell_quoted(argv[i]);
-  CLI::App app{"Exact first hits in periodic Lorentz gases: the reference that engines are checked against."};
-  app.name("lorentz");
+  const Command commands = program();
+  CLI::App app{commands.description};
+  app.name(commands.name);
   app.set_version_flag("--version", versions());
-  app.require_subcommand(1);
-  const std::string statuses =
-      "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not be "
-      "done.";
-  app.footer(statuses);  // also of subcommands that have none
-  Action action;
-  add_first_hit(app, action);
-  add_compare(app, action);
-  add_judge(app, action);
-  add_convergents(app, action);
-  add_horizon(app, action);
-  add_sample(app, action);
-  add_demo(app, action);
-  add_bench(app, action);
-  add_scene(app, action);
-  add_golden(app, action);
-  add_fuzz(app, action);
-  add_flights(app, action);
-  add_trajectory(app, action);
-  add_survival(app, action);
-  add_lyapunov(app, action);
-  add_diffusion(app, action);
-  add_doctor(app, action);
-  app.footer(
-      statuses +
-      "\nExample: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
-      "  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square --radius 0.1");
-  const int status = parse_and_act(app, action, argc, argv);
+  add(app, commands);
+  const int status = parse_and_act(app, commands, argc, argv);
   try {
     finish_output();
   } catch (const FileError& error) {

@@ -9,7 +9,6 @@
 #include "cli/bench_report.hpp"
 #include "cli/bench_store.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
@@ -109,44 +108,37 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Action& action) {
+Command bench_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("bench", "Speed against error: engines by scenes by radii by difficulty.");
-  command->add_option("-e,--engine", options->engines, names_for_help())->type_name("ENGINE");
-  command
-      ->add_option("--scene", options->scenes,
-                   "scene files, or names of the catalogue (default: square,cubic)")
-      ->delimiter(',')
-      ->type_name("SCENE");
-  command
-      ->add_option("--radius", options->radii,
-                   "radii (default: 0.3,0.1,0.01,0.001,1e-06; scenes with semiaxes at their own size)")
-      ->delimiter(',')
-      ->type_name("R");
-  command
-      ->add_option("--difficulty", options->difficulties,
-                   "of the queries (default: drawn,near-rational,grazing)")
-      ->delimiter(',')
-      ->type_name("drawn|near-rational|grazing");
-  command->add_option("--count", options->count, "queries for each cell of the table")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "of the queries")->capture_default_str()->type_name("N");
-  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
-  add_output(*command, "--store", options->store,
-             "keep the cells that are done in this file, and go on from there when called again");
-  command->add_flag("--json", options->json, "the report as one JSON object instead of a table");
-  add_output(*command, "--csv", options->csv, "write the figures there too, one line a cell");
-  add_output(*command, "--html", options->html, "write the report there too, as a page that opens offline");
-  command->footer(
-      "drawn: uniform starts, isotropic directions. near-rational: directions a few ulps from small "
-      "integers.\n"
-      "grazing: the first ball is passed or met within r 2^-10 to r 2^-50 of its edge.\n"
-      "Examples:\n  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv "
-      "speed.csv\n"
-      "  lorentz bench --store run.ndjson --html speed.html   # interrupted? the same line goes on");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"bench",
+          "Speed against error: engines by scenes by radii by difficulty.",
+          {
+              {"-e,--engine", &options->engines, "ENGINE", names_for_help(), kToldDefault},
+              {"--scene", &options->scenes, "SCENE",
+               "scene files, or names of the catalogue (default: square,cubic)", kCommas | kToldDefault},
+              {"--radius", &options->radii, "R",
+               "radii (default: 0.3,0.1,0.01,0.001,1e-06; scenes with semiaxes at their own size)",
+               kCommas | kToldDefault},
+              {"--difficulty", &options->difficulties, "drawn|near-rational|grazing",
+               "of the queries (default: drawn,near-rational,grazing)", kCommas | kToldDefault},
+              {"--count", &options->count, "N", "queries for each cell of the table"},
+              {"--seed", &options->seed, "N", "of the queries"},
+              {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+              {"--store", &options->store, "FILE",
+               "keep the cells that are done in this file, and go on from there when called again", kOutput},
+              {"--json", &options->json, "", "the report as one JSON object instead of a table"},
+              {"--csv", &options->csv, "FILE", "write the figures there too, one line a cell", kOutput},
+              {"--html", &options->html, "FILE", "write the report there too, as a page that opens offline",
+               kOutput},
+          },
+
+          "drawn: uniform starts, isotropic directions. near-rational: directions a few ulps from small "
+          "integers.\n"
+          "grazing: the first ball is passed or met within r 2^-10 to r 2^-50 of its edge.\n"
+          "Examples:\n  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv "
+          "speed.csv\n"
+          "  lorentz bench --store run.ndjson --html speed.html   # interrupted? the same line goes on",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

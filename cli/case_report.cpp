@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "cli/file_options.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
@@ -76,10 +75,10 @@ std::string json_of(const CaseReport& report) {
   return out + ",\"findings\":[" + finding_of(report) + "]}\n";
 }
 
-void CaseFiles::add_options(CLI::App& command) {
-  add_output(command, "--html", html,
-             "write a page, whole or not at all: the flight drawn, what decides it, commands");
-  add_output(command, "--svg", svg, "write the drawing alone");
+std::vector<Option> CaseFiles::rows() {
+  return {{"--html", &html, "FILE",
+           "write a page, whole or not at all: the flight drawn, what decides it, commands", kOutput},
+          {"--svg", &svg, "FILE", "write the drawing alone", kOutput}};
 }
 
 std::string CaseFiles::as_typed() const {

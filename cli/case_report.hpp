@@ -1,12 +1,12 @@
 // One case on a page: the question, the exact answer, perhaps another one, and the drawing of both.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <lorentz/problem.hpp>
+#include "cli/command.hpp"
 
 namespace lorentz::cli {
 
@@ -37,7 +37,7 @@ std::string json_of(const CaseReport& report);
 struct CaseFiles {
   std::optional<std::string> html, svg;
 
-  void add_options(CLI::App& command);
+  std::vector<Option> rows();  ///< --html, --svg
   bool any() const { return html || svg; }
   std::string as_typed() const;  ///< " --html FILE", or nothing
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -16,17 +15,14 @@ namespace lorentz::cli {
 
 ChaosOptions::ChaosOptions() : seed(std::to_string(compare::kDefaultSeed)) {}
 
-void add_chaos_options(CLI::App& command, ChaosOptions& options) {
-  command.add_option("--scene", options.scene, "a file, or a name of the catalogue")
-      ->capture_default_str()
-      ->type_name("SCENE");
-  command.add_option("--radius", options.radius, "radius of every ball")->type_name("R");
-  command.add_option("--seed", options.seed, "of the starts")->capture_default_str()->type_name("N");
-  command.add_option("--jobs", options.jobs, "threads; the result is the same")
-      ->capture_default_str()
-      ->type_name("N");
-  add_output(command, "--store", options.store, "where parts that are done are kept, and gone on from");
-  command.add_flag("--json", options.json, "one JSON object instead of a table");
+std::vector<Option> chaos_rows(ChaosOptions& options) {
+  return {
+      {"--scene", &options.scene, "SCENE", "a file, or a name of the catalogue"},
+      {"--radius", &options.radius, "R", "radius of every ball"},
+      {"--seed", &options.seed, "N", "of the starts"},
+      {"--jobs", &options.jobs, "N", "threads; the result is the same"},
+      {"--store", &options.store, "FILE", "where parts that are done are kept, and gone on from", kOutput},
+      {"--json", &options.json, "", "one JSON object instead of a table"}};
 }
 
 Scene scene_of(const ChaosOptions& options) {

@@ -1,7 +1,6 @@
 // Private to cli/lyapunov.cpp and cli/diffusion.cpp: what the statistics of trajectories have in common.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include <lorentz/problem.hpp>
 #include "chaos/groups.hpp"
+#include "cli/command.hpp"
 #include "store/pieces.hpp"
 
 namespace lorentz::cli {
@@ -21,7 +21,8 @@ struct ChaosOptions {
   ChaosOptions();
 };
 
-void add_chaos_options(CLI::App& command, ChaosOptions& options);
+/// The options that both have.
+std::vector<Option> chaos_rows(ChaosOptions& options);
 
 /// The scene, with its radii; the seed. Throw InputError or FileError.
 Scene scene_of(const ChaosOptions& options);

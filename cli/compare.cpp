@@ -8,7 +8,6 @@
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
@@ -356,61 +355,49 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
+Command compare_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("compare",
-                                         "Engines, and answers that other programs logged, against the exact "
-                                         "oracle: right or wrong, error, speed.");
-  command
-      ->add_option("-e,--engine", options->engines,
-                   names_for_help() +
-                       "; several with commas between them, or once each (default: classical,published)")
-      ->type_name("ENGINE");
-  command
-      ->add_option("--answers", options->answers,
-                   "judge an answer stream that some program wrote, as an engine NAME")
-      ->type_name("NAME=FILE");
-  command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue (default: square)")
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
-  CLI::Option* queries = command->add_option(
-      "--queries", options->queries, "query stream (NDJSON) instead of drawn queries; - is standard input");
-  queries->type_name("FILE");
-  command->add_option("--count", options->count, "how many queries to draw")
-      ->capture_default_str()
-      ->type_name("N")
-      ->excludes(queries);
-  command->add_option("--seed", options->seed, "of the drawn queries")->capture_default_str()->type_name("N");
-  add_output(*command, "--disagreements", options->disagreements,
-             "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream");
-  command
-      ->add_option(
-          "--ulps", options->ulps,
-          "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
-          "(default: 4)")
-      ->type_name("K");
-  command->add_option("--judge", options->judge, kJudgeHelp)
-      ->capture_default_str()
-      ->type_name("oracle|certified");
-  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
-  command->add_flag("--json", options->json, "one JSON object instead of a table");
-  command->add_option("--failures", options->failures, "show so many wrong answers of each engine")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_flag("--times", options->times, "wrong times count: exit status 1, and in --disagreements");
-  command->add_flag(
-      "--strict", options->strict,
-      "exit status 1 also for ill-posed, undecided, missing answers and errors; unknown keys are errors");
-  command->add_flag("--no-oracle", options->no_oracle, "only take times, judge nothing");
-  command->footer(
+  return {
+      "compare",
+      "Engines, and answers that other programs logged, against the exact "
+      "oracle: right or wrong, error, speed.",
+      {
+          {"-e,--engine", &options->engines, "ENGINE",
+           names_for_help() +
+               "; several with commas between them, or once each (default: classical,published)"},
+          {"--answers", &options->answers, "NAME=FILE",
+           "judge an answer stream that some program wrote, as an engine NAME"},
+          {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue (default: square)"},
+          {"--radius", &options->radius, "R", "radius of every ball of --scene"},
+          {"--queries", &options->queries, "FILE",
+           "query stream (NDJSON) instead of drawn queries; - is standard input", kPlain, "--count"},
+          {"--count", &options->count, "N", "how many queries to draw", kPlain, "--queries"},
+          {"--seed", &options->seed, "N", "of the drawn queries"},
+          {"--disagreements", &options->disagreements, "FILE",
+           "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream",
+           kOutput},
+          {"--ulps", &options->ulps, "K",
+           "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
+           "(default: 4)"},
+          {"--judge", &options->judge, "oracle|certified", kJudgeHelp},
+          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+          {"--json", &options->json, "", "one JSON object instead of a table"},
+          {"--failures", &options->failures, "N", "show so many wrong answers of each engine"},
+          {"--times", &options->times, "", "wrong times count: exit status 1, and in --disagreements"},
+          {"--strict", &options->strict, "",
+           "exit status 1 also for ill-posed, undecided, missing answers and errors; unknown keys are "
+           "errors"},
+          {"--no-oracle", &options->no_oracle, "", "only take times, judge nothing"},
+      },
+
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
       "right obstacle,\n"
       "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
       "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
       "thread; "
       "of a cmd: engine by the wall, pipes included."
-      "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

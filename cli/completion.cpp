@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <sstream>
 
 #include "cases/families/target.hpp"
 #include "cli/golden.hpp"
@@ -50,8 +50,8 @@ std::vector<Word> targets() {
 }
 
 // By the name that help gives to the value: ENGINE, FILE, .., or the values themselves, a|b|c.
-Values values_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+Values values_of(const Option& option) {
+  const std::string& type = option.type;
   if (type == "ENGINE") return {engines()};
   if (type == "SCENE") return {scenes(), true};
   if (type == "SET") return {sets(), true};
@@ -59,31 +59,18 @@ Values values_of(const CLI::Option& option) {
   if (type == "FILE" || type == "FOLDER") return {{}, true};
   Values values;
   if (type.find('|') == std::string::npos) return values;
-  for (const std::string& one : CLI::detail::split(type, '|')) values.words.push_back({one, ""});
+  std::istringstream words(type);
+  for (std::string one; std::getline(words, one, '|');) values.words.push_back({one, ""});
   return values;
-}
-
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
-}
-
-bool is_hidden(const CLI::Option& option) {
-  return option.get_group().empty();
 }
 
 // The line as far as it has been typed: whose it is, and what its last word belongs to.
 struct Place {
-  const CLI::App* app;
-  const CLI::Option* option = nullptr;  // the last word is its value
-  std::size_t arguments = 0;            // before the last word
-  bool only_arguments = false;          // after --
+  const Command* command;
+  const Option* option = nullptr;  // the last word is its value
+  std::size_t arguments = 0;       // before the last word
+  bool only_arguments = false;     // after --
 };
-
-const CLI::App* subcommand_called(const CLI::App& app, const std::string& name) {
-  for (const CLI::App* command : app.get_subcommands({}))
-    if (command->get_name() == name) return command;
-  return nullptr;
-}
 
 void pass(Place& place, const std::string& word) {
   if (place.option) {
@@ -91,20 +78,20 @@ void pass(Place& place, const std::string& word) {
   } else if (word == "--") {
     place.only_arguments = true;
   } else if (word.starts_with('-') && word.size() > 1 && !place.only_arguments) {
-    const CLI::Option* option = place.app->get_option_no_throw(word);
-    if (option && takes_value(*option)) place.option = option;
-  } else if (const CLI::App* command = subcommand_called(*place.app, word); command && place.arguments == 0) {
-    place.app = command;
+    const Option* option = place.command->option_called(word);
+    if (option && option->takes_value()) place.option = option;
+  } else if (const Command* command = place.command->called(word); command && place.arguments == 0) {
+    place.command = command;
   } else {
     ++place.arguments;
   }
 }
 
-Values options_of(const CLI::App& app) {
+Values options_of(const Command& command) {
   Values values;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames())
-      if (!is_hidden(*option)) values.words.push_back({"--" + name, option->get_description()});
+  for (const Option& option : command.options)
+    for (const std::string& name : option.long_names())
+      if (!option.is_hidden()) values.words.push_back({"--" + name, option.help});
   return values;
 }
 
@@ -112,41 +99,41 @@ Values options_of(const CLI::App& app) {
 Values arguments_of(const Place& place) {
   Values values;
   if (place.arguments == 0)
-    for (const CLI::App* command : place.app->get_subcommands({}))
-      values.words.push_back({command->get_name(), command->get_description()});
-  std::vector<const CLI::Option*> positionals;
-  for (const CLI::Option* option : place.app->get_options())
-    if (option->get_positional()) positionals.push_back(option);
-  if (positionals.empty()) return values;
-  const Values more = values_of(*positionals[std::min(place.arguments, positionals.size() - 1)]);
+    for (const Command& command : place.command->commands)
+      values.words.push_back({command.name, command.description});
+  std::vector<const Option*> arguments;
+  for (const Option& option : place.command->options)
+    if (option.is_argument()) arguments.push_back(&option);
+  if (arguments.empty()) return values;
+  const Values more = values_of(*arguments[std::min(place.arguments, arguments.size() - 1)]);
   values.words.insert(values.words.end(), more.words.begin(), more.words.end());
   values.or_file |= more.or_file;
   return values;
 }
 
 // What of the last word stays as it is: --engine= of an option with its value, classical, of a list.
-std::string kept_part(const std::string& word, const Place& place, const CLI::Option* joined) {
+std::string kept_part(const std::string& word, const Place& place, const Option* joined) {
   const std::size_t equals = joined ? word.find('=') + 1 : 0;
-  const CLI::Option* option = joined ? joined : place.option;
-  const bool is_list = option && option->get_expected_max() > 1;
+  const Option* option = joined ? joined : place.option;
+  const bool is_list = option && option->takes_many();
   const std::size_t comma = is_list ? word.rfind(',') : std::string::npos;
   return word.substr(0, comma == std::string::npos ? equals : std::max(equals, comma + 1));
 }
 
 }  // namespace
 
-std::string completions(const CLI::App& app, const std::vector<std::string>& words) {
-  Place place{&app};
+std::string completions(const Command& program, const std::vector<std::string>& words) {
+  Place place{&program};
   for (std::size_t i = 0; i + 1 < words.size(); ++i) pass(place, words[i]);
   std::string last = words.empty() ? "" : words.back();
   if (place.option && last == "=") last.clear();
-  const CLI::Option* joined = nullptr;  // --engine=..
+  const Option* joined = nullptr;  // --engine=..
   if (!place.option && !place.only_arguments && last.starts_with("--"))
     if (const auto equals = last.find('='); equals != std::string::npos)
-      joined = place.app->get_option_no_throw(last.substr(0, equals));
+      joined = place.command->option_called(last.substr(0, equals));
   const Values values = joined                                           ? values_of(*joined)
                         : place.option                                   ? values_of(*place.option)
-                        : last.starts_with('-') && !place.only_arguments ? options_of(*place.app)
+                        : last.starts_with('-') && !place.only_arguments ? options_of(*place.command)
                                                                          : arguments_of(place);
   const std::string kept = kept_part(last, place, joined), typed = last.substr(kept.size());
   std::string text = values.or_file ? "files\n" : "words\n";

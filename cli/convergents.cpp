@@ -56,26 +56,23 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_convergents(CLI::App& app, Action& action) {
+Command convergents_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  return {
       "convergents",
-      "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.");
-  command
-      ->add_option("slope", options->slope,
-                   "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64")
-      ->required();
-  command->add_option("run", options->run, "the run (v_1): the slope is rise / run, exactly")
-      ->capture_default_str();
-  command->add_option("--limit", options->limit, "print N terms at most")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_flag("--json", options->json, "one JSON object, the remainders also as exact fractions");
-  command->footer(
+      "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.",
+      {
+          {"slope", &options->slope, "TEXT",
+           "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64", kRequired},
+          {"run", &options->run, "TEXT", "the run (v_1): the slope is rise / run, exactly"},
+          {"--limit", &options->limit, "N", "print N terms at most"},
+          {"--json", &options->json, "", "one JSON object, the remainders also as exact fractions"},
+      },
+
       "Example:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\nA negative slope goes behind "
       "--:"
-      "\n  lorentz convergents -- -0.618");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "\n  lorentz convergents -- -0.618",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -6,7 +6,6 @@
 #include "cli/app.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
@@ -123,16 +122,20 @@ int act(const std::optional<std::string>& disagreements) {
 
 }  // namespace
 
-void add_demo(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.");
-  command->footer(
+Command demo_command() {
+  auto disagreements = std::make_shared<std::optional<std::string>>();
+  return {
+      "demo",
+      "The known algorithms against the oracle, on the paper's example and on drawn queries.",
+      {
+          {"--disagreements", disagreements.get(), "FILE", "write each wrong answer there, as a query stream",
+           kOutput},
+      },
+
       "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
       "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
-      "classical");
-  auto disagreements = std::make_shared<std::optional<std::string>>();
-  add_output(*command, "--disagreements", *disagreements, "write each wrong answer there, as a query stream");
-  command->callback([disagreements, &action] { action = [disagreements] { return act(*disagreements); }; });
+      "classical",
+      [disagreements] { return act(*disagreements); }};
 }
 
 }  // namespace lorentz::cli

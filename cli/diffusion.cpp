@@ -6,7 +6,6 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -168,24 +167,21 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_diffusion(CLI::App& app, Action& action) {
+Command diffusion_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "diffusion", "Mean squared displacements of many particles, and theory beside them.");
-  add_chaos_options(*command, *options);
-  command->add_option("--count", options->count, "how many particles")->capture_default_str()->type_name("N");
-  command->add_option("--time", options->time, "until when they are followed, at speed 1 [100]")
-      ->type_name("T");
-  command
-      ->add_option("--from", options->from,
-                   "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)")
-      ->capture_default_str()
-      ->type_name("uniform|surface");
-  add_output(*command, "--csv", options->csv, "the displacements to a file");
-  command->footer(
-      "docs/chaos.md: what is measured, how, and what theory knows.\n"
-      "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"diffusion", "Mean squared displacements of many particles, and theory beside them.",
+          joined(chaos_rows(*options),
+                 {
+                     {"--count", &options->count, "N", "how many particles"},
+                     {"--time", &options->time, "T", "until when they are followed, at speed 1 [100]"},
+                     {"--from", &options->from, "uniform|surface",
+                      "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
+                     {"--csv", &options->csv, "FILE", "the displacements to a file", kOutput},
+                 }),
+
+          "docs/chaos.md: what is measured, how, and what theory knows.\n"
+          "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -34,6 +34,8 @@ struct Diagnosis {
 
 // For tests: what is wrong must be seen to be wrong.
 void set_rounding(const std::string& mode) {
+  if (mode != "upward" && mode != "downward" && mode != "toward-zero")
+    throw InputError("--pretend-rounding: there are upward, downward and toward-zero");
   std::fesetround(mode == "upward" ? FE_UPWARD : mode == "downward" ? FE_DOWNWARD : FE_TOWARDZERO);
 }
 
@@ -114,21 +116,19 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, Action& action) {
+Command doctor_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("doctor",
-                         "Is this machine fit? Looks at its arithmetic and at this build, and computes known "
-                         "answers again with every engine and both oracles.");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->add_option("--pretend-rounding", options->rounding)
-      ->check(CLI::IsMember({"upward", "downward", "toward-zero"}))
-      ->group("");  // not shown: for tests
-  command->footer(
-      "Exit status: 0 fit, 1 not fit for something that is named, 2 bad usage, 3 the work could not be "
-      "done.\n"
-      "Example:\n  lorentz doctor");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"doctor",
+          "Is this machine fit? Looks at its arithmetic and at this build, and computes known "
+          "answers again with every engine and both oracles.",
+          {
+              {"--json", &options->json, "", "one JSON object"},
+              {"--pretend-rounding", &options->rounding, "upward|downward|toward-zero", "", kHidden},
+          },
+          "Exit status: 0 fit, 1 not fit for something that is named, 2 bad usage, 3 the work could not be "
+          "done.\n"
+          "Example:\n  lorentz doctor",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

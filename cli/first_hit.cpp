@@ -175,46 +175,36 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_first_hit(CLI::App& app, Action& action) {
+Command first_hit_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("first-hit", "Which obstacle is hit first? Queries to answers, line by line.");
-  command->add_option("queries", options->queries, "queries; - is standard input")
-      ->capture_default_str()
-      ->type_name("FILE");
-  command->add_option("-e,--engine", options->engine, "one of " + names_for_help())
-      ->capture_default_str()
-      ->type_name("ENGINE");
-  command
-      ->add_option("--scene", options->scene,
-                   "scene before the first scene line: a file, or a name of the catalogue")
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball of --scene")->type_name("R");
-  command
-      ->add_option("--digits", options->digits,
-                   "also print the time with N significant decimal digits (oracle)")
-      ->type_name("N");
-  command->add_option("--max-time", options->max_time, "answer `later` if nothing is entered before time T")
-      ->type_name("T");
-  command->add_flag("--detail", options->detail,
-                    "add the collision point, the outward normal and the impact parameter");
-  command
-      ->add_option("--format", options->format,
-                   "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
-                   "docs/formats.md), which need --scene")
-      ->capture_default_str()
-      ->type_name("ndjson|csv|npy");
-  command->add_option("--jobs", options->jobs, "threads, of batch and certified-batch: the same answers")
-      ->type_name("N");
-  command->add_flag("--strict", options->strict, kStrictKeysHelp);
-  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
-  command->footer(
+  return {
+      "first-hit",
+      "Which obstacle is hit first? Queries to answers, line by line.",
+      {
+          {"queries", &options->queries, "FILE", "queries; - is standard input"},
+          {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
+          {"--scene", &options->scene, "SCENE",
+           "scene before the first scene line: a file, or a name of the catalogue"},
+          {"--radius", &options->radius, "R", "radius of every ball of --scene"},
+          {"--digits", &options->digits, "N",
+           "also print the time with N significant decimal digits (oracle)"},
+          {"--max-time", &options->max_time, "T", "answer `later` if nothing is entered before time T"},
+          {"--detail", &options->detail, "",
+           "add the collision point, the outward normal and the impact parameter"},
+          {"--format", &options->format, "ndjson|csv|npy",
+           "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
+           "docs/formats.md), which need --scene"},
+          {"--jobs", &options->jobs, "N", "threads, of batch and certified-batch: the same answers"},
+          {"--strict", &options->strict, "", kStrictKeysHelp},
+          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+      },
+
       "Examples:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
       "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
       "--format "
       "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
-      "answers.npy");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "answers.npy",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -4,7 +4,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/flights_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
@@ -244,71 +243,56 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_flights(CLI::App& app, Action& action) {
+Command flights_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "flights", "Very many free flights from drawn starts: their statistics, and theory beside them.");
-  command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
-      ->capture_default_str()
-      ->type_name("SCENE");
-  command
-      ->add_option("--radius", options->radii,
-                   "radius of every ball; several, with commas between them, are flown one after the other "
-                   "from the same drawn numbers: each gives what it gives alone")
-      ->delimiter(',')
-      ->type_name("R");
-  command
-      ->add_option(
-          "--from", options->from,
-          "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
-          "collision to the next (cosine law)")
-      ->capture_default_str()
-      ->type_name("uniform|surface");
-  command
-      ->add_option("-e,--engine", options->engine,
-                   "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", ")))
-      ->capture_default_str()
-      ->type_name("ENGINE");
-  command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
-  command->add_option("--time", options->seconds, "stop after so long (each radius)")->type_name("SECONDS");
-  command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
-  command->add_option("--jobs", options->jobs, "threads; the result is the same")
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--cells", options->cells,
-                   "cells of the box in which the starts of superposed lattices lie")
-      ->capture_default_str()
-      ->type_name("N");
-  add_output(*command, "--store", options->store,
-             "where counts are kept every few seconds, and gone on from");
-  command
-      ->add_option("--add", options->parts, "stores of other shards of the same run, whose counts are added")
-      ->type_name("FILE");
-  command
-      ->add_option("--shard", options->shard,
-                   "only the blocks of flights I modulo N, into --store; --add joins them")
-      ->capture_default_str()
-      ->type_name("I/N");
-  add_output(*command, "--csv", options->csv,
-             "the histograms, and theory, to a file; of several radii one file, its first column the "
-             "radius: rows are what one filters and plots by");
-  add_output(*command, "--svg", options->svg,
-             "the picture: P(free path > t), theory drawn in; several radii in one");
-  add_output(*command, "--density-svg", options->density_svg,
-             "the picture of the density in linear bins, theory drawn in; several radii in one, in "
-             "units of the mean free path");
-  add_output(*command, "--html", options->html,
-             "a page that opens offline: P(free path > t) and theory, with numbers on hover");
-  command->add_flag("--json", options->json,
-                    "one JSON object a line instead of a table; of several radii one a radius");
-  command->footer(
+  return {
+      "flights",
+      "Very many free flights from drawn starts: their statistics, and theory beside them.",
+      {
+          {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
+          {"--radius", &options->radii, "R",
+           "radius of every ball; several, with commas between them, are flown one after the other "
+           "from the same drawn numbers: each gives what it gives alone",
+           kCommas},
+          {"--from", &options->from, "uniform|surface",
+           "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
+           "collision to the next (cosine law)"},
+          {"-e,--engine", &options->engine, "ENGINE",
+           "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", "))},
+          {"--count", &options->count, "N", "how many"},
+          {"--time", &options->seconds, "SECONDS", "stop after so long (each radius)"},
+          {"--seed", &options->seed, "N", "of the starts"},
+          {"--jobs", &options->jobs, "N", "threads; the result is the same"},
+          {"--cells", &options->cells, "N",
+           "cells of the box in which the starts of superposed lattices lie"},
+          {"--store", &options->store, "FILE", "where counts are kept every few seconds, and gone on from",
+           kOutput},
+          {"--add", &options->parts, "FILE",
+           "stores of other shards of the same run, whose counts are added"},
+          {"--shard", &options->shard, "I/N",
+           "only the blocks of flights I modulo N, into --store; --add joins them"},
+          {"--csv", &options->csv, "FILE",
+           "the histograms, and theory, to a file; of several radii one file, its first column the "
+           "radius: rows are what one filters and plots by",
+           kOutput},
+          {"--svg", &options->svg, "FILE",
+           "the picture: P(free path > t), theory drawn in; several radii in one", kOutput},
+          {"--density-svg", &options->density_svg, "FILE",
+           "the picture of the density in linear bins, theory drawn in; several radii in one, in "
+           "units of the mean free path",
+           kOutput},
+          {"--html", &options->html, "FILE",
+           "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput},
+          {"--json", &options->json, "",
+           "one JSON object a line instead of a table; of several radii one a radius"},
+      },
+
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"
       "  lorentz flights --scene square --radius 0.3,0.1,0.01 --density-svg densities.svg\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
-      "--svg pi-5.svg");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "--svg pi-5.svg",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

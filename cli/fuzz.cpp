@@ -117,21 +117,18 @@ int act(const FuzzOptions& options) {
 
 }  // namespace
 
-void add_fuzz(CLI::App& app, Action& action) {
+Command fuzz_command() {
   auto options = std::make_shared<FuzzOptions>();
-  CLI::App* command = app.add_subcommand(
+  return {
       "fuzz",
-      "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.");
-  add_options(command, *options);
-  add_fuzz_store(*command, action);
-  command->require_subcommand(0, 1);
-  command->footer(
+      "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.",
+      rows_of(*options),
+
       "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store.\n"
       "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
-      "  lorentz fuzz list --store published.campaign");
-  command->callback([options, command, &action] {
-    if (command->get_subcommands().empty()) action = [options] { return act(*options); };
-  });
+      "  lorentz fuzz list --store published.campaign",
+      [options] { return act(*options); },
+      {fuzz_list_command(), fuzz_show_command(), fuzz_export_command(), fuzz_merge_command()}};
 }
 
 }  // namespace lorentz::cli

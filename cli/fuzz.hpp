@@ -1,19 +1,20 @@
 // Private to cli/fuzz*.cpp: the parts of `lorentz fuzz`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "cli/app.hpp"
+#include "cli/command.hpp"
 #include "fuzz/campaign/store.hpp"
 
 namespace lorentz::cli {
 
 /// lorentz fuzz list, show, merge; and export.
-void add_fuzz_store(CLI::App& fuzz, Action& action);
-void add_fuzz_export(CLI::App& fuzz, Action& action);
+Command fuzz_list_command();
+Command fuzz_show_command();
+Command fuzz_merge_command();
+Command fuzz_export_command();
 
 /// What came of a campaign: its manifest, what each target met, and its findings.
 struct FuzzReport {

@@ -128,18 +128,19 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_fuzz_export(CLI::App& fuzz, Action& action) {
+Command fuzz_export_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = fuzz.add_subcommand(
-      "export",
-      "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.");
-  command->add_option("--store", options->store, "the store")->required()->type_name("FILE");
-  command->add_flag("--all", options->all, "of every finding");
-  command->add_flag("--queries", options->queries, "a query stream instead");
-  command->footer(
-      "Example:\n  lorentz fuzz export --store published.campaign > findings.ndjson\n"
-      "  lorentz golden check findings.ndjson --engine published");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"export",
+          "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.",
+          {
+              {"--store", &options->store, "FILE", "the store", kRequired},
+              {"--all", &options->all, "", "of every finding"},
+              {"--queries", &options->queries, "", "a query stream instead"},
+          },
+
+          "Example:\n  lorentz fuzz export --store published.campaign > findings.ndjson\n"
+          "  lorentz golden check findings.ndjson --engine published",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

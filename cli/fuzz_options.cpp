@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
-#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
@@ -168,73 +167,41 @@ std::string command_of(const FuzzOptions& o) {
   return command;
 }
 
-void add_options(CLI::App* command, FuzzOptions& options) {
+std::vector<Option> rows_of(FuzzOptions& options) {
   std::vector<std::string> names;
   for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
-  command
-      ->add_option("-t,--target", options.targets,
-                   fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")))
-      ->type_name("TARGET");
-  command
-      ->add_option("--dimension", options.dimension, "only scenes in the plane, or in space (default: both)")
-      ->type_name("2|3");
-  command
-      ->add_option("--scenes", options.scenes,
-                   "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
-                   "ball), lattice (one, with one ball), any")
-      ->capture_default_str()
-      ->type_name("unit|lattice|any");
-  command->add_option("-e,--engine", options.engine, names_for_help())
-      ->capture_default_str()
-      ->type_name("ENGINE");
-  command->add_option("--time", options.seconds, "how long (default: 60, or until --count)")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--count", options.count,
-                   "until each target has had so many cases, its variants not counted, those that --scenes "
-                   "leaves out counted")
-      ->type_name("N");
-  command->add_option("--seed", options.seed, "of the cases")->capture_default_str()->type_name("N");
-  command
-      ->add_option("--jobs", options.jobs,
-                   "threads (of each process, under mpirun); the findings are the same")
-      ->capture_default_str()
-      ->type_name("N");
-  add_output(*command, "--store", options.store, "where findings are kept and campaigns gone on with");
-  command->add_option("--shard", options.shard, "only the indices I modulo N")
-      ->capture_default_str()
-      ->type_name("I/N");
-  command->add_option("--keep", options.keep, "findings of one sort that are kept and shrunk, of each target")
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--mutate", options.mutate,
-                   "climb to smaller margins from one in so many cases; 0: from none")
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--reword", options.reword,
-                   "ask one in so many cases, and its variants, in other words, too; 0: none")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--judge", options.judge, kJudgeHelp)
-      ->capture_default_str()
-      ->type_name("oracle|certified");
-  command->add_flag("--first", options.first, "stop at the first finding");
-  command
-      ->add_option("--ulps", options.ulps,
-                   "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other")
-      ->type_name("K");
-  command->add_option("--timeout", options.timeout, kTimeoutHelp)->type_name("SECONDS");
-  command->add_flag("--times", options.times, "wrong times are findings, too");
-  CLI::Option* undecided = command->add_flag("--undecided", options.undecided,
-                                             "`undecided` is a finding (the default, but for reduction)");
-  command->add_flag("--no-undecided", options.no_undecided, "`undecided` is no finding")->excludes(undecided);
-  command
-      ->add_option("--progress", options.progress,
-                   "where stderr is no terminal: a line there each so many seconds (default: 60)")
-      ->type_name("SECONDS");
-  command->add_flag("--json", options.json, "one JSON object instead of tables");
+  return {
+      {"-t,--target", &options.targets, "TARGET",
+       fmt::format("what to aim at (default: all): {}", fmt::join(names, ", "))},
+      {"--dimension", &options.dimension, "2|3", "only scenes in the plane, or in space (default: both)"},
+      {"--scenes", &options.scenes, "unit|lattice|any",
+       "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
+       "ball), lattice (one, with one ball), any"},
+      {"-e,--engine", &options.engine, "ENGINE", names_for_help()},
+      {"--time", &options.seconds, "SECONDS", "how long (default: 60, or until --count)"},
+      {"--count", &options.count, "N",
+       "until each target has had so many cases, its variants not counted, those that --scenes "
+       "leaves out counted"},
+      {"--seed", &options.seed, "N", "of the cases"},
+      {"--jobs", &options.jobs, "N", "threads (of each process, under mpirun); the findings are the same"},
+      {"--store", &options.store, "FILE", "where findings are kept and campaigns gone on with", kOutput},
+      {"--shard", &options.shard, "I/N", "only the indices I modulo N"},
+      {"--keep", &options.keep, "N", "findings of one sort that are kept and shrunk, of each target"},
+      {"--mutate", &options.mutate, "N", "climb to smaller margins from one in so many cases; 0: from none"},
+      {"--reword", &options.reword, "N",
+       "ask one in so many cases, and its variants, in other words, too; 0: none"},
+      {"--judge", &options.judge, "oracle|certified", kJudgeHelp},
+      {"--first", &options.first, "", "stop at the first finding"},
+      {"--ulps", &options.ulps, "K",
+       "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other"},
+      {"--timeout", &options.timeout, "SECONDS", kTimeoutHelp},
+      {"--times", &options.times, "", "wrong times are findings, too"},
+      {"--undecided", &options.undecided, "", "`undecided` is a finding (the default, but for reduction)",
+       kPlain, "--no-undecided"},
+      {"--no-undecided", &options.no_undecided, "", "`undecided` is no finding", kPlain, "--undecided"},
+      {"--progress", &options.progress, "SECONDS",
+       "where stderr is no terminal: a line there each so many seconds (default: 60)"},
+      {"--json", &options.json, "", "one JSON object instead of tables"}};
 }
 
 }  // namespace lorentz::cli

@@ -1,12 +1,12 @@
 // Private to cli/fuzz*.cpp: what the options of a campaign say.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "compare/sampling.hpp"
 #include "fuzz/campaign/store.hpp"
 
@@ -23,7 +23,7 @@ struct FuzzOptions {
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
-void add_options(CLI::App* command, FuzzOptions& options);
+std::vector<Option> rows_of(FuzzOptions& options);
 
 /// What the options say. Each throws InputError, naming the option, if they say nothing.
 fuzz::Plan plan_of(const FuzzOptions& options);

@@ -7,7 +7,6 @@
 #include "cli/beside.hpp"
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
@@ -20,7 +19,7 @@ using fuzz::Store;
 using fuzz::Stored;
 
 struct Options {
-  std::string store;
+  std::string store, id;
   bool json = false, all = false;
   CaseFiles files;
 };
@@ -125,16 +124,16 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   return report;
 }
 
-int show(const Options& options, const std::string& id) {
+int show(const Options& options) {
   const Store store(options.store, Store::Access::read, say_left_out);
   for (const Stored& one : store.findings()) {
-    if (one.label() != id) continue;
+    if (one.label() != options.id) continue;
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
-    print(options.json ? json_of(one) + '\n' : text_of(id, one.finding));
+    print(options.json ? json_of(one) + '\n' : text_of(options.id, one.finding));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
-                               options.store, json_quoted(id)));
+                               options.store, json_quoted(options.id)));
 }
 
 int merge_stores(const MergeOptions& options) {
@@ -160,42 +159,42 @@ int merge_stores(const MergeOptions& options) {
   return kDone;
 }
 
-std::shared_ptr<Options> add_options(CLI::App* command) {
-  auto options = std::make_shared<Options>();
-  command->add_option("--store", options->store, "the store")->required()->type_name("FILE");
-  return options;
+Option store_row(Options& options) {
+  return {"--store", &options.store, "FILE", "the store", kRequired};
 }
 
 }  // namespace
 
-void add_fuzz_store(CLI::App& fuzz, Action& action) {
-  CLI::App* command = fuzz.add_subcommand(
-      "list", "What a store holds: campaigns, with the counters of their targets, and findings by cause.");
-  auto options = add_options(command);
-  command->add_flag("--all", options->all, "every finding");
-  command->add_flag("--json", options->json, "one JSON object with all campaigns and findings");
-  command->footer("Example:\n  lorentz fuzz list --store published.campaign");
-  command->callback([options, &action] { action = [options] { return list(*options); }; });
+Command fuzz_list_command() {
+  auto options = std::make_shared<Options>();
+  return {"list",
+          "What a store holds: campaigns, with the counters of their targets, and findings by cause.",
+          {store_row(*options),
+           {"--all", &options->all, "", "every finding"},
+           {"--json", &options->json, "", "one JSON object with all campaigns and findings"}},
+          "Example:\n  lorentz fuzz list --store published.campaign",
+          [options] { return list(*options); }};
+}
 
-  command = fuzz.add_subcommand("show", "One finding: shrunk, and as it was found.");
-  options = add_options(command);
-  auto id = std::make_shared<std::string>();
-  command->add_option("ID", *id, "CAMPAIGN/TARGET/INDEX, as in the list")->required();
-  command->add_flag("--json", options->json, "one JSON object");
-  options->files.add_options(*command);
-  command->footer("Example:\n  lorentz fuzz show 1/leaving/6 --store published.campaign");
-  command->callback([options, id, &action] { action = [options, id] { return show(*options, *id); }; });
+Command fuzz_show_command() {
+  auto options = std::make_shared<Options>();
+  return {"show", "One finding: shrunk, and as it was found.",
+          joined({store_row(*options),
+                  {"ID", &options->id, "TEXT", "CAMPAIGN/TARGET/INDEX, as in the list", kRequired},
+                  {"--json", &options->json, "", "one JSON object"}},
+                 options->files.rows()),
+          "Example:\n  lorentz fuzz show 1/leaving/6 --store published.campaign",
+          [options] { return show(*options); }};
+}
 
-  add_fuzz_export(fuzz, action);
-
-  command = fuzz.add_subcommand("merge", "Puts the stores of shards together: as if one run had made them.");
-  auto merging = std::make_shared<MergeOptions>();
-  command->add_option("STORE", merging->stores, "stores of shards of one campaign")
-      ->required()
-      ->type_name("FILE");
-  add_output(*command, "-o,--output", merging->output, "the new store")->required();
-  command->footer("Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign");
-  command->callback([merging, &action] { action = [merging] { return merge_stores(*merging); }; });
+Command fuzz_merge_command() {
+  auto options = std::make_shared<MergeOptions>();
+  return {"merge",
+          "Puts the stores of shards together: as if one run had made them.",
+          {{"STORE", &options->stores, "FILE", "stores of shards of one campaign", kRequired},
+           {"-o,--output", &options->output, "FILE", "the new store", kOutput | kRequired}},
+          "Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign",
+          [options] { return merge_stores(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -96,27 +96,28 @@ std::vector<std::string> find_sets(const std::vector<std::string>& names_or_file
   return files;
 }
 
-void add_golden_list(CLI::App& golden, Action& action) {
+Command golden_list_command() {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = golden.add_subcommand("list", "The sets, and how many records of each are committed.");
-  command->add_flag("--json", *json, "one JSON object, with all tags and what they are out to break");
-  command->footer("Example:\n  lorentz golden list");
-  command->callback([json, &action] { action = [json] { return list(*json); }; });
+  return {"list",
+          "The sets, and how many records of each are committed.",
+          {
+              {"--json", json.get(), "", "one JSON object, with all tags and what they are out to break"},
+          },
+          "Example:\n  lorentz golden list",
+          [json] { return list(*json); }};
 }
 
-void add_golden(CLI::App& app, Action& action) {
-  CLI::App* golden = app.add_subcommand(
+Command golden_command() {
+  return {
       "golden",
-      "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain.");
-  golden->require_subcommand(1);
-  add_golden_make(*golden, action);
-  add_golden_check(*golden, action);
-  add_golden_verify(*golden, action);
-  add_golden_explain(*golden, action);
-  add_golden_list(*golden, action);
-  golden->footer(
+      "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain.",
+      {},
+
       "Example:\n  lorentz golden check --engine reduction near-rational\n"
-      "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.");
+      "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.",
+      {},
+      {golden_make_command(), golden_check_command(), golden_verify_command(), golden_explain_command(),
+       golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

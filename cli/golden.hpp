@@ -1,17 +1,15 @@
 // The parts of `lorentz golden`, one file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "cli/app.hpp"
+#include "cli/command.hpp"
 
 namespace lorentz::cli {
 
-void add_golden_make(CLI::App& golden, Action& action);
-void add_golden_check(CLI::App& golden, Action& action);
-void add_golden_verify(CLI::App& golden, Action& action);
-void add_golden_list(CLI::App& golden, Action& action);
-void add_golden_explain(CLI::App& golden, Action& action);
+Command golden_make_command();
+Command golden_check_command();
+Command golden_verify_command();
+Command golden_list_command();
+Command golden_explain_command();
 
 /// The committed sets: every *.ndjson in data/golden, by name. Empty if the folder is not there.
 std::vector<std::string> committed_sets();

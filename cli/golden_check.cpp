@@ -370,38 +370,31 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_golden_check(CLI::App& golden, Action& action) {
+Command golden_check_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = golden.add_subcommand(
-      "check", "Checks an engine against sets: a table by set and tag, the first failures.");
-  command
-      ->add_option("-e,--engine", options->engines, names_for_help() + "; several with commas, or once each")
-      ->allow_extra_args(false)  // what follows is a set
-      ->type_name("ENGINE");
-  command
-      ->add_option("sets", options->sets,
-                   "files, folders, or names of committed sets (default: all of these)")
-      ->type_name("SET");
-  command
-      ->add_option("--ulps", options->ulps,
-                   "the tolerance k of the verdicts; 0 forgives nothing (default: 4)")
-      ->type_name("K");
-  command->add_option("--first", options->first, "only the first N records of each set")->type_name("N");
-  command->add_option("--id", options->id, "only this record; the beginning of its id will do")
-      ->type_name("ID");
-  command->add_option("--failures", options->failures, "list so many failures of each engine")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--timeout", options->timeout, kTimeoutHelp)->type_name("SECONDS");
-  command->add_flag("--times", options->times, "wrong times count: exit status 1, and among the failures");
-  command->add_flag("--strict", options->strict, "exit status 1 also for ill-posed and undecided answers");
-  command->add_flag("--json", options->json, "one JSON object an engine");
-  command->add_flag("--markdown", options->markdown, "a page of documentation: who fails what");
-  command->footer(
+  return {
+      "check",
+      "Checks an engine against sets: a table by set and tag, the first failures.",
+      {
+          {"-e,--engine", &options->engines, "ENGINE",
+           names_for_help() + "; several with commas, or once each", kOneAtATime},
+          {"sets", &options->sets, "SET",
+           "files, folders, or names of committed sets (default: all of these)"},
+          {"--ulps", &options->ulps, "K", "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
+          {"--first", &options->first, "N", "only the first N records of each set"},
+          {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},
+          {"--failures", &options->failures, "N", "list so many failures of each engine"},
+          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+          {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
+          {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},
+          {"--json", &options->json, "", "one JSON object an engine"},
+          {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
+      },
+
       "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
       "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
-      "generic-3d");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "generic-3d",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -117,22 +117,20 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_golden_explain(CLI::App& golden, Action& action) {
+Command golden_explain_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = golden.add_subcommand(
-      "explain",
-      "One record in full: the line, the obstacles passed and by how much, the decision that is hard.");
-  command->add_option("id", options->id, "the record's id, or its first characters")->required();
-  command
-      ->add_option("sets", options->sets,
-                   "files, folders, or names of committed sets, to look in (default: all of these)")
-      ->type_name("SET");
-  command->add_option("--most", options->most, "list so many obstacles")
-      ->capture_default_str()
-      ->type_name("N");
-  options->files.add_options(*command);
-  command->footer("Example:\n  lorentz golden explain 9cbb135e --html record.html");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"explain",
+          "One record in full: the line, the obstacles passed and by how much, the decision that is hard.",
+          joined(
+              {
+                  {"id", &options->id, "TEXT", "the record's id, or its first characters", kRequired},
+                  {"sets", &options->sets, "SET",
+                   "files, folders, or names of committed sets, to look in (default: all of these)"},
+                  {"--most", &options->most, "N", "list so many obstacles"},
+              },
+              options->files.rows()),
+          "Example:\n  lorentz golden explain 9cbb135e --html record.html",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -121,26 +120,26 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_golden_make(CLI::App& golden, Action& action) {
+Command golden_make_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      golden.add_subcommand("make", "Produces a set: the same, bit for bit, whatever --jobs.");
-  command->add_option("--set", options->set, "which set (lorentz golden list)")->type_name("SET");
-  command->add_option("--count", options->count, "how many records (default: as many as are committed)")
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "of the cases")->capture_default_str()->type_name("N");
-  command->add_option("--jobs", options->jobs, "threads")->capture_default_str()->type_name("N");
-  add_output(*command, "-o,--output", options->output,
-             "file to write (- is standard output); killed in between, the same command goes on where it was")
-      ->capture_default_str();
-  command
-      ->add_option("--all", options->folder,
-                   "make all sets in this folder as they are committed, and SHA256SUMS")
-      ->type_name("FOLDER");
-  command->footer(
+  return {
+      "make",
+      "Produces a set: the same, bit for bit, whatever --jobs.",
+      {
+          {"--set", &options->set, "SET", "which set (lorentz golden list)"},
+          {"--count", &options->count, "N", "how many records (default: as many as are committed)"},
+          {"--seed", &options->seed, "N", "of the cases"},
+          {"--jobs", &options->jobs, "N", "threads"},
+          {"-o,--output", &options->output, "FILE",
+           "file to write (- is standard output); killed in between, the same command goes on where it was",
+           kOutput},
+          {"--all", &options->folder, "FOLDER",
+           "make all sets in this folder as they are committed, and SHA256SUMS"},
+      },
+
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
-      "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

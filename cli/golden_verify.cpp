@@ -78,21 +78,22 @@ int act(const std::vector<std::string>& names, bool walk) {
 
 }  // namespace
 
-void add_golden_verify(CLI::App& golden, Action& action) {
+Command golden_verify_command() {
   auto names = std::make_shared<std::vector<std::string>>();
   auto walk = std::make_shared<bool>(false);
-  CLI::App* command = golden.add_subcommand(
+  return {
       "verify",
-      "Checks each record: its certificate proves the answer, its id, margin and condition are right.");
-  command->add_option("sets", *names, "files, folders, or names of committed sets (default: all of these)")
-      ->type_name("SET");
-  command->add_flag("--walk", *walk, "ask walk, too, where it can go");
-  command->footer(
+      "Checks each record: its certificate proves the answer, its id, margin and condition are right.",
+      {
+          {"sets", names.get(), "SET", "files, folders, or names of committed sets (default: all of these)"},
+          {"--walk", walk.get(), "", "ask walk, too, where it can go"},
+      },
+
       "The certificates are checked by code that shares nothing with what wrote them; data/check.py, which "
       "shares nothing with "
       "this program at all, does the same.\nExit status 1: a record is refuted.\n"
-      "Example:\n  lorentz golden verify ties grazing");
-  command->callback([names, walk, &action] { action = [names, walk] { return act(*names, *walk); }; });
+      "Example:\n  lorentz golden verify ties grazing",
+      [names, walk] { return act(*names, *walk); }};
 }
 
 }  // namespace lorentz::cli

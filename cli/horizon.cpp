@@ -251,27 +251,23 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_horizon(CLI::App& app, Action& action) {
+Command horizon_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "horizon",
-      "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
-      "channels (3D).");
-  command->add_option("name", options->name, "the scene: a file, or a name of the catalogue")
-      ->type_name("SCENE");
-  command->add_option("--scene", options->scene, "the same")->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  command
-      ->add_option("--min-width", options->min_width,
-                   "only corridors and planar channels at least W wide (for small obstacles)")
-      ->type_name("W");
-  command->add_option("--limit", options->limit, "print N rows of a table at most")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_flag("--no-cylinders", options->no_cylinders, "leave out the search for cylindrical channels");
-  command->add_flag("--json", options->json, "one JSON object, with all channels");
-  command->footer("Example:\n  lorentz horizon square --radius 0.4");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"horizon",
+          "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
+          "channels (3D).",
+          {
+              {"name", &options->name, "SCENE", "the scene: a file, or a name of the catalogue"},
+              {"--scene", &options->scene, "SCENE", "the same"},
+              {"--radius", &options->radius, "R", "radius of every ball"},
+              {"--min-width", &options->min_width, "W",
+               "only corridors and planar channels at least W wide (for small obstacles)"},
+              {"--limit", &options->limit, "N", "print N rows of a table at most"},
+              {"--no-cylinders", &options->no_cylinders, "", "leave out the search for cylindrical channels"},
+              {"--json", &options->json, "", "one JSON object, with all channels"},
+          },
+          "Example:\n  lorentz horizon square --radius 0.4",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

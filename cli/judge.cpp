@@ -5,7 +5,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/judging.hpp"
 #include "cli/numbers.hpp"
@@ -93,44 +92,37 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_judge(CLI::App& app, Action& action) {
+Command judge_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  return {
       "judge",
-      "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.");
-  command->add_option("-e,--engine", options->engine, compare::names_for_help())
-      ->required()
-      ->type_name("ENGINE");
-  command->add_flag("--quick", options->quick, "20 seconds instead of two minutes, and fewer drawn flights");
-  command
-      ->add_option("--time", options->seconds,
-                   "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)")
-      ->type_name("SECONDS");
-  command->add_option("--seed", options->seed, "of all that is drawn")->capture_default_str()->type_name("N");
-  command->add_option("--jobs", options->jobs, "threads of the campaign; all else is asked on one")
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--ulps", options->ulps,
-                   "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)")
-      ->type_name("K");
-  command
-      ->add_option("--timeout", options->timeout,
-                   "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
-                   "in all, from 2 to 60; for its first answer 60)")
-      ->type_name("SECONDS");
-  add_output(*command, "--html", options->html, "write the report there as a page, whole or not at all");
-  command->add_flag("--json", options->json, "one JSON object instead of tables");
-  command->add_flag("--times", options->times, "wrong times count: in the verdict, and exit status 1");
-  command->add_flag("--strict", options->strict,
-                    "answers to invalid questions count in the verdict; exit status 1 also for these, and "
-                    "for ill-posed, undecided and missing answers");
-  command->footer(
+      "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",
+      {
+          {"-e,--engine", &options->engine, "ENGINE", compare::names_for_help(), kRequired},
+          {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights"},
+          {"--time", &options->seconds, "SECONDS",
+           "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)"},
+          {"--seed", &options->seed, "N", "of all that is drawn"},
+          {"--jobs", &options->jobs, "N", "threads of the campaign; all else is asked on one"},
+          {"--ulps", &options->ulps, "K",
+           "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)"},
+          {"--timeout", &options->timeout, "SECONDS",
+           "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
+           "in all, from 2 to 60; for its first answer 60)"},
+          {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
+           kOutput},
+          {"--json", &options->json, "", "one JSON object instead of tables"},
+          {"--times", &options->times, "", "wrong times count: in the verdict, and exit status 1"},
+          {"--strict", &options->strict, "",
+           "answers to invalid questions count in the verdict; exit status 1 also for these, and "
+           "for ill-posed, undecided and missing answers"},
+      },
+
       "docs/judge.md says what is asked, and what the verdict means. Exit status 1: an answer is wrong, or "
       "an "
       "error;\n3: a cmd: engine broke, or was given up somewhere.\n"
-      "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

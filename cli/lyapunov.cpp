@@ -115,19 +115,19 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_lyapunov(CLI::App& app, Action& action) {
+Command lyapunov_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.");
-  add_chaos_options(*command, *options);
-  command->add_option("--collisions", options->collisions, "how many are counted, of 4096 particles together")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_flag("--spectrum", options->spectrum, "the exponents below zero, too");
-  command->footer(
-      "docs/chaos.md: what is measured, how, and what theory knows.\n"
-      "Example:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.",
+          joined(chaos_rows(*options),
+                 {
+                     {"--collisions", &options->collisions, "N",
+                      "how many are counted, of 4096 particles together"},
+                     {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
+                 }),
+
+          "docs/chaos.md: what is measured, how, and what theory knows.\n"
+          "Example:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

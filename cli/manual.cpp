@@ -8,6 +8,7 @@
 #include <ctime>
 #include <filesystem>
 #include <sstream>
+#include <vector>
 
 #include "cli/whole_file.hpp"
 
@@ -40,72 +41,74 @@ std::string prose_of(const std::string& text) {
   return line.empty() ? out : out + line_of(line);
 }
 
-// What a page is called: lorentz-scene-draw.
-std::string page_name(const CLI::App& app) {
-  return app.get_parent() ? page_name(*app.get_parent()) + '-' + app.get_name() : app.get_name();
-}
+// A command, and those that it is one of, the program first.
+struct Page {
+  const Command& command;
+  std::vector<const Command*> above;
 
-std::string called(const CLI::App& app) {
-  return app.get_parent() ? called(*app.get_parent()) + ' ' + app.get_name() : app.get_name();
-}
-
-bool is_shown(const CLI::Option& option) {
-  return !option.get_group().empty();
-}
-
-bool takes_many(const CLI::Option& option) {
-  return option.get_expected_max() > 1;
-}
-
-std::string synopsis_of(const CLI::App& app) {
-  std::string out = fmt::format(".SH SYNOPSIS\n.B {}\n[\\fIOPTIONS\\fR]\n", escaped(called(app)));
-  for (const CLI::Option* option : app.get_options()) {
-    if (!option->get_positional()) continue;
-    const std::string name =
-        fmt::format("\\fI{}\\fR{}", escaped(option->get_name(true)), takes_many(*option) ? "\\&..." : "");
-    out += option->get_required() ? name + '\n' : '[' + name + "]\n";
+  std::string joined(const char* between) const {
+    std::string name;
+    for (const Command* one : above) name += one->name + between;
+    return name + command.name;
   }
-  if (app.get_subcommands({}).empty()) return out;
-  return out + (app.get_require_subcommand_min() > 0 ? "\\fISUBCOMMAND\\fR\n" : "[\\fISUBCOMMAND\\fR]\n");
+  // What it is called: lorentz-scene-draw.
+  std::string name() const { return joined("-"); }
+
+  Page of(const Command& one) const {
+    Page page{one, above};
+    page.above.push_back(&command);
+    return page;
+  }
+};
+
+std::string synopsis_of(const Page& page) {
+  std::string out = fmt::format(".SH SYNOPSIS\n.B {}\n[\\fIOPTIONS\\fR]\n", escaped(page.joined(" ")));
+  for (const Option& option : page.command.options) {
+    if (!option.is_argument()) continue;
+    const std::string name =
+        fmt::format("\\fI{}\\fR{}", escaped(option.name()), option.takes_many() ? "\\&..." : "");
+    out += option.traits & kRequired ? name + '\n' : '[' + name + "]\n";
+  }
+  if (page.command.commands.empty()) return out;
+  return out + (!page.command.act ? "\\fISUBCOMMAND\\fR\n" : "[\\fISUBCOMMAND\\fR]\n");
 }
 
-std::string names_of(const CLI::Option& option) {
-  if (option.get_positional()) return "\\fI" + escaped(option.get_name(true)) + "\\fR";
+std::string names_of(const Option& option) {
+  if (option.is_argument()) return "\\fI" + escaped(option.name()) + "\\fR";
   std::string out;
-  for (const std::string& name : option.get_snames())
+  for (const std::string& name : option.short_names())
     out += (out.empty() ? "\\fB\\-" : ", \\fB\\-") + escaped(name) + "\\fR";
-  for (const std::string& name : option.get_lnames())
+  for (const std::string& name : option.long_names())
     out += (out.empty() ? "\\fB\\-\\-" : ", \\fB\\-\\-") + escaped(name) + "\\fR";
   return out;
 }
 
-std::string entry_of(const CLI::Option& option) {
+std::string entry_of(const Option& option) {
   std::string heading = names_of(option);
-  if (option.get_items_expected_max() > 0) {
-    heading += " \\fI" + escaped(option.get_type_name()) + "\\fR";
-    if (takes_many(option)) heading += "\\&...";
-    if (!option.get_default_str().empty())
-      heading += fmt::format(" (default: {})", escaped(option.get_default_str()));
-    if (option.get_required()) heading += " (required)";
+  if (option.takes_value()) {
+    heading += " \\fI" + escaped(option.type) + "\\fR";
+    if (option.takes_many()) heading += "\\&...";
+    if (const std::string usual = option.default_text(); !usual.empty())
+      heading += fmt::format(" (default: {})", escaped(usual));
+    if (option.traits & kRequired) heading += " (required)";
   }
-  std::string text = option.get_description();
-  for (const CLI::Option* other : option.get_excludes())
-    text += "; not together with --" + other->get_lnames().at(0);
+  std::string text = option.help;
+  if (!option.excludes.empty()) text += "; not together with " + option.excludes;
   return ".TP\n" + heading + '\n' + prose_of(text);
 }
 
-std::string section_of_options(const CLI::App& app, const char* heading, bool positional) {
+std::string section_of_options(const Command& command, const char* heading, bool arguments) {
   std::string entries;
-  for (const CLI::Option* option : app.get_options())
-    if (is_shown(*option) && option->get_positional() == positional) entries += entry_of(*option);
+  for (const Option& option : command.options)
+    if (!option.is_hidden() && option.is_argument() == arguments) entries += entry_of(option);
   return entries.empty() ? "" : fmt::format(".SH {}\n{}", heading, entries);
 }
 
-std::string section_of_subcommands(const CLI::App& app) {
+std::string section_of_subcommands(const Page& page) {
   std::string entries;
-  for (const CLI::App* command : app.get_subcommands({}))
-    entries += fmt::format(".TP\n\\fB{}\\fR(1)\n{}", escaped(page_name(*command)),
-                           prose_of(command->get_description()));
+  for (const Command& command : page.command.commands)
+    entries += fmt::format(".TP\n\\fB{}\\fR(1)\n{}", escaped(page.of(command).name()),
+                           prose_of(command.description));
   return entries.empty() ? "" : ".SH SUBCOMMANDS\n" + entries;
 }
 
@@ -114,11 +117,11 @@ struct Footer {
   std::string prose, examples;
 };
 
-Footer footer_of(const CLI::App& app) {
+Footer footer_of(const Command& command) {
   Footer footer;
   std::string* part = &footer.prose;
   bool in_code = false;
-  std::istringstream lines(app.get_footer());
+  std::istringstream lines(command.footer);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("Example")) part = &footer.examples;
     const bool is_code = line.starts_with("  ");
@@ -141,12 +144,13 @@ std::string section_of_files() {
 }
 
 // The page above, the pages beside it.
-std::string section_of_others(const CLI::App& app) {
-  const CLI::App* above = app.get_parent();
-  if (!above) return "";
-  std::string out = fmt::format(".SH SEE ALSO\n.BR {} (1)", escaped(page_name(*above)));
-  for (const CLI::App* other : above->get_subcommands({}))
-    if (other != &app) out += fmt::format(",\n.BR {} (1)", escaped(page_name(*other)));
+std::string section_of_others(const Page& page) {
+  if (page.above.empty()) return "";
+  Page above{*page.above.back(), page.above};
+  above.above.pop_back();
+  std::string out = fmt::format(".SH SEE ALSO\n.BR {} (1)", escaped(above.name()));
+  for (const Command& other : above.command.commands)
+    if (&other != &page.command) out += fmt::format(",\n.BR {} (1)", escaped(above.of(other).name()));
   return out + '\n';
 }
 
@@ -156,45 +160,42 @@ std::string date() {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(time));
 }
 
-const CLI::App& root_of(const CLI::App& app) {
-  return app.get_parent() ? root_of(*app.get_parent()) : app;
-}
-
-std::string page_of(const CLI::App& app) {
-  const std::string& description = app.get_description();
+std::string page_of(const Page& page) {
+  const Command& command = page.command;
+  const std::string& description = command.description;
   const bool is_sentence = description.ends_with('.');
-  const Footer footer = footer_of(app);
-  std::string upper = page_name(app);
+  const Footer footer = footer_of(command);
+  std::string upper = page.name();
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   std::string out =
       fmt::format(".TH {} 1 {} \"lorentz {}\" \"lorentz\"\n.SH NAME\n{} \\- {}\n", escaped(upper), date(),
-                  LORENTZ_VERSION, escaped(page_name(app)),
+                  LORENTZ_VERSION, escaped(page.name()),
                   escaped(is_sentence ? description.substr(0, description.size() - 1) : description));
-  out += synopsis_of(app) + ".SH DESCRIPTION\n" + prose_of(description);
-  if (app.get_parent() && !footer.prose.empty()) out += ".PP\n" + footer.prose;
-  out += section_of_options(app, "ARGUMENTS", true) + section_of_options(app, "OPTIONS", false);
-  out += section_of_subcommands(app);
+  out += synopsis_of(page) + ".SH DESCRIPTION\n" + prose_of(description);
+  if (!page.above.empty() && !footer.prose.empty()) out += ".PP\n" + footer.prose;
+  out += section_of_options(command, "ARGUMENTS", true) + section_of_options(command, "OPTIONS", false);
+  out += section_of_subcommands(page);
   out +=
-      ".SH EXIT STATUS\n" + footer_of(root_of(app)).prose +
+      ".SH EXIT STATUS\n" + footer_of(page.above.empty() ? command : *page.above.front()).prose +
       "Files are put in their place when they are whole: if the program is ended,\nwhat was there stands.\n";
   out += section_of_files();
   if (!footer.examples.empty()) out += ".SH EXAMPLES\n" + footer.examples;
-  return out + section_of_others(app);
+  return out + section_of_others(page);
 }
 
-void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
-  WholeFile file((folder / (page_name(app) + ".1")).string());
-  file.write(page_of(app));
+void write_pages(const Page& page, const std::filesystem::path& folder) {
+  WholeFile file((folder / (page.name() + ".1")).string());
+  file.write(page_of(page));
   file.commit();
-  for (const CLI::App* command : app.get_subcommands({})) write_pages(*command, folder);
+  for (const Command& command : page.command.commands) write_pages(page.of(command), folder);
 }
 
 }  // namespace
 
-void write_manuals(const CLI::App& app, const std::string& folder) {
+void write_manuals(const Command& program, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);  // what is wrong with it the first file will say
-  write_pages(app, folder);
+  write_pages({program, {}}, folder);
 }
 
 }  // namespace lorentz::cli

@@ -124,37 +124,32 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_sample(CLI::App& app, Action& action) {
+Command sample_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("sample", "Drawn starts of flights: a query stream for first-hit, or columns.");
-  command->add_option("--scene", options->scene, "a scene file, or a name of the catalogue")
-      ->capture_default_str()
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  command
-      ->add_option("--kind", options->kind,
-                   "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
-                   "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
-                   "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40")
-      ->capture_default_str()
-      ->type_name("uniform|surface|near-rational|grazing");
-  command->add_option("--count", options->count, "how many")->capture_default_str()->type_name("N");
-  command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
-  command
-      ->add_option("--format", options->format,
-                   "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
-                   "(docs/formats.md), which first-hit reads with --scene")
-      ->capture_default_str()
-      ->type_name("ndjson|csv|npy");
-  command->add_flag("--strict", options->strict, kStrictKeysHelp);
-  command->footer(
+  return {
+      "sample",
+      "Drawn starts of flights: a query stream for first-hit, or columns.",
+      {
+          {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue"},
+          {"--radius", &options->radius, "R", "radius of every ball"},
+          {"--kind", &options->kind, "uniform|surface|near-rational|grazing",
+           "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
+           "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
+           "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40"},
+          {"--count", &options->count, "N", "how many"},
+          {"--seed", &options->seed, "N", "of the starts"},
+          {"--format", &options->format, "ndjson|csv|npy",
+           "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
+           "(docs/formats.md), which first-hit reads with --scene"},
+          {"--strict", &options->strict, "", kStrictKeysHelp},
+      },
+
       "No start lies in an obstacle (but the one it leaves): that is decided exactly. The first N starts of "
       "a "
       "seed are the same whatever --count.\n"
       "Examples:\n  lorentz sample --scene triangular --count 100 | lorentz first-hit --engine certified\n  "
-      "lorentz sample --kind surface --radius 0.2 --format npy > starts.npy");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "lorentz sample --kind surface --radius 0.2 --format npy > starts.npy",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -239,33 +239,34 @@ int show(const Options& options) {
   return kDone;
 }
 
+Command scene_list_command() {
+  auto options = std::make_shared<Options>();
+  return {"list",
+          "The catalogue.",
+          {{"--json", &options->json, "", "as one JSON object"}},
+          "Example:\n  lorentz scene list",
+          [options] { return list(*options); }};
+}
+
+Command scene_show_command() {
+  auto options = std::make_shared<Options>();
+  return {"show",
+          "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.",
+          {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file", kRequired},
+           {"--radius", &options->radius, "R", "radius of every ball"},
+           {"--no-horizon", &options->no_horizon, "",
+            "leave out the horizon: among small obstacles its search takes half a minute"},
+           {"--json", &options->json, "", "as one JSON object"}},
+          "Example:\n  lorentz scene show fcc --radius 0.35",
+          [options] { return show(*options); }};
+}
+
 }  // namespace
 
-void add_scene(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("scene", "The catalogue of scenes, what is known of one, and its picture.");
-  command->require_subcommand(1);
-  command->footer("Example:\n  lorentz scene show fcc --radius 0.35");
-
-  CLI::App* list_command = command->add_subcommand("list", "The catalogue.");
-  list_command->add_flag("--json", options->json, "as one JSON object");
-  list_command->callback([options, &action] { action = [options] { return list(*options); }; });
-  list_command->footer("Example:\n  lorentz scene list");
-
-  CLI::App* show_command = command->add_subcommand(
-      "show", "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.");
-  show_command->add_option("scene", options->scene, "a name of the catalogue, or a file")
-      ->required()
-      ->type_name("SCENE");
-  show_command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  show_command->add_flag("--no-horizon", options->no_horizon,
-                         "leave out the horizon: among small obstacles its search takes half a minute");
-  show_command->add_flag("--json", options->json, "as one JSON object");
-  show_command->callback([options, &action] { action = [options] { return show(*options); }; });
-  show_command->footer("Example:\n  lorentz scene show fcc --radius 0.35");
-
-  add_scene_draw(*command, action);
+Command scene_command() {
+  return {"scene", "The catalogue of scenes, what is known of one, and its picture.",
+          {},      "Example:\n  lorentz scene show fcc --radius 0.35",
+          {},      {scene_list_command(), scene_show_command(), scene_draw_command()}};
 }
 
 }  // namespace lorentz::cli

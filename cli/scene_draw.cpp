@@ -11,7 +11,6 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
@@ -213,37 +212,32 @@ int draw(const Options& options) {
 
 }  // namespace
 
-void add_scene_draw(CLI::App& scene, Action& action) {
+Command scene_draw_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = scene.add_subcommand("draw", "A picture (SVG), with flights if queries are given.");
-  command
-      ->add_option("scene", options->scene,
-                   "a name of the catalogue, or a file; without it, the first scene of the queries")
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  command
-      ->add_option("--queries", options->queries,
-                   "query stream (NDJSON): its flights to their first hits, exactly; - is standard input")
-      ->type_name("FILE");
-  command
-      ->add_option("--channels", options->channels,
-                   "draw the N widest corridors (2D), planar channels and cylinders (3D)")
-      ->type_name("N");
-  command->add_option("--window", options->window, "2D: the part of the plane to show")
-      ->type_name("X0,Y0,X1,Y1");
-  command->add_option("--size", options->size, "in pixels: the width, or what the picture is to fit into")
-      ->capture_default_str()
-      ->type_name("W[xH]");
-  command->add_option("--title", options->title, "instead of the scene's name; \"\" for none");
-  command->add_flag("--no-legend", options->no_legend, "leave out the legend, and the notes under it");
-  add_output(*command, "-o,--output", options->output,
-             "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
-             "standard output")
-      ->capture_default_str();
-  command->callback([options, &action] { action = [options] { return draw(*options); }; });
-  command->footer(
+  return {
+      "draw",
+      "A picture (SVG), with flights if queries are given.",
+      {
+          {"scene", &options->scene, "SCENE",
+           "a name of the catalogue, or a file; without it, the first scene of the queries"},
+          {"--radius", &options->radius, "R", "radius of every ball"},
+          {"--queries", &options->queries, "FILE",
+           "query stream (NDJSON): its flights to their first hits, exactly; - is standard input"},
+          {"--channels", &options->channels, "N",
+           "draw the N widest corridors (2D), planar channels and cylinders (3D)"},
+          {"--window", &options->window, "X0,Y0,X1,Y1", "2D: the part of the plane to show"},
+          {"--size", &options->size, "W[xH]", "in pixels: the width, or what the picture is to fit into"},
+          {"--title", &options->title, "TEXT", "instead of the scene's name; \"\" for none"},
+          {"--no-legend", &options->no_legend, "", "leave out the legend, and the notes under it"},
+          {"-o,--output", &options->output, "FILE",
+           "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
+           "standard output",
+           kOutput},
+      },
+
       "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "
-      "flights.svg");
+      "flights.svg",
+      [options] { return draw(*options); }};
 }
 
 }  // namespace lorentz::cli

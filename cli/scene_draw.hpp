@@ -1,10 +1,10 @@
 // lorentz scene draw.
 #pragma once
 
-#include "cli/app.hpp"
+#include "cli/command.hpp"
 
 namespace lorentz::cli {
 
-void add_scene_draw(CLI::App& scene, Action& action);
+Command scene_draw_command();
 
 }  // namespace lorentz::cli

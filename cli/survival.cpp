@@ -6,7 +6,6 @@
 #include <lorentz/itinerary.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -255,44 +254,34 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_survival(CLI::App& app, Action& action) {
+Command survival_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "survival", "How many collisions of a trajectory are right, in binary64 and in more bits.");
-  command->add_option("--scene", options->scene, "a file, or a name of the catalogue")
-      ->capture_default_str()
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball")->type_name("R");
-  command
-      ->add_option("-e,--engine", options->engine,
-                   "whose flights binary64 and double-double have: one of " + compare::names_for_help())
-      ->capture_default_str()
-      ->type_name("ENGINE");
-  command
-      ->add_option("--bits", options->bits,
-                   "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
-                   "arithmetic of so many bits")
-      ->capture_default_str()
-      ->type_name("LIST");
-  command->add_option("--count", options->count, "starts, off the surface of an obstacle (cosine law)")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--collisions", options->collisions, "at most so many of each start")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "of the starts")->capture_default_str()->type_name("N");
-  add_output(*command, "--csv", options->csv,
-             "shares of starts that are right after k collisions, to a file");
-  add_output(*command, "--svg", options->svg, "the same as a picture");
-  add_output(*command, "--html", options->html,
-             "a page that opens offline: the same with 95 % bounds, and its numbers");
-  command->add_flag("--json", options->json, "one JSON object instead of a table");
-  command->footer(
-      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
-      "another\n"
-      "obstacle. docs/itineraries.md has figures.\n"
-      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+  return {"survival",
+          "How many collisions of a trajectory are right, in binary64 and in more bits.",
+          {
+              {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
+              {"--radius", &options->radius, "R", "radius of every ball"},
+              {"-e,--engine", &options->engine, "ENGINE",
+               "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
+              {"--bits", &options->bits, "LIST",
+               "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
+               "arithmetic of so many bits"},
+              {"--count", &options->count, "N", "starts, off the surface of an obstacle (cosine law)"},
+              {"--collisions", &options->collisions, "N", "at most so many of each start"},
+              {"--seed", &options->seed, "N", "of the starts"},
+              {"--csv", &options->csv, "FILE",
+               "shares of starts that are right after k collisions, to a file", kOutput},
+              {"--svg", &options->svg, "FILE", "the same as a picture", kOutput},
+              {"--html", &options->html, "FILE",
+               "a page that opens offline: the same with 95 % bounds, and its numbers", kOutput},
+              {"--json", &options->json, "", "one JSON object instead of a table"},
+          },
+
+          "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
+          "another\n"
+          "obstacle. docs/itineraries.md has figures.\n"
+          "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

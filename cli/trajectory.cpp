@@ -4,7 +4,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/file_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
@@ -282,52 +281,40 @@ int act(const Options& options) {
 
 }  // namespace
 
-void add_trajectory(CLI::App& app, Action& action) {
+Command trajectory_command() {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "trajectory", "Certified itineraries: which obstacles are hit one after another, proven.");
-  command
-      ->add_option("starts", options->starts,
-                   "a query stream, whose numbers may be texts like \"1/3\"; - is standard input")
-      ->capture_default_str()
-      ->type_name("FILE");
-  command
-      ->add_option("--scene", options->scene,
-                   "scene before the first scene line: a file, or a name of the catalogue")
-      ->type_name("SCENE");
-  command->add_option("--radius", options->radius, "radius of every ball of --scene, exactly: 1/3, 0.1")
-      ->type_name("R");
-  command->add_option("--collisions", options->collisions, "follow each start so far")->type_name("N");
-  command->add_option("--time", options->time, "or to this time, exactly: 10, 1/3")->type_name("T");
-  command->add_option("--digits", options->digits, "digits of times, places and velocities (default: 17)")
-      ->type_name("N");
-  command->add_flag("--detail", options->detail, "place and velocity at each collision, too");
-  command->add_option("--bits", options->bits, "precision to begin with (default: by --digits)")
-      ->type_name("B");
-  command
-      ->add_option("--max-bits", options->most_bits,
-                   "precision at which to give up, undecided (default: 262144, or as --digits needs)")
-      ->type_name("B");
-  command
-      ->add_option(
-          "-e,--engine", options->engine,
-          "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help())
-      ->type_name("ENGINE");
-  command
-      ->add_option("--precision", options->precision, "of the engine's trajectory: binary64, double-double")
-      ->capture_default_str()
-      ->type_name("binary64|double-double");
-  add_output(*command, "--csv", options->csv, "collisions as a table, to a file");
-  add_output(*command, "--svg", options->svg, "a picture of the first start's path (2D)");
-  command->add_flag("--json", options->json, "lines of JSON, which is what there is without it, too");
-  command->add_flag("--strict", options->strict, kStrictKeysHelp);
-  command->footer(
+  return {
+      "trajectory",
+      "Certified itineraries: which obstacles are hit one after another, proven.",
+      {
+          {"starts", &options->starts, "FILE",
+           "a query stream, whose numbers may be texts like \"1/3\"; - is standard input"},
+          {"--scene", &options->scene, "SCENE",
+           "scene before the first scene line: a file, or a name of the catalogue"},
+          {"--radius", &options->radius, "R", "radius of every ball of --scene, exactly: 1/3, 0.1"},
+          {"--collisions", &options->collisions, "N", "follow each start so far"},
+          {"--time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
+          {"--digits", &options->digits, "N", "digits of times, places and velocities (default: 17)"},
+          {"--detail", &options->detail, "", "place and velocity at each collision, too"},
+          {"--bits", &options->bits, "B", "precision to begin with (default: by --digits)"},
+          {"--max-bits", &options->most_bits, "B",
+           "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
+          {"-e,--engine", &options->engine, "ENGINE",
+           "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help()},
+          {"--precision", &options->precision, "binary64|double-double",
+           "of the engine's trajectory: binary64, double-double"},
+          {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},
+          {"--svg", &options->svg, "FILE", "a picture of the first start's path (2D)", kOutput},
+          {"--json", &options->json, "", "lines of JSON, which is what there is without it, too"},
+          {"--strict", &options->strict, "", kStrictKeysHelp},
+      },
+
       "docs/itineraries.md: what is certified, and how. `bits`: of a collision, by how many bits an error of "
       "the\nstart has grown; of the end, the precision that it took.\n"
       "Example, problem 2 of the SIAM 100-digit challenge to 100 digits:\n"
       "  echo '{\"x\":[\"1/2\",\"1/10\"],\"v\":[1,0]}' | lorentz trajectory --scene square --radius 1/3 "
-      "--time 10 --digits 100");
-  command->callback([options, &action] { action = [options] { return act(*options); }; });
+      "--time 10 --digits 100",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/Version.hpp>
-
 #include <lorentz/batch.hpp>
 #include <lorentz/exchange.hpp>
 #include <lorentz/itinerary.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
+#include "cli/app.hpp"
 #include "fuzz/campaign/store.hpp"
 #include "golden/record.hpp"
 
@@ -26,7 +25,7 @@ std::vector<std::string> library_versions() {
     }
     versions.push_back(names);
   }
-  versions.push_back(std::string("CLI11 ") + CLI11_VERSION);
+  versions.push_back(parser_library());
   versions.push_back(
       fmt::format("fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   return versions;

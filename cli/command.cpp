@@ -1,0 +1,80 @@
+#include "cli/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lorentz::cli {
+namespace {
+
+std::vector<std::string> names_behind(const std::string& names, const std::string& dashes) {
+  std::vector<std::string> result;
+  for (std::size_t begin = 0; begin < names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    const std::string name = names.substr(begin, end - begin);
+    if (name.starts_with(dashes) && !name.substr(dashes.size()).starts_with('-'))
+      result.push_back(name.substr(dashes.size()));
+    begin = end + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+bool Option::takes_value() const {
+  return !std::holds_alternative<std::monostate>(target) && !std::holds_alternative<bool*>(target);
+}
+
+std::vector<std::string> Option::long_names() const {
+  return names_behind(names, "--");
+}
+
+std::vector<std::string> Option::short_names() const {
+  return names_behind(names, "-");
+}
+
+std::string Option::name() const {
+  return is_argument() ? names : "--" + long_names().at(0);
+}
+
+bool Option::is_called(const std::string& word) const {
+  for (const std::string& name : long_names())
+    if (word == "--" + name) return true;
+  for (const std::string& name : short_names())
+    if (word == '-' + name) return true;
+  return false;
+}
+
+std::string Option::default_text() const {
+  if (traits & kToldDefault) return "";
+  if (const auto* text = std::get_if<std::string*>(&target)) return **text;
+  const auto* many = std::get_if<std::vector<std::string>*>(&target);
+  return many && !(*many)->empty() ? fmt::format("[{}]", fmt::join(**many, ",")) : "";
+}
+
+std::vector<std::string> Option::values() const {
+  if (const auto* text = std::get_if<std::string*>(&target)) return {**text};
+  if (const auto* some = std::get_if<std::optional<std::string>*>(&target))
+    return *some && **some ? std::vector<std::string>{***some} : std::vector<std::string>{};
+  const auto* many = std::get_if<std::vector<std::string>*>(&target);
+  return many ? **many : std::vector<std::string>{};
+}
+
+std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+const Command* Command::called(const std::string& one) const {
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const Command& command) { return command.name == one; });
+  return found == commands.end() ? nullptr : &*found;
+}
+
+const Option* Command::option_called(const std::string& word) const {
+  const auto found = std::find_if(options.begin(), options.end(),
+                                  [&](const Option& option) { return option.is_called(word); });
+  return found == options.end() ? nullptr : &*found;
+}
+
+}  // namespace lorentz::cli
