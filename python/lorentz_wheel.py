@@ -59,7 +59,7 @@ def build_sdist(sdist_directory, config_settings=None):
 def install(folder):
     """The package, with the scenes and golden sets that it finds there."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
-    for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DLORENTZ_PYTHON_DIR=.",
+    for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DBUILD_TESTING=OFF", "-DLORENTZ_PYTHON_DIR=.",
                      f"-DPython3_EXECUTABLE={sys.executable}"],
                     ["cmake", "--build", BUILD, "--target", "lorentz_python", "-j", jobs],
                     ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):

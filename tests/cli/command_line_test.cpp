@@ -1,6 +1,7 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
 #include "tests/support/command_line.hpp"
 #include "cli/finding_json.hpp"
+#include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
 
 #include <catch2/catch.hpp>
@@ -233,4 +234,19 @@ TEST_CASE("The command that prints a question prints it as often as it is to be 
     CHECK(lines[0] == cli::scene_line(scene));
     for (std::size_t i = 1; i <= times; ++i) CHECK(lines[i] == "{\"id\":1," + asked + '}');
   }
+}
+
+TEST_CASE("Of the causes of a campaign's findings what is wrong comes first", "[cli][command_line]") {
+  std::vector<fuzz::Stored> findings;
+  for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"}) {
+    findings.push_back({1, {}});
+    findings.back().finding.kind = kind;
+    findings.back().finding.cause = kind;
+  }
+  findings.push_back(findings.back());
+  findings.back().finding.cause = "another cause";
+  std::vector<std::string> names;
+  for (const cli::Cause& cause : cli::causes_of(findings)) names.push_back(cause.name);
+  CHECK(names ==
+        std::vector<std::string>{"another cause", "wrong", "wrong time", "error", "undecided", "slow"});
 }

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <thread>
 
-#include "cli/fuzz.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
 
@@ -346,21 +345,7 @@ TEST_CASE("Where stderr is no terminal a line there says now and then how it goe
   CHECK(folder.lorentz(what).err.empty());  // one a minute
 }
 
-TEST_CASE("What is wrong comes first, without a store the simplest of each cause is printed",
-          "[fuzz][fuzz_command]") {
-  std::vector<fuzz::Stored> findings;
-  for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"}) {
-    findings.push_back({1, {}});
-    findings.back().finding.kind = kind;
-    findings.back().finding.cause = kind;
-  }
-  findings.push_back(findings.back());
-  findings.back().finding.cause = "another cause";
-  std::vector<std::string> names;
-  for (const cli::Cause& cause : cli::causes_of(findings)) names.push_back(cause.name);
-  CHECK(names ==
-        std::vector<std::string>{"another cause", "wrong", "wrong time", "error", "undecided", "slow"});
-
+TEST_CASE("Without a store the simplest of each cause is printed", "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string what = "fuzz -e published -t published-faults --count 32 --no-undecided";
   const Run without = folder.lorentz(what);
