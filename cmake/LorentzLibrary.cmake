@@ -13,8 +13,9 @@ function(lorentz_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -fno-fast-math -ffp-contract=off -Wall -Wextra -Wpedantic
-    # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651).
-    "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict>")
+    # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651), and overflows in headers that are
+    # precompiled.
+    "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict;-Wno-stringop-overflow>")
   # Headers are named by their path from the root: "oracle/exact/quadratic.hpp"; public ones <lorentz/oracle.hpp>.
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()
@@ -22,6 +23,28 @@ endfunction()
 # What arranges work and does none itself (the program's commands, pictures, tests): half the time to compile.
 function(lorentz_arranges target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  get_target_property(reused ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+  if(reused)
+    set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM lorentz_headers_of_fmt)
+  endif()
+endfunction()
+
+# The standard headers that most sources here include, read once for all of them: a third of the time to compile. Each
+# source includes what it uses all the same (CMAKE_DISABLE_PRECOMPILE_HEADERS shows what does not).
+set(LORENTZ_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
+  <memory> <optional> <set> <sstream> <string> <string_view> <utility> <variant> <vector>)
+file(WRITE ${PROJECT_BINARY_DIR}/headers.cpp "")
+add_library(lorentz_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
+lorentz_settings(lorentz_headers)
+target_precompile_headers(lorentz_headers PRIVATE ${LORENTZ_STANDARD_HEADERS})
+
+# The same with fmt, for what arranges.
+function(lorentz_headers_with_fmt)
+  add_library(lorentz_headers_of_fmt OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
+  lorentz_settings(lorentz_headers_of_fmt)
+  target_compile_options(lorentz_headers_of_fmt PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_link_libraries(lorentz_headers_of_fmt PRIVATE fmt::fmt)
+  target_precompile_headers(lorentz_headers_of_fmt PRIVATE ${LORENTZ_STANDARD_HEADERS} <fmt/format.h>)
 endfunction()
 
 # lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries])
@@ -34,7 +57,7 @@ function(lorentz_library name)
   target_include_directories(${name} SYSTEM PRIVATE ${its_SYSTEM})
   target_link_libraries(${name} PUBLIC ${its_PUBLIC} PRIVATE ${its_PRIVATE})
   string(REPLACE "lorentz_" "" short ${name})
-  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short} PRECOMPILE_HEADERS_REUSE_FROM lorentz_headers)
   add_library(lorentz::${short} ALIAS ${name})
 endfunction()
 

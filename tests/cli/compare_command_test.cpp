@@ -315,3 +315,17 @@ TEST_CASE("What another program writes reaches no terminal as it is, and is neve
   CHECK_FALSE(contains(judged.err, "not JSON"));
   CHECK(judged.status == 0);
 }
+
+TEST_CASE("The heading counts the scenes of a file, if there are several", "[cli][compare_command]") {
+  const Folder folder;
+  const auto heading = [&](const std::string& queries) {
+    const std::string out =
+        folder.lorentz("compare -e classical --queries " + folder.write("q", queries)).out;
+    return out.substr(0, out.find('\n'));
+  };
+  const std::string other = R"({"scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],)"
+                            R"("atoms":[{"position":[0,0],"radius":0.2}]}]}})"
+                            "\n";
+  CHECK(heading(kScene + kGood) == folder.file("q") + ": 1 given queries");
+  CHECK(heading(kScene + kGood + other + kGood) == "2 scenes: 2 given queries");
+}

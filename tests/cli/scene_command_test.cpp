@@ -73,6 +73,15 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   CHECK(contains(fcc.out, "infinite: 4 normals of planar channels"));
   CHECK(contains(folder.lorentz("scene show cesium-chloride").out, "infinite: 25 directions of cylindrical"));
   CHECK(contains(folder.lorentz("scene show triangular").out, "finite: every path ends"));
+  const std::string two =
+      folder
+          .lorentz("scene show " + folder.write("two.toml",
+                                                "dimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], "
+                                                "atoms = [{position = [0, 0], radius = 0.125}, "
+                                                "{position = [0.5, 0.25], radius = 0.25}]}]\n"))
+          .out;
+  CHECK(contains(two, "disc of radius 0.125 at (0, 0)"));
+  CHECK(contains(two, "disc of radius 0.25 at (0.5, 0.25)"));
   const Run touching = folder.lorentz("scene show square --radius 0.5");
   CHECK(contains(touching.out, "0 overlap, 2 touch"));
   CHECK(contains(touching.out, "atom 0 touches atom 0 of cell (1, 0)"));
