@@ -172,7 +172,7 @@ TEST_CASE("Horizon: superposed lattices of tiny discs are decided", "[oracle][ho
 }
 
 TEST_CASE("Horizon: vectors skewed by 10^300 span the same lattice, and cost no more", "[oracle][horizon]") {
-  const Vec e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1};
+  const Vec e1{1, 0, 0}, e3{0, 0, 1};
   for (const double skew : {3.0, 0x1p60, 1e300}) {
     INFO(skew);
     const Horizon plane = horizon_of(scene_with(2, {e1, Vec{skew, 1}}, {{{}, 0.1, {}}}));

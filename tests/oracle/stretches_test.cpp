@@ -148,7 +148,7 @@ View<D> view_of(const Problem<D>& problem) {
   view.velocity = {big<D>(problem.v), product(problem.v, problem.v)};
   for (std::size_t i = 0; i < D; ++i) {
     view.basis[i].p = big<D>(problem.basis[i]);
-    for (std::size_t k = 0; k < D; ++k) view.basis[i].n[k] = i == k;
+    for (std::size_t k = 0; k < D; ++k) view.basis[i].n[k] = i == k ? 1 : 0;
   }
   view.offset.p = big<D>(problem.offset);
   return view;
