@@ -25,7 +25,7 @@ std::string versions() {
                      fmt::join(library_versions(), "\n"));
 }
 
-// ---- The parser's tree, of ours
+// ---- The parser's tree, made of the tables
 
 CLI::Option* add_option(CLI::App& app, const Option& option) {
   return std::visit(
@@ -104,6 +104,12 @@ std::string in_words(const std::string& error) {
   return error.substr(0, at) + ": needs a value, " + value.substr(0, value.size() - missing.size());
 }
 
+// The one that was parsed: options of the one above may stand before its name.
+const Command& parsed(const CLI::App& app, const Command& command) {
+  const auto those = app.get_subcommands();
+  return those.empty() ? command : parsed(*those[0], *command.called(those[0]->get_name()));
+}
+
 // What is to be done.
 const Action& parse(CLI::App& app, const Command& program, int argc, char** argv) {
   const Called called = subcommand_of(app, program, "", argc, argv);
@@ -116,8 +122,9 @@ const Action& parse(CLI::App& app, const Command& program, int argc, char** argv
                                  options.empty() ? in_words(error.what()) : "no such option: " + options,
                                  called.name));
   }
-  check_files(called.command);
-  return called.command.act;
+  const Command& command = parsed(app, program);
+  check_files(command);
+  return command.act;
 }
 
 std::string& called() {

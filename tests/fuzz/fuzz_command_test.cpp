@@ -345,6 +345,16 @@ TEST_CASE("Where stderr is no terminal a line there says now and then how it goe
   CHECK(folder.lorentz(what).err.empty());  // one a minute
 }
 
+TEST_CASE("Options of fuzz before the name of its subcommand begin no campaign", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string store = " --store " + folder.file("store");
+  folder.lorentz("fuzz -e published -t published-faults --count 4" + store);
+  const Run list = folder.lorentz("fuzz list" + store), behind = folder.lorentz("fuzz --json list" + store);
+  CHECK(list.status == 0);
+  CHECK(behind.status == 0);
+  CHECK(behind.out == list.out);
+}
+
 TEST_CASE("Without a store the simplest of each cause is printed", "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string what = "fuzz -e published -t published-faults --count 32 --no-undecided";
