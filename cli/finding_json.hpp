@@ -22,7 +22,7 @@ std::string query_object(const Query& query, int dimension);
 /// An answer without its id.
 std::string answer_object(const Answer& answer, int dimension);
 
-/// The shell command that prints a query stream of one query, so many times.
+/// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);
 
 std::string array_of(const std::vector<std::string>& texts);

@@ -436,3 +436,21 @@ TEST_CASE("Tails: one lattice of discs, by the sum or the search", "[flights][ta
   CHECK(tail_of_long_paths(rows, Ensemble::uniform).exponent == 2);
   CHECK_FALSE(tail_of_long_paths(rows, Ensemble::uniform).constant);
 }
+
+TEST_CASE("Ways between ellipses are those across which these are narrow", "[flights][laws]") {
+  constexpr double kAngle = 1e-10;
+  const auto nearly_common = [](const Atom& one, const Atom& other) {
+    const Lattice first{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {one}};
+    const Lattice second{{Vec{1, kAngle, 0}, Vec{-kAngle, 1, 0}}, {other}};
+    return nearly_common_way({2, {first, second}});
+  };
+  const Atom upright{{}, 0, {Vec{0.1, 0, 0}, Vec{0, 0.6, 0}}}, lying{{}, 0, {Vec{0.6, 0, 0}, Vec{0, 0.1, 0}}};
+  const Atom tilted{{}, 0, {Vec{0.05, 0.6, 0}, Vec{0.05, 0, 0}}};  // upright; its rows' would be lying
+  CHECK(nearly_common(lying, lying).value_or(0) == Approx(kAngle).epsilon(1e-4));
+  for (const Atom& one : {upright, tilted}) {
+    CHECK(nearly_common(one, upright).value_or(0) == Approx(kAngle).epsilon(1e-4));
+    CHECK(nearly_common(upright, one).value_or(0) == Approx(kAngle).epsilon(1e-4));
+    CHECK_FALSE(nearly_common(one, lying));
+    CHECK_FALSE(nearly_common(lying, one));
+  }
+}
