@@ -2,31 +2,63 @@
 // margins, conditions. Differences that could cancel are taken in integers before. Private to oracle/.
 #pragma once
 
-#include <boost/multiprecision/gmp.hpp>
+#include <compare>
+#include <string>
+#include <utility>
 
 #include "oracle/integers/integer.hpp"
 
 namespace lorentz::oracle {
 
-using Real =
-    boost::multiprecision::number<boost::multiprecision::gmp_float<150>, boost::multiprecision::et_off>;
+/// GMP's mpf_t as a value. Results are truncated, and no operation overflows. A division by 0 throws
+/// std::overflow_error.
+class Real {
+ public:
+  Real() { mpf_init2(value_, kBits); }
+  Real(double value);  ///< a finite one
+  explicit Real(const Z& value);
+  Real(const Real& other);
+  Real(Real&& other) noexcept : value_{*other.value_} { other.value_->_mp_d = nullptr; }
+  Real& operator=(Real other) noexcept {
+    mpf_swap(value_, other.value_);
+    return *this;
+  }
+  ~Real() {
+    if (value_->_mp_d) mpf_clear(value_);
+  }
+
+  Real& operator+=(const Real& b);
+  Real& operator-=(const Real& b);
+  Real& operator*=(const Real& b);
+  friend Real operator+(Real a, const Real& b) { return std::move(a += b); }
+  friend Real operator-(Real a, const Real& b) { return std::move(a -= b); }
+  friend Real operator*(Real a, const Real& b) { return std::move(a *= b); }
+  friend Real operator/(const Real& a, const Real& b);
+  friend Real operator-(Real a);
+
+  friend bool operator==(const Real& a, const Real& b) { return mpf_cmp(a.value_, b.value_) == 0; }
+  friend std::strong_ordering operator<=>(const Real& a, const Real& b) {
+    return mpf_cmp(a.value_, b.value_) <=> 0;
+  }
+
+  friend Real abs(Real a);
+  friend Real sqrt(const Real& a);  ///< of a >= 0
+  friend Real times_power_of_two(Real a, long exponent);
+  /// The smallest integer >= a.
+  friend Z ceiling(const Real& a);
+  /// To binary64, downwards; no more than `most`.
+  friend double to_double(const Real& a, double most);
+  /// As "%.10g" prints it.
+  friend std::string to_string(const Real& a);
+
+ private:
+  static constexpr mp_bitcnt_t kBits = 500;
+
+  mpf_t value_;
+};
 
 inline Real real(const Z& a) {
-  return Real(static_cast<mpz_srcptr>(a.view()));
-}
-
-inline Real times_power_of_two(const Real& a, long exponent) {
-  return ldexp(a, exponent);
-}
-
-/// The smallest integer >= a.
-inline Z ceiling(const Real& a) {
-  return Z(boost::multiprecision::mpz_int(Real(ceil(a))).backend().data());
-}
-
-/// To binary64, downwards; no more than `most`.
-inline double to_double(const Real& a, double most) {
-  return a >= most ? most : mpf_get_d(a.backend().data());
+  return Real(a);
 }
 
 }  // namespace lorentz::oracle

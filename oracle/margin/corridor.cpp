@@ -28,15 +28,15 @@ struct Box {
 
   // Is v within k ulps of f g for some factor f > 0? That is g / f between v - k ulps and v + k ulps.
   bool contains(const ZVec<D>& g) const {
-    Real least = 0;  // of 1 / f
+    Real least;  // of 1 / f
     std::optional<Real> most;
     const auto at_most = [&](const Real& bound) { most = most ? std::min(*most, bound) : bound; };
     for (std::size_t i = 0; i < D; ++i) {
       const Real room = k * real(ulp[i]), low = real(v[i]) - room, high = real(v[i]) + room, gi = real(g[i]);
       if ((low == 0 && gi < 0) || (high == 0 && gi > 0)) return false;
       if (low > 0) at_most(gi / low);
-      if (low < 0) least = std::max(least, Real(gi / low));
-      if (high > 0) least = std::max(least, Real(gi / high));
+      if (low < 0) least = std::max(least, gi / low);
+      if (high > 0) least = std::max(least, gi / high);
       if (high < 0) at_most(gi / high);
     }
     return !most || (least <= *most && *most > 0);
@@ -126,7 +126,7 @@ class CorridorSearch {
       if (G != ZVec<D>{}) {
         const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
         const ZVec<D> normal = frame ? mapped_normal(frame->to_ball, G) : G;
-        if (leave_gaps(view, normal)) view.radius -= ceiling(Real(ulps_ * atom.change_along(normal)));
+        if (leave_gaps(view, normal)) view.radius -= ceiling(ulps_ * atom.change_along(normal));
       }
       if (view.radius <= 0) continue;
       view.radius2 = view.radius * view.radius;

@@ -16,9 +16,8 @@ namespace {
 // Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
 // are about as hard to tell apart; then the margin is the smallest of those looked at.
 constexpr long kSmallBudget = 500;
-constexpr double kFiner = 0x1p-30, kGrowth = 8;
+constexpr double kFirstTry = 0x1p-30, kGrowth = 8;
 constexpr int kMostTries = 4;
-constexpr double kHuge = 1e300;  // reported for what is more
 
 template <std::size_t D>
 class MarginSearch {
@@ -55,15 +54,15 @@ class MarginSearch {
   // holds thousands of obstacles, along a wall of a channel) by widening more and more.
   void search(const Uncertain<D>& atom) {
     const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
-    const Real at_once = std::min(Real(kLargestMargin), Real(radius / change / 4));
+    const Real at_once = std::min(Real(kLargestMargin), radius / change / 4);
     Real k = at_once;
     if (!search_at_once(atom, at_once)) {
       int tries = 0;
-      do k *= kFiner;
+      do k *= kFirstTry;
       while (!search_in_windows(atom, k, kSmallBudget) && ++tries < kMostTries);
     }
     for (bool complete = full_budget_ > 0; complete && k < smallest_;) {
-      k = std::min(Real(k * kGrowth), smallest_);
+      k = std::min(k * kGrowth, smallest_);
       complete = search_in_windows(atom, k, full_budget_);
     }
   }
@@ -183,7 +182,7 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
     for (const Uncertain<D>& atom : perturbed.atoms()) {
       const View<D>& view = atom.view();
       const Real rho = sqrt(real(atom.rho2())), v2 = real(view.velocity.v2);
-      const Stretches<D> stretches(view, ceiling(Real(wide * wide * real(atom.rho2()))));
+      const Stretches<D> stretches(view, ceiling(wide * wide * real(atom.rho2())));
       long budget = kMarginBudget;
       const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
                                       const Z& last) {
@@ -194,7 +193,7 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
           const bool is_target = &atom == &target && point.n == hit.point.n;
           if (!is_target && (centre.s <= 0 || nearest > target_time || perturbed.is_from(atom, point.n)))
             return;
-          all.push_back({perturbed.id_of(atom, point.n), to_double(time, kHuge), time.str(10),
+          all.push_back({perturbed.id_of(atom, point.n), to_double(time, kHuge), to_string(time),
                          to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
                          to_double(atom.margin_of_meeting(centre), kHuge)});
         });
@@ -245,7 +244,7 @@ Approach Margins::approach(const Query& query, const ObstacleId& obstacle) const
     const Uncertain<D>& atom = perturbed.atom_of(obstacle);
     const Centre<D> centre = perturbed.centre_of(obstacle);
     const auto gap = [](const Z& distance2, const Z& radius2) {
-      return to_double(Real(sqrt(real(distance2)) / sqrt(real(radius2)) - 1), kHuge);
+      return to_double(sqrt(real(distance2)) / sqrt(real(radius2)) - 1, kHuge);
     };
     return Approach{gap(centre.h2, atom.rho2()), gap(centre.c2, atom.view().radius2), centre.s > 0};
   });

@@ -47,7 +47,7 @@ Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, co
 template <std::size_t D>
 Real Uncertain<D>::weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) const {
   const ZVec<D> image = to_ball_transposed_ * a;
-  Real sum = Real(0);
+  Real sum;
   for (std::size_t i = 0; i < D; ++i) sum += abs(real(image[i])) * ulp[i];
   return sum;
 }
@@ -55,13 +55,13 @@ Real Uncertain<D>::weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) co
 template <std::size_t D>
 Real Uncertain<D>::longest_corner(const std::array<Real, D>& ulp, bool across) const {
   const ZMatrix<D> to_ball = transposed(to_ball_transposed_);
-  Real longest = Real(0);
+  Real longest;
   for (int signs = 0; signs < 1 << D; ++signs) {
-    Real length2 = Real(0), along = Real(0);
+    Real length2, along;
     for (std::size_t i = 0; i < D; ++i) {
-      Real component = Real(0);
+      Real component;
       for (std::size_t k = 0; k < D; ++k)
-        component += real(to_ball[i][k]) * (signs >> k & 1 ? Real(-ulp[k]) : ulp[k]);
+        component += real(to_ball[i][k]) * (signs >> k & 1 ? -ulp[k] : ulp[k]);
       length2 += component * component;
       along += component * real(view_.velocity.v[i]);
     }
@@ -86,7 +86,7 @@ Real Uncertain<D>::change_along(const ZVec<D>& direction) const {
 template <std::size_t D>
 Real Uncertain<D>::margin_of_containing(const Centre<D>& centre) const {
   const Real change =
-      centre.c2 == 0 ? Real(longest_corner(ulps_.x, false) + radius_ulp_) : change_along(centre.point.p);
+      centre.c2 == 0 ? longest_corner(ulps_.x, false) + radius_ulp_ : change_along(centre.point.p);
   const Real sum = sqrt(real(centre.c2)) + real(view_.radius);
   return real(Z(abs(centre.c2 - view_.radius2))) / sum / change;
 }
@@ -99,7 +99,7 @@ Real Uncertain<D>::margin_of_meeting(const Centre<D>& centre) const {
   ZVec<D> nearest;
   for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * velocity.v[i] - velocity.v2 * centre.point.p[i];
   const Real speed = sqrt(real(velocity.v2)), h = sqrt(real(centre.h2));
-  const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : Real(weighted(nearest, ulp) / (speed * h));
+  const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : weighted(nearest, ulp) / (speed * h);
   return real(Z(abs(centre.h2 - rho2_))) / ((h + sqrt(real(rho2_))) * speed) / (change + radius_ulp_);
 }
 
@@ -150,8 +150,8 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
   if (order == 0) return Real(0);
   const Arrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
   const bool same_radius = atom1.lattice() == atom2.lattice() && atom1.atom() == atom2.atom();
-  Real change = same_radius ? Real(abs(two.by_radius - one.by_radius) * atom1.radius_ulp())
-                            : Real(two.by_radius * atom2.radius_ulp() + one.by_radius * atom1.radius_ulp());
+  Real change = same_radius ? abs(two.by_radius - one.by_radius) * atom1.radius_ulp()
+                            : two.by_radius * atom2.radius_ulp() + one.by_radius * atom1.radius_ulp();
   for (std::size_t i = 0; i < D; ++i) {
     change += abs(two.by_x[i] - one.by_x[i]) * ulps.x[i];
     change += abs(two.t * two.by_x[i] - one.t * one.by_x[i]) * ulps.v[i];

@@ -19,6 +19,8 @@
 
 namespace lorentz::oracle {
 
+constexpr double kHuge = 1e300;  ///< reported for what is more
+
 /// A centre seen from x, in the coordinates of its atom's view.
 template <std::size_t D>
 struct Centre {

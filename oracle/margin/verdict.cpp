@@ -11,7 +11,6 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHuge = 1e300;  // reported for what is more
 
 // Obstacles that are passed over and stretches of the line, looked at until one is met by more than the
 // tolerance. A line that grazes a row meets as many as one likes by less, and the farther an obstacle is, the
@@ -157,8 +156,8 @@ class DepartureBound {
     if (chord2 > 0)
       spare = std::min(spare, margin_of_order(query_.ulps(), atom, centre, target, hit));
     else
-      spare = std::min(spare, Real((target.time_of(hit) - atom.time_of(centre)) /
-                                   largest_change(query_.ulps(), atom, atom.arrival(centre))));
+      spare = std::min(spare, (target.time_of(hit) - atom.time_of(centre)) /
+                                  largest_change(query_.ulps(), atom, atom.arrival(centre)));
     needs(spare, atom, centre);
   }
 
@@ -196,9 +195,9 @@ struct Judge::Impl {
       // The exact time may lie beyond binary64.
       const Real time =
           std::isfinite(*exact.time) ? Real(*exact.time) : time_in_own_units(perturbed, exact.obstacle);
-      const Real far = abs(Real(time - Real(*given.time)));
+      const Real far = abs(time - Real(*given.time));
       const Real change = std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time)));
-      judgement.departs = to_double(Real(far / change), kHuge);
+      judgement.departs = to_double(far / change, kHuge);
       if (judgement.departs <= ulps) return judgement;
       // (Among the subnormal numbers a rounding can be as large as the time.)
       const bool rounding = judgement.ulps && *judgement.ulps <= kDefaultUlps;

@@ -63,7 +63,7 @@ class Sight {
     if (const auto& frame = scene_.lattices[id.lattice].atoms[id.atom].frame) c = frame->to_ball * c;
     const Z s = dot(view.velocity.v, c), v2 = view.velocity.v2;
     const Z d = view.radius2 * v2 - (v2 * dot(c, c) - s * s);  // rho^2 - |h|^2
-    return (d > 0 ? Real(real(s) - sqrt(real(d))) : real(s)) / real(v2);
+    return (d > 0 ? real(s) - sqrt(real(d)) : real(s)) / real(v2);
   }
 
   ZVec<D> point(const PlaceOnLine& place) const {
