@@ -7,7 +7,7 @@
 namespace lorentz::oracle {
 namespace {
 
-Z to_z(const fmpz_t integer) {
+Z z_of(const fmpz_t integer) {
   mpz_t copy;
   mpz_init(copy);
   fmpz_get_mpz(copy, integer);
@@ -24,7 +24,7 @@ Z rounded_arf(const arf_t value, long bits, arf_rnd_t rounding) {
   fmpz_init(integer);
   arf_mul_2exp_si(scaled, value, bits);
   arf_get_fmpz(integer, scaled, rounding);
-  Z result = to_z(integer);
+  Z result = z_of(integer);
   fmpz_clear(integer);
   arf_clear(scaled);
   return result;
@@ -80,7 +80,7 @@ Ball::Exact Ball::exact_middle() const {
   fmpz_init(integer);
   fmpz_init(exponent);
   arf_get_fmpz_2exp(integer, exponent, arb_midref(value_));
-  Exact result{to_z(integer), fmpz_get_si(exponent)};
+  Exact result{z_of(integer), fmpz_get_si(exponent)};
   fmpz_clear(integer);
   fmpz_clear(exponent);
   return result;

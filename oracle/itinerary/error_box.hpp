@@ -8,7 +8,9 @@
 // axes would grow by some 4 bits a collision more. (R. Lohner's method for differential equations.)
 #pragma once
 
-#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "oracle/itinerary/ball.hpp"
 
@@ -21,7 +23,7 @@ class ErrorBox {
   using Bounds = std::array<Bound, N>;
 
   /// Nothing unknown but for `widths` of the components.
-  explicit ErrorBox(const Bounds& widths = {}) : turn_(Turn::Identity()), widths_(widths) {}
+  explicit ErrorBox(const Bounds& widths = {}) : turn_(identity()), widths_(widths) {}
 
   bool is_point() const {
     for (const Bound& width : widths_)
@@ -34,7 +36,7 @@ class ErrorBox {
     Bound sum;
     for (int k = 0; k < N; ++k) {
       Ball along;
-      for (int i = 0; i < N; ++i) along.add_product(gradient[i], Ball(turn_(i, k)));
+      for (int i = 0; i < N; ++i) along.add_product(gradient[i], Ball(turn_[i][k]));
       sum += along.size() * widths_[k];
     }
     return sum;
@@ -43,21 +45,21 @@ class ErrorBox {
   /// The same of one component.
   Bound width_of(int component) const {
     Bound sum;
-    for (int k = 0; k < N; ++k) sum += Ball(turn_(component, k)).size() * widths_[k];
+    for (int k = 0; k < N; ++k) sum += Ball(turn_[component][k]).size() * widths_[k];
     return sum;
   }
 
   /// The box after a step with this derivative anywhere in it, whose result's middle was rounded.
   void advance(const Matrix& derivative, const Bounds& rounding) {
     const Matrix moved = times_turn(derivative);
-    turn_ = orthogonal_factor(moved);
+    turn_ = turn_along(moved);
     Bounds next;
     Bound largest;
     for (int i = 0; i < N; ++i) {
       for (int k = 0; k < N; ++k) {
         Ball entry;  // of Q'^T J Q
-        for (int j = 0; j < N; ++j) entry.add_product(Ball(turn_(j, i)), moved[j][k]);
-        next[i] += entry.size() * widths_[k] + Ball(turn_(k, i)).size() * rounding[k];
+        for (int j = 0; j < N; ++j) entry.add_product(Ball(turn_[j][i]), moved[j][k]);
+        next[i] += entry.size() * widths_[k] + Ball(turn_[k][i]).size() * rounding[k];
       }
       largest = larger(largest, next[i]);
     }
@@ -68,19 +70,25 @@ class ErrorBox {
   }
 
  private:
-  using Turn = Eigen::Matrix<double, N, N>;
+  using Turn = std::array<std::array<double, N>, N>;  // rows
+
+  static Turn identity() {
+    Turn result{};
+    for (int i = 0; i < N; ++i) result[i][i] = 1;
+    return result;
+  }
 
   Matrix times_turn(const Matrix& derivative) const {
     Matrix moved;
     for (int i = 0; i < N; ++i)
       for (int k = 0; k < N; ++k)
-        for (int j = 0; j < N; ++j) moved[i][k].add_product(derivative[i][j], Ball(turn_(j, k)));
+        for (int j = 0; j < N; ++j) moved[i][k].add_product(derivative[i][j], Ball(turn_[j][k]));
     return moved;
   }
 
   // Any matrix will do; a good one is Q of the QR factors of the columns, longest first. Their lengths are
   // beyond binary64's range, their directions not.
-  Turn orthogonal_factor(const Matrix& moved) const {
+  Turn turn_along(const Matrix& moved) const {
     std::array<int, N> order;
     std::array<Bound, N> length;
     for (int k = 0; k < N; ++k) {
@@ -88,15 +96,42 @@ class ErrorBox {
       for (int i = 0; i < N; ++i) length[k] += moved[i][k].size() * widths_[k];
     }
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[b] < length[a]; });
-    Turn columns;
+    Turn columns{};
     for (int k = 0; k < N; ++k) {
       Bound largest;
       for (int i = 0; i < N; ++i) largest = larger(largest, moved[i][order[k]].size());
       for (int i = 0; i < N; ++i)
-        columns(i, k) =
+        columns[i][k] =
             largest.is_zero() ? (i == k ? 1 : 0) : scaled(moved[i][order[k]], -largest.exponent()).nearest();
     }
-    return Eigen::HouseholderQR<Turn>(columns).householderQ();
+    return orthogonal_factor(columns);
+  }
+
+  // Q of the QR factors, by Householder's reflections: orthogonal however near to dependent the columns are.
+  static Turn orthogonal_factor(Turn columns) {
+    Turn result = identity();
+    for (int k = 0; k + 1 < N; ++k) {
+      std::array<double, N> normal{};  // of the mirror that takes column k to a multiple of axis k
+      double length2 = 0, normal2 = 0;
+      for (int i = k; i < N; ++i) length2 += columns[i][k] * columns[i][k];
+      for (int i = k; i < N; ++i) {
+        normal[i] = columns[i][k] + (i == k ? std::copysign(std::sqrt(length2), columns[k][k]) : 0);
+        normal2 += normal[i] * normal[i];
+      }
+      if (normal2 == 0) continue;
+      for (int j = 0; j < N; ++j) {
+        double column = 0, row = 0;
+        for (int i = k; i < N; ++i) {
+          column += normal[i] * columns[i][j];
+          row += normal[i] * result[j][i];
+        }
+        for (int i = k; i < N; ++i) {
+          columns[i][j] -= 2 / normal2 * column * normal[i];
+          result[j][i] -= 2 / normal2 * row * normal[i];
+        }
+      }
+    }
+    return result;
   }
 
   // |E| / (1 - |E|), at least; |E| the largest sum of a row's sizes.
@@ -106,7 +141,7 @@ class ErrorBox {
       Bound row;
       for (int k = 0; k < N; ++k) {
         Ball product = i == k ? Ball(-1) : Ball();
-        for (int j = 0; j < N; ++j) product.add_product(Ball(turn_(j, i)), Ball(turn_(j, k)));
+        for (int j = 0; j < N; ++j) product.add_product(Ball(turn_[j][i]), Ball(turn_[j][k]));
         row += product.size();
       }
       norm = larger(norm, row);
