@@ -79,30 +79,30 @@ void append_cell(std::string& out, const Cell& cell) {
 
 namespace {
 
-std::string text(json::value value) {
-  return std::string(std::string_view(value));
+std::string text(json::Value value) {
+  return std::string(value.text());
 }
 
 // What append_number wrote.
-double number(json::value value) {
-  if (value.type() == json::json_type::string && value.get_string().value() == "inf") return HUGE_VAL;
+double number(json::Value value) {
+  if (value.type() == json::Type::string && value.text() == "inf") return HUGE_VAL;
   return read_number(value, "a number");
 }
 
-std::optional<double> number_or_null(json::value value) {
+std::optional<double> number_or_null(json::Value value) {
   if (value.is_null()) return std::nullopt;
   return number(value);
 }
 
-double number(json::object& object, const char* key) {
+double number(json::Object& object, const char* key) {
   return number(object[key]);
 }
 
-std::size_t count(json::object& object, const char* key) {
-  return std::uint64_t(object[key]);
+std::size_t count(json::Object& object, const char* key) {
+  return object[key].natural();
 }
 
-Share share(json::object object) {
+Share share(json::Object object) {
   Share share;
   share.count = count(object, "count");
   share.low = number(object, "low");
@@ -110,7 +110,7 @@ Share share(json::object object) {
   return share;
 }
 
-Times times(json::object object) {
+Times times(json::Object object) {
   Times ns;
   ns.median = number(object, "median");
   ns.q1 = number(object, "q1");
@@ -119,63 +119,61 @@ Times times(json::object object) {
   return ns;
 }
 
-Histogram histogram(json::object object) {
+Histogram histogram(json::Object object) {
   Histogram histogram;
   histogram.exact = count(object, "exact");
-  histogram.first = static_cast<int>(std::int64_t(object["first"]));
-  for (std::uint64_t bin : json::array(object["counts"])) histogram.counts.push_back(bin);
+  histogram.first = static_cast<int>(object["first"].integer());
+  json::each_element(object["counts"].array(),
+                     [&](json::Value bin) { histogram.counts.push_back(bin.natural()); });
   histogram.mean = number(object, "mean");
   histogram.p99 = number(object, "p99");
   histogram.max = number(object, "max");
   return histogram;
 }
 
-Worst worst(json::object object) {
+Worst worst(json::Object object) {
   Worst worst;
   worst.verdict = text(object["verdict"]);
   worst.ulps = number_or_null(object["ulps"]);
-  worst.query = std::string(std::string_view(json::object(object["query"]).raw_json()));
+  worst.query = std::string(object["query"].object().text());
   worst.command = text(object["command"]);
   return worst;
 }
 
-void read_measured(json::object& object, Cell& cell) {
-  cell.ns = times(object["ns"]);
+void read_measured(json::Object& object, Cell& cell) {
+  cell.ns = times(object["ns"].object());
   cell.instructions = number_or_null(object["instructions"]);
   cell.mean_path = number(object, "mean_path");
-  cell.undecided = share(object["undecided"]);
-  cell.ill_posed = share(object["ill_posed"]);
-  cell.wrong = share(object["wrong"]);
-  cell.wrong_time = share(object["wrong_time"]);
+  cell.undecided = share(object["undecided"].object());
+  cell.ill_posed = share(object["ill_posed"].object());
+  cell.wrong = share(object["wrong"].object());
+  cell.wrong_time = share(object["wrong_time"].object());
   cell.error = count(object, "error");
   cell.missing = count(object, "missing");
-  cell.ulps = histogram(object["ulps"]);
-  cell.conditions = histogram(object["conditions"]);
-  if (json::value value = object["worst"]; !value.is_null()) cell.worst = worst(value);
+  cell.ulps = histogram(object["ulps"].object());
+  cell.conditions = histogram(object["conditions"].object());
+  if (json::Value value = object["worst"]; !value.is_null()) cell.worst = worst(value.object());
 }
 
 }  // namespace
 
 Cell cell_of(std::string_view text_of_cell) {
   try {
-    const simdjson::padded_string padded(text_of_cell);
-    json::parser parser;
-    json::document document = parser.iterate(padded);
-    json::object object = document.get_object();
+    json::Document document;
+    document.open(text_of_cell);
+    json::Object object = document.object();
     Cell cell;
     cell.scene = text(object["scene"]);
     cell.radius = number_or_null(object["radius"]);
-    cell.dimension = static_cast<int>(std::int64_t(object["dimension"]));
+    cell.dimension = static_cast<int>(object["dimension"].integer());
     cell.difficulty = text(object["difficulty"]);
     cell.engine = text(object["engine"]);
     cell.queries = count(object, "queries");
-    cell.skipped = bool(object["skipped"]);
+    cell.skipped = object["skipped"].boolean();
     cell.unsupported = count(object, "unsupported");
     if (!cell.skipped) read_measured(object, cell);
     return cell;
-  } catch (const simdjson::simdjson_error& error) {
-    throw InputError(std::string("is not a cell of a table: ") + error.what());
-  } catch (const std::runtime_error& error) {  // InputError, NotJson
+  } catch (const std::runtime_error& error) {  // InputError, NotJson, json::Error
     throw InputError(std::string("is not a cell of a table: ") + error.what());
   }
 }

@@ -1,17 +1,17 @@
 #include "report/power_fit.hpp"
 
-#include <boost/math/special_functions/beta.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "report/beta_quantile.hpp"
 
 namespace lorentz::report {
 namespace {
 
 // The t that Student's t of so many degrees of freedom exceeds in absolute value with a chance of 5 %.
 double student_t(double degrees) {
-  const double x = boost::math::ibeta_inv(degrees / 2, 0.5, 0.05);  // degrees / (degrees + t^2)
+  const double x = beta_quantile(degrees / 2, 0.5, 0.05);  // degrees / (degrees + t^2)
   return std::sqrt(degrees * (1 - x) / x);
 }
 

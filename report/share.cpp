@@ -1,11 +1,10 @@
 #include "report/share.hpp"
 
-#include <boost/math/special_functions/beta.hpp>
-
 #include <cmath>
 #include <stdexcept>
 
 #include <lorentz/exchange.hpp>
+#include "report/beta_quantile.hpp"
 
 namespace lorentz::report {
 
@@ -19,8 +18,8 @@ constexpr double kEachTail = 0.025;
 Share share_of(std::size_t count, std::size_t total) {
   if (count > total) throw std::invalid_argument("share_of: more than all");
   const auto k = static_cast<double>(count), others = static_cast<double>(total - count);
-  return {count, count == 0 ? 0 : boost::math::ibeta_inv(k, others + 1, kEachTail),
-          count == total ? 1 : boost::math::ibetac_inv(k + 1, others, kEachTail)};
+  return {count, count == 0 ? 0 : beta_quantile(k, others + 1, kEachTail),
+          count == total ? 1 : beta_quantile_from_above(k + 1, others, kEachTail)};
 }
 
 // (1 - bound)^total = 0.05
