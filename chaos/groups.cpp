@@ -23,18 +23,19 @@ std::string text_of(std::uint64_t group, const Sums& sums) {
 
 Sums sums_in(std::string_view text, std::uint64_t& group) {
   try {
-    const simdjson::padded_string padded(text);
-    json::parser parser;
-    json::document document = parser.iterate(padded);
-    json::object object = document.get_object();
+    json::Document document;
+    document.open(text);
+    json::Object object = document.object();
     Sums sums;
-    group = object["group"];
-    for (std::uint64_t bits : json::array(object["values"]))
-      sums.values.push_back(std::bit_cast<double>(bits));
-    sums.particles = object["particles"], sums.collisions = object["collisions"],
-    sums.stopped = object["stopped"];
+    group = object["group"].natural();
+    json::each_element(object["values"].array(), [&](json::Value bits) {
+      sums.values.push_back(std::bit_cast<double>(bits.natural()));
+    });
+    sums.particles = object["particles"].natural();
+    sums.collisions = object["collisions"].natural();
+    sums.stopped = object["stopped"].natural();
     return sums;
-  } catch (const simdjson::simdjson_error& error) {
+  } catch (const json::Error& error) {
     throw InputError(std::string("is not a group of particles: ") + error.what());
   }
 }

@@ -79,28 +79,29 @@ std::string text_of(const std::vector<std::uint64_t>& counts) {
 
 // Calls act(a, b) for the pairs [a,b] of an array.
 template <class Act>
-void for_each_pair(json::array pairs, const Act& act) {
-  for (json::array pair : pairs) {
+void for_each_pair(json::Array pairs, const Act& act) {
+  json::each_element(pairs, [&](json::Value pair) {
     std::uint64_t members[2];
     std::size_t i = 0;
-    for (std::uint64_t member : pair) {
-      if (i < 2) members[i] = member;
+    json::each_element(pair.array(), [&](json::Value member) {
+      const std::uint64_t number = member.natural();
+      if (i < 2) members[i] = number;
       ++i;
-    }
+    });
     if (i != 2) refuse("a bin, or a range, that is not two numbers");
     act(members[0], members[1]);
-  }
+  });
 }
 
-void read_counts(json::array pairs, std::vector<std::uint64_t>& counts) {
+void read_counts(json::Array pairs, std::vector<std::uint64_t>& counts) {
   for_each_pair(pairs, [&](std::uint64_t bin, std::uint64_t count) {
     if (bin >= counts.size() || counts[bin] != 0) refuse("a bin that does not exist, or comes twice");
     counts[bin] = count;
   });
 }
 
-ExactSum read_sum(json::object& object, const char* key) {
-  return ExactSum::of(std::string_view(object[key]));
+ExactSum read_sum(json::Object& object, const char* key) {
+  return ExactSum::of(object[key].text());
 }
 
 }  // namespace
@@ -121,27 +122,29 @@ std::string Account::text() const {
 
 Account Account::of(std::string_view text) {
   try {
-    const simdjson::padded_string padded(text);
-    json::parser parser;
-    json::document document = parser.iterate(padded);
-    json::object object = document.get_object();
+    json::Document document;
+    document.open(text);
+    json::Object object = document.object();
     Account account;
-    for_each_pair(object["blocks"].get_array(),
+    for_each_pair(object["blocks"].array(),
                   [&](std::uint64_t first, std::uint64_t last) { account.done.insert(first, last); });
-    const auto exponent = std::int64_t(object["exponent"]);
+    const std::int64_t exponent = object["exponent"].integer();
     if (exponent < -1000 || exponent > 900) refuse("its unit of time");
     Tally& tally = account.tally = Tally(static_cast<int>(exponent));
-    tally.hits = object["hits"], tally.never = object["never"], tally.undecided = object["undecided"];
-    tally.inside = object["inside"], tally.logarithms = object["logarithms"];
-    tally.shortest = std::bit_cast<double>(std::uint64_t(object["shortest"]));
-    tally.longest = std::bit_cast<double>(std::uint64_t(object["longest"]));
+    tally.hits = object["hits"].natural();
+    tally.never = object["never"].natural();
+    tally.undecided = object["undecided"].natural();
+    tally.inside = object["inside"].natural();
+    tally.logarithms = object["logarithms"].natural();
+    tally.shortest = std::bit_cast<double>(object["shortest"].natural());
+    tally.longest = std::bit_cast<double>(object["longest"].natural());
     tally.time = read_sum(object, "time");
     tally.square = read_sum(object, "square");
     tally.log = read_sum(object, "log");
-    read_counts(object["logarithmic"].get_array(), tally.bins.logarithmic);
-    read_counts(object["linear"].get_array(), tally.bins.linear);
+    read_counts(object["logarithmic"].array(), tally.bins.logarithmic);
+    read_counts(object["linear"].array(), tally.bins.linear);
     return account;
-  } catch (const simdjson::simdjson_error& error) {
+  } catch (const json::Error& error) {
     refuse(error.what());
   } catch (const std::invalid_argument& error) {
     refuse(error.what());

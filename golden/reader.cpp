@@ -10,25 +10,25 @@
 namespace lorentz::golden {
 namespace {
 
-std::string read_text(json::value value, const std::string& key) {
-  if (value.type() != json::json_type::string) throw InputError(key + ": needs a string");
-  return std::string(value.get_string().value());
+std::string read_text(json::Value value, const std::string& key) {
+  if (value.type() != json::Type::string) throw InputError(key + ": needs a string");
+  return std::string(value.text());
 }
 
-std::int64_t read_count(json::value value, const std::string& key, std::int64_t most = 1'000'000'000'000) {
+std::int64_t read_count(json::Value value, const std::string& key, std::int64_t most = 1'000'000'000'000) {
   const Integer n = read_integer(value, key.c_str());
   if (!n.fits_int64() || n.int64() < 0 || n.int64() > most) throw InputError(key + ": is out of range");
   return n.int64();
 }
 
-int read_index(json::value value, const std::string& key) {
+int read_index(json::Value value, const std::string& key) {
   return static_cast<int>(read_count(value, key, 1'000'000'000));
 }
 
-Header read_header(json::value value) {
+Header read_header(json::Value value) {
   Header header;
   bool has_format = false, has_count = false, has_tags = false;
-  each_member(value.get_object(), [&](std::string_view name, json::value member) {
+  json::each_member(value.object(), [&](std::string_view name, json::Value member) {
     const std::string key(name);
     if (key == "format") {
       if (read_count(member, key) != 1) throw InputError("format: only format 1 is known here");
@@ -46,7 +46,7 @@ Header read_header(json::value value) {
       has_count = true;
     } else if (key == "tags") {
       has_tags = true;
-      each_member(member.get_object(), [&](std::string_view tag, json::value note) {
+      json::each_member(member.object(), [&](std::string_view tag, json::Value note) {
         header.tags.emplace_back(tag, read_text(note, "tags"));
       });
     } else {
@@ -65,37 +65,37 @@ void check_size(std::size_t count, int dimension) {
                      std::to_string(dimension) + " vectors or components");
 }
 
-oracle::CertificateBasis read_basis(json::value value, int dimension) {
+oracle::CertificateBasis read_basis(json::Value value, int dimension) {
   oracle::CertificateBasis basis;
   std::size_t i = 0;
-  for (json::value row : value.get_array()) {
+  json::each_element(value.array(), [&](json::Value row) {
     if (i == basis.size()) check_size(i + 1, dimension);
     std::size_t k = 0;
-    for (json::value component : row.get_array()) {
+    json::each_element(row.array(), [&](json::Value component) {
       if (k == basis[i].size()) check_size(k + 1, dimension);
       basis[i][k++] = read_integer(component, "basis");
-    }
+    });
     check_size(k, dimension);
     ++i;
-  }
+  });
   check_size(i, dimension);
   return basis;
 }
 
 // A number as elsewhere, but its hexadecimal form is taken exactly.
-oracle::WindowEnd read_end(json::value value, const std::string& key) {
-  if (value.type() != json::json_type::string) return read_number(value, key);
-  const auto end = oracle::window_end_from(value.get_string().value());
+oracle::WindowEnd read_end(json::Value value, const std::string& key) {
+  if (value.type() != json::Type::string) return read_number(value, key);
+  const auto end = oracle::window_end_from(value.text());
   if (!end) throw InputError(key + ": is no number and no text like \"-0x1f4p-3\"");
   return *end;
 }
 
 // A window, or of a row what it has of one.
-oracle::Window read_window(json::value value, int dimension, bool is_row) {
+oracle::Window read_window(json::Value value, int dimension, bool is_row) {
   oracle::Window window;
   std::set<std::string> missing{"lattice", "atom", "basis"};
   if (!is_row) missing.insert({"from", "to"});
-  each_member(value.get_object(), [&](std::string_view name, json::value member) {
+  json::each_member(value.object(), [&](std::string_view name, json::Value member) {
     const std::string key(name);
     missing.erase(key);
     if (key == "lattice")
@@ -115,20 +115,21 @@ oracle::Window read_window(json::value value, int dimension, bool is_row) {
   return window;
 }
 
-oracle::Certificate read_certificate(json::value value, int dimension) {
+oracle::Certificate read_certificate(json::Value value, int dimension) {
   oracle::Certificate certificate;
   bool has_windows = false, has_rows = false;
-  each_member(value.get_object(), [&](std::string_view key, json::value pieces) {
+  json::each_member(value.object(), [&](std::string_view key, json::Value pieces) {
     has_windows |= key == "windows";
     has_rows |= key == "rows";
     if (key == "windows") {
-      for (json::value piece : pieces.get_array())
+      json::each_element(pieces.array(), [&](json::Value piece) {
         certificate.windows.push_back(read_window(piece, dimension, false));
+      });
     } else if (key == "rows") {
-      for (json::value piece : pieces.get_array()) {
+      json::each_element(pieces.array(), [&](json::Value piece) {
         oracle::Window row = read_window(piece, dimension, true);
         certificate.rows.push_back({row.lattice, row.atom, std::move(row.basis)});
-      }
+      });
     } else {
       skip(pieces);
     }
@@ -154,7 +155,7 @@ struct Reader::Impl {
 
   LineReader lines;
   ExchangeReader exchange;
-  json::parser parser;
+  json::Document document;
   Header header;
   std::optional<Scene> scene;
   std::string scene_line;
@@ -163,9 +164,9 @@ struct Reader::Impl {
   // Calls read(key, value) for the members of the line's object, which is all that is in the line.
   template <class Read>
   void each_member_of(std::string_view text, std::size_t allocated, const Read& read) {
-    json::document document = parser.iterate(text.data(), text.size(), allocated);
-    each_member(document.get_object(), read);
-    if (!ended(document)) throw NotJson{"more than one value in the line"};
+    document.open(text, allocated);
+    json::each_member(document.object(), read);
+    if (!document.ended()) throw NotJson{"more than one value in the line"};
   }
   template <class Read>
   void each_member_of(const LineReader::Line& line, const Read& read) {
@@ -176,7 +177,7 @@ struct Reader::Impl {
   std::vector<std::string> keys_of(const LineReader::Line& line) {
     if (line.too_long) throw InputError("the line is too long");
     std::vector<std::string> keys;
-    each_member_of(line, [&](std::string_view key, json::value value) {
+    each_member_of(line, [&](std::string_view key, json::Value value) {
       keys.emplace_back(key);
       skip(value);
     });
@@ -189,7 +190,7 @@ struct Reader::Impl {
     const std::string place = lines.name() + ':' + std::to_string(line.number) + ": ";
     try {
       read();
-    } catch (const simdjson::simdjson_error& error) {
+    } catch (const json::Error& error) {
       throw InputError(place + "not JSON as it should be: " + error.what());
     } catch (const NotJson& error) {
       throw InputError(place + "not JSON: " + error.what());
@@ -205,7 +206,7 @@ struct Reader::Impl {
       const auto keys = keys_of(line);
       if (std::find(keys.begin(), keys.end(), "golden") == keys.end())
         throw InputError("a golden set begins with its header, {\"golden\":{...}}");
-      each_member_of(line, [&](std::string_view key, json::value value) {
+      each_member_of(line, [&](std::string_view key, json::Value value) {
         if (key == "golden")
           header = read_header(value);
         else
@@ -227,11 +228,11 @@ struct Reader::Impl {
     object.resize(object.size() + LineReader::kPadding);
     try {
       each_member_of({object.data(), question.size() + 2}, object.size(),
-                     [&](std::string_view key, json::value value) {
+                     [&](std::string_view key, json::Value value) {
                        asked.emplace_back(key);
                        skip(value);
                      });
-    } catch (const simdjson::simdjson_error&) {
+    } catch (const json::Error&) {
       throw InputError(kOrder);
     } catch (const NotJson&) {
       throw InputError(kOrder);
@@ -244,7 +245,7 @@ struct Reader::Impl {
     return question;
   }
 
-  void read_expectation(json::object object, Answer& expect) {
+  void read_expectation(json::Object object, Answer& expect) {
     std::set<std::string> keys;
     Id id;
     std::size_t components = 0;
@@ -257,13 +258,13 @@ struct Reader::Impl {
     expect = std::move(answer);
   }
 
-  void read_field(const std::string& key, json::value value, Record& record) {
+  void read_field(const std::string& key, json::Value value, Record& record) {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
-      for (json::value tag : value.get_array()) record.tags.push_back(read_text(tag, key));
+      json::each_element(value.array(), [&](json::Value tag) { record.tags.push_back(read_text(tag, key)); });
     } else if (key == "expect") {
-      read_expectation(value.get_object(), record.expect);
+      read_expectation(value.object(), record.expect);
     } else if (key == "time_decimal") {
       record.expect.time_decimal = read_text(value, key);
       if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
@@ -291,7 +292,7 @@ struct Reader::Impl {
   void read_record(const LineReader::Line& line, const std::vector<std::string>& keys, Record& record) {
     record.question = question_in(line.text, keys);
     bool has_expect = false;
-    each_member_of(line, [&](std::string_view key, json::value value) {
+    each_member_of(line, [&](std::string_view key, json::Value value) {
       has_expect |= key == "expect";
       read_field(std::string(key), value, record);
     });

@@ -39,22 +39,23 @@ std::string header_of(std::string_view kind, const Plan& plan) {
 
 // What is different in a header that is not the one of this kind and plan.
 std::string difference(std::string_view line, std::string_view kind, const Plan& plan) {
-  const simdjson::padded_string padded(line);
-  json::parser parser;
-  json::document document = parser.iterate(padded);
-  json::object header = document.get_object();
-  if (const std::string_view other = header["store"]; other != kind)
+  json::Document document;
+  document.open(line);
+  json::Object header = document.object();
+  if (const std::string_view other = header["store"].text(); other != kind)
     return fmt::format("is a store of `lorentz {}`", other);
-  std::size_t i = 0;
-  for (auto field : json::object(header["plan"])) {
-    const std::string_view name = field.unescaped_key();
-    const std::string_view value = json::value(field.value()).get_string();
-    if (i == plan.size() || name != plan[i].first) break;
-    if (value != plan[i].second)
-      return fmt::format("is of another run: its {} is {}, not {}", name, json_quoted(value),
-                         json_quoted(plan[i].second));
-    ++i;
-  }
+  std::size_t same = 0;
+  bool another_version = false;
+  std::string other_value;
+  json::each_member(header["plan"].object(), [&](std::string_view name, json::Value value) {
+    another_version |= same == plan.size() || name != plan[same].first;
+    if (another_version || !other_value.empty()) return;
+    if (const std::string_view text = value.text(); text != plan[same].second)
+      other_value = fmt::format("is of another run: its {} is {}, not {}", name, json_quoted(text),
+                                json_quoted(plan[same].second));
+    ++same;
+  });
+  if (!other_value.empty()) return other_value;
   return "is of another version of this program";
 }
 
@@ -63,7 +64,7 @@ void check_header(std::string_view line, std::string_view kind, const Plan& plan
   if (line == with_check(header_of(kind, plan), kCheckOfNothing)) return;
   try {
     throw InputError(difference(line, kind, plan) + "; give what it was begun with, or name another file");
-  } catch (const simdjson::simdjson_error&) {
+  } catch (const json::Error&) {
     refuse("is of another kind");
   }
 }
@@ -75,14 +76,13 @@ std::string piece_in(std::string_view line, std::uint64_t begin) {
   try {
     if (!piece.starts_with(kPiece)) refuse("is not a piece of a run");
     piece.remove_prefix(kPiece.size());
-    const simdjson::padded_string padded(piece);
-    json::parser parser;
-    json::document document = parser.iterate(padded);
-    skip(document.get_value());
-    if (!ended(document)) refuse("is more than one piece");
+    json::Document document;
+    document.open(piece);
+    skip(document.value());
+    if (!document.ended()) refuse("is more than one piece");
   } catch (const NotJson& error) {
     refuse(std::string("is not JSON: ") + error.what());
-  } catch (const simdjson::simdjson_error& error) {
+  } catch (const json::Error& error) {
     refuse(std::string("is not JSON: ") + error.what());
   }
   return std::string(piece);

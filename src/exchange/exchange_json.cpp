@@ -1,23 +1,202 @@
 #include "src/exchange/exchange_json.hpp"
 
+#include <simdjson.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <new>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
 
 namespace lorentz {
+
+namespace ondemand = simdjson::ondemand;
+
+namespace json {
+
+// What a place holds.
+struct Inside {
+  template <class Inner, class Outer>
+  static Inner& of(Outer& outer) {
+    return *std::launder(reinterpret_cast<Inner*>(outer.inside_.data()));
+  }
+  template <class Outer, class Inner>
+  static Outer in(const Inner& inner) {
+    static_assert(sizeof(Inner) <= sizeof(Place) && alignof(Inner) <= alignof(Place));
+    static_assert(std::is_trivially_copyable_v<Inner> && std::is_trivially_destructible_v<Inner>);
+    Outer outer;
+    new (outer.inside_.data()) Inner(inner);
+    return outer;
+  }
+};
+
+namespace {
+
+ondemand::value& inside(Value& value) {
+  return Inside::of<ondemand::value>(value);
+}
+
+template <class T>
+T known(simdjson::simdjson_result<T>&& result) {
+  T value{};
+  if (const auto error = std::move(result).get(value)) throw Error(simdjson::error_message(error));
+  return value;
+}
+template <class T>
+T known(const T& value) {
+  return value;
+}
+
+Type known_type(simdjson::simdjson_result<ondemand::json_type>&& result) {
+  switch (known(std::move(result))) {
+    case ondemand::json_type::array:
+      return Type::array;
+    case ondemand::json_type::object:
+      return Type::object;
+    case ondemand::json_type::number:
+      return Type::number;
+    case ondemand::json_type::string:
+      return Type::string;
+    case ondemand::json_type::boolean:
+      return Type::boolean;
+    default:
+      return Type::null;
+  }
+}
+
+// The keys of an object that were seen.
+class Keys {
+ public:
+  // False if the key was seen before. Of texts that outlive this.
+  bool add(std::string_view key) {
+    const auto hash = key.size() << 8 | (key.empty() ? 0 : static_cast<unsigned char>(key[0]));
+    for (std::size_t i = 0; i < count_; ++i)
+      if (hashes_[i] == hash && std::memcmp(few_[i], key.data(), key.size()) == 0) return false;
+    if (count_ == kFew) return (many_ ? *many_ : many_.emplace()).insert(key).second;
+    few_[count_] = key.data();
+    hashes_[count_++] = hash;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kFew = 8;
+  std::array<std::size_t, kFew> hashes_;
+  std::array<const char*, kFew> few_;
+  std::size_t count_ = 0;
+  std::optional<std::set<std::string_view>> many_;  // of objects with more
+};
+
+}  // namespace
+
+Value Object::operator[](const char* key) {
+  return Inside::in<Value>(known(Inside::of<ondemand::object>(*this)[key]));
+}
+std::string_view Object::text() {
+  return known(Inside::of<ondemand::object>(*this).raw_json());
+}
+
+Type Value::type() {
+  return known_type(inside(*this).type());
+}
+bool Value::is_null() {
+  return known(inside(*this).is_null());
+}
+Array Value::array() {
+  return Inside::in<Array>(known(inside(*this).get_array()));
+}
+Object Value::object() {
+  return Inside::in<Object>(known(inside(*this).get_object()));
+}
+std::string_view Value::text() {
+  return known(inside(*this).get_string());
+}
+std::uint64_t Value::natural() {
+  return known(inside(*this).get_uint64());
+}
+std::int64_t Value::integer() {
+  return known(inside(*this).get_int64());
+}
+bool Value::boolean() {
+  return known(inside(*this).get_bool());
+}
+
+struct Document::Impl {
+  simdjson::padded_string copy;
+  ondemand::parser parser;
+  ondemand::document document;
+};
+
+Document::Document() : impl_(std::make_unique<Impl>()) {}
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+void Document::open(std::string_view text) {
+  impl_->copy = simdjson::padded_string(text);
+  impl_->document = known(impl_->parser.iterate(impl_->copy));
+}
+void Document::open(std::string_view text, std::size_t allocated) {
+  impl_->document = known(impl_->parser.iterate(text.data(), text.size(), allocated));
+}
+Type Document::type() {
+  return known_type(impl_->document.type());
+}
+Object Document::object() {
+  return Inside::in<Object>(known(impl_->document.get_object()));
+}
+Value Document::value() {
+  return Inside::in<Value>(known(impl_->document.get_value()));
+}
+bool Document::ended() {
+  return impl_->document.current_location().error() == simdjson::OUT_OF_BOUNDS;
+}
+
+std::optional<std::size_t> Document::line() {
+  const char* place = nullptr;
+  if (impl_->document.current_location().get(place)) return std::nullopt;
+  return 1 + static_cast<std::size_t>(std::count(static_cast<const char*>(impl_->copy.data()), place, '\n'));
+}
+
+std::string library_version() {
+  std::string text;
+  for (const int part : {simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
+                         simdjson::SIMDJSON_VERSION_REVISION})
+    text += (text.empty() ? "" : ".") + std::to_string(part);
+  return text;
+}
+
+void visit_members(Object object, const void* read, OnMember call) {
+  Keys keys;
+  std::optional<std::string_view> twice;
+  for (auto result : Inside::of<ondemand::object>(object)) {
+    ondemand::field field = known(std::move(result));
+    const std::string_view key = known(field.unescaped_key());
+    if (!keys.add(key) && !twice) twice = key;
+    call(read, key, Inside::in<Value>(field.value()));
+  }
+  if (twice) throw KeyTwice(*twice);
+}
+
+void visit_elements(Array array, const void* read, OnElement call) {
+  for (auto result : Inside::of<ondemand::array>(array))
+    call(read, Inside::in<Value>(known(std::move(result))));
+}
+
+}  // namespace json
+
 namespace {
 
 // The token of a number, without the white space that may follow it.
-std::string_view token_of(json::value value) {
-  std::string_view token = value.raw_json_token();
+std::string_view token_of(json::Value& value) {
+  std::string_view token = json::inside(value).raw_json_token();
   return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
 }
 
 // The text of a number. On-Demand has not looked at it.
-std::string_view number_text(json::value value) {
+std::string_view number_text(json::Value value) {
   const std::string_view token = token_of(value);
   if (is_json_number(token)) return token;
   const auto ascii =
@@ -45,27 +224,27 @@ void check_depth(int depth) {
   if (depth > kMaxDepth) throw InputError("nested deeper than " + std::to_string(kMaxDepth) + " levels");
 }
 
-void skip(json::value value, int depth) {
+void skip(json::Value value, int depth) {
   switch (value.type()) {
-    case json::json_type::array:
+    case json::Type::array:
       check_depth(depth + 1);
-      for (json::value element : value.get_array()) skip(element, depth + 1);
+      each_element(value.array(), [&](json::Value element) { skip(element, depth + 1); });
       break;
-    case json::json_type::object:
+    case json::Type::object:
       check_depth(depth + 1);
-      each_member(value.get_object(), [&](std::string_view, json::value member) { skip(member, depth + 1); });
+      each_member(value.object(), [&](std::string_view, json::Value member) { skip(member, depth + 1); });
       break;
-    case json::json_type::number:
+    case json::Type::number:
       (void)number_text(value);
       break;
-    case json::json_type::string:
-      (void)value.get_string().value();
+    case json::Type::string:
+      (void)value.text();
       break;
-    case json::json_type::boolean:
-      (void)value.get_bool().value();
+    case json::Type::boolean:
+      (void)value.boolean();
       break;
-    case json::json_type::null:
-      if (!value.is_null()) throw simdjson::simdjson_error(simdjson::N_ATOM_ERROR);
+    case json::Type::null:
+      if (!value.is_null()) throw json::Error(simdjson::error_message(simdjson::N_ATOM_ERROR));
       break;
   }
 }
@@ -73,35 +252,36 @@ void skip(json::value value, int depth) {
 namespace {
 
 // The nearest number of a JSON number; infinite beyond the range of binary64.
-double nearest_number(json::value value) {
+double nearest_number(json::Value value) {
   double number;
-  if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;
+  if (fits_64_bits(json::inside(value).raw_json_token()) && !json::inside(value).get_double().get(number))
+    return number;
   return *nearest_decimal(number_text(value));
 }
 
 }  // namespace
 
-double read_number(json::value value, const std::string& place) {
-  if (value.type() == json::json_type::string) return parse_hexadecimal(value.get_string().value(), place);
-  if (value.type() == json::json_type::null && !token_of(value).starts_with("null"))
+double read_number(json::Value value, const std::string& place) {
+  if (value.type() == json::Type::string) return parse_hexadecimal(value.text(), place);
+  if (value.type() == json::Type::null && !token_of(value).starts_with("null"))
     throw NotJson("no value");  // nan, say
-  if (value.type() != json::json_type::number) throw InputError(place + ": needs a number");
+  if (value.type() != json::Type::number) throw InputError(place + ": needs a number");
   return finite_number(nearest_number(value), place);
 }
 
-double read_number_or_infinity(json::value value, const std::string& place) {
-  if (value.type() != json::json_type::string) return read_number(value, place);
-  const std::string_view text = value.get_string();
+double read_number_or_infinity(json::Value value, const std::string& place) {
+  if (value.type() != json::Type::string) return read_number(value, place);
+  const std::string_view text = value.text();
   return text == "inf" ? std::numeric_limits<double>::infinity() : parse_hexadecimal(text, place);
 }
 
-Integer read_integer(json::value value, const char* key) {
-  const bool is_number = value.type() == json::json_type::number;
+Integer read_integer(json::Value value, const char* key) {
+  const bool is_number = value.type() == json::Type::number;
   std::string_view text;
   if (is_number)
     text = number_text(value);
-  else if (value.type() == json::json_type::string)
-    text = value.get_string();
+  else if (value.type() == json::Type::string)
+    text = value.text();
   constexpr std::size_t kLongest =
       2500;  // characters: of what is longer, no checker of proofs has to make a number
   if (text.size() <= kLongest)
@@ -112,35 +292,32 @@ Integer read_integer(json::value value, const char* key) {
   throw InputError(std::string(key) + ": needs an integer (beyond 2^53: a decimal string)");
 }
 
-SceneNode read_node(json::value value, const std::string& place, int depth) {
+SceneNode read_node(json::Value value, const std::string& place, int depth) {
   switch (value.type()) {
-    case json::json_type::array: {
+    case json::Type::array: {
       check_depth(depth + 1);
       SceneNode::Array array;
-      for (json::value element : value.get_array())
+      each_element(value.array(), [&](json::Value element) {
         array.push_back(read_node(element, place + "[" + std::to_string(array.size()) + "]", depth + 1));
+      });
       return {std::move(array)};
     }
-    case json::json_type::object: {
+    case json::Type::object: {
       check_depth(depth + 1);
       SceneNode::Object object;
-      each_member(value.get_object(), [&](std::string_view key, json::value member) {
+      each_member(value.object(), [&](std::string_view key, json::Value member) {
         object.push_back({std::string(key), read_node(member, place + "." + std::string(key), depth + 1)});
       });
       return {std::move(object)};
     }
-    case json::json_type::number:
+    case json::Type::number:
       return {nearest_number(value)};
-    case json::json_type::string:
-      return {std::string(value.get_string().value())};
+    case json::Type::string:
+      return {std::string(value.text())};
     default:
       skip(value);
       return {};
   }
-}
-
-bool ended(json::document& document) {
-  return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
 }
 
 }  // namespace lorentz

@@ -1,15 +1,16 @@
-// JSON values as the exchange formats have them, on simdjson's On-Demand interface. Private to the libraries
-// that read these.
+// JSON values as the exchange formats have them, read once and from front to back by simdjson, which no other
+// file sees. Private to the libraries that read these.
 #pragma once
 
-#include <simdjson.h>
-
 #include <array>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/problem.hpp>
@@ -17,10 +18,8 @@
 
 namespace lorentz {
 
-namespace json = simdjson::ondemand;
-
-/// A text that is no JSON (besides what simdjson::simdjson_error says). Not an InputError: behind a bad value
-/// a reader goes on, behind what is no JSON it cannot.
+/// A text that is no JSON. Not an InputError: behind a bad value a reader goes on, behind what is no JSON it
+/// cannot.
 struct NotJson : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,68 +30,117 @@ struct KeyTwice : InputError {
   std::string key;
 };
 
-/// The keys of an object that were seen.
-class Keys {
+namespace json {
+
+/// What simdjson says: no JSON, a value of another type, or a member that is missing.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Type { array, object, number, string, boolean, null };
+
+/// A value of a simdjson On-Demand document, which must be there: small, and copied like a pointer.
+class Place {
+ protected:
+  friend struct Inside;
+  alignas(void*) std::array<std::byte, 3 * sizeof(void*)> inside_{};
+};
+
+class Array : public Place {};
+
+class Object : public Place {
  public:
-  /// False if the key was seen before. Of texts that outlive this.
-  bool add(std::string_view key) {
-    const auto hash = key.size() << 8 | (key.empty() ? 0 : static_cast<unsigned char>(key[0]));
-    for (std::size_t i = 0; i < count_; ++i)
-      if (hashes_[i] == hash && std::memcmp(few_[i], key.data(), key.size()) == 0) return false;
-    if (count_ == kFew) return (many_ ? *many_ : many_.emplace()).insert(key).second;
-    few_[count_] = key.data();
-    hashes_[count_++] = hash;
-    return true;
-  }
+  class Value operator[](const char* key);  ///< wherever it stands; throws Error if it is not there
+  std::string_view text();                  ///< as it stands in the document
+};
+
+/// All but type() and is_null() throw Error if the value is of another type; each may be called once.
+class Value : public Place {
+ public:
+  Type type();
+  bool is_null();
+  Array array();
+  Object object();
+  std::string_view text();  ///< of a string, unescaped; it is there as long as the document
+  std::uint64_t natural();
+  std::int64_t integer();
+  bool boolean();
+};
+
+/// A text, and what was read of it.
+class Document {
+ public:
+  Document();
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
+  /// A text that is copied, or one that is followed by some bytes that may be read: `allocated` in all.
+  void open(std::string_view text);
+  void open(std::string_view text, std::size_t allocated);
+  Type type();
+  Object object();
+  /// An array or an object.
+  Value value();
+  /// True if nothing but white space follows the value that was read.
+  bool ended();
+  /// The line, from 1, of an opened copy in which the reader stands, if it can tell.
+  std::optional<std::size_t> line();
 
  private:
-  static constexpr std::size_t kFew = 8;
-  std::array<std::size_t, kFew> hashes_;
-  std::array<const char*, kFew> few_;
-  std::size_t count_ = 0;
-  std::optional<std::set<std::string_view>> many_;  // of objects with more
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
+
+/// Of simdjson, like "3.0.1".
+std::string library_version();
+
+using OnMember = void (*)(const void* read, std::string_view key, Value value);
+void visit_members(Object object, const void* read, OnMember call);
+using OnElement = void (*)(const void* read, Value value);
+void visit_elements(Array array, const void* read, OnElement call);
 
 /// Calls read(key, value) for each member, in order; then throws KeyTwice if a key came twice. All readers of
 /// objects go through here.
 template <class Read>
-void each_member(json::object object, const Read& read) {
-  Keys keys;
-  std::optional<std::string_view> twice;
-  for (auto field : object) {
-    const std::string_view key = field.unescaped_key();
-    if (!keys.add(key) && !twice) twice = key;
-    read(key, field.value());
-  }
-  if (twice) throw KeyTwice(*twice);
+void each_member(Object object, const Read& read) {
+  visit_members(object, &read, [](const void* read, std::string_view key, Value value) {
+    (*static_cast<const Read*>(read))(key, value);
+  });
 }
+
+/// Calls read(value) for each element.
+template <class Read>
+void each_element(Array array, const Read& read) {
+  visit_elements(array, &read,
+                 [](const void* read, Value value) { (*static_cast<const Read*>(read))(value); });
+}
+
+}  // namespace json
 
 /// Throws InputError beyond 64 levels, far more than any format here has. Recursion is bounded by this.
 void check_depth(int depth);
 
 /// Passes over a value that is in `depth` objects and arrays. On-Demand checks only what is looked at, so
 /// everything is looked at.
-void skip(json::value value, int depth = 1);
+void skip(json::Value value, int depth = 1);
 
 /// A number or a hexadecimal string; throws InputError, naming `place`.
-double read_number(json::value value, const std::string& place);
+double read_number(json::Value value, const std::string& place);
 
 /// The same, or "inf". (A string of On-Demand may be read only once: its buffer has no room for more.)
-double read_number_or_infinity(json::value value, const std::string& place);
+double read_number_or_infinity(json::Value value, const std::string& place);
 
 /// An integer, or a decimal string with one, of at most 2500 characters; throws InputError, naming `key`.
-Integer read_integer(json::value value, const char* key);
+Integer read_integer(json::Value value, const char* key);
 
 /// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates;
 /// `keys`, if given, gets all keys. Throws InputError. False for a `golden` header.
-bool read_answer(json::object object, std::string& id, Answer& answer, std::size_t& components,
+bool read_answer(json::Object object, std::string& id, Answer& answer, std::size_t& components,
                  const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr);
 
 /// A value of a scene, which is in `depth` objects and arrays. A number beyond the range of binary64 is
 /// infinite.
-SceneNode read_node(json::value value, const std::string& place = "scene", int depth = 1);
-
-/// True if nothing but white space follows the value that was read.
-bool ended(json::document& document);
+SceneNode read_node(json::Value value, const std::string& place = "scene", int depth = 1);
 
 }  // namespace lorentz

@@ -4,40 +4,40 @@
 
 namespace lorentz {
 
-json::object JsonLine::open(const LineReader::Line& line) {
+json::Object JsonLine::open(const LineReader::Line& line) {
   if (line.too_long)
     throw InputError("line longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
-  document_ = parser_.iterate(line.text.data(), line.text.size(), line.text.size() + LineReader::kPadding);
-  if (document_.type() != json::json_type::object)
+  document_.open(line.text, line.text.size() + LineReader::kPadding);
+  if (document_.type() != json::Type::object)
     throw InputError("not JSON as it should be: a line is one object, {...}");
-  return document_.get_object();
+  return document_.object();
 }
 
 void JsonLine::close() {
-  if (!ended(document_)) throw NotJson("more than one value in the line");
+  if (!document_.ended()) throw NotJson("more than one value in the line");
 }
 
-CellRead read_cell(json::value value) {
-  if (value.type() != json::json_type::array) throw InputError("cell: needs an array of integers");
+CellRead read_cell(json::Value value) {
+  if (value.type() != json::Type::array) throw InputError("cell: needs an array of integers");
   CellRead result;
-  for (json::value element : value.get_array()) {
+  json::each_element(value.array(), [&](json::Value element) {
     Integer n = read_integer(element, "cell");
     if (result.count < 3) result.cell[result.count] = std::move(n);
     ++result.count;
-  }
+  });
   return result;
 }
 
-int read_index(json::value value, const char* key) {
+int read_index(json::Value value, const char* key) {
   const Integer n = read_integer(value, key);
   if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
     throw InputError(std::string(key) + ": is no index");
   return static_cast<int>(n.int64());
 }
 
-Id read_id(json::value value) {
-  if (value.type() == json::json_type::string) return json_quoted(value.get_string().value());
-  if (value.type() == json::json_type::null) {
+Id read_id(json::Value value) {
+  if (value.type() == json::Type::string) return json_quoted(value.text());
+  if (value.type() == json::Type::null) {
     skip(value);
     return "null";
   }
@@ -46,11 +46,11 @@ Id read_id(json::value value) {
   return id;
 }
 
-FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key) {
-  if (value.type() != json::json_type::object)
+FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
+  if (value.type() != json::Type::object)
     throw InputError("from: needs an object with lattice, atom and cell");
   FromRead from;
-  each_member(value.get_object(), [&](std::string_view key, json::value member) {
+  json::each_member(value.object(), [&](std::string_view key, json::Value member) {
     if (key == "lattice") {
       from.obstacle.lattice = read_index(member, "from.lattice");
       from.lattice = true;

@@ -10,14 +10,13 @@ namespace lorentz {
 class JsonLine {
  public:
   /// The line's object. What is no object is no line of any stream: throws InputError or simdjson's error.
-  json::object open(const LineReader::Line& line);
+  json::Object open(const LineReader::Line& line);
 
   /// Throws NotJson if there is more in the line.
   void close();
 
  private:
-  json::parser parser_;
-  json::document document_;
+  json::Document document_;
 };
 
 struct CellRead {
@@ -26,12 +25,12 @@ struct CellRead {
 };
 
 /// A cell's coordinates; throws InputError.
-CellRead read_cell(json::value value);
+CellRead read_cell(json::Value value);
 
 /// The number of a lattice or an atom; throws InputError, naming `key`.
-int read_index(json::value value, const char* key);
+int read_index(json::Value value, const char* key);
 
-Id read_id(json::value value);
+Id read_id(json::Value value);
 
 struct FromRead {
   ObstacleId obstacle;
@@ -40,7 +39,7 @@ struct FromRead {
 };
 
 /// The obstacle that is left; throws InputError.
-FromRead read_from(json::value value, const OnUnknownKey& on_unknown_key);
+FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key);
 
 /// Why a line is no JSON, with what its writer may have meant.
 std::string not_json(const LineReader::Line& line, const std::string& why);
@@ -72,7 +71,7 @@ struct ExchangeReader::Impl {
       if (flaw.empty()) flaw = error.what();
     };
     try {
-      each_member(json_line.open(line), [&](std::string_view key, json::value value) {
+      json::each_member(json_line.open(line), [&](std::string_view key, json::Value value) {
         try {
           read(key, value);
         } catch (const InputError& error) {
@@ -101,7 +100,7 @@ struct ExchangeReader::Impl {
     };
     try {
       read();
-    } catch (const simdjson::simdjson_error& error) {
+    } catch (const json::Error& error) {
       bad(not_json(line, error.what()));
     } catch (const NotJson& error) {
       bad(not_json(line, error.what()));

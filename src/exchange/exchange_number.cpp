@@ -8,10 +8,6 @@
 namespace lorentz {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // Where the digits end that begin at `place`.
 std::size_t after_digits(std::string_view text, std::size_t place) {
   while (place < text.size() && is_digit(text[place])) ++place;

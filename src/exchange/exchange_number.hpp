@@ -7,6 +7,10 @@
 
 namespace lorentz {
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 /// Is it a number as JSON has them? -?(0|[1-9][0-9]*)([.][0-9]+)?([eE][+-]?[0-9]+)?
 bool is_json_number(std::string_view text);
 

@@ -13,15 +13,14 @@ struct Components {
   std::size_t count = 0;
 };
 
-Components read_components(json::value value, const char* key) {
-  if (value.type() != json::json_type::array)
-    throw InputError(std::string(key) + ": needs an array of numbers");
+Components read_components(json::Value value, const char* key) {
+  if (value.type() != json::Type::array) throw InputError(std::string(key) + ": needs an array of numbers");
   Components result;
-  for (json::value element : value.get_array()) {
+  json::each_element(value.array(), [&](json::Value element) {
     const double number = read_number(element, key);
     if (result.count < 3) result.values[result.count] = number;
     ++result.count;
-  }
+  });
   return result;
 }
 
@@ -34,7 +33,7 @@ struct QueryFields {
   bool has_x = false, has_v = false;
 };
 
-void read_query_field(std::string_view key, json::value value, Id& id, QueryFields& fields,
+void read_query_field(std::string_view key, json::Value value, Id& id, QueryFields& fields,
                       const OnUnknownKey& on_unknown_key) {
   if (key == "x") {
     fields.has_x = true;
@@ -81,7 +80,7 @@ void ExchangeReader::on_unknown_key(OnUnknownKey listener) {
 void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   QueryFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
-  read_members(line, item.id, flaw, [&](std::string_view key, json::value value) {
+  read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
     item.bad_scene |= key == "scene";
     read_query_field(key, value, item.id, fields, on_unknown_key);
   });
@@ -117,7 +116,7 @@ Outcome outcome_named(std::string_view name) {
                    " is none of hit, never, inside, later, undecided, error");
 }
 
-double read_time(json::value value) {
+double read_time(json::Value value) {
   return read_number_or_infinity(value, "time");
 }
 
@@ -132,12 +131,12 @@ bool is_beside_answer(std::string_view key) {
          key == "impact_parameter";
 }
 
-void read_answer_field(std::string_view key, json::value value, Id& id, Answer& answer, AnswerFields& has,
+void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& answer, AnswerFields& has,
                        const OnUnknownKey& on_unknown_key) {
   if (key == "id") {
     id = read_id(value);
   } else if (key == "outcome") {
-    answer.outcome = outcome_named(value.get_string().value());
+    answer.outcome = outcome_named(value.text());
     has.outcome = true;
   } else if (key == "lattice") {
     answer.obstacle.lattice = read_index(value, "lattice");
@@ -152,9 +151,9 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
   } else if (key == "time") {
     answer.time = read_time(value);
   } else if (key == "message") {
-    answer.message = value.get_string().value();
+    answer.message = value.text();
   } else if (key == "reason") {
-    answer.unsupported = value.get_string().value() == "unsupported";
+    answer.unsupported = value.text() == "unsupported";
   } else {
     has.golden |= key == "golden";
     skip(value);
@@ -164,10 +163,10 @@ void read_answer_field(std::string_view key, json::value value, Id& id, Answer& 
 
 }  // namespace
 
-bool read_answer(json::object object, Id& id, Answer& answer, std::size_t& components,
+bool read_answer(json::Object object, Id& id, Answer& answer, std::size_t& components,
                  const OnUnknownKey& on_unknown_key, std::set<std::string>* keys) {
   AnswerFields has;
-  each_member(object, [&](std::string_view key, json::value value) {
+  json::each_member(object, [&](std::string_view key, json::Value value) {
     if (keys) keys->emplace(key);
     read_answer_field(key, value, id, answer, has, on_unknown_key);
   });
@@ -191,7 +190,7 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
         read_answer(impl_->json_line.open(line), id, answer, components, impl_->on_unknown_key);
     impl_->json_line.close();
     return is_answer;
-  } catch (const simdjson::simdjson_error& error) {
+  } catch (const json::Error& error) {
     throw InputError(not_json(line, error.what()));
   } catch (const NotJson& error) {
     throw InputError(not_json(line, error.what()));

@@ -48,29 +48,26 @@ SceneNode parse_toml(const std::string& text) {
   }
 }
 
-// The line in which the reader stands, as far as it can tell.
-std::string line_of(json::document& document, const simdjson::padded_string& text) {
-  const char* place = nullptr;
-  if (document.current_location().get(place)) return "";
-  return "line " + std::to_string(1 + std::count(text.data(), place, '\n')) + ": ";
-}
-
 SceneNode parse_json(const std::string& text) {
-  json::parser parser;
-  const simdjson::padded_string padded(text);
-  json::document document;
-  // A document that was not begun must not be asked where it stands.
-  if (const auto error = parser.iterate(padded).get(document))
-    throw InputError(std::string("not JSON: ") + simdjson::error_message(error));
+  json::Document document;
   try {
-    SceneNode node = read_node(document.get_value(), "scene", 0);
-    if (!ended(document)) throw NotJson("more than one value");
+    document.open(text);
+  } catch (const json::Error& error) {  // a document that was not begun must not be asked where it stands
+    throw InputError(std::string("not JSON: ") + error.what());
+  }
+  const auto not_json = [&](const char* why) {
+    const auto line = document.line();
+    return InputError((line ? "line " + std::to_string(*line) + ": " : "") + "not JSON: " + why);
+  };
+  try {
+    SceneNode node = read_node(document.value(), "scene", 0);
+    if (!document.ended()) throw NotJson("more than one value");
     const SceneNode* inner = node.member("scene");
     return inner ? SceneNode(*inner) : node;
-  } catch (const simdjson::simdjson_error& error) {
-    throw InputError(line_of(document, padded) + "not JSON: " + error.what());
+  } catch (const json::Error& error) {
+    throw not_json(error.what());
   } catch (const NotJson& error) {
-    throw InputError(line_of(document, padded) + "not JSON: " + error.what());
+    throw not_json(error.what());
   }
 }
 
@@ -110,13 +107,8 @@ RationalScene read_rational_scene_file(const std::string& path, const OnUnknownK
 }
 
 std::string exchange_libraries() {
-  const auto dotted = [](int major, int minor, int patch) {
-    return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch);
-  };
-  return "simdjson " +
-         dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
-                simdjson::SIMDJSON_VERSION_REVISION) +
-         "\ntoml++ " + dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
+  return "simdjson " + json::library_version() + "\ntoml++ " + std::to_string(TOML_LIB_MAJOR) + '.' +
+         std::to_string(TOML_LIB_MINOR) + '.' + std::to_string(TOML_LIB_PATCH);
 }
 
 }  // namespace lorentz

@@ -64,7 +64,7 @@ Start start_from(const StartFields& fields, const RationalScene& scene) {
   return start;
 }
 
-void read_start_field(std::string_view key, json::value value, Id& id, StartFields& fields,
+void read_start_field(std::string_view key, json::Value value, Id& id, StartFields& fields,
                       const OnUnknownKey& on_unknown_key) {
   const std::string place(key);
   if (key == "id")
@@ -92,7 +92,7 @@ void ExchangeReader::Impl::read_start(const LineReader::Line& line, const Ration
                                       StartItem& item) {
   StartFields fields;
   std::string flaw;  // the first; reading goes on, for the id may follow
-  read_members(line, item.id, flaw, [&](std::string_view key, json::value value) {
+  read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
     item.bad_scene |= key == "scene";
     read_start_field(key, value, item.id, fields, on_unknown_key);
   });

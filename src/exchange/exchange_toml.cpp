@@ -12,10 +12,6 @@
 namespace lorentz {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // What bare keys, numbers and dates are made of: a piece of these is one of them, or nothing.
 bool is_bare(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
