@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uint64_t kTogether = 512;
 
-Vec plus(const Vec& a, double f, const Vec& b) {
-  return {a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2]};
-}
-
 // One particle's way so far, and what it was at the times.
 struct Way {
   Vec first_velocity{}, displacement{}, integral{};  ///< of the displacement over time
@@ -44,7 +40,7 @@ struct Way {
 };
 
 // The values of a group: the squares at all times, then the same from velocities.
-constexpr int kFromVelocity = kTimes, kValues = 2 * kTimes;
+constexpr int kFromVelocity = kTimes, kDiffusionValues = 2 * kTimes;
 
 void add(const Way& way, Sums& sums) {
   for (int k = 0; k < kTimes; ++k) {
@@ -55,7 +51,7 @@ void add(const Way& way, Sums& sums) {
 }
 
 bool is_possible(const Sums& sums, Share share) {
-  return sums.values.size() == kValues &&
+  return sums.values.size() == kDiffusionValues &&
          std::all_of(sums.values.begin(), sums.values.begin() + kTimes, [](double x) { return x >= 0; }) &&
          sums.stopped <= share.last - share.first &&
          sums.particles == share.last - share.first - sums.stopped;
@@ -153,7 +149,7 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   const auto all = for_each_group(
       work,
       [&](std::uint64_t group) {
-        Sums sums{std::vector<double>(kValues)};
+        Sums sums{std::vector<double>(kDiffusionValues)};
         Share share = share_of(group, plan.count);
         for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
           fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,

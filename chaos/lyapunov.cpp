@@ -11,7 +11,7 @@ namespace lorentz::chaos {
 namespace {
 
 // The values of a group: the growth of each tangent vector, and the time of all flights.
-constexpr std::size_t kFlight = Tangents::kMost, kValues = kFlight + 1;
+constexpr std::size_t kFlight = Tangents::kMost, kLyapunovValues = kFlight + 1;
 
 class Group {
  public:
@@ -30,7 +30,7 @@ class Group {
     std::vector<Tangents> tangents;
     for (std::size_t i = 0; i < particles.size(); ++i)
       tangents.emplace_back(particles[i].velocity, plan_.scene.dimension, count);
-    Sums sums{std::vector<double>(kValues)};
+    Sums sums{std::vector<double>(kLyapunovValues)};
     const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
       std::array<double, Tangents::kMost> growth{};
       tangents[i].pass(particle, collision, curvatures_, growth);
@@ -48,7 +48,7 @@ class Group {
 
   bool is_possible(const Sums& sums) const {
     const std::uint64_t all = kParticles * each_;
-    return sums.values.size() == kValues && sums.values[kFlight] >= 0 && sums.particles == 0 &&
+    return sums.values.size() == kLyapunovValues && sums.values[kFlight] >= 0 && sums.particles == 0 &&
            sums.stopped <= kParticles && sums.collisions <= all &&
            (sums.stopped > 0 || sums.collisions == all);
   }

@@ -8,10 +8,6 @@
 namespace lorentz::chaos {
 namespace {
 
-Vec plus(const Vec& a, double f, const Vec& b) {
-  return {a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2]};
-}
-
 Vec across(const Vec& a, const Vec& v) {
   return plus(a, -dot(a, v) / dot(v, v), v);
 }

@@ -168,7 +168,7 @@ std::string survival_svg(const std::vector<FlightsReport>& reports) {
 
 std::string density_svg(const std::vector<FlightsReport>& reports) {
   FreePathPlot plot = plot_of(reports);
-  plot.axes = pictures::Axes::linear;
+  plot.axes = pictures::AxisScale::linear;
   const bool scaled = FlightsFindings(reports.front()).mean.value.has_value();
   plot.t_label =
       scaled ? "free path / mean free path between collisions" : "free path, in the scene's unit of length";

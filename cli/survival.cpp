@@ -147,7 +147,7 @@ std::string Survival::csv() const {
 std::string Survival::svg() const {
   pictures::FreePathPlot plot;
   plot.title = fmt::format("trajectories that are still right: {}", scene);
-  plot.axes = pictures::Axes::linear;
+  plot.axes = pictures::AxisScale::linear;
   plot.t_label = "collisions";
   plot.value_label = "share of starts";
   for (const Arithmetic& one : arithmetics) {

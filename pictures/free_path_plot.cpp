@@ -34,10 +34,10 @@ double round_step(double least) {
 
 // What is on one axis: powers of ten; or, linear, from 0 on.
 struct Range {
-  Axes axes = Axes::logarithmic;
+  AxisScale axes = AxisScale::logarithmic;
   double low = std::numeric_limits<double>::infinity(), high = 0;
 
-  bool can_show(double x) const { return std::isfinite(x) && (axes == Axes::linear ? x >= 0 : x > 0); }
+  bool can_show(double x) const { return std::isfinite(x) && (axes == AxisScale::linear ? x >= 0 : x > 0); }
   bool empty() const { return high == 0; }
   void include(double x) {
     if (!can_show(x)) return;
@@ -48,12 +48,12 @@ struct Range {
   bool holds(double x) const { return x >= low * (1 - 1e-12) && x <= high * (1 + 1e-12); }
   /// Its place on the axis, from 0 to 1.
   double place(double x) const {
-    return axes == Axes::linear ? (x - low) / (high - low) : std::log10(x / low) / decades();
+    return axes == AxisScale::linear ? (x - low) / (high - low) : std::log10(x / low) / decades();
   }
 
   // Ends at a digit times a power of ten, and so that no point is on the frame.
   void round() {
-    if (axes == Axes::linear) {
+    if (axes == AxisScale::linear) {
       const double step = round_step(1.02 * high / 10);
       low = 0;
       high = step * std::ceil(1.02 * high / step);
@@ -177,7 +177,7 @@ void add_steps(Svg& svg, const Frame& frame, bool along_t, double pixels) {
 // Grid, ticks and their numbers.
 void add_axis(Svg& svg, const Frame& frame, bool along_t) {
   const double pixels = along_t ? frame.right - frame.left : frame.bottom - frame.top;
-  if (frame.t.axes == Axes::linear)
+  if (frame.t.axes == AxisScale::linear)
     add_steps(svg, frame, along_t, pixels);
   else
     add_decades(svg, frame, along_t, pixels);
@@ -255,13 +255,13 @@ void add_curve(Svg& svg, const Frame& frame, const PlotCurve& curve) {
   svg.polyline(line, style_of(curve) + " clip-path=\"url(#frame)\"");
 }
 
-constexpr double kMargin = 14, kRow = 27;
+constexpr double kPlotMargin = 14, kRow = 27;
 
-struct Box {
+struct LegendBox {
   Point low, high;  // in pixels
 };
 
-std::size_t points_in(const Box& box, const Frame& frame, const FreePathPlot& plot) {
+std::size_t points_in(const LegendBox& box, const Frame& frame, const FreePathPlot& plot) {
   std::size_t count = 0;
   for (const PlotSeries& series : plot.series)
     for (const MeasuredPoint& point : series.points) {
@@ -273,7 +273,7 @@ std::size_t points_in(const Box& box, const Frame& frame, const FreePathPlot& pl
 }
 
 // In the corner where it hides the fewest points, which are drawn beneath it.
-Box legend_box(const Frame& frame, const FreePathPlot& plot) {
+LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
   std::size_t longest = 0, rows = plot.series.size();
   for (const PlotSeries& series : plot.series) longest = std::max(longest, letters_in(series.name));
   for (const PlotCurve& curve : plot.curves) {
@@ -294,7 +294,7 @@ Box legend_box(const Frame& frame, const FreePathPlot& plot) {
 }
 
 void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
-  const Box box = legend_box(frame, plot);
+  const LegendBox box = legend_box(frame, plot);
   const double left = box.low.x;
   svg.polygon({box.low, {box.high.x, box.low.y}, box.high, {left, box.high.y}},
               "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
@@ -327,8 +327,8 @@ std::string draw_free_paths(const FreePathPlot& plot) {
   frame.t.axes = frame.value.axes = plot.axes;
   set_ranges(plot, frame);
   frame.left = 100;
-  frame.right = plot.width - 2 * kMargin;
-  frame.top = plot.title.empty() ? 2 * kMargin : 50;
+  frame.right = plot.width - 2 * kPlotMargin;
+  frame.top = plot.title.empty() ? 2 * kPlotMargin : 50;
   frame.bottom = plot.height - (plot.note.empty() ? 72 : 100);
   Svg svg;
   svg.raw(
@@ -343,7 +343,7 @@ std::string draw_free_paths(const FreePathPlot& plot) {
   if (!plot.title.empty())
     add_line(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
   if (!plot.note.empty())
-    add_line(svg, {kMargin, plot.height - kMargin}, plot.note, 17, plot.width - 2 * kMargin,
+    add_line(svg, {kPlotMargin, plot.height - kPlotMargin}, plot.note, 17, plot.width - 2 * kPlotMargin,
              "fill=\"#444444\"");
   svg.close();
   return svg.document(plot.width, plot.height, plot.title);

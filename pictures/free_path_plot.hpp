@@ -30,11 +30,11 @@ struct PlotCurve {
 };
 
 /// Linear ones begin at 0, and show nothing below it.
-enum class Axes { logarithmic, linear };
+enum class AxisScale { logarithmic, linear };
 
 struct FreePathPlot {
   std::string title, note;  ///< above and below the picture; none if empty
-  Axes axes = Axes::logarithmic;
+  AxisScale axes = AxisScale::logarithmic;
   std::string t_label = "t", value_label = "P(free path > t)";
   std::vector<PlotSeries> series;
   std::vector<PlotCurve> curves;

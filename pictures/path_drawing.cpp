@@ -11,11 +11,11 @@ constexpr double kLegendLine = 22;
 constexpr const char *kPathColour = "#1f5fa8", *kOtherColour = kFlightColour;
 
 // The plane on paper, y upwards.
-struct Frame {
+struct PathFrame {
   Box box;
   double scale = 1;
 
-  Frame(const PathDrawing& drawing) {
+  PathFrame(const PathDrawing& drawing) {
     const double cell = cell_size(drawing.scene);
     box = {drawing.path[0], drawing.path[0]};
     for (const auto* path : {&drawing.path, &drawing.other})
@@ -29,7 +29,7 @@ struct Frame {
   double height() const { return 2 * kMargin + scale * (box.high[1] - box.low[1]); }
 };
 
-std::vector<Point> on_paper(const Frame& frame, const std::vector<Vec>& path, std::size_t from = 0) {
+std::vector<Point> on_paper(const PathFrame& frame, const std::vector<Vec>& path, std::size_t from = 0) {
   std::vector<Point> points;
   for (std::size_t i = from; i < path.size(); ++i) points.push_back(frame(path[i]));
   return points;
@@ -42,7 +42,7 @@ EllipseShape shape_of(const Atom& atom, double scale) {
 }
 
 // Those at the edge are cut there. False if there are too many.
-bool add_obstacles(Svg& svg, const PathDrawing& drawing, const Frame& frame) {
+bool add_obstacles(Svg& svg, const PathDrawing& drawing, const PathFrame& frame) {
   bool cut = false;
   const std::vector<Placed> obstacles = obstacles_in(drawing.scene, frame.box, cut);
   if (cut || obstacles.size() > kMostDrawn) return false;
@@ -83,7 +83,7 @@ double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obst
 }  // namespace
 
 std::string draw_path(const PathDrawing& drawing) {
-  const Frame frame(drawing);
+  const PathFrame frame(drawing);
   Svg svg;
   const bool all_obstacles = add_obstacles(svg, drawing, frame);
   if (!drawing.other.empty() && drawing.parting > 0)

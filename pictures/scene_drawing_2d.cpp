@@ -28,13 +28,9 @@ struct Window {
   }
 };
 
-Vec plus(const Vec& a, const Vec& b, double share = 1) {
-  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
-}
-
 std::array<Vec, 4> corners_of(const Scene& scene, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
-  return {corner, plus(corner, u[0]), plus(plus(corner, u[0]), u[1]), plus(corner, u[1])};
+  return {corner, sum(corner, u[0]), sum(sum(corner, u[0]), u[1]), sum(corner, u[1])};
 }
 
 // About 4 by 4 cells around `corner`'s, smaller if that held too many obstacles.
@@ -51,10 +47,10 @@ double half_width(const Scene& scene) {
 Box box_for(const Scene& scene, const Vec& corner, const std::vector<Line>& lines) {
   const auto& u = scene.lattices[0].vectors;
   const double cell = cell_size(scene);
-  const Vec diagonal = plus(u[0], u[1]);
+  const Vec diagonal = sum(u[0], u[1]);
   const bool needle =
       std::hypot(diagonal[0], diagonal[1]) > 6 * cell;  // the cell reaches far beyond the picture
-  const Vec middle = plus(corner, diagonal, needle ? 0 : 0.5);
+  const Vec middle = plus(corner, needle ? 0 : 0.5, diagonal);
   Box box{middle, middle};
   box.include(middle, lines.empty() ? half_width(scene) : 0.75 * cell);
   for (const Vec& p : corners_of(scene, corner))
@@ -90,8 +86,8 @@ void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& cor
     const double share =
         reach / std::sqrt(dot(along, along)) + count * std::fabs(dot(along, across)) / dot(along, along);
     for (double n = -count; n <= count; ++n) {
-      const Vec base = plus(corner, across, n);
-      svg.polyline({window(plus(base, along, -share)), window(plus(base, along, share))},
+      const Vec base = plus(corner, n, across);
+      svg.polyline({window(plus(base, -share, along)), window(plus(base, share, along))},
                    "stroke=\"#dcdcdc\" stroke-width=\"0.8\"");
     }
   }
@@ -139,14 +135,14 @@ void add_flight(Svg& svg, const Window& window, const Line& line, Legend& legend
   if (!line.ends) {  // to somewhere beyond
     const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
     const Vec& v = line.flight->query.v;
-    const Vec start = plus(line.from, box.centre(), -1);
+    const Vec start = plus(line.from, -1, box.centre());
     const double speed = std::hypot(v[0], v[1]), reach = size + std::hypot(start[0], start[1]);
-    to = plus(line.from, {v[0] / speed, v[1] / speed, 0}, reach);
+    to = plus(line.from, reach, {v[0] / speed, v[1] / speed, 0});
   }
   double first = 0, last = 1;
   if (!part_in(box, line.from, to, first, last)) return;
-  const Vec way = plus(to, line.from, -1);
-  const Point start = window(plus(line.from, way, first)), end = window(plus(line.from, way, last));
+  const Vec way = plus(to, -1, line.from);
+  const Point start = window(plus(line.from, first, way)), end = window(plus(line.from, last, way));
   const std::string stroke = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour);
   if (last < 1 || !line.ends) {
     svg.arrow(start, end, 11, kFlightColour, 1.4);
@@ -165,7 +161,7 @@ bool add_corridor(Svg& svg, const Scene& scene, const Window& window, const Free
   const double length = std::hypot(way.vector[0], way.vector[1]);
   const Vec along{way.vector[0] / length, way.vector[1] / length, 0}, across{-along[1], along[0], 0};
   const Box& box = window.box;
-  const Vec arm = plus(box.centre(), way.point, -1);
+  const Vec arm = plus(box.centre(), -1, way.point);
   const double reach = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]) / 2;
   const double reach_across = (std::fabs(across[0]) * (box.high[0] - box.low[0]) +
                                std::fabs(across[1]) * (box.high[1] - box.low[1]) + way.width) /
@@ -178,9 +174,9 @@ bool add_corridor(Svg& svg, const Scene& scene, const Window& window, const Free
     last = std::floor((dot(arm, across) + reach_across) / period);
   }
   for (double n = first; n <= last; ++n) {
-    const Vec middle = plus(plus(way.point, across, n * period), along, dot(arm, along));
+    const Vec middle = plus(plus(way.point, n * period, across), dot(arm, along), along);
     const auto corner = [&](double share, double side) {
-      return window(plus(plus(middle, along, share * reach), across, side * way.width / 2));
+      return window(plus(plus(middle, share * reach, along), side * way.width / 2, across));
     };
     svg.polygon({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
                 fmt::format("fill=\"{0}\" fill-opacity=\"0.2\" stroke=\"{0}\" stroke-opacity=\"0.6\" "
@@ -190,9 +186,9 @@ bool add_corridor(Svg& svg, const Scene& scene, const Window& window, const Free
   return first < last || std::fabs(dot(arm, across) - first * period) < reach_across;
 }
 
-class Picture {
+class Picture2D {
  public:
-  Picture(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+  Picture2D(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
       : scene_(scene), options_(options) {
     lines_ = options.window ? lines_in_window(scene, flights) : lines_of(scene, flights, drawing_.remarks);
     if (options.window) {
@@ -227,7 +223,7 @@ class Picture {
   bool enlarged_ = false;
 };
 
-void Picture::choose_obstacles() {
+void Picture2D::choose_obstacles() {
   bool cut = false;
   obstacles_ = obstacles_in(scene_, window_.box, cut);
   const bool from_middle = lines_.empty() || options_.window;
@@ -241,7 +237,7 @@ void Picture::choose_obstacles() {
     for (const Placed& obstacle : *some) legend_.atoms.insert({obstacle.lattice, obstacle.atom});
 }
 
-void Picture::add_contents() {
+void Picture2D::add_contents() {
   add_grid(svg_, scene_, window_, corner_);
   for (std::size_t i = 0; i < options_.ways.size(); ++i)
     if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
@@ -254,7 +250,7 @@ void Picture::add_contents() {
   for (const Line& line : lines_) add_flight(svg_, window_, line, legend_);
 }
 
-Drawing Picture::draw() {
+Drawing Picture2D::draw() {
   constexpr double kTallest = 1000;
   legend_.notes = drawing_.remarks;
   Legend about = legend_;  // with all that may come
@@ -279,7 +275,7 @@ Drawing Picture::draw() {
 }  // namespace
 
 Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
-  return Picture(scene, options, flights).draw();
+  return Picture2D(scene, options, flights).draw();
 }
 
 }  // namespace lorentz::pictures

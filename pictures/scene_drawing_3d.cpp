@@ -29,10 +29,6 @@ struct Eye {
   Vec operator()(const Vec& p) const { return {dot(right, p), dot(up, p), dot(towards, p)}; }
 };
 
-Vec plus(const Vec& a, const Vec& b, double share = 1) {
-  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
-}
-
 // An obstacle seen.
 struct Seen {
   Placed placed;
@@ -41,9 +37,9 @@ struct Seen {
   EllipseShape shape;  // its outline, in the scene's unit
 };
 
-class Picture {
+class Picture3D {
  public:
-  Picture(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+  Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
       : scene_(scene),
         options_(options),
         cell_(shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
@@ -100,7 +96,7 @@ class Picture {
 
 // The obstacles with centres in a block of 2 x 2 x 2 primitive cells, or in a cube, or on its boundary, and
 // those that are hit.
-void Picture::choose_obstacles() {
+void Picture3D::choose_obstacles() {
   const auto& u = cell_.vectors;
   double expected = 0;
   for (const Lattice& lattice : scene_.lattices)
@@ -111,7 +107,7 @@ void Picture::choose_obstacles() {
   for (int n = 0; n < 8; ++n) {
     Vec p = corner_;
     for (int i = 0; i < 3; ++i)
-      if (n >> i & 1) p = plus(p, u[i], cells);
+      if (n >> i & 1) p = plus(p, cells, u[i]);
     box.include(p);
   }
   bool cut = false;
@@ -120,17 +116,17 @@ void Picture::choose_obstacles() {
   std::erase_if(obstacles, [&](const Placed& obstacle) {
     constexpr double kSlack = 1e-6;
     for (const Vec& row : rows) {
-      const double n = dot(row, plus(obstacle.centre, corner_, -1));
+      const double n = dot(row, plus(obstacle.centre, -1, corner_));
       if (n < -kSlack || n > cells + kSlack) return true;
     }
     return false;
   });
-  thin_out(obstacles, plus(corner_, plus(plus(u[0], u[1]), u[2]), cells / 2), drawing_.remarks);
+  thin_out(obstacles, plus(corner_, cells / 2, sum(sum(u[0], u[1]), u[2])), drawing_.remarks);
   if (cut) drawing_.remarks.push_back("some lattices are too fine for this picture and left out");
   const std::vector<Placed> hits = hits_of(scene_, lines_);
   const auto is_hit = [&](const Placed& a) {
     return std::any_of(hits.begin(), hits.end(), [&](const Placed& b) {
-      const Vec arm = plus(a.centre, b.centre, -1);
+      const Vec arm = plus(a.centre, -1, b.centre);
       return a.lattice == b.lattice && a.atom == b.atom &&
              dot(arm, arm) < 1e-12 * cell_size(scene_) * cell_size(scene_);
     });
@@ -155,7 +151,7 @@ void Picture::choose_obstacles() {
 }
 
 // What the legend will have to say.
-void Picture::explain() {
+void Picture3D::explain() {
   for (const Seen& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
   legend_.cell = cell_.primitive_cells > 1
                      ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
@@ -180,11 +176,11 @@ void Picture::explain() {
 
 // Beyond the block at both ends: one sees that it goes through.
 Axis longer(const Axis& axis) {
-  const Vec more = scaled(plus(axis.to, axis.from, -1), 0.15);
-  return {plus(axis.from, more, -1), plus(axis.to, more)};
+  const Vec more = scaled(plus(axis.to, -1, axis.from), 0.15);
+  return {plus(axis.from, -1, more), sum(axis.to, more)};
 }
 
-void Picture::fit() {
+void Picture3D::fit() {
   box_.low = box_.high = eye_(corner_);
   for (const Seen& seen : seen_) {
     const auto [rx, ry, angle] = seen.shape;
@@ -203,7 +199,7 @@ void Picture::fit() {
   for (int n = 0; n < 8; ++n) {
     Vec p = corner_;
     for (int i = 0; i < 3; ++i)
-      if (n >> i & 1) p = plus(p, cell_.vectors[i], reach);
+      if (n >> i & 1) p = plus(p, reach, cell_.vectors[i]);
     box_.include(eye_(p));
   }
   for (const std::size_t number : legend_.ways)
@@ -226,13 +222,13 @@ void Picture::fit() {
 }
 
 // True if an obstacle lies between the point and the eye, or holds the point.
-bool Picture::is_hidden(const Vec& point) const {
+bool Picture3D::is_hidden(const Vec& point) const {
   constexpr double kSlack = 1e-6;
   const Vec view = eye_(point);
   for (const Seen& seen : seen_) {
     if (std::hypot(seen.view[0] - view[0], seen.view[1] - view[1]) > seen.shape.rx) continue;
     const auto& rows = inverses_[seen.placed.lattice][seen.placed.atom];
-    const Vec arm = plus(point, seen.placed.centre, -1);
+    const Vec arm = plus(point, -1, seen.placed.centre);
     Vec w, d;
     for (int i = 0; i < 3; ++i) {
       w[i] = dot(rows[i], arm);
@@ -245,13 +241,13 @@ bool Picture::is_hidden(const Vec& point) const {
 }
 
 // In pieces: full where it can be seen, faint where not.
-void Picture::add_line(const Vec& from, const Vec& to, const Pen& pen) {
-  const Vec way = plus(to, from, -1);
+void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
+  const Vec way = plus(to, -1, from);
   const double length = scale_ * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
   const int pieces = std::clamp(static_cast<int>(length / 3), 8, lines_.size() > 50 ? 100 : 600);
-  const auto point = [&](int i) { return plus(from, way, static_cast<double>(i) / pieces); };
+  const auto point = [&](int i) { return plus(from, static_cast<double>(i) / pieces, way); };
   for (int i = 0; i < pieces;) {
-    const auto hidden_in = [&](int k) { return is_hidden(plus(from, way, (k + 0.5) / pieces)); };
+    const auto hidden_in = [&](int k) { return is_hidden(plus(from, (k + 0.5) / pieces, way)); };
     const bool hidden = hidden_in(i);
     int end = i + 1;
     while (end < pieces && hidden_in(end) == hidden) ++end;
@@ -263,7 +259,7 @@ void Picture::add_line(const Vec& from, const Vec& to, const Pen& pen) {
   if (pen.arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, pen.colour, pen.width);
 }
 
-void Picture::add_obstacle(const Seen& seen) {
+void Picture3D::add_obstacle(const Seen& seen) {
   constexpr double kSmallest = 1.4;
   const std::size_t index = colour_index(scene_, seen.placed);
   EllipseShape shape{scale_ * seen.shape.rx, scale_ * seen.shape.ry, -seen.shape.angle};
@@ -287,7 +283,7 @@ std::string shades() {
 
 // No obstacle crosses a face of a free layer: those beyond it first, then the face, then those before it. The
 // other faces are cut in two by it.
-void Picture::add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets) {
+void Picture3D::add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets) {
   if (facets.empty()) {
     for (const Seen& seen : obstacles) add_obstacle(seen);
     return;
@@ -314,7 +310,7 @@ void Picture::add_contents(const std::vector<Seen>& obstacles, std::vector<Facet
   }
 }
 
-void Picture::add_cylinders() {
+void Picture3D::add_cylinders() {
   for (const std::size_t number : legend_.ways) {
     const FreeWay& way = options_.ways[number];
     if (way.kind != FreeWay::Kind::cylinder) continue;
@@ -325,18 +321,18 @@ void Picture::add_cylinders() {
   }
 }
 
-void Picture::add_cell() {
+void Picture3D::add_cell() {
   const auto& u = cell_.vectors;
   for (int i = 0; i < 3; ++i)
     for (int n = 0; n < 4; ++n) {
       Vec from = corner_;
-      if (n & 1) from = plus(from, u[(i + 1) % 3]);
-      if (n & 2) from = plus(from, u[(i + 2) % 3]);
-      add_line(from, plus(from, u[i]), {"#111111", 1.6});
+      if (n & 1) from = sum(from, u[(i + 1) % 3]);
+      if (n & 2) from = sum(from, u[(i + 2) % 3]);
+      add_line(from, sum(from, u[i]), {"#111111", 1.6});
     }
 }
 
-void Picture::add_flight(const Line& line) {
+void Picture3D::add_flight(const Line& line) {
   add_line(line.from, line.to, {kFlightColour, 2, !line.ends});
   svg_.ellipse(at(eye_(line.from)), {3.2, 3.2, 0},
                fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour));
@@ -346,7 +342,7 @@ void Picture::add_flight(const Line& line) {
         fmt::format("fill=\"{}\" fill-opacity=\"{}\"", kFlightColour, is_hidden(line.to) ? 0.3 : 1.0));
 }
 
-Drawing Picture::draw() {
+Drawing Picture3D::draw() {
   svg_.raw(shades());
   std::vector<Facet> facets;
   for (const std::size_t number : legend_.ways)
@@ -365,7 +361,7 @@ Drawing Picture::draw() {
 }  // namespace
 
 Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
-  return Picture(scene, options, flights).draw();
+  return Picture3D(scene, options, flights).draw();
 }
 
 }  // namespace lorentz::pictures

@@ -20,7 +20,7 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kGrid = 40;  // exact starts and radii are multiples of 2^-40
+constexpr int kEdgeGrid = 40;  // exact starts and radii are multiples of 2^-40
 
 // A radius below the half width, or within ulps of it; a multiple of 2^-40 if `exact` and not closing.
 double drawn_radius(Random& random, double closing, bool exact, std::vector<std::string>& tags) {
@@ -29,11 +29,11 @@ double drawn_radius(Random& random, double closing, bool exact, std::vector<std:
     return moved(closing, random.one_in(3) ? 0 : drawn_ulps(random));
   }
   const double r = closing * random.between(0.05, 0.95);
-  return exact ? std::ldexp(std::floor(std::ldexp(r, kGrid)), -kGrid) : r;
+  return exact ? std::ldexp(std::floor(std::ldexp(r, kEdgeGrid)), -kEdgeGrid) : r;
 }
 
 bool on_grid(double r) {
-  const double steps = std::ldexp(r, kGrid);
+  const double steps = std::ldexp(r, kEdgeGrid);
   return steps == std::floor(steps);
 }
 
@@ -71,8 +71,8 @@ Case make_square(Source& source) {
   const double r = drawn_radius(source.scene, 0.5 / static_cast<double>(w), true, made.tags);
   made.scene = unit_scene(2, r);
   Random& random = source.random;
-  const auto turns = static_cast<std::int64_t>(std::ldexp(r, kGrid)) * w;
-  const auto x = start_beside(g, {0, 0, 1}, turns, kGrid, random.between(-9, 9));
+  const auto turns = static_cast<std::int64_t>(std::ldexp(r, kEdgeGrid)) * w;
+  const auto x = start_beside(g, {0, 0, 1}, turns, kEdgeGrid, random.between(-9, 9));
   const Symmetry symmetry(random, 2);
   made.query.x = symmetry(*x);
   set_direction(random, symmetry(to_vec(g)), 2, made);
@@ -109,14 +109,14 @@ Case make_planar(Source& source) {
   made.scene = unit_scene(3, r);
   // n . x = r |n| exactly: x = s_1 g_1 + s_2 g_2 + r |n| u with n . u = 1, all multiples of 2^-40.
   Random& random = source.random;
-  const std::int64_t s1 = random.integer(-(1l << kGrid), 1l << kGrid),
-                     s2 = random.integer(-(1l << kGrid), 1l << kGrid),
-                     off = static_cast<std::int64_t>(std::ldexp(r, kGrid)) * w;
+  const std::int64_t s1 = random.integer(-(1l << kEdgeGrid), 1l << kEdgeGrid),
+                     s2 = random.integer(-(1l << kEdgeGrid), 1l << kEdgeGrid),
+                     off = static_cast<std::int64_t>(std::ldexp(r, kEdgeGrid)) * w;
   const IntVec u = bezout(n);
   const std::int64_t a = random.integer(-(1 << 20), 1 << 20), b = random.integer(1, 1 << 20);
   Vec x{}, v{};
   for (int i = 0; i < 3; ++i) {
-    x[i] = std::ldexp(static_cast<double>(s1 * g1[i] + s2 * g2[i] + off * u[i]), -kGrid);
+    x[i] = std::ldexp(static_cast<double>(s1 * g1[i] + s2 * g2[i] + off * u[i]), -kEdgeGrid);
     v[i] = static_cast<double>(a * g1[i] + b * g2[i]);
   }
   const Symmetry symmetry(random, 3);

@@ -69,7 +69,7 @@ Layers drawn_layers(Random& drawn, Case& made) {
   return layers;
 }
 
-Scene drawn_scene(Random& drawn, const Layers& layers, Case& made) {
+Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
   Scene scene{3, {Lattice{}}};
   Lattice& lattice = scene.lattices[0];
   const double skew = drawn.one_in(4) ? 0 : drawn.one_in(2) ? 0.5 : drawn.between(-0.5, 0.5);
@@ -110,7 +110,7 @@ Vec drawn_velocity(Random& random, Case& made) {
 }
 
 // On top of the first obstacle but for rounding, and off to the next layer.
-void leave(Random& random, const Layers& layers, Case& made) {
+void leave_layer(Random& random, const Layers& layers, Case& made) {
   const Atom& atom = made.scene.lattices[0].atoms[0];
   made.tags.push_back("leaving");
   made.query.x = atom.position;
@@ -128,10 +128,10 @@ Case make_dense(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const Layers layers = drawn_layers(drawn, made);
-  made.scene = drawn_scene(drawn, layers, made);
+  made.scene = layered_scene(drawn, layers, made);
   made.query.v = drawn_velocity(random, made);
   if (random.one_in(6)) {
-    leave(random, layers, made);
+    leave_layer(random, layers, made);
     return made;
   }
   const bool coarse = random.one_in(2);

@@ -22,11 +22,11 @@ namespace {
 __extension__ typedef __int128 Wide;
 
 // Lattice planes whose normal has k bits.
-struct Layers {
+struct SlantedLayers {
   std::int64_t P, Q;
   int k;
 
-  explicit Layers(Random& drawn) : k(static_cast<int>(drawn.integer(4, 20))) {
+  explicit SlantedLayers(Random& drawn) : k(static_cast<int>(drawn.integer(4, 20))) {
     const std::int64_t half = std::int64_t{1} << (k - 1);
     P = drawn.integer(-half, half) | 1, Q = drawn.integer(-half, half) | 1;
   }
@@ -56,7 +56,7 @@ Case make_drift(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const bool layers = drawn.one_in(2);
-  const Layers drawn_layers(drawn);
+  const SlantedLayers drawn_layers(drawn);
   const IntVec n = layers ? IntVec{0, 0, 1} : drawn_primitive(drawn, 3, drawn.one_in(4) ? 12 : 2);
   made.scene = layers            ? drawn_layers.scene(drawn.between(1, 2))
                : drawn.one_in(2) ? unit_scene(3, 1)

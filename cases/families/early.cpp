@@ -15,15 +15,15 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kGrid = 55;  // places are whole multiples of 2^-55
-constexpr std::int64_t kQuarter = std::int64_t{1} << (kGrid - 2);
+constexpr int kEarlyGrid = 55;  // places are whole multiples of 2^-55
+constexpr std::int64_t kQuarter = std::int64_t{1} << (kEarlyGrid - 2);
 
 Case make_early(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const std::int64_t K = drawn.integer(1, std::int64_t{1} << drawn.integer(dimension == 2 ? 20 : 36, 49)) | 1;
-  const double k = std::ldexp(static_cast<double>(K), -kGrid - 2);
+  const double k = std::ldexp(static_cast<double>(K), -kEarlyGrid - 2);
   const Symmetry symmetry(drawn, dimension);
   made.scene = unit_scene(dimension, 5 * k);
   made.scene.lattices[0].atoms[0].position = symmetry(Vec{0, 3 * k, 0});
@@ -32,7 +32,7 @@ Case make_early(Source& source) {
   const bool late = random.one_in(4);
   const double beside = random.octave(-200, -112) * (late ? -1 : 1);
   made.tags.push_back(late ? "late" : "early");
-  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -kGrid), beside, 0});
+  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -kEarlyGrid), beside, 0});
   made.query.v = symmetry(Vec{std::ldexp(1, static_cast<int>(random.integer(-60, 60))), 0, 0});
   return made;
 }

@@ -20,7 +20,7 @@ namespace lorentz::cases {
 namespace {
 
 // A row of cubes or boxes, or a crystal, of any size.
-Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
+Scene far_scene(Random& drawn, std::vector<std::string>& tags) {
   const int dimension = drawn.one_in(3) ? 2 : 3;
   const double size = drawn.one_in(2) ? drawn.between(0.5, 2) : drawn.octave(-20, 20);
   const bool box = !drawn.one_in(4);
@@ -67,7 +67,7 @@ IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, int bits,
 Case make_far_start(Source& source) {
   Case made;
   Random& random = source.random;
-  made.scene = drawn_scene(source.scene, made.tags);
+  made.scene = far_scene(source.scene, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
   const std::uint64_t along = random.below(static_cast<std::uint64_t>(dimension));

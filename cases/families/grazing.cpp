@@ -27,7 +27,7 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kGrid = 40;
+constexpr int kGrazingGrid = 40;
 
 // Moves x and v by ulps, and says so; mostly nothing moves.
 void move_off(Random& random, int dimension, Case& made) {
@@ -61,8 +61,8 @@ Case make_squares(Source& source) {
   Case made;
   const int dimension = source.scene.one_in(3) ? 3 : 2;
   const auto steps = static_cast<std::int64_t>(std::ldexp(
-      source.scene.one_in(2) ? source.scene.between(0.05, 0.3) : source.scene.octave(-14, -4), kGrid));
-  const double r = std::ldexp(static_cast<double>(steps), -kGrid);
+      source.scene.one_in(2) ? source.scene.between(0.05, 0.3) : source.scene.octave(-14, -4), kGrazingGrid));
+  const double r = std::ldexp(static_cast<double>(steps), -kGrazingGrid);
   const bool r_moved = source.scene.one_in(6);
   made.scene = unit_scene(
       dimension, r_moved ? moved(r, source.scene.integer(1, 4) * (source.scene.one_in(2) ? 1 : -1)) : r);
@@ -70,14 +70,14 @@ Case make_squares(Source& source) {
   Random& random = source.random;
   if (dimension == 3) {
     const Squared quadruple = drawn_quadruple(random, random.one_in(2) ? 4 : 60);
-    set_query(random, 3, quadruple.v, quadruple.across, steps, kGrid, r, made);
+    set_query(random, 3, quadruple.v, quadruple.across, steps, kGrazingGrid, r, made);
   } else if (random.one_in(2)) {
     const Squared triple = drawn_triple(random, random.one_in(2) ? 9 : 2000);
-    set_query(random, 2, triple.v, triple.across, steps, kGrid, r, made);
+    set_query(random, 2, triple.v, triple.across, steps, kGrazingGrid, r, made);
   } else {
     made.tags.push_back("near-square");
     const NearSquare near = drawn_near_square(random);
-    set_query(random, 2, near.v, {0, 0, near.w}, steps, kGrid, r, made);
+    set_query(random, 2, near.v, {0, 0, near.w}, steps, kGrazingGrid, r, made);
   }
   if (!r_moved) move_off(random, dimension, made);
   if (made.tags.empty()) made.tags.push_back("exact-tangent");

@@ -24,7 +24,7 @@ Vec outwards(Random& random, const Vec& n, int dimension) {
   return n;
 }
 
-Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
+Scene left_scene(Random& drawn, std::vector<std::string>& tags) {
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const bool unit = drawn.one_in(2);
   tags.push_back(unit ? "unit-cell" : "crystal");
@@ -38,7 +38,7 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
 Case make_leaving(Source& source) {
   Case made;
   Random& random = source.random;
-  made.scene = drawn_scene(source.scene, made.tags);
+  made.scene = left_scene(source.scene, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
   ObstacleId own;

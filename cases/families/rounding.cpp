@@ -14,18 +14,18 @@ namespace lorentz::cases {
 namespace {
 
 // On a grid of 2^-55, as whole numbers.
-constexpr int kGrid = 55;
-constexpr std::int64_t kEighth = std::int64_t{1} << (kGrid - 3);
+constexpr int kRoundingGrid = 55;
+constexpr std::int64_t kEighth = std::int64_t{1} << (kRoundingGrid - 3);
 
 Case make_rounding(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(3) ? 3 : 2, smaller = static_cast<int>(drawn.integer(0, 12));
   const std::int64_t r = drawn.integer(kEighth, 2 * kEighth - 9) | 1;
-  made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(r), -kGrid - smaller));
+  made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(r), -kRoundingGrid - smaller));
   const std::int64_t u = 2 * random.integer((r + 2 * kEighth + 1) / 2, 2 * kEighth - 1);
   const Symmetry symmetry(random, dimension);
-  Vec x{std::ldexp(static_cast<double>(-u), -kGrid - smaller), 0, 0};
+  Vec x{std::ldexp(static_cast<double>(-u), -kRoundingGrid - smaller), 0, 0};
   if (random.one_in(3)) {
     made.tags.push_back("beside");
     x[1] = random.octave(-200, -24) * random.sign();

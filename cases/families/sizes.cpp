@@ -15,7 +15,7 @@
 namespace lorentz::cases {
 namespace {
 
-enum Kind : std::size_t { unit, cell, motif, ellipsoid, superposition, mixed };
+enum Kind : std::size_t { kUnit, kCell, kMotif, kEllipsoid, kSuperposition, kMixed };
 constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
 
 // The radius, or the shortest semiaxis of an ellipsoid up to 2^5 times as long as wide.
@@ -31,21 +31,21 @@ Atom drawn_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
   return atom;
 }
 
-Scene drawn_scene(Random& drawn, std::size_t kind, int dimension, double size) {
+Scene sized_scene(Random& drawn, std::size_t kind, int dimension, double size) {
   Scene scene = unit_scene(dimension, size);
   Lattice& lattice = scene.lattices[0];
-  if (kind == cell)
+  if (kind == kCell)
     for (int i = 1; i < dimension; ++i) lattice.vectors[i] = {drawn.uniform(), 1, i == 2 ? 1.0 : 0.0};
-  if (kind == motif) {
+  if (kind == kMotif) {
     lattice.atoms.push_back(drawn_obstacle(drawn, dimension, size * drawn.between(1, 2), true));
     for (int i = 0; i < dimension; ++i) lattice.atoms[1].position[i] = drawn.uniform();
   }
-  if (kind == ellipsoid) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
-  if (kind == superposition || kind == mixed) {
+  if (kind == kEllipsoid) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
+  if (kind == kSuperposition || kind == kMixed) {
     Lattice other = lattice;
     for (int i = 0; i < dimension; ++i) other.vectors[i] = scaled(lattice.vectors[i], drawn.between(1, 2));
     for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
-    if (kind == mixed) other.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
+    if (kind == kMixed) other.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
     scene.lattices.push_back(other);
   }
   return scene;
@@ -53,7 +53,7 @@ Scene drawn_scene(Random& drawn, std::size_t kind, int dimension, double size) {
 
 // Off an obstacle of the last lattice, from its surface as far as binary64 has it, and along its normal or
 // near that.
-void leave(Random& random, Case& made) {
+void leave_obstacle(Random& random, Case& made) {
   const int lattice = static_cast<int>(made.scene.lattices.size()) - 1, dimension = made.scene.dimension;
   const auto& atoms = made.scene.lattices[lattice].atoms;
   const int which = static_cast<int>(random.below(atoms.size()));
@@ -77,10 +77,10 @@ Case make_sizes(Source& source) {
                       step = dimension == 2 ? kStepFlat : kStepSolid;
   const int octave = -2 - static_cast<int>(turn / 2 * step % octaves);
   made.tags.emplace_back(kKinds[kind]);
-  made.scene = drawn_scene(drawn, kind, dimension, drawn.octave(octave, octave + 1));
+  made.scene = sized_scene(drawn, kind, dimension, drawn.octave(octave, octave + 1));
   if (random.one_in(3)) {
     made.tags.push_back("leaving");
-    leave(random, made);
+    leave_obstacle(random, made);
     return made;
   }
   made.query.x = free_point(random, made.scene);

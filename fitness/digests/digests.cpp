@@ -13,7 +13,6 @@
 namespace lorentz::fitness {
 namespace {
 
-constexpr std::uint64_t kSeed = 20;
 constexpr double kLimit = 200;  // of engines that go from cell to cell
 
 void add(Hash& hash, const Flight& flight) {

@@ -11,8 +11,6 @@ namespace {
 
 using cases::Random;
 
-constexpr std::uint64_t kSeed = 20;
-
 Query uniform(Random& random, const Scene& scene) {
   return {cases::Box::of(scene).point(random), random.direction(scene.dimension), {}};
 }

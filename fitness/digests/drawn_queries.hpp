@@ -10,6 +10,8 @@
 
 namespace lorentz::fitness {
 
+constexpr std::uint64_t kSeed = 20;
+
 /// How queries of one kind are made: by single roundings and square roots, of random words.
 using Draw = Query (*)(cases::Random&, const Scene&);
 

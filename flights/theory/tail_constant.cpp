@@ -10,7 +10,7 @@ namespace lorentz::flights {
 namespace {
 
 constexpr double kLeastCount = 25;
-constexpr std::size_t kLeastBins = 4;
+constexpr std::size_t kLeastBinsOfTail = 4;
 
 // A merged bin: what either term has between its ends, for a coefficient of 1, and what was counted.
 struct Row {
@@ -90,7 +90,7 @@ std::optional<TailConstant> tail_constant(std::span<const double> edges,
     result.count += counts[i + 1];
   }
   const std::vector<Row> all = rows.all();
-  if (all.size() < kLeastBins) return std::nullopt;
+  if (all.size() < kLeastBinsOfTail) return std::nullopt;
   constexpr int kSteps = 5;
   std::optional<Fit> fit;
   for (int step = 0; step < kSteps; ++step) fit = weighted_fit(all, fit);

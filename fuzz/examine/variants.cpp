@@ -14,8 +14,6 @@ using namespace cases;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double with_bit_flipped(Random& random, double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
 }
@@ -68,7 +66,7 @@ Query moved_query(Random& random, const Scene& scene, const Query& query) {
 }
 
 double Variant::margin() const {
-  return hardest ? hardest->margin : kInfinity;
+  return hardest ? hardest->margin : std::numeric_limits<double>::infinity();
 }
 
 std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Variant& here) {

@@ -19,7 +19,7 @@ using namespace cases;
 
 namespace {
 
-constexpr int kMostBits = 40, kLargestIndex = 8;
+constexpr int kMostCellBits = 40, kLargestIndex = 8;
 constexpr std::size_t kMostAtoms = 24;
 
 class NewCells final : public RewordingStep {
@@ -85,7 +85,7 @@ class Changing {
   void shear(Random& random) {
     const std::uint64_t j = random.below(dimension_), i = (j + 1 + random.below(dimension_ - 1)) % dimension_;
     const bool power = random.one_in(2);
-    int bits = static_cast<int>(random.one_in(2) ? random.below(4) : random.below(kMostBits + 1));
+    int bits = static_cast<int>(random.one_in(2) ? random.below(4) : random.below(kMostCellBits + 1));
     const std::int64_t drawn =
         (std::int64_t{1} << bits) + (power ? 0 : random.integer(0, (std::int64_t{1} << bits) - 1));
     for (std::int64_t c = random.sign() > 0 ? drawn : -drawn; c != 0; c /= 2)
@@ -121,7 +121,7 @@ class Changing {
     IntegerVec column = m_[j];
     for (std::size_t k = 0; k < 3; ++k) {
       column[k] += Z(static_cast<long>(c)) * m_[i][k];
-      if (oracle::bit_length(column[k]) > kMostBits + 1) return false;
+      if (oracle::bit_length(column[k]) > kMostCellBits + 1) return false;
     }
     const auto sum = exact_sum(vectors_[j], {Z(static_cast<long>(c)), 0, 0}, {vectors_[i], Vec{}, Vec{}});
     if (!sum) return false;

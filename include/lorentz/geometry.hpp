@@ -30,6 +30,11 @@ namespace lorentz {
   return {a[0] * factor, a[1] * factor, a[2] * factor};
 }
 
+/// a + f b
+[[gnu::always_inline]] inline Vec plus(const Vec& a, double f, const Vec& b) {
+  return {a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2]};
+}
+
 /// The square root of a.a, which may overflow or underflow where the length itself does not.
 [[gnu::always_inline]] inline double length(const Vec& a) {
   return std::sqrt(dot(a, a));

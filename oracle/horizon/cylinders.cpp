@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostPlanes = 20'000;
 constexpr double kMostInPlane = 5'000;  // directions
-constexpr std::size_t kMostWork =
+constexpr std::size_t kMostCylinderWork =
     10'000'000;  // blocks placed, points and discs compared: some microseconds each
 
 // How the blocks of the first few balls cover, or if they leave anything, of all.
@@ -149,17 +149,17 @@ BallScene balls_of(const ChannelScene<3>& scene) {
   return result;
 }
 
-class Search {
+class CylinderSearch {
  public:
-  Search(const ChannelScene<3>& scene, const BallScene& balls, Horizon& horizon,
-         const SearchProgress& progress)
+  CylinderSearch(const ChannelScene<3>& scene, const BallScene& balls, Horizon& horizon,
+                 const SearchProgress& progress)
       : scene_(scene), balls_(balls), lattice_(balls.lattice), horizon_(horizon), progress_(progress) {}
 
   void run() {
     if (!find_planes()) return;
     for (; planes_done_ < closed_.size(); ++planes_done_) {
       look_in(closed_[planes_done_]);
-      if (work_ <= kMostWork) continue;
+      if (work_ <= kMostCylinderWork) continue;
       horizon_.no_cylinders = "the search was stopped, being too long; those listed are open";
       return;
     }
@@ -173,9 +173,9 @@ class Search {
     const Z r = lattice_.obstacles[0].axes[0][0], r2 = r * r, volume2 = lattice_.volume * lattice_.volume;
     const bool done = visit_primitive<3>(lattice_.cofactors, ceil_div(7 * volume2, 12 * r2), 2 * kMostPlanes,
                                          [&](const LatticePoint<3>& normal) {
-                                           if (work_ <= kMostWork) sort_in({normal.n, normal.p});
+                                           if (work_ <= kMostCylinderWork) sort_in({normal.n, normal.p});
                                          });
-    if (done && work_ <= kMostWork) return true;
+    if (done && work_ <= kMostCylinderWork) return true;
     horizon_.no_cylinders =
         "not searched: the obstacles are so small that too many planes come into question";
     horizon_.families.clear();
@@ -221,7 +221,7 @@ class Search {
       const Z disc = j * j * g12 * g12 - g11 * (j * j * g22 - bound);
       if (disc <= 0) continue;
       const Z last = -floor_surd(j * g12, -1, disc, g11) - 1;
-      for (Z i = floor_surd(-j * g12, -1, disc, g11) + 1; i <= last && work_ <= kMostWork; ++i)
+      for (Z i = floor_surd(-j * g12, -1, disc, g11) + 1; i <= last && work_ <= kMostCylinderWork; ++i)
         if (gcd(i, j) == 1) look_along(basis, i, j);
     }
   }
@@ -363,7 +363,7 @@ class Search {
 void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon, const SearchProgress& progress) {
   const BallScene balls = balls_of(scene);
   horizon.no_cylinders = balls.unsupported;
-  if (balls.unsupported.empty()) Search(scene, balls, horizon, progress).run();
+  if (balls.unsupported.empty()) CylinderSearch(scene, balls, horizon, progress).run();
   std::stable_sort(horizon.cylinders.begin(), horizon.cylinders.end(), [](const auto& a, const auto& b) {
     return std::tuple(-a.radius, length_of(a.vector), b.vector) <
            std::tuple(-b.radius, length_of(b.vector), a.vector);

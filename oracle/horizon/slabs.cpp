@@ -11,7 +11,7 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr std::size_t kMostCandidates = 2'000'000;  // normals: pairs of points
-constexpr std::size_t kMostWork = 20'000'000;       // blocks
+constexpr std::size_t kMostSlabWork = 20'000'000;   // blocks
 constexpr double kMostCopies = 1e5;                 // blocks in a common period
 constexpr std::size_t kMostCounted = 64;            // lattices, those that leave the fewest normals
 constexpr std::size_t kPairWork = 10;               // of two lattices' periods, in blocks
@@ -140,7 +140,7 @@ Meetings meetings_of(const Gap& a, const Gap& b, const Z& step, const Z& least2)
 }
 
 template <std::size_t D>
-struct Search {
+struct SlabSearch {
   const ChannelScene<D>& scene;
   Slabs<D> result;
   std::size_t work = 0;
@@ -183,7 +183,7 @@ struct Search {
   bool merge(std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size();) {
-        if ((work += kPairWork) > kMostWork) return false;  // all of it is refused
+        if ((work += kPairWork) > kMostSlabWork) return false;  // all of it is refused
         const Z period = lcm(classes[i].period, classes[k].period);
         const double copies = copies_in_common(classes[i], classes[k], period);
         if (copies > kMostCopies) {
@@ -220,7 +220,7 @@ struct Search {
   bool any_pair_closed(const std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size(); ++k) {
-        if (work > kMostWork) return true;  // all of it is refused
+        if (work > kMostSlabWork) return true;  // all of it is refused
         const Z step = gcd(classes[i].period, classes[k].period);
         bool any = false;
         for (const Gap& here : classes[i].gaps)
@@ -262,7 +262,7 @@ struct Search {
   }
 
   void look_along(ZVec<D> normal) {
-    if (work > kMostWork) return;
+    if (work > kMostSlabWork) return;
     Z divisor = 0;
     for (const Z& component : normal) divisor = gcd(divisor, component);
     for (Z& component : normal) component /= divisor;
@@ -283,9 +283,9 @@ struct Search {
 
 template <std::size_t D>
 Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress) {
-  Search<D> search{scene, {}, 0};
+  SlabSearch<D> search{scene, {}, 0};
   const bool complete =
-      (search.look_along_common() || search.look_along_all(progress)) && search.work <= kMostWork;
+      (search.look_along_common() || search.look_along_all(progress)) && search.work <= kMostSlabWork;
   if (!complete)
     search.result.refusal = D == 2 ? "too many directions could leave a corridor open"
                                    : "too many planes could leave a channel open";

@@ -83,7 +83,7 @@ TEST_CASE("Free paths: both axes are logarithmic", "[pictures][free_path_plot]")
 
 TEST_CASE("Free paths: linear axes begin at 0", "[pictures][free_path_plot]") {
   FreePathPlot plot;
-  plot.axes = Axes::linear;
+  plot.axes = AxisScale::linear;
   PlotSeries series{"measured", {}};
   PlotCurve curve{"theory", {}, 0, false};
   for (int i = 1; i <= 5; ++i) {
@@ -255,7 +255,7 @@ Spot middle(const Ink& marker) {
 }
 
 // Three series and three curves, of all sorts.
-FreePathPlot several(Axes axes) {
+FreePathPlot several(AxisScale axes) {
   FreePathPlot plot;
   plot.axes = axes;
   plot.title = "Free paths";
@@ -283,9 +283,9 @@ FreePathPlot several(Axes axes) {
 
 TEST_CASE("Free paths: points, error bars and curves are at the data's values, by the axes' numbers",
           "[pictures][free_path_plot]") {
-  const Axes axes = GENERATE(Axes::logarithmic, Axes::linear);
+  const AxisScale axes = GENERATE(AxisScale::logarithmic, AxisScale::linear);
   const FreePathPlot plot = several(axes);
-  const Reading read(draw_free_paths(plot), axes == Axes::logarithmic);
+  const Reading read(draw_free_paths(plot), axes == AxisScale::logarithmic);
   const SvgPicture& picture = read.picture;
   std::set<std::string> colours;
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
@@ -378,7 +378,7 @@ TEST_CASE("Free paths: the legend stands where it hides the fewest points, and h
           "[pictures][free_path_plot]") {
   const bool rising = GENERATE(false, true);
   FreePathPlot plot;
-  plot.axes = Axes::linear;
+  plot.axes = AxisScale::linear;
   plot.series = {{"a series", {}}, {"another one with a longer name", {}}};
   for (int i = 1; i <= 24; ++i) {
     plot.series[0].points.push_back({1.0 * i, rising ? 1.0 * i : 25.0 - i, 0});
