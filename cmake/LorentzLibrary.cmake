@@ -20,48 +20,57 @@ function(lorentz_settings target)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()
 
-# What arranges work and does none itself (the program's commands, pictures, tests): half the time to compile.
-function(lorentz_arranges target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  get_target_property(reused ${target} PRECOMPILE_HEADERS_REUSE_FROM)
-  get_target_property(libraries ${target} LINK_LIBRARIES)
-  if(reused AND "fmt::fmt" IN_LIST libraries)
-    set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM lorentz_headers_of_fmt)
-  elseif(reused)
-    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-  endif()
-endfunction()
-
-# The standard headers that most sources here include, read once for all of them: a quarter of the time to compile, and
-# half of it with fmt. Each source includes what it uses all the same (CMAKE_DISABLE_PRECOMPILE_HEADERS shows what does not).
+# The standard headers that most sources here include, read once for all of them, and the same with fmt: half of the time
+# to compile a small source. Any level of optimisation but none may use them.
 set(LORENTZ_STANDARD_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
   <memory> <optional> <set> <sstream> <string> <string_view> <utility> <variant> <vector>)
 file(WRITE ${PROJECT_BINARY_DIR}/headers.cpp "")
-add_library(lorentz_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
-lorentz_settings(lorentz_headers)
-target_precompile_headers(lorentz_headers PRIVATE ${LORENTZ_STANDARD_HEADERS})
-
-# The same with fmt, for what arranges.
+function(lorentz_headers name)  # and headers besides; what it links has to be added
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
+  lorentz_settings(${name})
+  target_precompile_headers(${name} PRIVATE ${LORENTZ_STANDARD_HEADERS} ${ARGN})
+endfunction()
+lorentz_headers(lorentz_headers)
 function(lorentz_headers_with_fmt)
-  add_library(lorentz_headers_of_fmt OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
-  lorentz_settings(lorentz_headers_of_fmt)
-  target_compile_options(lorentz_headers_of_fmt PRIVATE $<$<CONFIG:Release>:-O1>)
+  lorentz_headers(lorentz_headers_of_fmt <fmt/format.h>)
   target_link_libraries(lorentz_headers_of_fmt PRIVATE fmt::fmt)
-  target_precompile_headers(lorentz_headers_of_fmt PRIVATE ${LORENTZ_STANDARD_HEADERS} <fmt/format.h>)
 endfunction()
 
-# lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries])
+# lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries]
+#   [FAST] engines: optimised as far as it goes)
+# Else several sources are one to the compiler, which takes half of the time: most of that goes into headers and the
+# templates that they have in common. What is unnamed in one of them is seen by the next: tests/house/together_test.py
+# refuses what could mean something else there. With -DLORENTZ_UNITY=OFF each is compiled by itself; CI does so with clang,
+# so that each includes what it uses.
+option(LORENTZ_UNITY "compile several sources of a library at once" ON)
 function(lorentz_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 its "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")
+  cmake_parse_arguments(PARSE_ARGV 1 its "FAST" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")
   add_library(${name} STATIC ${its_SOURCES})
   lorentz_settings(${name})
+  if(NOT its_FAST)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
+  endif()
+  if(LORENTZ_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    # GCC takes what is included for a header, whose unnamed namespace would be another one in each source.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+  set(headers lorentz_headers)
+  if("fmt::fmt" IN_LIST its_PUBLIC OR "fmt::fmt" IN_LIST its_PRIVATE)
+    set(headers lorentz_headers_of_fmt)
+  endif()
   target_include_directories(${name}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_include_directories(${name} SYSTEM PRIVATE ${its_SYSTEM})
   target_link_libraries(${name} PUBLIC ${its_PUBLIC} PRIVATE ${its_PRIVATE})
   string(REPLACE "lorentz_" "" short ${name})
-  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short} PRECOMPILE_HEADERS_REUSE_FROM lorentz_headers)
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short} PRECOMPILE_HEADERS_REUSE_FROM ${headers})
   add_library(lorentz::${short} ALIAS ${name})
+endfunction()
+
+# What arranges work and does none itself.
+function(lorentz_arranges target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # A library of which one source, STEM_mpi.cpp, uses MPI, or is STEM_none.cpp in a program without it.

@@ -16,6 +16,7 @@ function(prints expected)
   endif()
 endfunction()
 
+unset(ENV{CMAKE_CXX_COMPILER_LAUNCHER})  # of the build that is installed, if it had one
 file(REMOVE_RECURSE ${SCRATCH})
 set(prefix ${SCRATCH}/installed)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
