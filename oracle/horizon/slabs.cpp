@@ -221,15 +221,18 @@ struct Search {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size(); ++k) {
         if (work > kMostWork) return true;  // all of it is refused
-        const Z step = gcd(classes[i].period, classes[k].period);
-        bool any = false;
-        for (const Gap& here : classes[i].gaps)
-          for (const Gap& there : classes[k].gaps) {
-            ++work;
-            const Meetings found = meetings_of(here, there, step, 0);
-            if ((any = found.first <= found.last)) break;
-          }
-        if (!any) return true;
+        if (!meet_anywhere(classes[i], classes[k])) return true;
+      }
+    return false;
+  }
+
+  bool meet_anywhere(const Class& a, const Class& b) {
+    const Z step = gcd(a.period, b.period);
+    for (const Gap& here : a.gaps)
+      for (const Gap& there : b.gaps) {
+        ++work;
+        const Meetings found = meetings_of(here, there, step, 0);
+        if (found.first <= found.last) return true;
       }
     return false;
   }

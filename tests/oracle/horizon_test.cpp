@@ -311,6 +311,25 @@ TEST_CASE("Horizon: three lattices with long common periods are undecided, if no
   CHECK(horizon_of(scene).is_finite());
 }
 
+TEST_CASE("Horizon: three lattices are undecided if but one gap of the first meets the second's",
+          "[oracle][horizon]") {
+  // The line y = +-height is free. The first lattice's other gap is half a step from every gap of the second.
+  const double step = 0x1p-17, thin = 0x1p-31, height = 0.25 + step / 2, period = 1 + step;
+  const Vec along{0.25, 0};
+  for (const double way : {1, -1}) {  // either gap is the last
+    Scene scene =
+        scene_with(2, {along, Vec{0, 1}}, {{{0, 0}, 0.1875, {}}, {{0, way * 0.625}, 0.1875 - thin, {}}});
+    scene.lattices.push_back(
+        {{along, Vec{0, period}}, {{{0, way * (height + period / 2)}, (period - thin) / 2, {}}}});
+    scene.lattices.push_back({{along, Vec{0, 1 + step / 2}}, {{{0, way * 0.75}, 0.2, {}}}});
+    REQUIRE(outcome_along(oracle::Oracle(scene), {0, way * height}, along) == Outcome::never);
+    const Horizon horizon = horizon_of(scene);
+    CHECK(horizon.channels.empty());
+    CHECK(horizon.undecided.size() == 1);
+    CHECK_FALSE(horizon.is_finite());
+  }
+}
+
 TEST_CASE("Horizon: ellipses and ellipsoids are affine images of balls", "[oracle][horizon]") {
   Draw draw(76);
   std::size_t channels = 0, cylinders = 0, inside = 0;
