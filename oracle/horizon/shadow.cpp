@@ -132,13 +132,11 @@ class Circle {
       }
       if (side == 0) centres.push_back(other.centre);
     }
-    // If there is such a v, one is perpendicular to some P - C.
-    for (const ZVec<3>& c : centres)
-      for (int way : {1, -1})
-        if (std::all_of(centres.begin(), centres.end(),
-                        [&](const ZVec<3>& other) { return way * turn(p, c, other) >= 0; }))
-          return true;
-    return false;
+    // If so all P - C are within half a turn, and to the left of one of them.
+    return std::any_of(centres.begin(), centres.end(), [&](const ZVec<3>& c) {
+      return std::all_of(centres.begin(), centres.end(),
+                         [&](const ZVec<3>& other) { return turn(p, c, other) >= 0; });
+    });
   }
 
   // Sign of g.((P - c) cross (P - d)) = g.(P cross (c - d) + c cross d).
