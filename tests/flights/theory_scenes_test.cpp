@@ -119,7 +119,7 @@ TEST_CASE("Commensurable lattices: by small integers, whatever the size", "[flig
   CHECK(commensurable(turned(square, 0.3), turned(square, 0.3 + std::atan(17 / 23.0)), 2));
   CHECK(commensurable(square, turned(square, 0, std::sqrt(2)), 2));
   CHECK(commensurable(square, turned(square, std::atan(1 / 997.0)), 2));
-  CHECK(commensurable(square, turned(square, kPi), 2));                          // no component above 0
+  CHECK(commensurable(square, {{Vec{-1, 0, 0}, Vec{0, -1, 0}}, {}}, 2));
   CHECK_FALSE(commensurable(square, turned(square, std::atan(1 / 1009.0)), 2));  // beyond what is tried
   CHECK_FALSE(commensurable(square, turned(square, kPi / 5), 2));
   CHECK_FALSE(commensurable(square, turned(square, kPi / 7), 2));

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <set>
 
 #include <lorentz/oracle.hpp>
 #include "oracle/horizon/shadow.hpp"
@@ -164,8 +165,8 @@ TEST_CASE("Horizon: semiaxes in any order, with any signs, or turned among thems
 
 TEST_CASE("Horizon: nine balls in a large cell leave the cylinders that one leaves in a small one",
           "[oracle][horizon]") {
-  Scene many = scene_with(3, {Vec{3, 0, 0}, Vec{0, 3, 0}, Vec{0, 0, 1}}, {});
-  for (int n = 0; n < 9; ++n) many.lattices[0].atoms.push_back({{n % 3 + 0.0, n / 3 + 0.0, 0}, 0.65, {}});
+  Scene many = scene_with(3, {Vec{9, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}, {});
+  for (int n = 0; n < 9; ++n) many.lattices[0].atoms.push_back({{n + 0.0, 0, 0}, 0.65, {}});
   const auto small = cylinders_of(horizon_of(unit_scene(3, 0.65))), large = cylinders_of(horizon_of(many));
   REQUIRE(small.size() == 3);
   REQUIRE(large.size() == 3);
@@ -181,6 +182,37 @@ TEST_CASE("Horizon: the widest cylinders come first", "[oracle][horizon]") {
   for (std::size_t i = 0; i < 9; ++i) {  // <100>, <110>
     CHECK(dot(horizon.cylinders[i].vector, horizon.cylinders[i].vector) == (i < 3 ? 1 : 2));
     CHECK(horizon.cylinders[i].radius == Approx(std::sqrt(i < 3 ? 0.5 : 0.375) - 0.55).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Horizon: rows of large balls and small ones, as far as they leave holes", "[oracle][horizon]") {
+  // Along (1, n, 0) both kinds stand in rows of discs 1 / sqrt(1 + n^2) apart; slabs z = const overlap by
+  // 1/200.
+  const double large = 0.375, small = 0.15;
+  const Horizon horizon = horizon_of(
+      scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}, {{{}, large, {}}, {{0, 0, 0.5}, small, {}}}));
+  std::set<std::string> open, expected;
+  for (const auto& [direction, radius] : cylinders_of(horizon))
+    if (direction.substr(0, 2) == "1 " && direction.substr(direction.size() - 2) == " 0")
+      open.insert(direction);
+  for (int n = 1; n < 40; ++n) {
+    const double half2 = 0.25 / (1 + n * n),
+                 covered = std::sqrt(large * large - half2) + std::sqrt(std::max(0.0, small * small - half2));
+    for (const int way : {1, -1})
+      if (covered < 0.5 || half2 > small * small) expected.insert("1 " + std::to_string(way * n) + " 0");
+  }
+  CHECK(expected.size() == 12);
+  CHECK(open == expected);
+}
+
+TEST_CASE("Horizon: planes that touch in one place are a family, wherever they overlap",
+          "[oracle][horizon]") {
+  for (const double way : {1, -1}) {
+    const Horizon horizon = horizon_of(scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}},
+                                                  {{{}, 0.375, {}}, {{0, 0, way * 0.4375}, 0.1875, {}}}));
+    REQUIRE(horizon.families.size() == 1);
+    CHECK(key_of(horizon.families[0].indices) == "0 0 1");
+    CHECK(horizon.families[0].infinite);
   }
 }
 
@@ -260,6 +292,17 @@ TEST_CASE("Horizon: the radius of a cylinder is above 0 however small the hole",
   CHECK(cusp.cylinders[0].radius > 0);
   CHECK(cusp.cylinders[0].radius < 3 * e * e);
   CHECK_FALSE(cusp.cylinders[0].inside);  // of binary64 points only (3, 4) is near enough, and on a circle
+
+  // A hole of 4e-7 where binary64 has only multiples of 2^-16 along x: the line named is in a ball.
+  const Scene far = scene_with(3, {Vec{1, 0.125, 0}, Vec{0.375, 0.875, 0}, Vec{0, 0, 1}},
+                               {{{0x1p36, 0, 0}, 592979 * 0x1p-20, {}}});
+  const auto cylinders = horizon_of(far).cylinders;
+  const auto upright = std::find_if(cylinders.begin(), cylinders.end(), [](const auto& cylinder) {
+    return cylinder.vector == Vec{0, 0, 1};
+  });
+  REQUIRE(upright != cylinders.end());
+  CHECK_FALSE(upright->inside);
+  CHECK(oracle::Oracle(far).first_hit({upright->point, {0, 0, 1}, {}}).outcome != Outcome::never);
 
   // A cylinder of that radius fits: no ball is nearer to the line, as binary64 sees it.
   Draw draw(80);

@@ -526,6 +526,21 @@ TEST_CASE("Horizon: the tail constant counts each atom, and touching ones do not
   CHECK_FALSE(horizon_of(touching).tail_constant);
 }
 
+TEST_CASE("Horizon: the tail constant of ellipses is of their widths and their area", "[oracle][horizon]") {
+  // Corridors of 0.6 and 0.1 along the axes, two along the diagonals.
+  const double a = 0.45, b = 0.2, diagonal = std::sqrt(0.5) - std::sqrt(2 * (a * a + b * b));
+  const double expected =
+      (0.36 + 0.01 + 2 * std::sqrt(2) * diagonal * diagonal) / (M_PI * (1 - M_PI * a * b));
+  const auto constant = [](const Vec& u, const std::vector<Vec>& axes) {
+    return horizon_of(scene_with(2, {u, Vec{-u[1], u[0]}}, {{{}, 0, axes}})).tail_constant.value();
+  };
+  CHECK(constant({1, 0}, {{a, 0}, {0, b}}) == Approx(expected));
+  CHECK(constant({1, 0}, {{0, b}, {-a, 0}}) == Approx(expected));
+  CHECK(constant({1, 0}, {{0.6 * a, 0.8 * b}, {-0.8 * a, 0.6 * b}}) ==
+        Approx(expected));                                                             // of the same ellipse
+  CHECK(constant({3, 4}, {{3 * a, 4 * a}, {-4 * b, 3 * b}}) == Approx(5 * expected));  // all turned, 3-4-5
+}
+
 TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {
   CHECK(horizon_of(unit_scene(2, 0.5)).tail_constant == 0.0);
   CHECK(horizon_of(unit_scene(3, 0.5)).tail_constant == 0.0);   // touching planes

@@ -83,6 +83,7 @@ TEST_CASE("Overlapping and touching obstacles are noticed, separate ones are not
   Scene two = unit_scene(2, 0.25);
   two.lattices.push_back(two.lattices[0]);
   CHECK(in_contact(two));
+  CHECK(oracle::contacts_in(two, 1, oracle::Pairs::within_lattices).found.empty());
   two.lattices[1].atoms[0].position = {0.5, 0.5};
   CHECK_FALSE(in_contact(two));
 
