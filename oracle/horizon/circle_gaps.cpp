@@ -31,20 +31,18 @@ void put_in_order(std::vector<Block>& blocks, const Z& period) {
 }
 
 // Calls visit(reach, reach2, block) for each block in order: reach + sqrt(reach2) is the furthest end before.
-// For none if a block alone covers the circle.
 template <class Visit>
 void sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
   put_in_order(blocks, period);
   Z reach, reach2;
   bool any = false;
   for (const Block& block : blocks) {
-    if (end_against_start(block.end - period, block.end2, block.start, block.start2) > 0) return;
     if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
       reach = block.end, reach2 = block.end2;
     any = true;
   }
-  // The blocks of the period before come first. None of them ends after its successors' starts by more than a
-  // period, so one turn is all it takes.
+  // The blocks of the period before come first. One that reaches further than a period leaves nothing anyhow,
+  // so one turn is all it takes.
   reach -= period;
   for (const Block& block : blocks) {
     visit(reach, reach2, block);

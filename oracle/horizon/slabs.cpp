@@ -122,7 +122,8 @@ Meetings meetings_of(const Gap& a, const Gap& b, const Z& step, const Z& least2)
   result.last = last_step(a.high - b.low, a.high2, b.low2, least2, step, or_equal);
   result.first = -last_step(b.high - a.low, b.high2, a.low2, least2, step, or_equal);
   if (result.first > result.last) return result;
-  // The common part shrinks alike on both sides of the shift that centres b on a.
+  // The common part shrinks alike on both sides of the shift that centres b on a. (Clamped, for rounded
+  // roots.)
   const auto fine = [](const Z& a2) { return floor_sqrt(shifted_left(a2, 128)); };
   const Z apart = shifted_left(a.low + a.high - b.low - b.high, 64) + fine(a.low2) - fine(a.high2) -
                   fine(b.low2) + fine(b.high2);

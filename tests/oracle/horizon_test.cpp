@@ -330,6 +330,21 @@ TEST_CASE("Horizon: three lattices are undecided if but one gap of the first mee
   }
 }
 
+TEST_CASE("Horizon: three lattices are undecided if two of them meet in one shift alone",
+          "[oracle][horizon]") {
+  // A gap of 2^-31 about y = 0 in either of the first two.
+  const double thin = 0x1p-31;
+  const Vec along{0.25, 0};
+  Scene scene = scene_with(2, {along, Vec{0, 1}}, {{{0, 0.5}, (1 - thin) / 2, {}}});
+  const double period = 1 + 0x1p-17;
+  scene.lattices.push_back({{along, Vec{0, period}}, {{{0, period / 2}, (period - thin) / 2, {}}}});
+  scene.lattices.push_back({{along, Vec{0, 1 + 0x1p-18}}, {{{0, 0.5}, 0.2, {}}}});
+  REQUIRE(outcome_along(oracle::Oracle(scene), {0, 0}, along) == Outcome::never);
+  const Horizon horizon = horizon_of(scene);
+  CHECK(horizon.undecided.size() == 1);
+  CHECK_FALSE(horizon.is_finite());
+}
+
 TEST_CASE("Horizon: of unequal discs the widest of many meetings is found", "[oracle][horizon]") {
   // Rows 1 and 1 + 2^-17 apart, each with a gap from a large disc to a small one, or from a small to a large.
   const double step = 0x1p-17, unit = 0x1p-6;
@@ -344,6 +359,19 @@ TEST_CASE("Horizon: of unequal discs the widest of many meetings is found", "[or
   CHECK(horizon.channels[0].inside);
   // Half a common period is as far as one has to go.
   CHECK(std::fabs(horizon.channels[0].point[1]) < (1 << 16) + 2);
+}
+
+TEST_CASE("Horizon: of gaps equally wide the nearest shift is the widest meeting", "[oracle][horizon]") {
+  const double step = 0x1p-17, wide = 0.25;
+  for (const double share : {0.25, 0.75}) {  // of a step, from one gap's middle to the other's
+    Scene scene = scene_with(2, {Vec{0.125, 0}, Vec{0, 1}}, {{{0, 0.5}, (1 - wide) / 2, {}}});
+    scene.lattices.push_back({{Vec{0.125, 0}, Vec{0, 1 + step}},
+                              {{{0, (1 + step) / 2 + share * step}, (1 + step - wide) / 2, {}}}});
+    const Horizon horizon = horizon_of(scene);
+    REQUIRE(horizon.channels.size() == 1);
+    CHECK(horizon.channels[0].width == wide - step / 4);
+    CHECK(horizon.channels[0].count == Integer(1 << 16));  // shifts by less than 1/4 either way
+  }
 }
 
 TEST_CASE("Horizon: of a corridor's translates the one nearest to the origin is shown", "[oracle][horizon]") {
