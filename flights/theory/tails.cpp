@@ -22,10 +22,8 @@ Tail tail_of(const char* when, int power, double uniform_constant, std::optional
   Tail tail{when, power + 1.0, uniform_constant, std::move(remark)};
   if (ensemble == Ensemble::uniform) return tail;
   tail.exponent = power + 2.0;
-  tail.constant.reset();
-  if (mean) tail.constant = *mean * power * uniform_constant;
-  if (uniform_constant == 0) tail.constant = 0;
-  if (!tail.constant) tail.remark += "; the mean free path is not known";
+  tail.constant = mean ? std::optional(*mean * power * uniform_constant) : std::nullopt;
+  if (!mean) tail.remark += "; the mean free path is not known";
   return tail;
 }
 

@@ -31,37 +31,34 @@ void put_in_order(std::vector<Block>& blocks, const Z& period) {
 }
 
 // Calls visit(reach, reach2, block) for each block in order: reach + sqrt(reach2) is the furthest end before.
-// False if a block alone covers the circle.
 template <class Visit>
-bool sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
+void sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
   put_in_order(blocks, period);
   Z reach, reach2;
   bool any = false;
   for (const Block& block : blocks) {
-    if (end_against_start(block.end - period, block.end2, block.start, block.start2) > 0) return false;
     if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
       reach = block.end, reach2 = block.end2;
     any = true;
   }
-  // The blocks of the period before come first. None of them ends after its successors' starts by more than a
-  // period, so one turn is all it takes.
+  // The blocks of the period before come first. One that reaches further than a period leaves nothing anyhow,
+  // so one turn is all it takes.
   reach -= period;
   for (const Block& block : blocks) {
     visit(reach, reach2, block);
     if (compare_ends(block.end, block.end2, reach, reach2) > 0) reach = block.end, reach2 = block.end2;
   }
-  return true;
 }
 
 }  // namespace
 
 std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period) {
   std::vector<Gap> gaps;
-  const bool done = sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
     if (end_against_start(reach, reach2, block.start, block.start2) < 0)
       gaps.push_back({reach, reach2, block.start, block.start2});
   });
-  return done ? gaps : std::vector<Gap>{};
+  return gaps;
 }
 
 std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies) {
@@ -78,13 +75,12 @@ std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period,
 }
 
 Cover cover_of(std::vector<Block> blocks, const Z& period) {
-  bool touch = false, gap = blocks.empty();
-  const bool done = sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+  bool touch = false, gap = false;
+  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
     const int order = end_against_start(reach, reach2, block.start, block.start2);
     touch |= order == 0;
     gap |= order < 0;
   });
-  if (!done) return Cover::full;
   return gap ? Cover::gaps : touch ? Cover::touching : Cover::full;
 }
 

@@ -29,7 +29,8 @@ std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period);
 /// The blocks between gaps, `copies` periods of them.
 std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
 
-/// How blocks cover a circle: leaving gaps, touching somewhere so that points stay free, or all of it.
+/// How blocks, at least one, cover a circle: leaving gaps, touching somewhere so that points stay free, or
+/// all of it.
 enum class Cover { gaps, touching, full };
 Cover cover_of(std::vector<Block> blocks, const Z& period);
 

@@ -202,14 +202,14 @@ class CylinderSearch {
     unsigned long m = 1;
     while (m < kFinest && shrunk_cover(lattice_, plane.normal, m, work_) == Cover::gaps) ++m;
     const Z r = lattice_.obstacles[0].axes[0][0], normal2 = dot(plane.normal, plane.normal);
-    const auto bound = [&] { return Z(ceil_div(shifted_left(normal2, m), 4 * r * r)); };
+    Z bound = ceil_div(shifted_left(normal2, m), 4 * r * r);
     // Points in a disc of that area, one of each pair, 6 / pi^2 of them primitive.
-    const auto count = [&] { return std::exp2(log2_of(bound()) - log2_of(normal2) / 2) * 0.955; };
-    if (count() > kMostInPlane) {
-      horizon_.families.push_back({name_of_plane(plane.indices), false, count()});
-      while (m > 1 && count() > kMostInPlane / 5) --m;
+    const double count = std::exp2(log2_of(bound) - log2_of(normal2) / 2) * 0.955;
+    if (count > kMostInPlane) {
+      horizon_.families.push_back({name_of_plane(plane.indices), false, count});
+      bound = bound >> static_cast<unsigned long>(std::ceil(std::log2(5 * count / kMostInPlane)));
     }
-    visit_directions(plane_basis(lattice_, plane.indices), bound());
+    visit_directions(plane_basis(lattice_, plane.indices), bound);
   }
 
   // g = i b1 + j b2, coprime, one of each pair +-g, with g^2 < bound.

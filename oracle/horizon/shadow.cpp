@@ -81,15 +81,14 @@ class Circle {
         if (difference > 0) return std::nullopt;  // the whole circle is in that disc
         continue;                                 // that disc is in this one
       }
-      if (distance2 > 0) meeting.push_back(j);
+      meeting.push_back(j);
     }
     if (meeting.empty()) return fixed_point(index_, anywhere(), bits);
     for (std::size_t j = 0; j < neighbours_.size(); ++j) order_.push_back(j);
     for (std::size_t j : meeting)
       for (int sign : {1, -1}) {
         const CirclePoint point = intersection(neighbours_[j], sign);
-        if (sign < 0 && point.delta == 0) continue;
-        if (borders_on_hole(point, j)) return fixed_point(index_, point, bits);
+        if (borders_on_hole(point)) return fixed_point(index_, point, bits);
       }
     return std::nullopt;
   }
@@ -121,8 +120,8 @@ class Circle {
   // from P: v.(P - C) >= 0 for all their centres. (= 0 will do. The discs curve away, also from each other
   // where two touch: between three discs that touch each other there is a hole.) A point without such a v is
   // a single free point.
-  bool borders_on_hole(const CirclePoint& p, std::size_t met) {
-    std::vector<ZVec<3>> centres{{}, neighbours_[met].centre};
+  bool borders_on_hole(const CirclePoint& p) {
+    std::vector<ZVec<3>> centres;
     for (std::size_t i = 0; i < order_.size(); ++i) {
       ++work_;
       const Disc& other = neighbours_[order_[i]];
@@ -133,13 +132,11 @@ class Circle {
       }
       if (side == 0) centres.push_back(other.centre);
     }
-    // If there is such a v, one is perpendicular to some P - C.
-    for (const ZVec<3>& c : centres)
-      for (int way : {1, -1})
-        if (std::all_of(centres.begin(), centres.end(),
-                        [&](const ZVec<3>& other) { return way * turn(p, c, other) >= 0; }))
-          return true;
-    return false;
+    // If so all P - C are within half a turn, and to the left of one of them.
+    return std::any_of(centres.begin(), centres.end(), [&](const ZVec<3>& c) {
+      return std::all_of(centres.begin(), centres.end(),
+                         [&](const ZVec<3>& other) { return turn(p, c, other) >= 0; });
+    });
   }
 
   // Sign of g.((P - c) cross (P - d)) = g.(P cross (c - d) + c cross d).

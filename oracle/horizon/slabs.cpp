@@ -54,18 +54,18 @@ Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
   std::vector<Candidates<D>> all;
   for (const ObstacleLattice<D>& lattice : scene.lattices) {
     const Obstacle<D>& largest = lattice.obstacles.front();
-    const Z one2 = lattice.volume * lattice.volume, up_to_one2 = one2 + 1;
+    const Z one2 = lattice.volume * lattice.volume;
     auto doubled = largest.axes;
     for (auto& axis : doubled)
       for (Z& component : axis) component *= 2;
     if (largest.ball) {
       const Z width = doubled[0][0] + scene.unit;
       all.push_back(
-          make_candidates<D>(lattice, multiple_of_identity<D>(width), scene.unit > 0 ? up_to_one2 : one2));
+          make_candidates<D>(lattice, multiple_of_identity<D>(width), scene.unit > 0 ? Z(one2 + 1) : one2));
     } else {
       all.push_back(make_candidates<D>(lattice, doubled, one2));
-      if (scene.unit > 0)
-        all.push_back(make_candidates<D>(lattice, multiple_of_identity<D>(scene.unit), up_to_one2));
+      if (scene.unit > 0)  // W |k| < 1, for the obstacle takes something
+        all.push_back(make_candidates<D>(lattice, multiple_of_identity<D>(scene.unit), one2));
     }
   }
   // Counted, not only estimated by a volume: in a slender cell the ball holds a few planes full of points.
@@ -122,20 +122,15 @@ Meetings meetings_of(const Gap& a, const Gap& b, const Z& step, const Z& least2)
   result.last = last_step(a.high - b.low, a.high2, b.low2, least2, step, or_equal);
   result.first = -last_step(b.high - a.low, b.high2, a.low2, least2, step, or_equal);
   if (result.first > result.last) return result;
-  // The common part shrinks on both sides of the shift that centres b on a.
+  // The common part shrinks alike on both sides of the shift that centres b on a. (Clamped, for rounded
+  // roots.)
   const auto fine = [](const Z& a2) { return floor_sqrt(shifted_left(a2, 128)); };
   const Z apart = shifted_left(a.low + a.high - b.low - b.high, 64) + fine(a.low2) - fine(a.high2) -
                   fine(b.low2) + fine(b.high2);
-  const Z nearest = round_div(apart, shifted_left(step, 65));
-  Z best = -1;
-  for (Z k = nearest - 1; k <= nearest + 1; ++k) {
-    const Z inside = std::clamp(k, result.first, result.last);
-    Gap shifted = b;
-    shifted.shift(inside * step);
-    const Gap part = common_part(a, shifted);
-    const Z width = shifted_left(part.width(), 64) - fine(part.low2) - fine(part.high2);
-    if (width > best) best = width, result.widest = inside, result.part = part;
-  }
+  result.widest = std::clamp(round_div(apart, shifted_left(step, 65)), result.first, result.last);
+  Gap shifted = b;
+  shifted.shift(result.widest * step);
+  result.part = common_part(a, shifted);
   return result;
 }
 
@@ -221,15 +216,18 @@ struct SlabSearch {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size(); ++k) {
         if (work > kMostSlabWork) return true;  // all of it is refused
-        const Z step = gcd(classes[i].period, classes[k].period);
-        bool any = false;
-        for (const Gap& here : classes[i].gaps)
-          for (const Gap& there : classes[k].gaps) {
-            ++work;
-            const Meetings found = meetings_of(here, there, step, 0);
-            if ((any = found.first <= found.last)) break;
-          }
-        if (!any) return true;
+        if (!meet_anywhere(classes[i], classes[k])) return true;
+      }
+    return false;
+  }
+
+  bool meet_anywhere(const Class& a, const Class& b) {
+    const Z step = gcd(a.period, b.period);
+    for (const Gap& here : a.gaps)
+      for (const Gap& there : b.gaps) {
+        ++work;
+        const Meetings found = meetings_of(here, there, step, 0);
+        if (found.first <= found.last) return true;
       }
     return false;
   }

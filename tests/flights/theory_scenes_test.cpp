@@ -119,6 +119,7 @@ TEST_CASE("Commensurable lattices: by small integers, whatever the size", "[flig
   CHECK(commensurable(turned(square, 0.3), turned(square, 0.3 + std::atan(17 / 23.0)), 2));
   CHECK(commensurable(square, turned(square, 0, std::sqrt(2)), 2));
   CHECK(commensurable(square, turned(square, std::atan(1 / 997.0)), 2));
+  CHECK(commensurable(square, {{Vec{-1, 0, 0}, Vec{0, -1, 0}}, {}}, 2));
   CHECK_FALSE(commensurable(square, turned(square, std::atan(1 / 1009.0)), 2));  // beyond what is tried
   CHECK_FALSE(commensurable(square, turned(square, kPi / 5), 2));
   CHECK_FALSE(commensurable(square, turned(square, kPi / 7), 2));
@@ -146,6 +147,9 @@ TEST_CASE("Independent lattices: no reciprocal vectors add up", "[flights][mean]
   Scene columns = turned_squares(0.1, {0, 0});
   columns.lattices[1].vectors[1][1] = std::sqrt(2);
   CHECK_FALSE(commensurable(columns.lattices[0], columns.lattices[1], 2));
+  CHECK_FALSE(independent(columns));
+  // As many columns, 50 to a cell, to 5e-10 of their distance.
+  columns.lattices[1].vectors[0][0] = 50 * (1 + 5e-10);
   CHECK_FALSE(independent(columns));
   // Three of which no two share anything, but k1 + k2 = k3.
   Scene three = turned_squares(0.1, {0, 0.7, 0});
@@ -420,10 +424,51 @@ TEST_CASE("Tails: lattices that share a direction, turned by rounded numbers", "
             .open == false);
 }
 
+TEST_CASE("Tails: of small ellipses by the mean of their widths across all directions", "[flights][tails]") {
+  // The mean of 1 / width is 1 / 2 M, M the arithmetic-geometric mean of the semiaxes a and b: M = r of a
+  // disc.
+  const double a = 0.0005, b = 0.0002;
+  double m = a, g = b;
+  for (int i = 0; i < 8; ++i) std::tie(m, g) = std::pair((m + g) / 2, std::sqrt(m * g));
+  Scene scene = test::one_atom(2, {{{1, 0, 0}, {0.3, 0.8, 0}}}, a);
+  scene.lattices[0].atoms[0] = {{}, 0, {{0.6 * a, 0.8 * a, 0}, {-0.8 * b, 0.6 * b, 0}}};
+  const auto constant = [&](Ensemble ensemble) {
+    return *tail_when(tails_of(scene, ensemble), "r -> 0")->constant;
+  };
+  const double one = 0.8 / (kPi * kPi * m), mean = kPi * 0.8 / surface_of(scene.lattices[0].atoms[0], 2);
+  CHECK(constant(Ensemble::uniform) == Approx(one).epsilon(1e-9));
+  CHECK(constant(Ensemble::surface) == Approx(one * mean).epsilon(1e-9));
+  // Beside discs, which have one width.
+  scene.lattices.push_back(turned(unit_scene(2, 0.001).lattices[0], kPi / 5));
+  CHECK(constant(Ensemble::uniform) == Approx(one / (kPi * kPi * 0.001)).epsilon(1e-9));
+}
+
+TEST_CASE("Tails: constants are lengths, and none is given where the mean is beyond binary64",
+          "[flights][tails]") {
+  const auto ball = [](double scale) {
+    return test::one_atom(3, {{{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}}}, 0.25 * scale);
+  };
+  for (const char* when : {"r -> 0", "t -> infinity"})
+    for (const auto ensemble : {Ensemble::uniform, Ensemble::surface}) {
+      INFO(when);
+      const double length = ensemble == Ensemble::uniform ? 4 : 16;  // the power of t
+      CHECK(*tail_when(tails_of(ball(4), ensemble), when)->constant ==
+            Approx(length * *tail_when(tails_of(ball(1), ensemble), when)->constant));
+    }
+  const Scene huge = ball(0x1p1023);
+  CHECK(tail_of_long_paths(huge, Ensemble::uniform).constant);
+  const Tail surface = tail_of_long_paths(huge, Ensemble::surface);
+  CHECK_FALSE(surface.constant);
+  CHECK(surface.exponent == 3.0);
+  CHECK(surface.remark.find("the mean free path is not known") != std::string::npos);
+}
+
 TEST_CASE("Tails: one lattice of discs, by the sum or the search", "[flights][tails]") {
   // A corridor of width 2^-60, and touching discs; the sum in binary64 has no place for such a width.
   const Scene touching = unit_scene(2, 0.5);
   CHECK(tail_of_long_paths(touching, Ensemble::uniform).open == false);
+  const Scene tiny = test::one_atom(2, {{{0x1p-20, 0, 0}, {0, 0x1p-20, 0}}}, 0x1p-21);
+  CHECK(tail_of_long_paths(tiny, Ensemble::uniform).open == false);
   Scene nearly = test::one_atom(2, {{{1, 0, 0}, {0, 1 + 0x1p-52, 0}}}, 0.5);
   CHECK(tail_of_long_paths(nearly, Ensemble::uniform).open == true);
   for (const double r : {0.3, 0.11, 0.09, 0.01}) {
@@ -452,5 +497,26 @@ TEST_CASE("Ways between ellipses are those across which these are narrow", "[fli
     CHECK(nearly_common(upright, one).value_or(0) == Approx(kAngle).epsilon(1e-4));
     CHECK_FALSE(nearly_common(one, lying));
     CHECK_FALSE(nearly_common(lying, one));
+  }
+  // An atom of either kind shuts what the other leaves.
+  const std::array<Vec, 3> square{Vec{1, 0, 0}, Vec{0, 1, 0}},
+      turned_by{Vec{1, kAngle, 0}, Vec{-kAngle, 1, 0}};
+  const Lattice both{square, {upright, lying}}, other_way{square, {lying, upright}};
+  for (const Lattice& lattice : {both, other_way})
+    for (const Atom& atom : {upright, lying})
+      CHECK_FALSE(nearly_common_way({2, {lattice, {turned_by, {atom}}}}));
+  // A third lattice that shuts the way, or leaves it open too.
+  const Lattice one{square, {upright}}, second{turned_by, {upright}}, third{square, {lying}};
+  CHECK(nearly_common_way({2, {one, second, one}}).value_or(0) == Approx(kAngle).epsilon(1e-4));
+  for (const auto& lattices : {std::vector{one, second, third}, {one, third, second}, {third, one, second}})
+    CHECK_FALSE(nearly_common_way({2, lattices}));
+}
+
+TEST_CASE("Ways that are nearly common at several angles: the least is named", "[flights][laws]") {
+  const Lattice square = unit_scene(2, 0.4).lattices[0];
+  for (const auto& [first, second] : {std::pair{1e-10, 3e-10}, {3e-10, 1e-10}}) {
+    Lattice sheared = square;
+    sheared.vectors = {Vec{1, first, 0}, Vec{-second, 1, 0}};
+    CHECK(nearly_common_way({2, {square, sheared}}).value_or(0) == Approx(1e-10).epsilon(1e-4));
   }
 }

@@ -354,6 +354,23 @@ TEST_CASE("Lattices of other periods meet somewhere, slender ellipses reach beyo
   }
 }
 
+TEST_CASE("Slender ellipses meet across boxes that would do for round ones", "[oracle][contacts]") {
+  for (const int along : {0, 1}) {
+    Scene scene = unit_scene(2, 0.01);
+    scene.lattices[0].vectors = {Vec{28, 0, 0}, {0, 28, 0}};
+    auto& atoms = scene.lattices[0].atoms;
+    for (int i = 0; i < 196; ++i)
+      atoms.push_back({{2.0 * (i % 14) + 0.5, 2.0 * (i / 14) + 0.5, 0}, 0.01, {}});
+    for (const double place : {1.9, 4.65}) {  // 2.75 apart, and 2.8 long
+      Atom atom{{1, 1, 0}, 0, {Vec{0.05, 0, 0}, {0, 0.05, 0}}};
+      atom.position[along] = place;
+      atom.semiaxes[static_cast<std::size_t>(along)][along] = 1.4;
+      atoms.push_back(atom);
+    }
+    CHECK(counts_in(scene) == std::pair(0, 1));
+  }
+}
+
 TEST_CASE("Hundreds of balls in a skewed cell: every contact that a look at all pairs finds",
           "[oracle][contacts]") {
   Draw draw(64);

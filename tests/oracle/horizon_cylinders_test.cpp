@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <set>
 
 #include <lorentz/oracle.hpp>
 #include "oracle/horizon/shadow.hpp"
@@ -49,7 +50,9 @@ TEST_CASE("Horizon: simple, face-centred and body-centred cubic near close packi
   const Horizon nearly = horizon_of(unit_scene(3, 0.5 + 0x1p-40));
   REQUIRE(nearly.families.size() == 3);
   CHECK_FALSE(nearly.families[0].infinite);
-  CHECK(nearly.families[0].directions > 1e9);
+  // With 2^39 = g^2 the discs in a row, 1/|g| apart, cover slabs that touch: pi g^2 / 2 pairs, 6 / pi^2
+  // primitive.
+  CHECK(nearly.families[0].directions == Approx(3 / M_PI * 0x1p39).epsilon(1e-3));
   CHECK(nearly.is_infinite());
   CHECK(nearly.cylinders.size() > 2300);  // 2 937 seen
   CHECK(horizon_of(unit_scene(3, std::sqrt(0.5))).is_finite());
@@ -97,9 +100,15 @@ TEST_CASE("Horizon: shadows whose discs just touch, or just close", "[oracle][ho
   CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}}));
   // All corners of the hole are on three circles.
   CHECK(hole(unit, {{{}, 0.5, {}}, {{0.25, 0, 0}, 0.25, {}}, {{0, 0.25, 0}, 0.25, {}}}));
-  // The same ball twice in one line of sight.
+  // The same ball twice in one line of sight, or a smaller one behind a larger.
   CHECK(hole(unit, {{{}, 0.5, {}}, {{0, 0, 0.5}, 0.5, {}}}));
   CHECK_FALSE(hole(seven, {{{}, 5, {}}, {{0, 0, 0.5}, 5, {}}}));
+  CHECK_FALSE(hole(seven, {{{}, 5, {}}, {{0, 0, 0.5}, 0.25, {}}}));
+  // A disc behind a ring of smaller ones: on the hole border these alone.
+  std::vector<Atom> ring{{{}, 1, {}}};
+  for (int i = 0; i < 12; ++i)
+    ring.push_back({{std::cos(M_PI / 6 * i), std::sin(M_PI / 6 * i), 0}, 0.625, {}});
+  CHECK(hole({Vec{4, 0, 0}, Vec{0, 4, 0}, Vec{0, 0, 1}}, ring));
 }
 
 namespace {
@@ -154,6 +163,110 @@ TEST_CASE("Horizon: semiaxes in any order, with any signs, or turned among thems
   CHECK(cylinders_of(written) == cylinders_of(balls));
 }
 
+TEST_CASE("Horizon: nine balls in a large cell leave the cylinders that one leaves in a small one",
+          "[oracle][horizon]") {
+  Scene many = scene_with(3, {Vec{9, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}, {});
+  for (int n = 0; n < 9; ++n) many.lattices[0].atoms.push_back({{n + 0.0, 0, 0}, 0.65, {}});
+  const auto small = cylinders_of(horizon_of(unit_scene(3, 0.65))), large = cylinders_of(horizon_of(many));
+  REQUIRE(small.size() == 3);
+  REQUIRE(large.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(large[i].first == small[i].first);  // <100>
+    CHECK(large[i].second == Approx(small[i].second).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Horizon: the widest cylinders come first", "[oracle][horizon]") {
+  const Horizon horizon = horizon_of(unit_scene(3, 0.55));
+  REQUIRE(horizon.cylinders.size() == 9);
+  for (std::size_t i = 0; i < 9; ++i) {  // <100>, <110>
+    CHECK(dot(horizon.cylinders[i].vector, horizon.cylinders[i].vector) == (i < 3 ? 1 : 2));
+    CHECK(horizon.cylinders[i].radius == Approx(std::sqrt(i < 3 ? 0.5 : 0.375) - 0.55).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Horizon: rows of large balls and small ones, as far as they leave holes", "[oracle][horizon]") {
+  // Along (1, n, 0) both kinds stand in rows of discs 1 / sqrt(1 + n^2) apart; slabs z = const overlap by
+  // 1/200.
+  const double large = 0.375, small = 0.15;
+  const Horizon horizon = horizon_of(
+      scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}, {{{}, large, {}}, {{0, 0, 0.5}, small, {}}}));
+  std::set<std::string> open, expected;
+  for (const auto& [direction, radius] : cylinders_of(horizon))
+    if (direction.substr(0, 2) == "1 " && direction.substr(direction.size() - 2) == " 0")
+      open.insert(direction);
+  for (int n = 1; n < 40; ++n) {
+    const double half2 = 0.25 / (1 + n * n),
+                 covered = std::sqrt(large * large - half2) + std::sqrt(std::max(0.0, small * small - half2));
+    for (const int way : {1, -1})
+      if (covered < 0.5 || half2 > small * small) expected.insert("1 " + std::to_string(way * n) + " 0");
+  }
+  CHECK(expected.size() == 12);
+  CHECK(open == expected);
+}
+
+TEST_CASE("Horizon: planes that touch in one place are a family, wherever they overlap",
+          "[oracle][horizon]") {
+  for (const double way : {1, -1}) {
+    const Horizon horizon = horizon_of(scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}},
+                                                  {{{}, 0.375, {}}, {{0, 0, way * 0.4375}, 0.1875, {}}}));
+    REQUIRE(horizon.families.size() == 1);
+    CHECK(key_of(horizon.families[0].indices) == "0 0 1");
+    CHECK(horizon.families[0].infinite);
+  }
+}
+
+TEST_CASE("Horizon: cylinders between balls of two lattices with the same vectors, or of one",
+          "[oracle][horizon]") {
+  for (const double second : {0.375, 0.5}) {  // smaller than the first, or larger
+    Scene one = unit_scene(3, 0.4375);
+    Scene two = one;
+    one.lattices[0].atoms.push_back({{0.5, 0.5, 0.375}, second, {}});
+    two.lattices.push_back({two.lattices[0].vectors, {{{0.5, 0.5, 0.375}, second, {}}}});
+    const Horizon motif = horizon_of(one), superposed = horizon_of(two);
+    REQUIRE(motif.cylinders.size() > 3);
+    CHECK(cylinders_of(motif) == cylinders_of(superposed));
+    for (const auto& cylinder : superposed.cylinders) CHECK(cylinder.inside);
+  }
+}
+
+TEST_CASE("Horizon: among ellipsoids that differ no cylinder is named, whichever differs",
+          "[oracle][horizon]") {
+  const std::vector<Vec> lying{{0.375, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}},
+      upright{{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.375}};
+  const Atom ball{{}, 0.45, {}}, first{{}, 0, lying}, second{{}, 0, upright};
+  for (std::vector<Atom> atoms : {std::vector{first, second, first},
+                                  {second, first, first},
+                                  {first, first, second},
+                                  {first, ball, ball},
+                                  {ball, ball, first}}) {
+    for (std::size_t i = 0; i < 3; ++i) atoms[i].position = {0.25 * static_cast<double>(i), 0, 0.5};
+    std::vector<Lattice> alone;
+    for (const Atom& atom : atoms) alone.push_back({unit_scene(3, 1).lattices[0].vectors, {atom}});
+    for (const Scene& scene : {Scene{3, {{alone[0].vectors, atoms}}}, Scene{3, alone}}) {
+      const Horizon horizon = horizon_of(scene);
+      CHECK_FALSE(horizon.no_cylinders.empty());
+      CHECK(horizon.cylinders.empty());
+      CHECK(horizon.families.empty());
+    }
+  }
+}
+
+TEST_CASE("Horizon: balls stretched along a cylinder leave it as wide, and no less than its share is named",
+          "[oracle][horizon]") {
+  // What fits is divided by sqrt(1 + 1 + 1/4), the norm of the map back over that across the cylinder.
+  const std::vector<Vec> axes{{0.625, 0, 0}, {0, 0.625, 0}, {0, 0, 1.25}};
+  const Horizon horizon =
+      horizon_of(scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 2}}, {{{}, 0, axes}}));
+  const double fits = std::sqrt(0.5) - 0.625;
+  REQUIRE_FALSE(horizon.cylinders.empty());
+  for (const auto& cylinder : horizon.cylinders)
+    if (cylinder.vector == Vec{0, 0, 2}) CHECK(cylinder.radius == Approx(fits / 1.5).epsilon(1e-12));
+  CHECK(std::any_of(horizon.cylinders.begin(), horizon.cylinders.end(), [](const auto& cylinder) {
+    return cylinder.vector == Vec{0, 0, 2};
+  }));
+}
+
 TEST_CASE("Horizon: the radius of a cylinder is above 0 however small the hole", "[oracle][horizon]") {
   // Between four balls of a square: sqrt(1/2) - r. A second ball in each line of sight changes nothing.
   const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
@@ -178,6 +291,18 @@ TEST_CASE("Horizon: the radius of a cylinder is above 0 however small the hole",
   REQUIRE(cusp.cylinders.size() == 1);
   CHECK(cusp.cylinders[0].radius > 0);
   CHECK(cusp.cylinders[0].radius < 3 * e * e);
+  CHECK_FALSE(cusp.cylinders[0].inside);  // of binary64 points only (3, 4) is near enough, and on a circle
+
+  // A hole of 4e-7 where binary64 has only multiples of 2^-16 along x: the line named is in a ball.
+  const Scene far = scene_with(3, {Vec{1, 0.125, 0}, Vec{0.375, 0.875, 0}, Vec{0, 0, 1}},
+                               {{{0x1p36, 0, 0}, 592979 * 0x1p-20, {}}});
+  const auto cylinders = horizon_of(far).cylinders;
+  const auto upright = std::find_if(cylinders.begin(), cylinders.end(), [](const auto& cylinder) {
+    return cylinder.vector == Vec{0, 0, 1};
+  });
+  REQUIRE(upright != cylinders.end());
+  CHECK_FALSE(upright->inside);
+  CHECK(oracle::Oracle(far).first_hit({upright->point, {0, 0, 1}, {}}).outcome != Outcome::never);
 
   // A cylinder of that radius fits: no ball is nearer to the line, as binary64 sees it.
   Draw draw(80);

@@ -171,6 +171,49 @@ TEST_CASE("Horizon: superposed lattices of tiny discs are decided", "[oracle][ho
   CHECK_THROWS_AS(horizon_of(scene), TooManyChannels);
 }
 
+TEST_CASE("Horizon: the one corridor of two lattices, between rows far out", "[oracle][horizon]") {
+  // Ellipses 1/650 apart across (650, 1), and as wide as 0.92 of that; across (1, 650) they overlap.
+  Scene scene = scene_with(2, {Vec{1, 0}, Vec{0, 1}}, {{{}, 0, {Vec{0.0005, 0.006}, Vec{0.0005, 0}}}});
+  const double odd = 1.4140625;
+  scene.lattices.push_back({{Vec{odd, -650 * odd}, Vec{std::sqrt(3), std::sqrt(0.1)}}, {{{}, 0.5, {}}}});
+  const Horizon horizon = horizon_of(scene);
+  REQUIRE(horizon.channels.size() == 1);
+  CHECK(horizon.channels[0].vector == Vec{1, -650});
+}
+
+TEST_CASE("Horizon: two centred rectangular lattices, and the same as rectangles with two discs",
+          "[oracle][horizon]") {
+  // Of the products of their normals the short ones, (1, 0, 0, 1) and (0, 1, 1, 0), are of rank two.
+  Scene centred, rectangles;
+  centred.dimension = rectangles.dimension = 2;
+  for (const Vec& side : {Vec{1, 1}, Vec{std::sqrt(2), std::sqrt(3)}}) {
+    const double x = side[0] / 2, y = side[1] / 2, r = 0.01;
+    centred.lattices.push_back({{Vec{x, y}, Vec{x, -y}}, {{{}, r, {}}}});
+    rectangles.lattices.push_back({{Vec{2 * x, 0}, Vec{0, 2 * y}}, {{{}, r, {}}, {{x, y}, r, {}}}});
+  }
+  const Horizon one = horizon_of(centred), other = horizon_of(rectangles);
+  CHECK(one.normals == 2);
+  CHECK(other.normals == 2);
+  REQUIRE(one.channels.size() == 2);
+  for (const auto& channel : one.channels) {  // the widest of its direction
+    const auto same = std::find_if(other.channels.begin(), other.channels.end(),
+                                   [&](const auto& each) { return each.vector == channel.vector; });
+    REQUIRE(same != other.channels.end());
+    CHECK(same->width == channel.width);
+  }
+}
+
+TEST_CASE("Horizon: rows that a shear leaves in place are one corridor, named once", "[oracle][horizon]") {
+  // Tall ellipses: for the products of normals (0, 1, -1, 0) is shorter than that of the rows.
+  const std::vector<Vec> tall{{0.001, 0, 0}, {0, 0.1, 0}};
+  Scene scene = scene_with(2, {Vec{1, 0}, Vec{0, 1}}, {{{}, 0, tall}});
+  scene.lattices.push_back({{Vec{1, 0}, Vec{-std::sqrt(2), 1}}, {{{}, 0, tall}}});
+  const Horizon horizon = horizon_of(scene);
+  REQUIRE(horizon.channels.size() == 1);
+  CHECK(horizon.channels[0].vector == Vec{1, 0});
+  CHECK(horizon.channels[0].width == 0.8);
+}
+
 TEST_CASE("Horizon: vectors skewed by 10^300 span the same lattice, and cost no more", "[oracle][horizon]") {
   const Vec e1{1, 0, 0}, e3{0, 0, 1};
   for (const double skew : {3.0, 0x1p60, 1e300}) {

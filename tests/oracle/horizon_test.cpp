@@ -311,6 +311,112 @@ TEST_CASE("Horizon: three lattices with long common periods are undecided, if no
   CHECK(horizon_of(scene).is_finite());
 }
 
+TEST_CASE("Horizon: three lattices are undecided if but one gap of the first meets the second's",
+          "[oracle][horizon]") {
+  // The line y = +-height is free. The first lattice's other gap is half a step from every gap of the second.
+  const double step = 0x1p-17, thin = 0x1p-31, height = 0.25 + step / 2, period = 1 + step;
+  const Vec along{0.25, 0};
+  for (const double way : {1, -1}) {  // either gap is the last
+    Scene scene =
+        scene_with(2, {along, Vec{0, 1}}, {{{0, 0}, 0.1875, {}}, {{0, way * 0.625}, 0.1875 - thin, {}}});
+    scene.lattices.push_back(
+        {{along, Vec{0, period}}, {{{0, way * (height + period / 2)}, (period - thin) / 2, {}}}});
+    scene.lattices.push_back({{along, Vec{0, 1 + step / 2}}, {{{0, way * 0.75}, 0.2, {}}}});
+    REQUIRE(outcome_along(oracle::Oracle(scene), {0, way * height}, along) == Outcome::never);
+    const Horizon horizon = horizon_of(scene);
+    CHECK(horizon.channels.empty());
+    CHECK(horizon.undecided.size() == 1);
+    CHECK_FALSE(horizon.is_finite());
+  }
+}
+
+TEST_CASE("Horizon: three lattices are undecided if two of them meet in one shift alone",
+          "[oracle][horizon]") {
+  // A gap of 2^-31 about y = 0 in either of the first two.
+  const double thin = 0x1p-31;
+  const Vec along{0.25, 0};
+  Scene scene = scene_with(2, {along, Vec{0, 1}}, {{{0, 0.5}, (1 - thin) / 2, {}}});
+  const double period = 1 + 0x1p-17;
+  scene.lattices.push_back({{along, Vec{0, period}}, {{{0, period / 2}, (period - thin) / 2, {}}}});
+  scene.lattices.push_back({{along, Vec{0, 1 + 0x1p-18}}, {{{0, 0.5}, 0.2, {}}}});
+  REQUIRE(outcome_along(oracle::Oracle(scene), {0, 0}, along) == Outcome::never);
+  const Horizon horizon = horizon_of(scene);
+  CHECK(horizon.undecided.size() == 1);
+  CHECK_FALSE(horizon.is_finite());
+}
+
+TEST_CASE("Horizon: of unequal discs the widest of many meetings is found", "[oracle][horizon]") {
+  // Rows 1 and 1 + 2^-17 apart, each with a gap from a large disc to a small one, or from a small to a large.
+  const double step = 0x1p-17, unit = 0x1p-6;
+  const Vec along{0.125, 0};
+  Scene scene = scene_with(2, {along, Vec{0, 1}}, {{{0, 0}, 19 * unit, {}}, {{0, 39 * unit}, 15 * unit, {}}});
+  scene.lattices.push_back(
+      {{along, Vec{0, 1 + step}}, {{{0, 7 * unit}, 15 * unit, {}}, {{0, 47 * unit}, 19 * unit, {}}}});
+  const Horizon horizon = horizon_of(scene);  // gaps of 5 and 6 units
+  REQUIRE(horizon.channels.size() == 1);
+  CHECK(horizon.channels[0].width == 5 * unit);
+  CHECK(horizon.channels[0].count == Integer{11 * (1 << 11) - 1});
+  CHECK(horizon.channels[0].inside);
+  // Half a common period is as far as one has to go.
+  CHECK(std::fabs(horizon.channels[0].point[1]) < (1 << 16) + 2);
+}
+
+TEST_CASE("Horizon: of gaps equally wide the nearest shift is the widest meeting", "[oracle][horizon]") {
+  const double step = 0x1p-17, wide = 0.25;
+  for (const double share : {0.25, 0.75}) {  // of a step, from one gap's middle to the other's
+    Scene scene = scene_with(2, {Vec{0.125, 0}, Vec{0, 1}}, {{{0, 0.5}, (1 - wide) / 2, {}}});
+    scene.lattices.push_back({{Vec{0.125, 0}, Vec{0, 1 + step}},
+                              {{{0, (1 + step) / 2 + share * step}, (1 + step - wide) / 2, {}}}});
+    const Horizon horizon = horizon_of(scene);
+    REQUIRE(horizon.channels.size() == 1);
+    CHECK(horizon.channels[0].width == wide - step / 4);
+    CHECK(horizon.channels[0].count == Integer(1 << 16));  // shifts by less than 1/4 either way
+  }
+}
+
+TEST_CASE("Horizon: of a corridor's translates the one nearest to the origin is shown", "[oracle][horizon]") {
+  const Scene scene =
+      scene_with(2, {Vec{0.125, 0}, Vec{0, 1}}, {{{0, 0.25}, 0.1875, {}}, {{0, 0.75}, 0.0625, {}}});
+  std::set<double> heights;
+  for (const auto& channel : horizon_of(scene).channels) heights.insert(channel.point[1]);
+  CHECK(heights == std::set{-0.4375, -0.0625});
+}
+
+TEST_CASE("Horizon: what two lattices shut is shut, whatever the third leaves open", "[oracle][horizon]") {
+  const Vec along{0.25, 0};
+  const auto rows = [&](double period, std::vector<double> heights) {
+    Lattice lattice{{along, Vec{0, period}}, {}};
+    for (const double height : heights) lattice.atoms.push_back({{0, height}, 0.3, {}});
+    return lattice;
+  };
+  // Of one period, and of periods that have a short one in common.
+  for (const Lattice& other : {rows(1, {0.5}), rows(2, {0.5, 1.5})})
+    for (const double third : {1.0, 3.0, 1 + 0x1p-40}) {
+      std::vector<Lattice> lattices{rows(1, {0}), other, rows(third, {0})};
+      for (int turn = 0; turn < 3; ++turn) {
+        CHECK(horizon_of({2, lattices}).is_finite());
+        std::rotate(lattices.begin(), lattices.begin() + 1, lattices.end());
+      }
+    }
+}
+
+TEST_CASE("Horizon: three lattices in another order leave the same open", "[oracle][horizon]") {
+  // The second's period is a short one in common with the first's only if the third has shut most gaps.
+  const double thin = 0x1p-10, period = 1 + 0x1p-11, height = 0x1p-7;
+  const Vec along{0x1p-8, 0};
+  Lattice many{{along, Vec{0, 1}}, {}};
+  for (int i = 0; i < 64; ++i) many.atoms.push_back({{0, i / 64.0}, height - thin / 2, {}});
+  const Lattice second{{along, Vec{0, period}}, {{{0, height + period / 2}, (period - thin) / 2, {}}}},
+      third{{along, Vec{0, 2}}, {{{0, height + 1}, 1 - 0x1p-8, {}}}};
+  const Horizon one = horizon_of({2, {many, second, third}}), other = horizon_of({2, {many, third, second}});
+  CHECK(one.channels.size() == 3);  // shifted by -1, 0, 1 steps
+  REQUIRE(one.channels.size() == other.channels.size());
+  for (std::size_t i = 0; i < one.channels.size(); ++i) {
+    CHECK(one.channels[i].width == other.channels[i].width);
+    CHECK(one.channels[i].count == Integer(1));
+  }
+}
+
 TEST_CASE("Horizon: ellipses and ellipsoids are affine images of balls", "[oracle][horizon]") {
   Draw draw(76);
   std::size_t channels = 0, cylinders = 0, inside = 0;
@@ -446,6 +552,21 @@ TEST_CASE("Horizon: the tail constant counts each atom, and touching ones do not
   CHECK(*horizon_of(touching).tail_constant == Approx(0.25 / (M_PI * (1.5 - M_PI / 4))).epsilon(1e-12));
   touching.lattices[0].vectors[0][0] = std::nextafter(1, 0);
   CHECK_FALSE(horizon_of(touching).tail_constant);
+}
+
+TEST_CASE("Horizon: the tail constant of ellipses is of their widths and their area", "[oracle][horizon]") {
+  // Corridors of 0.6 and 0.1 along the axes, two along the diagonals.
+  const double a = 0.45, b = 0.2, diagonal = std::sqrt(0.5) - std::sqrt(2 * (a * a + b * b));
+  const double expected =
+      (0.36 + 0.01 + 2 * std::sqrt(2) * diagonal * diagonal) / (M_PI * (1 - M_PI * a * b));
+  const auto constant = [](const Vec& u, const std::vector<Vec>& axes) {
+    return horizon_of(scene_with(2, {u, Vec{-u[1], u[0]}}, {{{}, 0, axes}})).tail_constant.value();
+  };
+  CHECK(constant({1, 0}, {{a, 0}, {0, b}}) == Approx(expected));
+  CHECK(constant({1, 0}, {{0, b}, {-a, 0}}) == Approx(expected));
+  CHECK(constant({1, 0}, {{0.6 * a, 0.8 * b}, {-0.8 * a, 0.6 * b}}) ==
+        Approx(expected));                                                             // of the same ellipse
+  CHECK(constant({3, 4}, {{3 * a, 4 * a}, {-4 * b, 3 * b}}) == Approx(5 * expected));  // all turned, 3-4-5
 }
 
 TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {

@@ -35,6 +35,39 @@ TEST_CASE("Dependent vectors are found exactly, nearly dependent ones are none",
   CHECK(oracle::dependence_in(flat).has_value());
 }
 
+TEST_CASE("Dependent vectors are found in whichever lattice, atom and axis they are",
+          "[oracle][scene_check]") {
+  Scene scene = unit_scene(3, 0.1);
+  const Atom ball = scene.lattices[0].atoms[0];
+  const Atom body{{}, 0, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{1, 1, 1}}};
+  scene.lattices[0].atoms = {ball, body, ball, body};
+  scene.lattices.resize(3, scene.lattices[0]);
+  CHECK_FALSE(oracle::dependence_in(scene));
+  for (const std::size_t lattice : {0, 1, 2}) {
+    Scene flat = scene;
+    flat.lattices[lattice].vectors[2] = {1, 1, 0};
+    CHECK(oracle::dependence_in(flat).value().find("lattice " + std::to_string(lattice) +
+                                                   ": the primitive") == 0);
+    for (const std::size_t atom : {1, 3}) {
+      flat = scene;
+      flat.lattices[lattice].atoms[atom].semiaxes[2] = {1, 1, 0};
+      CHECK(oracle::dependence_in(flat) == "lattice " + std::to_string(lattice) + ", atom " +
+                                               std::to_string(atom) +
+                                               ": the semiaxes are linearly dependent");
+    }
+  }
+}
+
+TEST_CASE("Contacts are described by who meets whom", "[oracle][scene_check]") {
+  using oracle::description_of;
+  CHECK(description_of({0, 1, 0, 1, {}, true}) ==
+        "the obstacles of lattice 0, atom 1 overlap their own translates");
+  CHECK(description_of({0, 1, 0, 2, {}, false}) ==
+        "obstacles of lattice 0, atom 1 and of lattice 0, atom 2 touch");
+  CHECK(description_of({0, 1, 2, 1, {}, true}) ==
+        "obstacles of lattice 0, atom 1 and of lattice 2, atom 1 overlap");
+}
+
 TEST_CASE("Overlapping and touching obstacles are noticed, separate ones are not", "[oracle][scene_check]") {
   CHECK_FALSE(in_contact(unit_scene(2, std::nextafter(0.5, 0))));
   CHECK(in_contact(unit_scene(2, 0.5)));
@@ -50,6 +83,7 @@ TEST_CASE("Overlapping and touching obstacles are noticed, separate ones are not
   Scene two = unit_scene(2, 0.25);
   two.lattices.push_back(two.lattices[0]);
   CHECK(in_contact(two));
+  CHECK(oracle::contacts_in(two, 1, oracle::Pairs::within_lattices).found.empty());
   two.lattices[1].atoms[0].position = {0.5, 0.5};
   CHECK_FALSE(in_contact(two));
 
