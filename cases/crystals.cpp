@@ -3,7 +3,7 @@
 namespace lorentz::cases {
 namespace {
 
-Scene scene(int dimension, const std::array<Vec, 3>& vectors, std::vector<Atom> atoms) {
+Scene crystal(int dimension, const std::array<Vec, 3>& vectors, std::vector<Atom> atoms) {
   return {dimension, {{vectors, std::move(atoms)}}};
 }
 
@@ -23,33 +23,33 @@ constexpr std::array<Vec, 3> kTriclinic{Vec{1, 0, 0}, Vec{0.25, 1, 0}, Vec{-0.12
 std::vector<Crystal> flat() {
   const Vec middle{0.5, 0.28867513459481287};
   return {
-      {"square", scene(2, kSquare, {ball({}, 0.1)})},
-      {"rectangular", scene(2, {Vec{1, 0}, Vec{0, 1.5}, Vec{}}, {ball({}, 0.4)})},
-      {"oblique", scene(2, {Vec{1, 0}, Vec{0.25, 1.25}, Vec{}}, {ball({}, 0.4)})},
-      {"triangular", scene(2, kTriangular, {ball({}, 0.45)})},
-      {"hexagonal", scene(2, {Vec{1, 0}, Vec{-0.5, kRoot3Half}, Vec{}}, {ball({}, 0.4)})},
-      {"honeycomb", scene(2, kTriangular, {ball({}, 0.23), ball(middle, 0.23)})},
+      {"square", crystal(2, kSquare, {ball({}, 0.1)})},
+      {"rectangular", crystal(2, {Vec{1, 0}, Vec{0, 1.5}, Vec{}}, {ball({}, 0.4)})},
+      {"oblique", crystal(2, {Vec{1, 0}, Vec{0.25, 1.25}, Vec{}}, {ball({}, 0.4)})},
+      {"triangular", crystal(2, kTriangular, {ball({}, 0.45)})},
+      {"hexagonal", crystal(2, {Vec{1, 0}, Vec{-0.5, kRoot3Half}, Vec{}}, {ball({}, 0.4)})},
+      {"honeycomb", crystal(2, kTriangular, {ball({}, 0.23), ball(middle, 0.23)})},
       {"kagome",
-       scene(2, kTriangular, {ball({}, 0.2), ball({0.5, 0}, 0.2), ball({0.25, 0.4330127018922193}, 0.2)})},
+       crystal(2, kTriangular, {ball({}, 0.2), ball({0.5, 0}, 0.2), ball({0.25, 0.4330127018922193}, 0.2)})},
   };
 }
 
 std::vector<Crystal> solid() {
   const Vec middle{0.5, 0.5, 0.5}, quarter{0.25, 0.25, 0.25};
   return {
-      {"cubic", scene(3, kCubic, {ball({}, 0.1)})},
-      {"bcc", scene(3, kBcc, {ball({}, 0.35)})},
-      {"fcc", scene(3, kFcc, {ball({}, 0.28)})},
-      {"hcp", scene(3, kHexagonal,
-                    {ball({0, 0.5773502691896257, 0.408248290463863}, 0.4),
-                     ball({0.5, 0.28867513459481287, 1.224744871391589}, 0.4)})},
-      {"diamond", scene(3, kFcc, {ball({}, 0.17), ball(quarter, 0.17)})},
-      {"rock-salt", scene(3, kFcc, {ball({}, 0.28), ball(middle, 0.14)})},
-      {"cesium-chloride", scene(3, kCubic, {ball({}, 0.4), ball(middle, 0.3)})},
-      {"perovskite", scene(3, kCubic,
-                           {ball(middle, 0.35), ball({}, 0.15), ball({0.5, 0, 0}, 0.25),
-                            ball({0, 0.5, 0}, 0.25), ball({0, 0, 0.5}, 0.25)})},
-      {"triclinic", scene(3, kTriclinic, {ball({}, 0.4)})},
+      {"cubic", crystal(3, kCubic, {ball({}, 0.1)})},
+      {"bcc", crystal(3, kBcc, {ball({}, 0.35)})},
+      {"fcc", crystal(3, kFcc, {ball({}, 0.28)})},
+      {"hcp", crystal(3, kHexagonal,
+                      {ball({0, 0.5773502691896257, 0.408248290463863}, 0.4),
+                       ball({0.5, 0.28867513459481287, 1.224744871391589}, 0.4)})},
+      {"diamond", crystal(3, kFcc, {ball({}, 0.17), ball(quarter, 0.17)})},
+      {"rock-salt", crystal(3, kFcc, {ball({}, 0.28), ball(middle, 0.14)})},
+      {"cesium-chloride", crystal(3, kCubic, {ball({}, 0.4), ball(middle, 0.3)})},
+      {"perovskite", crystal(3, kCubic,
+                             {ball(middle, 0.35), ball({}, 0.15), ball({0.5, 0, 0}, 0.25),
+                              ball({0, 0.5, 0}, 0.25), ball({0, 0, 0.5}, 0.25)})},
+      {"triclinic", crystal(3, kTriclinic, {ball({}, 0.4)})},
   };
 }
 

@@ -50,7 +50,7 @@ void add(const Way& way, Sums& sums) {
   ++sums.particles;
 }
 
-bool is_possible(const Sums& sums, Share share) {
+bool can_be_displacements(const Sums& sums, Share share) {
   return sums.values.size() == kDiffusionValues &&
          std::all_of(sums.values.begin(), sums.values.begin() + kTimes, [](double x) { return x >= 0; }) &&
          sums.stopped <= share.last - share.first &&
@@ -112,7 +112,8 @@ Estimate estimate_over(const std::vector<Sums>& groups, const Of& of) {
   return estimate_of(parts);
 }
 
-Diffusion told(const std::vector<Sums>& groups, int dimension, const std::vector<double>& times) {
+Diffusion told_of_diffusion(const std::vector<Sums>& groups, int dimension,
+                            const std::vector<double>& times) {
   Diffusion result;
   for (int k = 0; k < kTimes; ++k) {
     const auto mean = [](int which) {
@@ -156,11 +157,13 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
               sums);
         return sums;
       },
-      [&](std::uint64_t group, const Sums& sums) { return is_possible(sums, share_of(group, plan.count)); });
+      [&](std::uint64_t group, const Sums& sums) {
+        return can_be_displacements(sums, share_of(group, plan.count));
+      });
   std::vector<Sums> good;
   for (const auto& sums : all)
     if (sums && sums->particles > 0) good.push_back(*sums);
-  Diffusion result = told(good, plan.scene.dimension, times);
+  Diffusion result = told_of_diffusion(good, plan.scene.dimension, times);
   for (const auto& sums : all)
     if (sums && sums->particles == 0) result.stopped += sums->stopped;
   result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();

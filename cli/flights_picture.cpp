@@ -46,7 +46,7 @@ void add_curve(FreePathPlot& plot, const FlightsReport& report, PlotCurve curve)
 
 constexpr int kPointsAnOctave = 2, kCurveAnOctave = 8;
 constexpr std::uint64_t kFewest = 10;  // flights behind a point
-constexpr double kNearlyAll = 0.995;
+constexpr double kNearlyAllShown = 0.995;
 
 // From where on paths end at all, to where too few go on.
 struct Span {
@@ -56,7 +56,7 @@ struct Span {
 Span span_of(const FlightsFindings& found) {
   Span span;
   while (span.first + 1 < found.edges.size() &&
-         found.beyond[span.first] > kNearlyAll * static_cast<double>(found.total))
+         found.beyond[span.first] > kNearlyAllShown * static_cast<double>(found.total))
     ++span.first;
   span.last = span.first;
   while (span.last + 1 < found.edges.size() && found.beyond[span.last + 1] >= kFewest) ++span.last;

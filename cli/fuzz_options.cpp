@@ -30,7 +30,7 @@ fuzz::Scope scope_of(const FuzzOptions& options) {
   return scope;
 }
 
-std::string name_of(fuzz::Scope::Scenes scenes) {
+std::string name_of_scenes(fuzz::Scope::Scenes scenes) {
   return scenes == fuzz::Scope::Scenes::unit ? "unit" : "lattice";
 }
 
@@ -122,7 +122,7 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
                   plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
   if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)
-    manifest.options += ", scenes " + name_of(plan.scope.scenes);
+    manifest.options += ", scenes " + name_of_scenes(plan.scope.scenes);
   manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
   return manifest;
 }

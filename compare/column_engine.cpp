@@ -7,7 +7,7 @@
 namespace lorentz::compare {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
 
 // That with which alone an engine of this kind decides; nothing is known of the others.
 std::uint8_t usual_stage(const Traits& traits) {
@@ -33,12 +33,12 @@ ColumnEngine::ColumnEngine(const std::string& name, const Scene& scene, std::opt
 void ColumnEngine::set_limits(const QueryRows& queries) {
   limits_ = queries.max_time;
   if (!max_time_) return;
-  limits_.resize(queries.count, kNoLimit);
+  limits_.resize(queries.count, kNoTimeLimit);
   for (double& limit : limits_) limit = limit > *max_time_ ? *max_time_ : limit;
 }
 
 double ColumnEngine::limit(std::size_t i) const {
-  return limits_.empty() ? kNoLimit : limits_[i];
+  return limits_.empty() ? kNoTimeLimit : limits_[i];
 }
 
 void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& answers) {

@@ -15,10 +15,11 @@
 namespace lorentz::compare {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 16;  // queries are written out in pieces of this size
-constexpr std::size_t kAskedBetweenSteps = 256;       // a step costs some microseconds
-constexpr double kPatience = 0.5;                     // seconds
-constexpr double kBetweenLooks = 0.1;                 // seconds: whether it is enough
+constexpr std::size_t kWrittenAtOnce = std::size_t{1}
+                                       << 16;      // queries are written out in pieces of this size
+constexpr std::size_t kAskedBetweenSteps = 256;    // a step costs some microseconds
+constexpr double kPatience = 0.5;                  // seconds
+constexpr double kBetweenLooks = 0.1;              // seconds: whether it is enough
 constexpr std::chrono::milliseconds kGrace{1000};  // to end in, once it is told to or has closed its output
 constexpr std::size_t kMaxComplaints = 20, kRecent = 64;
 constexpr std::size_t kMaxShown = 2000;  // bytes of a scene line in a message
@@ -140,7 +141,8 @@ void CommandEngine::abandon() {
 void CommandEngine::encode() {
   Run& run = *run_;
   const std::size_t most = run.greeting ? 1 : limit_;
-  while (!run.ending && run.outstanding < open_.size() && run.given < most && run.to_write.size() < kPiece) {
+  while (!run.ending && run.outstanding < open_.size() && run.given < most &&
+         run.to_write.size() < kWrittenAtOnce) {
     const Asked& asked = open_[run.outstanding];
     if (run.scene != asked.scene) {
       append_scene_line(run.to_write, *asked.scene);

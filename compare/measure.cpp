@@ -125,7 +125,7 @@ std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener, 
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kBlock = 16;
 constexpr double kEnoughSeconds = 10;  // no further rounds after that
 
@@ -146,10 +146,10 @@ Round run_round(const CaseSet& set, std::size_t count, const std::string& name,
   for (std::size_t begin = 0; begin < count; begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, count);
     instructions.resume();
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
       first_hit[set.cases[i].scene](set.cases[i].query, request, answers[i - begin]);
-    const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+    const double ns = std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
     instructions.pause();
     round.total_ns += ns;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
@@ -172,14 +172,14 @@ Round run_round(const CaseSet& set, std::size_t count, const std::string& name, 
     if (program.origin() == Answerer::Origin::not_asked) answers.back().reset();
     report(listener, name, answers.size(), count);
   });
-  const auto start = Clock::now();
+  const auto start = SteadyClock::now();
   for (std::size_t i = 0; i < count; ++i) {
     const Case& one = set.cases[i];
     if (i == 0 || one.scene != set.cases[i - 1].scene) program.set_scene(set.scenes[one.scene]);
     program.ask(one.id, one.query);
   }
   program.drain();
-  const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+  const double ns = std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
   for (std::size_t i = 0; i < answers.size(); ++i) look(i, answers[i] ? &*answers[i] : nullptr);
   return {ns, {ns / static_cast<double>(std::max<std::size_t>(answers.size(), 1))}};
 }
@@ -263,14 +263,14 @@ class Examination {
 // In turn, so that what slows the machine down for a while slows all of them. Answers are judged once.
 void run_rounds(const CaseSet& set, std::vector<Entrant>& entrants, const Examination& examination,
                 const MeasureOptions& options) {
-  const auto start = Clock::now();
+  const auto start = SteadyClock::now();
   for (int r = 0; r < options.rounds; ++r) {
     for (std::size_t name = 0; name < entrants.size(); ++name)
       if (Entrant& entrant = entrants[name]; !entrant.failed())
         entrant.run(set, options.listener, [&](std::size_t i, const Answer* given) {
           if (r == 0) examination.judge(name, i, given, entrant.tally);
         });
-    if (std::chrono::duration<double>(Clock::now() - start).count() > kEnoughSeconds) break;
+    if (std::chrono::duration<double>(SteadyClock::now() - start).count() > kEnoughSeconds) break;
   }
 }
 

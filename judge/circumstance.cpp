@@ -33,8 +33,9 @@ using Quantity = double Features::*;
 
 // "below 1e-9", with the least power of ten that all failing questions are below; nothing if one has no such
 // quantity, or if that power says nothing.
-std::optional<Predicate> below(const std::vector<Features>& failing, Quantity quantity, const char* text,
-                               double says_nothing = std::numeric_limits<double>::infinity()) {
+std::optional<Predicate> where_below(const std::vector<Features>& failing, Quantity quantity,
+                                     const char* text,
+                                     double says_nothing = std::numeric_limits<double>::infinity()) {
   double most = 0;
   for (const Features& f : failing) {
     if (!(f.*quantity >= 0)) return std::nullopt;
@@ -62,19 +63,19 @@ std::optional<Predicate> from(const std::vector<Features>& failing, Quantity qua
 
 std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
   std::vector<Predicate> all = plain_predicates();
-  if (auto depth = below(failing, &Features::depth,
-                         "where the line enters the obstacle by less than {:g} of its radii", 1)) {
+  if (auto depth = where_below(failing, &Features::depth,
+                               "where the line enters the obstacle by less than {:g} of its radii", 1)) {
     depth->is_of_depth = true;
     all.push_back(*depth);
   }
   for (auto& one :
-       {below(failing, &Features::radius, "at radii below {:g} lattice vectors"),
+       {where_below(failing, &Features::radius, "at radii below {:g} lattice vectors"),
         from(failing, &Features::radius, "at radii of {:g} lattice vectors or more"),
         from(failing, &Features::flight, "after flights of {:g} lattice vectors or more"),
-        below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
+        where_below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
         from(failing, &Features::start, "from starts {:g} lattice vectors or more from the origin"),
         from(failing, &Features::cell, "in far cells, with numbers of {:g} or more"),
-        below(failing, &Features::speed, "at velocities shorter than {:g}"),
+        where_below(failing, &Features::speed, "at velocities shorter than {:g}"),
         from(failing, &Features::speed, "at velocities of length {:g} or more")})
     if (one) all.push_back(*one);
   return all;

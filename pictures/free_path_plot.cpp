@@ -11,8 +11,8 @@ namespace {
 // Told apart by the colour-blind too (after Okabe & Ito), and dark enough for thin lines.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
 constexpr const char* kGrey = "#777777";
-constexpr double kLetters = 20;    // font size, so that it is 10 at half the width
-constexpr double kAdvance = 0.56;  // of a letter, in font sizes, about
+constexpr double kLetterSize = 20;  // font size, so that it is 10 at half the width
+constexpr double kAdvance = 0.56;   // of a letter, in font sizes, about
 
 // UTF-8: each letter has one byte that is not a continuation.
 std::size_t letters_in(const std::string& text) {
@@ -194,7 +194,7 @@ void add_axes(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   svg.text({(frame.left + frame.right) / 2, frame.bottom + 56}, plot.t_label, "text-anchor=\"middle\"");
   svg.text({0, 0}, plot.value_label,
            fmt::format("text-anchor=\"middle\" transform=\"translate({:.0f} {:.0f}) rotate(-90)\"",
-                       kLetters + 4, (frame.top + frame.bottom) / 2));
+                       kLetterSize + 4, (frame.top + frame.bottom) / 2));
 }
 
 void add_marker(Svg& svg, Point at, std::size_t series) {
@@ -281,7 +281,7 @@ LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
     rows += !curve.name.empty();
   }
   const double height = kRow * static_cast<double>(rows) + 10,
-               width = 66 + kAdvance * kLetters * static_cast<double>(longest), gap = 16,
+               width = 66 + kAdvance * kLetterSize * static_cast<double>(longest), gap = 16,
                left = frame.left + gap, right = frame.right - gap - width, up = frame.top + gap,
                down = frame.bottom - gap - height;
   const Point corners[] = {{left, down}, {right, up}, {left, up}, {right, down}};
@@ -315,7 +315,7 @@ void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
 }
 
 // In letters so small that it fits.
-void add_line(Svg& svg, Point at, const std::string& words, double size, double room, const char* style) {
+void add_words(Svg& svg, Point at, const std::string& words, double size, double room, const char* style) {
   const double fits = room / (kAdvance * static_cast<double>(std::max<std::size_t>(1, letters_in(words))));
   svg.text(at, words, fmt::format("font-size=\"{:.1f}\" {}", std::min(size, fits), style));
 }
@@ -335,16 +335,16 @@ std::string draw_free_paths(const FreePathPlot& plot) {
       fmt::format("<defs><clipPath id=\"frame\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
                   "height=\"{:.2f}\"/></clipPath></defs>\n",
                   frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top));
-  svg.open(fmt::format("font-size=\"{}\"", kLetters));
+  svg.open(fmt::format("font-size=\"{}\"", kLetterSize));
   add_axes(svg, frame, plot);
   for (const PlotCurve& curve : plot.curves) add_curve(svg, frame, curve);
   for (std::size_t i = 0; i < plot.series.size(); ++i) add_series(svg, frame, plot.series[i], i);
   add_legend(svg, frame, plot);
   if (!plot.title.empty())
-    add_line(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
+    add_words(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
   if (!plot.note.empty())
-    add_line(svg, {kPlotMargin, plot.height - kPlotMargin}, plot.note, 17, plot.width - 2 * kPlotMargin,
-             "fill=\"#444444\"");
+    add_words(svg, {kPlotMargin, plot.height - kPlotMargin}, plot.note, 17, plot.width - 2 * kPlotMargin,
+              "fill=\"#444444\"");
   svg.close();
   return svg.document(plot.width, plot.height, plot.title);
 }

@@ -29,7 +29,7 @@ Facet square_on(const Vec& normal, double level, const Block& block) {
 }
 
 // The shares of a line p + t v that are in the block.
-bool part_in(const Block& block, const Vec& p, const Vec& v, double& first, double& last) {
+bool part_in_block(const Block& block, const Vec& p, const Vec& v, double& first, double& last) {
   first = -1e300, last = 1e300;
   for (const Vec& row : dual_of(block.edges, 3)) {
     const double at = dot(row, minus(p, block.corner)), step = dot(row, v);
@@ -91,7 +91,7 @@ std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const B
     const Vec p =
         sum(near, sum(scaled(u[0], n % 3 - 1), sum(scaled(u[1], n / 3 % 3 - 1), scaled(u[2], n / 9 - 1))));
     double first = 0, last = 0;
-    if (!part_in(block, p, cylinder.vector, first, last)) continue;
+    if (!part_in_block(block, p, cylinder.vector, first, last)) continue;
     const Axis axis{sum(p, scaled(cylinder.vector, first)), sum(p, scaled(cylinder.vector, last))};
     if (!longest || length(minus(axis.to, axis.from)) > 1.001 * length(minus(longest->to, longest->from)))
       longest = axis;

@@ -42,7 +42,7 @@ EllipseShape shape_of(const Atom& atom, double scale) {
 }
 
 // Those at the edge are cut there. False if there are too many.
-bool add_obstacles(Svg& svg, const PathDrawing& drawing, const PathFrame& frame) {
+bool add_passed_obstacles(Svg& svg, const PathDrawing& drawing, const PathFrame& frame) {
   bool cut = false;
   const std::vector<Placed> obstacles = obstacles_in(drawing.scene, frame.box, cut);
   if (cut || obstacles.size() > kMostDrawn) return false;
@@ -60,7 +60,7 @@ bool add_obstacles(Svg& svg, const PathDrawing& drawing, const PathFrame& frame)
   return true;
 }
 
-void add_line(Svg& svg, const std::vector<Point>& points, const char* colour_of_it, const char* more) {
+void add_path(Svg& svg, const std::vector<Point>& points, const char* colour_of_it, const char* more) {
   svg.polyline(points, fmt::format("stroke=\"{}\" stroke-width=\"1.8\" "
                                    "stroke-linejoin=\"round\"{}",
                                    colour_of_it, more));
@@ -85,11 +85,11 @@ double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obst
 std::string draw_path(const PathDrawing& drawing) {
   const PathFrame frame(drawing);
   Svg svg;
-  const bool all_obstacles = add_obstacles(svg, drawing, frame);
+  const bool all_obstacles = add_passed_obstacles(svg, drawing, frame);
   if (!drawing.other.empty() && drawing.parting > 0)
-    add_line(svg, on_paper(frame, drawing.other, drawing.parting - 1), kOtherColour,
+    add_path(svg, on_paper(frame, drawing.other, drawing.parting - 1), kOtherColour,
              " stroke-dasharray=\"6 3\"");
-  add_line(svg, on_paper(frame, drawing.path), kPathColour, "");
+  add_path(svg, on_paper(frame, drawing.path), kPathColour, "");
   svg.ellipse(frame(drawing.path[0]), {5, 5, 0},
               fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"2\"", kPathColour));
   const double height = add_notes(svg, drawing, frame.height(), all_obstacles);

@@ -93,8 +93,8 @@ void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& cor
   }
 }
 
-void add_obstacle(Svg& svg, const Scene& scene, const Window& window, const Placed& obstacle, bool hit,
-                  bool& enlarged) {
+void add_disc(Svg& svg, const Scene& scene, const Window& window, const Placed& obstacle, bool hit,
+              bool& enlarged) {
   constexpr double kSmallest = 2;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
   const auto columns = semiaxes_of(atom, 2);
@@ -129,7 +129,7 @@ bool part_in(const Box& box, const Vec& from, const Vec& to, double& first, doub
 }
 
 // What of a flight is in the window: an arrow if it goes on beyond.
-void add_flight(Svg& svg, const Window& window, const Line& line, Legend& legend) {
+void add_way(Svg& svg, const Window& window, const Line& line, Legend& legend) {
   const Box& box = window.box;
   Vec to = line.to;
   if (!line.ends) {  // to somewhere beyond
@@ -241,13 +241,13 @@ void Picture2D::add_contents() {
   add_grid(svg_, scene_, window_, corner_);
   for (std::size_t i = 0; i < options_.ways.size(); ++i)
     if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
-  for (const Placed& obstacle : obstacles_) add_obstacle(svg_, scene_, window_, obstacle, false, enlarged_);
-  for (const Placed& obstacle : hits_) add_obstacle(svg_, scene_, window_, obstacle, true, enlarged_);
+  for (const Placed& obstacle : obstacles_) add_disc(svg_, scene_, window_, obstacle, false, enlarged_);
+  for (const Placed& obstacle : hits_) add_disc(svg_, scene_, window_, obstacle, true, enlarged_);
   const auto corners = corners_of(scene_, corner_);
   if (!legend_.cell.empty())
     svg_.polygon({window_(corners[0]), window_(corners[1]), window_(corners[2]), window_(corners[3])},
                  "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
-  for (const Line& line : lines_) add_flight(svg_, window_, line, legend_);
+  for (const Line& line : lines_) add_way(svg_, window_, line, legend_);
 }
 
 Drawing Picture2D::draw() {

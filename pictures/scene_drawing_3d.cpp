@@ -11,7 +11,7 @@
 namespace lorentz::pictures {
 namespace {
 
-constexpr double kTallest = 900;
+constexpr double kTallest3D = 900;
 
 // Directions to the right, upwards and towards the eye: seen from a little to the right of the y axis and
 // above.
@@ -213,7 +213,7 @@ void Picture3D::fit() {
     box_.high[k] += margin;
   }
   const double wide = box_.high[0] - box_.low[0], tall = box_.high[1] - box_.low[1];
-  const Page page(scene_, options_, legend_, kTallest);
+  const Page page(scene_, options_, legend_, kTallest3D);
   top_ = page.top;
   scale_ = std::min(page.width / wide, page.height / tall);
   const double spare = page.width / scale_ - wide;  // a tall picture stands in the middle

@@ -7,7 +7,7 @@
 namespace lorentz::report {
 namespace {
 
-void append(std::string& out, const char* key, const std::optional<double>& value) {
+void append_or_null(std::string& out, const char* key, const std::optional<double>& value) {
   out += fmt::format(",\"{}\":", key);
   if (value)
     append_number(out, *value);
@@ -19,7 +19,7 @@ void append(std::string& out, const char* key, const std::optional<double>& valu
 template <class Curve>
 void append_place(std::string& out, const Curve& curve) {
   out += fmt::format("{{\"scene\":{},\"engine\":{}", json_quoted(curve.scene), json_quoted(curve.engine));
-  append(out, "radius", curve.radius);
+  append_or_null(out, "radius", curve.radius);
 }
 
 }  // namespace
@@ -29,9 +29,9 @@ void append_curve(std::string& out, const FreePathCurve& curve) {
   out += fmt::format(",\"from\":{},\"law\":{},\"points\":[", json_quoted(curve.from), json_quoted(curve.law));
   for (const FreePathCurve::Point& point : curve.points) {
     append_number(out += &point == &curve.points.front() ? "{\"t\":" : ",{\"t\":", point.t);
-    append(out, "survival", point.survival);
-    append(out, "exact", point.exact);
-    append(out, "theory", point.theory);
+    append_or_null(out, "survival", point.survival);
+    append_or_null(out, "exact", point.exact);
+    append_or_null(out, "theory", point.theory);
     out += '}';
   }
   out += "]}";
@@ -42,9 +42,9 @@ void append_curve(std::string& out, const SurvivalCurve& curve) {
   out += ",\"points\":[";
   for (const SurvivalCurve::Point& point : curve.points) {
     out += fmt::format("{}{{\"collisions\":{}", &point == &curve.points.front() ? "" : ",", point.collisions);
-    append(out, "share", point.share);
-    append(out, "low", point.bounds.low);
-    append(out, "high", point.bounds.high);
+    append_or_null(out, "share", point.share);
+    append_or_null(out, "low", point.bounds.low);
+    append_or_null(out, "high", point.bounds.high);
     out += '}';
   }
   out += "]}";

@@ -44,7 +44,7 @@ void set_direction(Random& random, int dimension, Case& made) {
 }
 
 // A multiple of 1/8 in a cell near or far, mostly moved along v, which keeps it on the same line.
-void set_start(Random& random, int dimension, const Lattice& lattice, Case& made) {
+void set_axis_start(Random& random, int dimension, const Lattice& lattice, Case& made) {
   Vec& x = made.query.x;
   const bool far = random.one_in(4);
   const std::int64_t range = far ? std::int64_t{1} << random.integer(20, 56) : 50;
@@ -68,7 +68,7 @@ Case make_axis(Source& source) {
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.scene = drawn.one_in(3) ? drawn_crystal(drawn, dimension).scene : unit_scene(dimension, 1);
   set_radius(made.scene, kRadii[drawn.below(7)]);
-  set_start(source.random, dimension, made.scene.lattices[0], made);
+  set_axis_start(source.random, dimension, made.scene.lattices[0], made);
   set_direction(source.random, dimension, made);
   return made;
 }

@@ -38,7 +38,7 @@ bool on_grid(double r) {
 }
 
 // v parallel to the axis, or ulps off it; a zero component of the axis becomes an ulp of the length.
-void set_direction(Random& random, Vec v, int dimension, Case& made) {
+void set_corridor_direction(Random& random, Vec v, int dimension, Case& made) {
   const double factor = static_cast<double>(random.integer(1, 1000)) * random.sign();
   for (int i = 0; i < dimension; ++i) v[i] = v[i] == 0 ? 0.0 : v[i] * factor;
   made.tags.push_back("along");
@@ -52,7 +52,7 @@ void set_direction(Random& random, Vec v, int dimension, Case& made) {
 }
 
 // Moves a start on the edge off it in one component, or leaves it there.
-void move_off(Random& random, bool exact, int dimension, Case& made) {
+void move_off_edge(Random& random, bool exact, int dimension, Case& made) {
   const bool off = random.below(3) > 0;
   made.tags.push_back(exact && !off ? "on-edge" : "near-edge");
   if (!off) return;
@@ -75,8 +75,8 @@ Case make_square(Source& source) {
   const auto x = start_beside(g, {0, 0, 1}, turns, kEdgeGrid, random.between(-9, 9));
   const Symmetry symmetry(random, 2);
   made.query.x = symmetry(*x);
-  set_direction(random, symmetry(to_vec(g)), 2, made);
-  move_off(random, on_grid(r), 2, made);
+  set_corridor_direction(random, symmetry(to_vec(g)), 2, made);
+  move_off_edge(random, on_grid(r), 2, made);
   return made;
 }
 
@@ -91,8 +91,8 @@ Case make_lattice(Source& source) {
   const double height = lattice.atoms[0].radius / (2 * half);  // the edge, in distances of rows
   made.query.x = sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
                      scaled(cartesian(lattice, {-u[1], u[0], 0}), height * random.sign()));
-  set_direction(random, cartesian(lattice, g), 2, made);
-  move_off(random, false, 2, made);
+  set_corridor_direction(random, cartesian(lattice, g), 2, made);
+  move_off_edge(random, false, 2, made);
   return made;
 }
 
@@ -121,8 +121,8 @@ Case make_planar(Source& source) {
   }
   const Symmetry symmetry(random, 3);
   made.query.x = symmetry(x);
-  set_direction(random, symmetry(v), 3, made);
-  move_off(random, on_grid(r), 3, made);
+  set_corridor_direction(random, symmetry(v), 3, made);
+  move_off_edge(random, on_grid(r), 3, made);
   return made;
 }
 

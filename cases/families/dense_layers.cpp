@@ -55,7 +55,7 @@ void coarsen(Scene& scene, double s) {
   }
 }
 
-Layers drawn_layers(Random& drawn, Case& made) {
+Layers drawn_dense_layers(Random& drawn, Case& made) {
   Layers layers{};
   const bool rods = drawn.one_in(4);
   made.tags.push_back(rods ? "rods" : "walls");
@@ -87,7 +87,7 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
 }
 
 // Down onto the wall: at any slope, steeply, straight down, or as integers say.
-Vec drawn_velocity(Random& random, Case& made) {
+Vec layered_velocity(Random& random, Case& made) {
   switch (random.below(8)) {
     case 0:
       made.tags.push_back("straight");
@@ -127,9 +127,9 @@ void leave_layer(Random& random, const Layers& layers, Case& made) {
 Case make_dense(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
-  const Layers layers = drawn_layers(drawn, made);
+  const Layers layers = drawn_dense_layers(drawn, made);
   made.scene = layered_scene(drawn, layers, made);
-  made.query.v = drawn_velocity(random, made);
+  made.query.v = layered_velocity(random, made);
   if (random.one_in(6)) {
     leave_layer(random, layers, made);
     return made;

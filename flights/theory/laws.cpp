@@ -29,7 +29,7 @@ double rate_of_longer(const Rates& rates, double t) {
   return sum;
 }
 
-double survival(const SmallObstacles& small, Ensemble ensemble, double t) {
+double survival_among_small(const SmallObstacles& small, Ensemble ensemble, double t) {
   double sum = 0;
   for (const Rates& rates : small.directions)
     sum += ensemble == Ensemble::uniform ? longer_from_uniform(rates, t) : rate_of_longer(rates, t);
@@ -68,9 +68,10 @@ Laws laws_of(const Scene& scene, Ensemble ensemble) {
   Laws result;
   const auto small = small_obstacles_of(scene, result.none);
   if (small)
-    result.laws.push_back({name_of(*small), small->discs ? "r -> 0" : "small obstacles",
-                           [small = *small, ensemble](double t) { return survival(small, ensemble, t); },
-                           1 / small->mean_rate(), smooth_from(scene, ensemble)});
+    result.laws.push_back(
+        {name_of(*small), small->discs ? "r -> 0" : "small obstacles",
+         [small = *small, ensemble](double t) { return survival_among_small(small, ensemble, t); },
+         1 / small->mean_rate(), smooth_from(scene, ensemble)});
   return result;
 }
 

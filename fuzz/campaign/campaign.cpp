@@ -13,19 +13,19 @@ using namespace cases;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using CampaignClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenRecords{5};
 
 // Records and serves until all is done, the time is up, or somebody says stop.
 void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) {
-  const auto start = Clock::now();
+  const auto start = CampaignClock::now();
   for (bool more = true; more;) {
     if (!ledger.stop()) std::this_thread::sleep_for(kBetweenRecords);
     more = ledger.record();
     journal.tick();
     if (ranks) ranks->serve(ledger);
-    const std::chrono::duration<double> passed = Clock::now() - start;
+    const std::chrono::duration<double> passed = CampaignClock::now() - start;
     if (passed.count() >= bounds.seconds || (bounds.stop && *bounds.stop)) ledger.stop_all();
   }
 }

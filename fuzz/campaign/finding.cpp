@@ -118,7 +118,7 @@ bool has_control_characters(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; });
 }
 
-std::string flaw_of(const CaseText& text) {
+std::string flaw_of_text(const CaseText& text) {
   for (const std::string* line : {&text.scene, &text.query, &text.given, &text.exact})
     if (has_control_characters(*line)) return "a line with control characters";
   if (!(text.departs >= 0) || !(text.margin.value_or(0) >= 0)) return "an error, or a margin, below zero";
@@ -168,7 +168,7 @@ std::string flaw_of(const Finding& f) {
     if (!is_plain(*text)) return "a name that is not plain text";
   if (rank_of(f.kind) == static_cast<int>(std::size(kInOrder))) return "a kind that no finding has";
   for (const CaseText* text : {&f.text, &f.shrunk})
-    if (const std::string flaw = flaw_of(*text); !flaw.empty()) return flaw;
+    if (const std::string flaw = flaw_of_text(*text); !flaw.empty()) return flaw;
   return "";
 }
 

@@ -18,7 +18,7 @@ constexpr double kUsual = 0.025, kUsualShrinking = 0.1;
 // is the way there and back. Somebody who likes many cases at once gets as many as take no longer than
 // kSecondsOfMany: another program's answers are waited for once in a batch.
 constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05, kSecondsOfMany = 0.25;
-constexpr std::uint64_t kMostCases = 1024;
+constexpr std::uint64_t kMostCasesAhead = 1024;
 
 // Up to these shares of a target's time go into shrinking, while there are cases: of what is wrong in some
 // way, and of all.
@@ -122,7 +122,7 @@ Assignment Ledger::assign_cases(Track& track, std::uint64_t batch_size, double s
       cases *= 2;
   };
   double_until(batch_size, kSecondsOfMany);
-  double_until(kMostCases, seconds);
+  double_until(kMostCasesAhead, seconds);
   track.handed_out = std::min((begin / cases + 1) * cases, count_);
   ++track.in_work;
   track.pending += track.handed_out - begin;

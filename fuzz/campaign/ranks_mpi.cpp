@@ -19,7 +19,7 @@ namespace lorentz::fuzz {
 namespace {
 
 namespace mpi = boost::mpi;
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 enum Message { kReport = 1, kOrders };
 
@@ -200,11 +200,11 @@ void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subjec
   const mpi::communicator& world = mpi().world;
   RemoteWork work(jobs);
   Workers workers(plan, make_subject, work, jobs);
-  auto last_sent = Clock::now() - kLongestSilence;
+  auto last_sent = SteadyClock::now() - kLongestSilence;
   while (!work.stop()) {
     std::this_thread::sleep_for(kLook);
-    if (!work.has_news() && Clock::now() - last_sent < kLongestSilence) continue;
-    last_sent = Clock::now();
+    if (!work.has_news() && SteadyClock::now() - last_sent < kLongestSilence) continue;
+    last_sent = SteadyClock::now();
     world.send(0, kReport, work.report());
     while (!world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
     Orders orders;

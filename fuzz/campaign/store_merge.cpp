@@ -55,7 +55,7 @@ void check_names(const std::vector<std::string>& paths) {
                                               : paths[j] + " and " + paths[i] + " are the same store");
 }
 
-void check(const std::vector<Shard>& shards) {
+void check_all(const std::vector<Shard>& shards) {
   const Shard& first = shards.front();
   if (first.campaigns.empty()) throw InputError(first.path + ": holds no campaign");
   for (const Shard& other : shards) {
@@ -106,7 +106,7 @@ void merge(const std::vector<std::string>& paths, Store& into) {
                                              [](const std::string& message) { throw FileError(message); }));
     shards.push_back({path, stores.back()->campaigns(), stores.back()->findings()});
   }
-  check(shards);
+  check_all(shards);
   for (std::size_t c = 0; c < shards.front().campaigns.size(); ++c) {
     Manifest manifest = shards.front().campaigns[c].manifest;
     bool even = std::to_string(shards.size()) == number_of_shards(manifest.shard);

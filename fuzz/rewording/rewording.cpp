@@ -55,7 +55,7 @@ struct Periods {
   std::vector<IntegerMatrix> in_cells;
 };
 
-IntegerVec to_integers(const std::array<std::int64_t, 3>& n) {
+IntegerVec integers_of(const std::array<std::int64_t, 3>& n) {
   return {Z(static_cast<long>(n[0])), Z(static_cast<long>(n[1])), Z(static_cast<long>(n[2]))};
 }
 
@@ -87,7 +87,7 @@ struct Rewording::Impl {
         const std::int64_t n = powers ? (random.one_in(2) ? size : -size) : random.integer(-size, size);
         if (!along_one || i == one) k[i] = n;
       }
-      IntegerVec cells = to_integers(k);
+      IntegerVec cells = integers_of(k);
       for (Z& n : cells) n *= periods.multiple;
       if (auto x = exact_sum(reworded.query.x, cells, vectors)) {
         reworded.query.x = *x;

@@ -8,8 +8,8 @@ namespace {
 
 // k in c + k g with |c + k g|^2 < radius2: an open interval, as its first and last integer.
 template <std::size_t D>
-bool visit_row(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radius2,
-               const RowVisitor<D>& visit) {
+bool visit_row_in_ball(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radius2,
+                       const RowVisitor<D>& visit) {
   const Z gg = dot(g.p, g.p), cg = dot(c.p, g.p);
   const Z disc = cg * cg - gg * (dot(c.p, c.p) - radius2);
   if (disc <= 0) return false;
@@ -49,7 +49,7 @@ bool visit_ball<2>(const Basis<2>& basis, const LatticePoint<2>& offset, const Z
   return visit_levels(level, gap, dot(normal, normal), radius2, 1, [&](const Z& k) {
     LatticePoint<2> row = offset;
     row.add_multiple(k, basis[1]);
-    return visit_row<2>(row, basis[0], radius2, visit);
+    return visit_row_in_ball<2>(row, basis[0], radius2, visit);
   });
 }
 
@@ -70,7 +70,7 @@ bool visit_ball<3>(const Basis<3>& basis, const LatticePoint<3>& offset, const Z
                         normal2, [&](const Z& k2) {
                           LatticePoint<3> row = plane;
                           row.add_multiple(k2, basis[1]);
-                          return visit_row<3>(row, basis[0], radius2, visit);
+                          return visit_row_in_ball<3>(row, basis[0], radius2, visit);
                         });
   });
 }

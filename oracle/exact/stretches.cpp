@@ -9,7 +9,7 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr long kFewRows = 24;
+constexpr long kFewRowsOfStretch = 24;
 constexpr long kManyRows = 1000;  // more than a stretch ought to have that is no longer than it is wide
 
 // 4^across |h|^2 + 4^along s^2 in the plane.
@@ -59,7 +59,7 @@ struct Count {
 Count count_rows(const View<3>& view, const Planes& planes, const Basis<3>& basis, const Z& low,
                  const Z& high) {
   const Z levels = planes.levels(view.offset, low, high).count();
-  if (levels > kFewRows) return {levels, {}};
+  if (levels > kFewRowsOfStretch) return {levels, {}};
   Count count{0, {}};
   Z most = 0;
   for_each_section(view, planes, basis, low, high, [&](const PlaneSection& section, const Range& rows) {
@@ -85,7 +85,7 @@ template <>
 Z Stretches<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) const {
   const Planes planes(view_.velocity, reach2_, basis[0], basis[1], basis[2]);
   const Count count = count_rows(view_, planes, basis, low, high);
-  if (count.rows <= kFewRows || !count.widest) return count.rows;
+  if (count.rows <= kFewRowsOfStretch || !count.widest) return count.rows;
   // A slender section: a basis of the plane that is short for this.
   std::array<PlanePoint, 2> pair{planes.in_plane(basis[0]), planes.in_plane(basis[1])};
   reduce(pair, count.widest->form());
@@ -132,7 +132,7 @@ bool Stretches<D>::cut(const Z& low, const Z& high,
     Stretch<D> stretch = std::move(left.back());
     left.pop_back();
     const Z rows = shorten(stretch.basis, stretch.low, stretch.high);
-    if (rows <= kFewRows || !is_long(stretch.low, stretch.high)) {
+    if (rows <= kFewRowsOfStretch || !is_long(stretch.low, stretch.high)) {
       if (take(stretch)) return true;
       continue;
     }

@@ -16,7 +16,7 @@ namespace lorentz::oracle {
 namespace {
 
 template <std::size_t D>
-std::array<Integer, 3> integers(const ZVec<D>& a) {
+std::array<Integer, 3> integers_of(const ZVec<D>& a) {
   std::array<Integer, 3> result;
   for (std::size_t i = 0; i < D; ++i) result[i] = to_integer(a[i]);
   return result;
@@ -44,7 +44,7 @@ Vec middle_of(const Slab<D>& slab, long exponent) {
 }
 
 template <std::size_t D>
-bool is_inside(const Slab<D>& slab, const Vec& point, long exponent) {
+bool is_inside_slab(const Slab<D>& slab, const Vec& point, long exponent) {
   CommonExponent common;
   for (double component : point) {
     if (!std::isfinite(component)) return false;
@@ -82,7 +82,7 @@ Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long expon
   ZVec<2> vector;
   for (std::size_t i = 0; i < 2; ++i) vector[i] = g[0] * lattice.given[0][i] + g[1] * lattice.given[1][i];
   Channel channel;
-  channel.indices = integers<2>(g);
+  channel.indices = integers_of<2>(g);
   channel.vector = rounded<2>(vector, 1, exponent);
   return channel;
 }
@@ -90,7 +90,7 @@ Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long expon
 Channel named(const ObstacleLattice<3>& lattice, const Slab<3>& slab, long exponent) {
   int sign = 0;
   Channel channel;
-  channel.indices = integers<3>(miller_indices(lattice, slab.normal, sign));
+  channel.indices = integers_of<3>(miller_indices(lattice, slab.normal, sign));
   ZVec<3> normal = slab.normal;
   for (Z& component : normal) component *= sign;
   channel.vector = rounded<3>(normal, lattice.period(slab.normal), -exponent);
@@ -103,7 +103,7 @@ Channel channel_of(const ChannelScene<D>& scene, const Slab<D>& slab) {
   const Gap& gap = slab.gap;
   channel.width = round_rest(gap.width(), gap.low2, gap.high2, dot(slab.normal, slab.normal), scene.exponent);
   channel.point = middle_of<D>(slab, scene.exponent);
-  channel.inside = is_inside<D>(slab, channel.point, scene.exponent);
+  channel.inside = is_inside_slab<D>(slab, channel.point, scene.exponent);
   channel.count = to_integer(slab.count);
   return channel;
 }

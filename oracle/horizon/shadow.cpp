@@ -8,7 +8,7 @@
 namespace lorentz::oracle {
 namespace {
 
-ZVec<3> minus(const ZVec<3>& a, const ZVec<3>& b) {
+ZVec<3> difference(const ZVec<3>& a, const ZVec<3>& b) {
   return {Z(a[0] - b[0]), Z(a[1] - b[1]), Z(a[2] - b[2])};
 }
 
@@ -141,7 +141,7 @@ class Circle {
 
   // Sign of g.((P - c) cross (P - d)) = g.(P cross (c - d) + c cross d).
   int turn(const CirclePoint& p, const ZVec<3>& c, const ZVec<3>& d) const {
-    const ZVec<3> apart = minus(c, d);
+    const ZVec<3> apart = difference(c, d);
     const ZVec<3>& g = shadow_.along;
     return sign_at(p, dot(g, cross(p.a, apart)) + p.q * dot(g, cross(c, d)), dot(g, cross(p.b, apart)));
   }
@@ -175,7 +175,7 @@ std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, boo
   std::vector<Disc> around;
   for (const Disc& disc : discs) {
     const Z distance = add_radius ? Z(reach + disc.radius) : reach;
-    visit_disc(basis, along, minus(disc.centre, point), distance * distance * along2,
+    visit_disc(basis, along, difference(disc.centre, point), distance * distance * along2,
                [&](const ZVec<3>& centre) {
                  around.push_back({centre, disc.radius});
                });

@@ -28,7 +28,7 @@ void append_text(std::string& out, const std::string& text) {
   out += '"';
 }
 
-void append_obstacle(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large) {
+void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large) {
   append_int(out, answers.lattice[i]);
   out += ',';
   append_int(out, answers.atom[i]);
@@ -106,7 +106,7 @@ void append_csv_answers(std::string& out, const QueryRows& queries, const Answer
     const bool is_large =
         next_large < answers.large_cells.size() && answers.large_cells[next_large].first == i;
     if (outcome == Outcome::hit || outcome == Outcome::inside)
-      append_obstacle(out, answers, i, is_large ? &answers.large_cells[next_large].second : nullptr);
+      append_obstacle_cells(out, answers, i, is_large ? &answers.large_cells[next_large].second : nullptr);
     else
       out.append(static_cast<std::size_t>(answers.dimension) + 2, ',');
     next_large += is_large;

@@ -23,7 +23,7 @@ Bits swapped(Bits bits) {
 
 // The number that stands there; Bits is of its size.
 template <class Number, class Bits>
-Number number_at(const char* bytes, bool swap) {
+Number number_in(const char* bytes, bool swap) {
   Bits bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return std::bit_cast<Number>(swap ? swapped(bits) : bits);
@@ -38,7 +38,7 @@ void append_reals(std::vector<double>& column, const char* first, std::size_t st
   const std::size_t before = column.size();
   column.resize(before + count);
   double* const out = column.data() + before;
-  for (std::size_t i = 0; i < count; ++i) out[i] = number_at<double, std::uint64_t>(first + i * stride, swap);
+  for (std::size_t i = 0; i < count; ++i) out[i] = number_in<double, std::uint64_t>(first + i * stride, swap);
 }
 
 // An integer of any type of NumPy's; beyond the range of int64 nothing.
@@ -46,18 +46,18 @@ std::optional<std::int64_t> integer_at(const NpyField& field, const char* bytes)
   const bool swap = must_swap(field), is_signed = field.kind == 'i';
   switch (field.bytes) {
     case 1:
-      return is_signed ? number_at<std::int8_t, std::uint8_t>(bytes, false)
-                       : std::int64_t{number_at<std::uint8_t, std::uint8_t>(bytes, false)};
+      return is_signed ? number_in<std::int8_t, std::uint8_t>(bytes, false)
+                       : std::int64_t{number_in<std::uint8_t, std::uint8_t>(bytes, false)};
     case 2:
-      return is_signed ? number_at<std::int16_t, std::uint16_t>(bytes, swap)
-                       : std::int64_t{number_at<std::uint16_t, std::uint16_t>(bytes, swap)};
+      return is_signed ? number_in<std::int16_t, std::uint16_t>(bytes, swap)
+                       : std::int64_t{number_in<std::uint16_t, std::uint16_t>(bytes, swap)};
     case 4:
-      return is_signed ? number_at<std::int32_t, std::uint32_t>(bytes, swap)
-                       : std::int64_t{number_at<std::uint32_t, std::uint32_t>(bytes, swap)};
+      return is_signed ? number_in<std::int32_t, std::uint32_t>(bytes, swap)
+                       : std::int64_t{number_in<std::uint32_t, std::uint32_t>(bytes, swap)};
     default:
       break;
   }
-  const auto value = number_at<std::int64_t, std::uint64_t>(bytes, swap);
+  const auto value = number_in<std::int64_t, std::uint64_t>(bytes, swap);
   return is_signed || value >= 0 ? std::optional(value) : std::nullopt;
 }
 

@@ -105,7 +105,7 @@ bool all_finite(const Vec& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-std::optional<std::string> flaw_of(const Atom& atom, int dimension) {
+std::optional<std::string> flaw_of_atom(const Atom& atom, int dimension) {
   if (!all_finite(atom.position)) return "position is not finite";
   if (atom.is_ball()) {
     if (!std::isfinite(atom.radius)) return "radius is not finite";
@@ -131,7 +131,7 @@ std::optional<std::string> flaw_of(const Scene& scene) {
       if (!all_finite(lattice.vectors[i])) return where + ": a primitive vector is not finite";
     if (lattice.atoms.empty()) return where + ": needs at least one atom";
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a)
-      if (auto flaw = flaw_of(lattice.atoms[a], scene.dimension))
+      if (auto flaw = flaw_of_atom(lattice.atoms[a], scene.dimension))
         return where + ", atom " + std::to_string(a) + ": " + *flaw;
   }
   return std::nullopt;

@@ -110,7 +110,7 @@ bool is_positive(const Rational& number) {
 
 namespace {
 
-std::optional<std::string> flaw_of(const RationalAtom& atom, int dimension) {
+std::optional<std::string> flaw_of_rational_atom(const RationalAtom& atom, int dimension) {
   if (atom.is_ball())
     return is_positive(atom.radius) ? std::nullopt : std::optional("radius must be above zero");
   if (atom.semiaxes.size() == static_cast<std::size_t>(dimension)) return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<std::string> flaw_of(const RationalScene& scene) {
     const std::string where = "lattice " + std::to_string(l);
     if (scene.lattices[l].atoms.empty()) return where + ": needs at least one atom";
     for (std::size_t a = 0; a < scene.lattices[l].atoms.size(); ++a)
-      if (auto flaw = flaw_of(scene.lattices[l].atoms[a], scene.dimension))
+      if (auto flaw = flaw_of_rational_atom(scene.lattices[l].atoms[a], scene.dimension))
         return where + ", atom " + std::to_string(a) + ": " + *flaw;
   }
   return std::nullopt;

@@ -6,7 +6,7 @@ namespace lorentz {
 namespace {
 
 template <class Real>
-Point<Real> exact(const Vec& a) {
+Point<Real> exact_point(const Vec& a) {
   return joined<Real>(a, Vec{});
 }
 
@@ -25,7 +25,8 @@ Shape<Real> shape_of(const Atom& atom, int dimension) {
   shape.ball = atom.is_ball();
   shape.radius = Real(atom.radius);
   if (shape.ball) return shape;
-  for (int i = 0; i < 3; ++i) shape.axes[i] = exact<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
+  for (int i = 0; i < 3; ++i)
+    shape.axes[i] = exact_point<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
   shape.dual = inverse_of<Real>(shape.axes);
   for (int i = 0; i < dimension; ++i) shape.inverse_size += length(high_part(shape.dual[i]));
   return shape;
@@ -88,9 +89,9 @@ Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.la
   for (const Lattice& lattice : scene.lattices) {
     Rows& rows = lattices_.emplace_back();
     for (int i = 0; i < 3; ++i)
-      rows.vectors[i] = exact<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
+      rows.vectors[i] = exact_point<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
     for (const Atom& atom : lattice.atoms)
-      rows.obstacles.push_back({exact<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
+      rows.obstacles.push_back({exact_point<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
   }
 }
 

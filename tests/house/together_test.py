@@ -5,10 +5,10 @@ A name of one source's unnamed namespace is seen by those that are compiled behi
 the compiler may take the one for the other, and of two functions it does so without a word. So no such name may stand in
 another source of the row: neither defined there nor used, but as a member or with its namespace in front.
 """
-import collections
 import pathlib
 import re
 import sys
+import tempfile
 
 DEFINITION = re.compile(
     r"^(?! )(?:template <.*?> )?(?:(?:struct|class|enum class|enum|union) (?:\[\[.*?\]\] )?(?P<type>\w+)"
@@ -24,7 +24,7 @@ def without_words(text):
 
 def unnamed(text):
     """Names that are defined in the unnamed namespaces of a source that clang-format has seen to."""
-    names, inside, template = set(), False, ""
+    names, inside = set(), False
     for line in text.splitlines():
         if line.startswith("namespace {"):
             inside = True
@@ -41,7 +41,7 @@ def faults(sources):
     found = []
     for source, text in texts.items():
         for name in sorted(unnamed(text)):
-            called = r"\(" if name[0].islower() and not re.match("k[A-Z]", name) else ""  # else a variable of that name
+            called = r"(?:<[^;(){}]*>)?\(" if name[0].islower() and not re.match("k[A-Z]", name) else ""  # else a variable of that name
             use = re.compile(rf"(?<![\w.:])(?<!->){name}\b{called}")
             for other, its in texts.items():
                 if other is not source and (place := use.search(its)):
@@ -50,7 +50,21 @@ def faults(sources):
     return found
 
 
+def check_itself():
+    """A function, a constant and a type that another source uses are seen, members and variables of that name are not."""
+    first = "namespace {\n\nvoid add(int n) {\n}\n\nconstexpr int kMost = 3;\n\nstruct Row {\n  int n;\n};\n\n}  // namespace\n"
+    for text, count in (("void f() {\n  add(1);\n}\n", 1), ("void f() {\n  add<int>(1);\n}\n", 1), ("int n = kMost;\n", 1),
+                        ("Row row;\n", 1), ("void f() {\n  a.add(1), b->add(2), c::add(3);  // add(4)\n}\n", 0),
+                        ("int add = 4;\n", 0)):
+        with tempfile.TemporaryDirectory() as folder:
+            sources = [pathlib.Path(folder, name) for name in ("first.cpp", "second.cpp")]
+            for source, its in zip(sources, (first, text)):
+                source.write_text(its)
+            assert len(faults(sources)) == count, (text, faults(sources))
+
+
 def main():
+    check_itself()
     build = pathlib.Path(sys.argv[1])
     rows = sorted(build.glob("*/**/Unity/unity_*.cxx"))
     if not rows:

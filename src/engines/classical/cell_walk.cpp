@@ -11,8 +11,6 @@
 namespace lorentz {
 namespace {
 
-using CellIndex = std::array<std::int64_t, 3>;
-
 // In units of the cell. An entry this little behind the wall still counts: rounded once more in the next cell
 // it might lie before that one's beginning. The lists reach farther than that, so that whatever is entered
 // there is compared; and cells are no flatter than that rounding errors stay below.

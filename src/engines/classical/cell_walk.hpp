@@ -2,11 +2,15 @@
 // ellipsoids.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 
 #include <lorentz/engine.hpp>
 
 namespace lorentz {
+
+using CellIndex = std::array<std::int64_t, 3>;
 
 /// Follows the particle through each lattice's own cells (the parallelepipeds centred at its points) in
 /// binary64: solves the quadratics of all obstacles that reach into the cell, which are listed once a scene,

@@ -4,11 +4,10 @@
 #include <optional>
 
 #include <lorentz/geometry.hpp>
+#include "src/engines/classical/cell_walk.hpp"
 
 namespace lorentz {
 namespace {
-
-using CellIndex = std::array<std::int64_t, 3>;
 
 ObstacleId obstacle_of(const CellIndex& n) {
   return {0, 0, {Integer(n[0]), Integer(n[1]), Integer(n[2])}};
