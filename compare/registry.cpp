@@ -39,7 +39,7 @@ double limit_of(const oracle::Request& request) {
   return request.max_time.value_or(std::numeric_limits<double>::infinity());
 }
 
-FirstHit asking(std::shared_ptr<const Engine> engine, const Scene& scene) {
+FirstHit first_hits_of(std::shared_ptr<const Engine> engine, const Scene& scene) {
   return [engine, scene](const Query& query, const oracle::Request& request, Answer& answer) {
     engine->first_hit(query, limit_of(request), answer);
     if (request.detail) add_detail(query, scene, answer);
@@ -47,11 +47,11 @@ FirstHit asking(std::shared_ptr<const Engine> engine, const Scene& scene) {
 }
 
 FirstHit ask_engine(std::string_view name, const Scene& scene) {
-  return asking(make_engine(name, scene), scene);
+  return first_hits_of(make_engine(name, scene), scene);
 }
 
 FirstHit ask_precision(std::string_view name, const Scene& scene) {
-  return asking(make_precision(name, scene), scene);
+  return first_hits_of(make_precision(name, scene), scene);
 }
 
 FirstHit ask_single_flights(std::string_view, const Scene& scene) {
@@ -197,7 +197,7 @@ class EngineAnswerer final : public Answerer {
   EngineAnswerer(std::string name, const oracle::Request& request)
       : name_(std::move(name)), request_(request) {}
   void set_scene(const Scene& scene) override { first_hit_ = make_first_hit(name_, scene); }
-  void asking(const Id&, const Query& query) override {
+  void ask(const Id&, const Query& query) override {
     first_hit_(query, request_, answer_);
     deliver(answer_);
   }

@@ -133,7 +133,7 @@ struct Rewording::Impl {
   }
 
   IntegerVec cells_moved(int lattice, const Reworded& reworded) const {
-    return periods.in_cells[lattice] * to_integers(reworded.periods);
+    return periods.in_cells[lattice] * integers_of(reworded.periods);
   }
 
   int dimension;
