@@ -189,8 +189,8 @@ bool fits(const Histogram& h, std::size_t most) {
   const bool is_empty = left == most,
              ends = h.counts.empty() || (h.counts.front() > 0 && h.counts.back() > 0);
   if (is_empty) return h == Histogram();
-  return ends && h.first >= -1074 && h.first + static_cast<int>(h.counts.size()) <= 1024 && h.mean >= 0 &&
-         h.mean <= h.max * (1 + 1e-9) && h.p99 >= 0 && h.p99 <= h.max && std::isfinite(h.max) &&
+  return ends && h.first >= -1074 && h.first < 1024 && h.mean >= 0 && h.mean <= h.max * (1 + 1e-9) &&
+         h.p99 >= 0 && h.p99 <= h.max && std::isfinite(h.max) &&
          (h.counts.empty() ? h.max == 0
                            : std::ilogb(h.max) == h.first + static_cast<int>(h.counts.size()) - 1);
 }

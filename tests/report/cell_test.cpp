@@ -145,6 +145,12 @@ TEST_CASE("A cell that no engine can have come to has a flaw", "[report][cell]")
       [](Cell& c) { c.ulps.counts[1] = ~std::size_t{0}; },
       [](Cell& c) { c.ulps.first = 1; },
       [](Cell& c) { c.ulps.counts.insert(c.ulps.counts.begin(), 0), --c.ulps.first; },
+      [](Cell& c) {
+        c.ulps.counts.insert(c.ulps.counts.begin(), 1100, 0), c.ulps.counts[0] = 1, c.ulps.first -= 1100;
+      },
+      [](Cell& c) {
+        c.ulps.counts.clear(), c.ulps.max = 0, c.ulps.mean = 0, c.ulps.p99 = 0, c.ulps.first = 1024;
+      },
       [](Cell& c) { c.ulps.max = 1e8; },
       [](Cell& c) { c.ulps.p99 = -1; },
       [](Cell& c) { c.conditions.mean = 1; },

@@ -42,6 +42,9 @@ TEST_CASE("Diffusion among discs of a triangular lattice is that of another prog
   CHECK(wide.coefficient.error < 0.008);
   CHECK(*machta_zwanzig(triangular(0.3)) == Approx(0.175441).epsilon(1e-5));
   CHECK(*machta_zwanzig(triangular(0.1)) == Approx(0.103585).epsilon(1e-5));
+  Scene stretched = triangular(0.1);  // the same angle's cosine times the first length, another length
+  stretched.lattices[0].vectors[1][1] *= 2;
+  CHECK_FALSE(machta_zwanzig(stretched));
 }
 
 TEST_CASE("Displacements from places and from velocities are the same", "[chaos]") {
