@@ -37,9 +37,9 @@ function(lorentz_headers_with_fmt)
 endfunction()
 
 # lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries]
-#   [FAST] engines: optimised as far as it goes)
+#   [FAST] engines, the oracle's searches, readers: each source by itself, optimised as far as it goes)
 # Else several sources are one to the compiler, which takes half of the time: most of that goes into headers and the
-# templates that they have in common. What is unnamed in one of them is seen by the next: tests/house/together_test.py
+# templates that they have in common. (Of what is large GCC inlines less: the oracle was a tenth slower that way.) What is unnamed in one of them is seen by the next: tests/house/together_test.py
 # refuses what could mean something else there. With -DLORENTZ_UNITY=OFF each is compiled by itself; CI does so with clang,
 # so that each includes what it uses.
 option(LORENTZ_UNITY "compile several sources of a library at once" ON)
@@ -50,7 +50,7 @@ function(lorentz_library name)
   if(NOT its_FAST)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   endif()
-  if(LORENTZ_UNITY)
+  if(LORENTZ_UNITY AND NOT its_FAST)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
     # GCC takes what is included for a header, whose unnamed namespace would be another one in each source.
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

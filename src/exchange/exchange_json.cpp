@@ -252,7 +252,7 @@ void skip(json::Value value, int depth) {
 namespace {
 
 // The nearest number of a JSON number; infinite beyond the range of binary64.
-double nearest_number(json::Value value) {
+double nearest_number(json::Value& value) {
   double number;
   if (fits_64_bits(json::inside(value).raw_json_token()) && !json::inside(value).get_double().get(number))
     return number;
@@ -261,12 +261,34 @@ double nearest_number(json::Value value) {
 
 }  // namespace
 
-double read_number(json::Value value, const std::string& place) {
-  if (value.type() == json::Type::string) return parse_hexadecimal(value.text(), place);
-  if (value.type() == json::Type::null && !token_of(value).starts_with("null"))
+namespace {
+
+template <class Place>
+double number_of(json::Value& value, const Place& place) {
+  const ondemand::json_type type = json::known(json::inside(value).type());
+  if (type == ondemand::json_type::string) return parse_hexadecimal(value.text(), place);
+  if (type == ondemand::json_type::null && !token_of(value).starts_with("null"))
     throw NotJson("no value");  // nan, say
-  if (value.type() != json::Type::number) throw InputError(place + ": needs a number");
-  return finite_number(nearest_number(value), place);
+  if (type != ondemand::json_type::number) throw InputError(std::string(place) + ": needs a number");
+  const double number = nearest_number(value);
+  return std::isinf(number) ? finite_number(number, place) : number;
+}
+
+}  // namespace
+
+double read_number(json::Value value, const std::string& place) {
+  return number_of(value, place);
+}
+
+NumbersRead read_numbers(json::Array array, const char* place) {
+  NumbersRead read;
+  for (auto result : json::Inside::of<ondemand::array>(array)) {
+    auto element = json::Inside::in<json::Value>(json::known(std::move(result)));
+    const double number = number_of(element, place);
+    if (read.count < 3) read.values[read.count] = number;
+    ++read.count;
+  }
+  return read;
 }
 
 double read_number_or_infinity(json::Value value, const std::string& place) {

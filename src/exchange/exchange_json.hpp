@@ -131,6 +131,13 @@ double read_number(json::Value value, const std::string& place);
 /// The same, or "inf". (A string of On-Demand may be read only once: its buffer has no room for more.)
 double read_number_or_infinity(json::Value value, const std::string& place);
 
+/// The first three numbers of an array, and how many it has; throws InputError, naming `place`.
+struct NumbersRead {
+  Vec values{};
+  std::size_t count = 0;
+};
+NumbersRead read_numbers(json::Array array, const char* place);
+
 /// An integer, or a decimal string with one, of at most 2500 characters; throws InputError, naming `key`.
 Integer read_integer(json::Value value, const char* key);
 

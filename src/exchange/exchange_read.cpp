@@ -8,25 +8,14 @@
 namespace lorentz {
 namespace {
 
-struct Components {
-  Vec values{};
-  std::size_t count = 0;
-};
-
-Components read_components(json::Value value, const char* key) {
+NumbersRead read_components(json::Value value, const char* key) {
   if (value.type() != json::Type::array) throw InputError(std::string(key) + ": needs an array of numbers");
-  Components result;
-  json::each_element(value.array(), [&](json::Value element) {
-    const double number = read_number(element, key);
-    if (result.count < 3) result.values[result.count] = number;
-    ++result.count;
-  });
-  return result;
+  return read_numbers(value.array(), key);
 }
 
 // What a line of a query stream says, before it is held against the scene.
 struct QueryFields {
-  Components x, v;
+  NumbersRead x, v;
   std::optional<FromRead> from;
   std::optional<SceneNode> scene;
   bool golden = false;
