@@ -38,10 +38,10 @@ endfunction()
 
 # lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries]
 #   [FAST] engines, the oracle's searches, readers: each source by itself, optimised as far as it goes)
-# Else several sources are one to the compiler, which takes half of the time: most of that goes into headers and the
-# templates that they have in common. (Of what is large GCC inlines less: the oracle was a tenth slower that way.) What is unnamed in one of them is seen by the next: tests/house/together_test.py
-# refuses what could mean something else there. With -DLORENTZ_UNITY=OFF each is compiled by itself; CI does so with clang,
-# so that each includes what it uses.
+# The sources of the others are compiled several at a time, which takes half of the time: most of that goes into headers and
+# the templates that they have in common. An unnamed namespace of one source is seen by the next:
+# tests/house/together_test.py refuses what could mean something else there. -DLORENTZ_UNITY=OFF compiles each by itself; CI
+# does so with clang, so that each includes what it uses.
 option(LORENTZ_UNITY "compile several sources of a library at once" ON)
 function(lorentz_library name)
   cmake_parse_arguments(PARSE_ARGV 1 its "FAST" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <type_traits>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
@@ -70,7 +71,7 @@ Type known_type(simdjson::simdjson_result<ondemand::json_type>&& result) {
 // The keys of an object that were seen.
 class Keys {
  public:
-  // False if the key was seen before. Of texts that outlive this.
+  // False if the key was seen before. The key's text must outlive this object.
   bool add(std::string_view key) {
     const auto hash = key.size() << 8 | (key.empty() ? 0 : static_cast<unsigned char>(key[0]));
     for (std::size_t i = 0; i < count_; ++i)
