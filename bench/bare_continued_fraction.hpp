@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 
 namespace lorentz {
 

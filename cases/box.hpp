@@ -1,7 +1,7 @@
 // A box of cells, and points in it.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {

@@ -1,7 +1,7 @@
 // How wide the corridors of a lattice are.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/integer_vectors.hpp"
 
 namespace lorentz::cases {

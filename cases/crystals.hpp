@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 
 namespace lorentz::cases {
 

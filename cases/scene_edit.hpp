@@ -4,7 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::cases {
 

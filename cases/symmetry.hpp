@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include <lorentz/obstacle.hpp>
+
 #include "cases/random.hpp"
 
 namespace lorentz::cases {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "chaos/estimate.hpp"
 #include "chaos/groups.hpp"
 #include "flights/theory/ensemble.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "chaos/estimate.hpp"
 #include "chaos/groups.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include <lorentz/trajectory.hpp>
 
 namespace lorentz::chaos {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::chaos {
 

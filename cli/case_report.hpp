@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "cli/command.hpp"
 
 namespace lorentz::cli {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "chaos/groups.hpp"
 #include "cli/command.hpp"
 #include "store/pieces.hpp"

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/exchange.hpp>
 #include <lorentz/oracle.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "compare/listener.hpp"
 
 namespace lorentz::compare {

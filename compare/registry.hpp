@@ -7,8 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/oracle.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "compare/answerer.hpp"
 
 namespace lorentz::compare {

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include <lorentz/oracle.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "compare/listener.hpp"
 
 namespace lorentz::compare {

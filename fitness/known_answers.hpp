@@ -4,7 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "fitness/examination.hpp"
 
 namespace lorentz::fitness {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "flights/starts/starts.hpp"
 
 namespace lorentz::flights {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::pictures {
 

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::pictures {
 

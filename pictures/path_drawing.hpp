@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::pictures {
 

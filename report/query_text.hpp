@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
 
 namespace lorentz::report {
 

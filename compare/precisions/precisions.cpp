@@ -1,6 +1,7 @@
 #include "compare/precisions/precisions.hpp"
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/scene.hpp>
 #include "compare/precisions/big_number.hpp"
 #include "compare/precisions/published_in.hpp"
 #include "compare/precisions/wide_number.hpp"

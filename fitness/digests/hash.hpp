@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 
 namespace lorentz::fitness {
 

@@ -1,7 +1,7 @@
 // Scenes that are written down here, so that what is computed in them needs no file.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::fitness {
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/box.hpp"
 #include "flights/starts/start_columns.hpp"
 #include "flights/starts/surface.hpp"

@@ -1,7 +1,7 @@
 // Points on the surface of an obstacle, and directions off it.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "flights/starts/direction.hpp"
 
 namespace lorentz::flights {

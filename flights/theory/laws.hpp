@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "flights/theory/ensemble.hpp"
 
 namespace lorentz::flights {

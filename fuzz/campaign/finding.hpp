@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "fuzz/examine/examiner.hpp"
 
 namespace lorentz::fuzz {

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include <lorentz/verdict.hpp>
 #include "compare/truth.hpp"
 #include "fuzz/examine/subject.hpp"

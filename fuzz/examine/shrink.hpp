@@ -4,7 +4,8 @@
 
 #include <functional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::fuzz {
 

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/flight.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::fuzz {
 

@@ -2,7 +2,9 @@
 // the scene that is another one.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include <lorentz/verdict.hpp>
 
 namespace lorentz::fuzz {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::fuzz {

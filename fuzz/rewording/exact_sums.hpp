@@ -5,7 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
+#include <lorentz/vec.hpp>
 #include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::fuzz {

@@ -6,7 +6,8 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::fuzz {

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::fuzz {

@@ -4,7 +4,8 @@
 #include <memory>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
+#include <lorentz/scene.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::fuzz {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
 
 namespace lorentz::oracle {
 

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/certificate.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

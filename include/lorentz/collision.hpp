@@ -1,7 +1,9 @@
 // The collision at the end of a flight, in binary64: where, how, and what the velocity becomes.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz {
 

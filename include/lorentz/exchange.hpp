@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/errors.hpp>
 #include <lorentz/line_reader.hpp>
 #include <lorentz/rational.hpp>

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
 
 namespace lorentz {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz {
 

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

@@ -3,7 +3,10 @@
 
 #include <memory>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/certificate.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

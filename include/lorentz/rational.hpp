@@ -8,7 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz {
 

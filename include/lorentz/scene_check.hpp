@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

@@ -7,7 +7,9 @@
 #include <limits>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::oracle {
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/scene.hpp>
+
 #include "oracle/integers/dyadic.hpp"
 #include "oracle/integers/integer.hpp"
 

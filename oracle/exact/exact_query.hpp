@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include <lorentz/query.hpp>
+
 #include "oracle/exact/exact_line.hpp"
 
 namespace lorentz::oracle {

@@ -12,6 +12,8 @@
 // integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
 //
 // Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
+#include <lorentz/answer.hpp>
+
 #include "oracle/exact/planes.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/first_hit/first_hit.hpp"

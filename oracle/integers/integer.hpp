@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
 #include "oracle/integers/z.hpp"
 
 namespace lorentz::oracle {

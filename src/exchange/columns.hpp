@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
+#include <lorentz/query.hpp>
 
 namespace lorentz {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/errors.hpp>
-#include <lorentz/problem.hpp>
 #include "src/exchange/exchange_scene.hpp"
 
 namespace lorentz {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
 
 namespace lorentz {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
 
 namespace lorentz {

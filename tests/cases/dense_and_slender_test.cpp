@@ -46,7 +46,7 @@ TEST_CASE("dense-layers: a radius spans many spacings, and the oracle is walk an
   std::array<int, 3> hits_of_atom{};
   int decided = 0, cases = 0, hits = 0;
   double densest = 0, sparsest = 1e9;
-  each("dense-layers", 2400, [&](const Case& one) {
+  each("dense-layers", 800, [&](const Case& one) {
     const Lattice& lattice = one.scene.lattices[0];
     double size = 0;
     for (const Atom& atom : lattice.atoms) size = std::max(size, largest_size(atom));
@@ -68,7 +68,7 @@ TEST_CASE("dense-layers: a radius spans many spacings, and the oracle is walk an
   CHECK(decided > 0.8 * cases);
   CHECK(hits > 0.6 * cases);
   // None is always above the others.
-  for (const int atom : hits_of_atom) CHECK(atom > 260);  // 335 seen at least
+  for (const int atom : hits_of_atom) CHECK(atom > 60);  // 80 seen at least
 }
 
 TEST_CASE("slender: flights along the long axis of what is slender, and nobody is wrong",

@@ -21,6 +21,7 @@ import time
 import unittest
 from pathlib import Path
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it, and what it starts, too
 PROGRAM, SOURCE = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
 WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated", signal.SIGHUP: "hung up"}
 START = '{"id":"a","x":["1/2","1/10"],"v":[1,0]}\n'

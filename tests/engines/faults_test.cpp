@@ -23,7 +23,7 @@ void check_all(const Scene& scene, const Query& query, const Answer& expected) {
   INFO(test::stream(scene, query) << test::line(expected, scene.dimension));
   CHECK(test::same(oracle::Oracle(scene).first_hit(query), expected));
   CHECK(test::same(oracle::Certified(scene).first_hit(query), expected));
-  const Answer walked = oracle::Walk(scene).first_hit(query);
+  const Answer walked = oracle::Walk(scene, 2'000).first_hit(query);
   if (walked.outcome != Outcome::undecided) CHECK(test::same(walked, expected));
   test::Count count;
   if (!Reduction::beyond(scene)) test::check(scene, query, count);

@@ -185,6 +185,11 @@ const std::vector<Room> kHouse{
 /// Whose a public header is.
 const std::map<std::string, std::string> kPublic{
     {"problem", "src/problem"},
+    {"vec", "src/problem"},
+    {"scene", "src/problem"},
+    {"obstacle", "src/problem"},
+    {"query", "src/problem"},
+    {"answer", "src/problem"},
     {"errors", "src/problem"},
     {"rational", "src/problem"},
     {"geometry", "src/problem"},

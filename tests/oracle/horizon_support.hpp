@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
+#include <lorentz/scene.hpp>
 #include "tests/support/support.hpp"
 
 namespace lorentz::test {

@@ -1,7 +1,7 @@
 // Scenes with one of everything, and where the parts of their pictures are.
 #pragma once
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "src/problem/scene_geometry.hpp"
 #include "tests/pictures/measures.hpp"
 

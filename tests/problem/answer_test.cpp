@@ -1,7 +1,7 @@
 // Answers that are used again.
 #include <catch2/catch.hpp>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/answer.hpp>
 
 using namespace lorentz;
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/obstacle.hpp>
 
 using lorentz::Integer;
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::test {
 

@@ -10,8 +10,10 @@
 #include <random>
 #include <string>
 
+#include <lorentz/answer.hpp>
 #include <lorentz/exchange.hpp>
-#include <lorentz/problem.hpp>
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::test {
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <lorentz/certificate.hpp>
+#include <lorentz/scene.hpp>
 #include "oracle/certificate/check/certificate_time.hpp"
 #include "oracle/integers/dyadic.hpp"
 

@@ -4,7 +4,7 @@
 #include <cfloat>
 #include <cstdint>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 
 namespace lorentz {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/scene.hpp>
 #include "src/engines/base/double_double.hpp"
 #include "src/engines/reduction/shape.hpp"
 

@@ -12,7 +12,7 @@
 
 #include <optional>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
 
 namespace lorentz {

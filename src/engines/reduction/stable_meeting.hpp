@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <lorentz/problem.hpp>
+#include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/bravais.hpp"

@@ -1,0 +1,39 @@
+#include <lorentz/obstacle.hpp>
+
+#include <charconv>
+
+namespace lorentz {
+
+std::optional<Integer> Integer::from_decimal(std::string_view text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  std::string_view digits = text.substr(negative ? 1 : 0);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  const auto first = digits.find_first_not_of('0');
+  if (first == std::string_view::npos) return Integer(0);
+  digits.remove_prefix(first);
+  std::string canonical = (negative ? "-" : "") + std::string(digits);
+  Integer result;
+  const auto [end, status] =
+      std::from_chars(canonical.data(), canonical.data() + canonical.size(), result.value_);
+  if (status != std::errc{}) {
+    result.value_ = 0;
+    result.digits_ = std::make_unique<const std::string>(std::move(canonical));
+  }
+  return result;
+}
+
+std::optional<WideInteger> Integer::int128_of_digits() const {
+  constexpr std::size_t kDigits = 38;  // 10^38 < 2^127
+  const bool negative = digits_->front() == '-';
+  const std::string_view digits = std::string_view(*digits_).substr(negative ? 1 : 0);
+  if (digits.size() > kDigits) return std::nullopt;
+  WideInteger n = 0;
+  for (const char c : digits) n = 10 * n + (c - '0');
+  return negative ? -n : n;
+}
+
+std::string Integer::decimal() const {
+  return fits_int64() ? std::to_string(value_) : *digits_;
+}
+
+}  // namespace lorentz

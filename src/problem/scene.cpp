@@ -1,0 +1,58 @@
+#include <lorentz/scene.hpp>
+
+#include "src/problem/finite.hpp"
+
+namespace lorentz {
+
+namespace {
+
+std::optional<std::string> flaw_of_atom(const Atom& atom, int dimension) {
+  if (!all_finite(atom.position)) return "position is not finite";
+  if (atom.is_ball()) {
+    if (!std::isfinite(atom.radius)) return "radius is not finite";
+    if (!(atom.radius > 0)) return "radius must be above zero";
+    return std::nullopt;
+  }
+  if (atom.semiaxes.size() != static_cast<std::size_t>(dimension))
+    return "needs as many semiaxes as dimensions (" + std::to_string(dimension) + ")";
+  for (const Vec& axis : atom.semiaxes)
+    if (!all_finite(axis)) return "a semiaxis is not finite";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> flaw_of(const Scene& scene) {
+  if (scene.dimension != 2 && scene.dimension != 3) return "dimension must be 2 or 3";
+  if (scene.lattices.empty()) return "a scene needs at least one lattice";
+  for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
+    const Lattice& lattice = scene.lattices[l];
+    const std::string where = "lattice " + std::to_string(l);
+    for (int i = 0; i < scene.dimension; ++i)
+      if (!all_finite(lattice.vectors[i])) return where + ": a primitive vector is not finite";
+    if (lattice.atoms.empty()) return where + ": needs at least one atom";
+    for (std::size_t a = 0; a < lattice.atoms.size(); ++a)
+      if (auto flaw = flaw_of_atom(lattice.atoms[a], scene.dimension))
+        return where + ", atom " + std::to_string(a) + ": " + *flaw;
+  }
+  return std::nullopt;
+}
+
+Scene unit_scene(int dimension, double radius) {
+  Scene scene;
+  scene.dimension = dimension;
+  Lattice lattice;
+  for (int i = 0; i < dimension; ++i) lattice.vectors[i][i] = 1;
+  lattice.atoms.push_back(Atom{{}, radius, {}});
+  scene.lattices.push_back(lattice);
+  return scene;
+}
+
+bool is_unit_scene(const Scene& scene) {
+  if (scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1) return false;
+  const Atom& atom = scene.lattices[0].atoms[0];
+  return atom.is_ball() && atom.position == Vec{} &&
+         scene.lattices[0].vectors == unit_scene(scene.dimension, 1).lattices[0].vectors;
+}
+
+}  // namespace lorentz
