@@ -191,13 +191,13 @@ void visit_elements(Array array, const void* read, OnElement call) {
 namespace {
 
 // The token of a number, without the white space that may follow it.
-std::string_view token_of(json::Value& value) {
-  std::string_view token = json::inside(value).raw_json_token();
+std::string_view token_of(ondemand::value& value) {
+  std::string_view token = value.raw_json_token();
   return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
 }
 
 // The text of a number. On-Demand has not looked at it.
-std::string_view number_text(json::Value value) {
+std::string_view number_text(ondemand::value& value) {
   const std::string_view token = token_of(value);
   if (is_json_number(token)) return token;
   const auto ascii =
@@ -236,7 +236,7 @@ void skip(json::Value value, int depth) {
       each_member(value.object(), [&](std::string_view, json::Value member) { skip(member, depth + 1); });
       break;
     case json::Type::number:
-      (void)number_text(value);
+      (void)number_text(json::inside(value));
       break;
     case json::Type::string:
       (void)value.text();
@@ -253,21 +253,16 @@ void skip(json::Value value, int depth) {
 namespace {
 
 // The nearest number of a JSON number; infinite beyond the range of binary64.
-double nearest_number(json::Value& value) {
+double nearest_number(ondemand::value& value) {
   double number;
-  if (fits_64_bits(json::inside(value).raw_json_token()) && !json::inside(value).get_double().get(number))
-    return number;
+  if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;
   return *nearest_decimal(number_text(value));
 }
 
-}  // namespace
-
-namespace {
-
 template <class Place>
-double number_of(json::Value& value, const Place& place) {
-  const ondemand::json_type type = json::known(json::inside(value).type());
-  if (type == ondemand::json_type::string) return parse_hexadecimal(value.text(), place);
+double number_of(ondemand::value& value, const Place& place) {
+  const ondemand::json_type type = json::known(value.type());
+  if (type == ondemand::json_type::string) return parse_hexadecimal(json::known(value.get_string()), place);
   if (type == ondemand::json_type::null && !token_of(value).starts_with("null"))
     throw NotJson("no value");  // nan, say
   if (type != ondemand::json_type::number) throw InputError(std::string(place) + ": needs a number");
@@ -278,13 +273,15 @@ double number_of(json::Value& value, const Place& place) {
 }  // namespace
 
 double read_number(json::Value value, const std::string& place) {
-  return number_of(value, place);
+  return number_of(json::inside(value), place);
 }
 
-NumbersRead read_numbers(json::Array array, const char* place) {
+NumbersRead read_numbers(json::Value value, const char* place) {
+  if (value.type() != json::Type::array) throw InputError(std::string(place) + ": needs an array of numbers");
   NumbersRead read;
-  for (auto result : json::Inside::of<ondemand::array>(array)) {
-    auto element = json::Inside::in<json::Value>(json::known(std::move(result)));
+  auto array = json::known(json::inside(value).get_array());
+  for (auto result : array) {
+    auto element = json::known(std::move(result));
     const double number = number_of(element, place);
     if (read.count < 3) read.values[read.count] = number;
     ++read.count;
@@ -302,7 +299,7 @@ Integer read_integer(json::Value value, const char* key) {
   const bool is_number = value.type() == json::Type::number;
   std::string_view text;
   if (is_number)
-    text = number_text(value);
+    text = number_text(json::inside(value));
   else if (value.type() == json::Type::string)
     text = value.text();
   constexpr std::size_t kLongest =
@@ -334,7 +331,7 @@ SceneNode read_node(json::Value value, const std::string& place, int depth) {
       return {std::move(object)};
     }
     case json::Type::number:
-      return {nearest_number(value)};
+      return {nearest_number(json::inside(value))};
     case json::Type::string:
       return {std::string(value.text())};
     default:

@@ -136,7 +136,7 @@ struct NumbersRead {
   Vec values{};
   std::size_t count = 0;
 };
-NumbersRead read_numbers(json::Array array, const char* place);
+NumbersRead read_numbers(json::Value value, const char* place);
 
 /// An integer, or a decimal string with one, of at most 2500 characters; throws InputError, naming `key`.
 Integer read_integer(json::Value value, const char* key);

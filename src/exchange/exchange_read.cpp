@@ -8,11 +8,6 @@
 namespace lorentz {
 namespace {
 
-NumbersRead read_components(json::Value value, const char* key) {
-  if (value.type() != json::Type::array) throw InputError(std::string(key) + ": needs an array of numbers");
-  return read_numbers(value.array(), key);
-}
-
 // What a line of a query stream says, before it is held against the scene.
 struct QueryFields {
   NumbersRead x, v;
@@ -26,10 +21,10 @@ void read_query_field(std::string_view key, json::Value value, Id& id, QueryFiel
                       const OnUnknownKey& on_unknown_key) {
   if (key == "x") {
     fields.has_x = true;
-    fields.x = read_components(value, "x");
+    fields.x = read_numbers(value, "x");
   } else if (key == "v") {
     fields.has_v = true;
-    fields.v = read_components(value, "v");
+    fields.v = read_numbers(value, "v");
   } else if (key == "id") {
     id = read_id(value);
   } else if (key == "from") {

@@ -5,20 +5,17 @@
 namespace lorentz {
 
 std::optional<Integer> Integer::from_decimal(std::string_view text) {
+  Integer result;
+  const char* const ends = text.data() + text.size();
+  if (const auto [end, status] = std::from_chars(text.data(), ends, result.value_);
+      status == std::errc{} && end == ends)
+    return result;
   const bool negative = !text.empty() && text.front() == '-';
   std::string_view digits = text.substr(negative ? 1 : 0);
   if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
-  const auto first = digits.find_first_not_of('0');
-  if (first == std::string_view::npos) return Integer(0);
-  digits.remove_prefix(first);
-  std::string canonical = (negative ? "-" : "") + std::string(digits);
-  Integer result;
-  const auto [end, status] =
-      std::from_chars(canonical.data(), canonical.data() + canonical.size(), result.value_);
-  if (status != std::errc{}) {
-    result.value_ = 0;
-    result.digits_ = std::make_unique<const std::string>(std::move(canonical));
-  }
+  digits.remove_prefix(digits.find_first_not_of('0'));  // there is one that is not: 64 bits do not hold it
+  result.value_ = 0;
+  result.digits_ = std::make_unique<const std::string>((negative ? "-" : "") + std::string(digits));
   return result;
 }
 
