@@ -2,7 +2,7 @@
 // and its tests.
 #pragma once
 
-#include <lorentz/engine.hpp>
+#include "src/engines/base/ray.hpp"
 #include "src/engines/published/published_unit.hpp"
 
 namespace lorentz::compare {

@@ -46,8 +46,8 @@ struct TailExponent {
 /// survival's exponent, from the longest `least_count` alone. A density whose relative distance from its
 /// power law is of the order 1/t has a local exponent there that is off by about as much as chance is (Hall,
 /// J. R. Statist. Soc. B 44, 1982); local_exponent says what it is. Nothing if there are not so many paths,
-/// or they fall like no power. held by "Tail exponent: intervals hold the law's local exponent 95 times in
-/// 100"
+/// or they fall like no power.
+/// held by "Tail exponent: intervals hold the law's local exponent 95 times in 100"
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts,
                                           std::uint64_t least_count = 400);

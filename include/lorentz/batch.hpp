@@ -89,8 +89,7 @@ class FlightTable {
 /// First obstacles of many queries, in one scene.
 ///
 ///  1. What Reduction::fly says of each query, to the bit: outcome, stage, obstacle, time. On every
-///  processor,
-///     with any number of threads.
+///     processor, with any number of threads.
 ///     held by "A batch says what one flight at a time says, to the bit, with every set of instructions",
 ///             "The golden sets in batches, to the bit"
 ///  2. A query with a flaw (flaw_of) has the outcome `error`; the others are not disturbed.

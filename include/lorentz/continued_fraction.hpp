@@ -16,11 +16,10 @@ struct Convergent {
   std::string remainder_exact;  ///< a fraction in lowest terms, "-3/4" or "0"
 };
 
-/// held by "Convergents satisfy their identities, exactly"
-///
 /// All convergents of m = rise / run, two binary64 values taken exactly, until the remainder is 0 (it
 /// ends: m is rational) or `limit` terms. A last quotient is above 1, except that of m = 1 alone.
 /// Requires run != 0.
+/// held by "Convergents satisfy their identities, exactly"
 std::vector<Convergent> convergents(double rise, double run, std::size_t limit);
 
 }  // namespace lorentz::oracle

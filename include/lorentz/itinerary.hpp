@@ -50,10 +50,9 @@ struct Arrival {
 /// Itineraries in one scene, by balls of growing precision and exact searches.
 ///
 ///  1. Every obstacle that is told is the true one, every decimal digit correctly rounded, whatever the
-///  numbers
-///     of scene and start are. (A number that is midway between two decimals to within 2^-96 of itself has
-///     one or two digits less.) held by "Itinerary: problem 2 of the 100-digit challenge, to the published
-///     digits",
+///     numbers of scene and start are. (A number that is midway between two decimals to within 2^-96 of
+///     itself has one or two digits less.)
+///     held by "Itinerary: problem 2 of the 100-digit challenge, to the published digits",
 ///             "Itinerary: what is certain of an enclosure is what the oracle says",
 ///             "Itinerary: an exact state is decided exactly, whatever the family"
 ///  2. More precision, time reversed, another basis, frame or unit: the same itinerary.

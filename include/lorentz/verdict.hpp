@@ -53,9 +53,9 @@ struct Judgement {
 ///     held by "Each answer gets its verdict",
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
 ///  2. The time of the right obstacle is a wrong time if it errs, in its ulps, by more than `ulps` and by
-///  more
-///     than `ulps` times its condition. That is no `wrong` answer, unless it errs by more than
-///     kOtherQuantity. held by "Errors of the time are counted in ulps, and judged by the condition",
+///     more than `ulps` times its condition. That is no `wrong` answer, unless it errs by more than
+///     kOtherQuantity.
+///     held by "Errors of the time are counted in ulps, and judged by the condition",
 ///             "A time that is off by a good part of itself is no rounding, and wrong"
 ///  3. With `ulps` = 0 an answer is the exact one or `wrong`, and a time the correctly rounded one or a wrong
 ///     time: not even a tie is forgiven that was decided the other way.

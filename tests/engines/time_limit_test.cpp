@@ -13,6 +13,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/target.hpp"
+#include "src/engines/base/ray.hpp"
 #include "tests/engines/reduction_support.hpp"
 
 using namespace lorentz;

@@ -1,6 +1,6 @@
 #include <lorentz/engine.hpp>
 
-#include <cmath>
+#include "src/engines/base/ray.hpp"
 
 namespace lorentz {
 

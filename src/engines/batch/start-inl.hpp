@@ -7,8 +7,7 @@
 #define LORENTZ_BATCH_START_INL_HPP
 #endif
 
-#include <lorentz/engine.hpp>
-
+#include "src/engines/base/ray.hpp"
 #include "src/engines/batch/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

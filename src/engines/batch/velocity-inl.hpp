@@ -1,4 +1,4 @@
-// Velocities in lanes: ScaledVelocity of <lorentz/engine.hpp>. Private to the batch engine.
+// Velocities in lanes: ScaledVelocity of src/engines/base/ray.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_VELOCITY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_VELOCITY_INL_HPP
 #undef LORENTZ_BATCH_VELOCITY_INL_HPP
@@ -6,8 +6,7 @@
 #define LORENTZ_BATCH_VELOCITY_INL_HPP
 #endif
 
-#include <lorentz/engine.hpp>
-
+#include "src/engines/base/ray.hpp"
 #include "src/engines/batch/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

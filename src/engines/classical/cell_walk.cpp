@@ -1,4 +1,5 @@
 #include "src/engines/classical/cell_walk.hpp"
+#include "src/engines/base/ray.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "src/engines/classical/classical.hpp"
+#include "src/engines/base/ray.hpp"
 
 #include <cmath>
 #include <optional>

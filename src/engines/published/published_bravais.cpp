@@ -1,4 +1,5 @@
 #include "src/engines/published/published_bravais.hpp"
+#include "src/engines/base/ray.hpp"
 
 #include <Eigen/SVD>
 #include <cmath>

@@ -1,8 +1,8 @@
-// Every constant of a decision of the reduction engine, but two that all engines share (kTinyComponent and
-// kMaxStart, engine.hpp). First what formulas err by: docs/bounds.md derives each of these, and
-// tests/engines/bounds_test.cpp computes it again, by running the engine's own formulas (formulas.hpp) on
-// numbers that carry their error. Then by how much ranges are widened, which follows from them. Last what is
-// no error bound: caps, ranges, and from where on another formula is used.
+// Every constant of a decision of the reduction engine, but two that all engines share (kTinyComponent,
+// src/engines/base/ray.hpp, and kMaxStart, engine.hpp). First what formulas err by: docs/bounds.md derives
+// each of these, and tests/engines/bounds_test.cpp computes it again, by running the engine's own formulas
+// (formulas.hpp) on numbers that carry their error. Then by how much ranges are widened, which follows from
+// them. Last what is no error bound: caps, ranges, and from where on another formula is used.
 #pragma once
 
 namespace lorentz {

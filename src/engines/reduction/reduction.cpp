@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "src/engines/base/ray.hpp"
 #include "src/engines/reduction/kernels.hpp"
 #include "src/engines/reduction/offset.hpp"
 
