@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <deque>
 #include <filesystem>
 #include <iostream>
 
@@ -12,6 +13,7 @@
 #include "cli/file_options.hpp"
 #include "cli/manual.hpp"
 #include "cli/messages.hpp"
+#include "cli/numbers.hpp"
 #include "cli/signals.hpp"
 #include "cli/versions.hpp"
 #include "compare/nearest_name.hpp"
@@ -27,7 +29,17 @@ std::string versions() {
 
 // ---- The parser's tree, made of the tables
 
-CLI::Option* add_option(CLI::App& app, const Option& option) {
+// A number as it was given: it is read when all was parsed.
+struct NumberGiven {
+  const Option& option;
+  std::optional<std::string> text = {};
+};
+using NumbersGiven = std::deque<NumberGiven>;  // which stay where they are
+
+CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbers) {
+  if (option.is_number())
+    return app.add_option(option.names, numbers.emplace_back(NumberGiven{option}).text, option.help)
+        ->type_name(option.type);
   return std::visit(
       [&](auto target) -> CLI::Option* {
         using To = std::remove_pointer_t<decltype(target)>;
@@ -35,16 +47,21 @@ CLI::Option* add_option(CLI::App& app, const Option& option) {
           return app.get_option("--" + option.long_names().at(0));
         else if constexpr (std::is_same_v<To, bool>)
           return app.add_flag(option.names, *target, option.help);
-        else
+        else if constexpr (std::is_pointer_v<decltype(target)>)
           return app.add_option(option.names, *target, option.help)->type_name(option.type);
+        else
+          return nullptr;
       },
       option.target);
 }
 
-void add(CLI::App& app, const Command& command) {
+void add(CLI::App& app, const Command& command, NumbersGiven& numbers) {
   for (const Option& option : command.options) {
-    CLI::Option* added = add_option(app, option);
-    if (!option.default_text().empty()) added->capture_default_str();
+    CLI::Option* added = add_option(app, option, numbers);
+    if (option.is_number())
+      added->default_str(option.default_text());
+    else if (!option.default_text().empty())
+      added->capture_default_str();
     if (option.traits & kRequired) added->required();
     if (option.traits & kCommas) added->delimiter(',');
     if (option.traits & kOneAtATime) added->allow_extra_args(false);
@@ -54,7 +71,8 @@ void add(CLI::App& app, const Command& command) {
     if (!option.excludes.empty()) app.get_option(option.name())->excludes(app.get_option(option.excludes));
   if (!command.commands.empty()) app.require_subcommand(command.act ? 0 : 1, 1);
   app.footer(command.footer);
-  for (const Command& one : command.commands) add(*app.add_subcommand(one.name, one.description), one);
+  for (const Command& one : command.commands)
+    add(*app.add_subcommand(one.name, one.description), one, numbers);
 }
 
 // ---- What the words ask for
@@ -111,7 +129,8 @@ const Command& parsed(const CLI::App& app, const Command& command) {
 }
 
 // What is to be done.
-const Action& parse(CLI::App& app, const Command& program, int argc, char** argv) {
+const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& numbers, int argc,
+                    char** argv) {
   const Called called = subcommand_of(app, program, "", argc, argv);
   try {
     app.parse(argc, argv);
@@ -124,6 +143,8 @@ const Action& parse(CLI::App& app, const Command& program, int argc, char** argv
   }
   const Command& command = parsed(app, program);
   check_files(command);
+  for (const NumberGiven& number : numbers)
+    if (number.text) take_number(number.option, *number.text);
   return command.act;
 }
 
@@ -153,11 +174,11 @@ bool serves(const Command& program, int argc, char** argv) {
   return true;
 }
 
-int parse_and_act(CLI::App& app, const Command& program, int argc, char** argv) {
+int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& numbers, int argc, char** argv) {
   try {
     if (serves(program, argc, argv)) return kDone;
     help_as_option(argc, argv);
-    return parse(app, program, argc, argv)();
+    return parse(app, program, numbers, argc, argv)();
   } catch (const CLI::ParseError& help) {
     app.exit(help);  // prints it
     return kDone;
@@ -236,8 +257,9 @@ int run(int argc, char** argv) {
   CLI::App app{commands.description};
   app.name(commands.name);
   app.set_version_flag("--version", versions());
-  add(app, commands);
-  const int status = parse_and_act(app, commands, argc, argv);
+  NumbersGiven numbers;
+  add(app, commands, numbers);
+  const int status = parse_and_act(app, commands, numbers, argc, argv);
   try {
     finish_output();
   } catch (const FileError& error) {

@@ -10,7 +10,6 @@
 #include "cli/bench_store.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/registry.hpp"
@@ -28,8 +27,9 @@ struct Options {
   std::vector<std::string> scenes{"square", "cubic"};
   std::vector<std::string> radii;  // none: radii_of
   std::vector<std::string> difficulties{"drawn", "near-rational", "grazing"};
-  std::string count = "2000", seed = std::to_string(kDefaultSeed);
-  std::optional<std::string> csv, html, store, timeout;
+  std::uint64_t count = 2000, seed = kDefaultSeed;
+  std::optional<double> timeout;
+  std::optional<std::string> csv, html, store;
   bool json = false;
 };
 
@@ -69,9 +69,9 @@ BenchPlan plan_of(const Options& options) {
   BenchPlan plan;
   plan.engines = names_in(options.engines);
   for (const std::string& name : plan.engines) check_name(name);
-  plan.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  plan.count = whole_number(options.count, "--count", kFewestQueries, 10'000'000);
-  plan.timeout = positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
+  plan.seed = options.seed;
+  plan.count = options.count;
+  plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   return plan;
 }
 
@@ -121,9 +121,10 @@ Command bench_command() {
                kCommas | kToldDefault},
               {"--difficulty", &options->difficulties, "drawn|near-rational|grazing",
                "of the queries (default: drawn,near-rational,grazing)", kCommas | kToldDefault},
-              {"--count", &options->count, "N", "queries for each cell of the table"},
-              {"--seed", &options->seed, "N", "of the queries"},
-              {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+              {"--count", Whole{&options->count, kFewestQueries, 10'000'000}, "N",
+               "queries for each cell of the table"},
+              {"--seed", Whole{&options->seed}, "N", "of the queries"},
+              {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--store", &options->store, "FILE",
                "keep the cells that are done in this file, and go on from there when called again", kOutput},
               {"--json", &options->json, "", "the report as one JSON object instead of a table"},

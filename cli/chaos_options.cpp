@@ -5,7 +5,6 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
@@ -13,29 +12,23 @@
 
 namespace lorentz::cli {
 
-ChaosOptions::ChaosOptions() : seed(std::to_string(compare::kDefaultSeed)) {}
-
 std::vector<Option> chaos_rows(ChaosOptions& options) {
   return {
       {"--scene", &options.scene, "SCENE", "a file, or a name of the catalogue"},
-      {"--radius", &options.radius, "R", "radius of every ball"},
-      {"--seed", &options.seed, "N", "of the starts"},
-      {"--jobs", &options.jobs, "N", "threads; the result is the same"},
+      {"--radius", Positive{&options.radius}, "R", "radius of every ball"},
+      {"--seed", Whole{&options.seed}, "N", "of the starts"},
+      {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
       {"--store", &options.store, "FILE", "where parts that are done are kept, and gone on from", kOutput},
       {"--json", &options.json, "", "one JSON object instead of a table"}};
 }
 
 Scene scene_of(const ChaosOptions& options) {
-  return load_scene(options.scene, positive_number(options.radius, "--radius"));
-}
-
-std::uint64_t seed_of(const ChaosOptions& options) {
-  return whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  return load_scene(options.scene, options.radius);
 }
 
 void with_work(const ChaosOptions& options, const std::string& kind, const store::Plan& plan,
                const std::function<void(const chaos::Work&)>& run) {
-  const auto jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  const auto jobs = static_cast<unsigned>(options.jobs);
   PieceStore store(options.store, kind, plan);
   if (!store.pieces().empty())
     say("{}: {} of {} parts are done", *options.store, store.pieces().size(), chaos::kGroups);

@@ -9,24 +9,24 @@
 #include <lorentz/scene.hpp>
 #include "chaos/groups.hpp"
 #include "cli/command.hpp"
+#include "compare/sampling.hpp"
 #include "store/pieces.hpp"
 
 namespace lorentz::cli {
 
 struct ChaosOptions {
-  std::string scene = "square", seed, jobs = "1";
-  std::optional<std::string> radius, store;
+  std::string scene = "square";
+  std::uint64_t seed = compare::kDefaultSeed, jobs = 1;
+  std::optional<double> radius;
+  std::optional<std::string> store;
   bool json = false;
-
-  ChaosOptions();
 };
 
 /// The options that both have.
 std::vector<Option> chaos_rows(ChaosOptions& options);
 
-/// The scene, with its radii; the seed. Throw InputError or FileError.
+/// The scene, with its radii. Throws InputError or FileError.
 Scene scene_of(const ChaosOptions& options);
-std::uint64_t seed_of(const ChaosOptions& options);
 
 /// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if one is asked
 /// for; says how long it took.

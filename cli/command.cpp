@@ -48,6 +48,10 @@ bool Option::is_called(const std::string& word) const {
 std::string Option::default_text() const {
   if (traits & kToldDefault) return "";
   if (const auto* text = std::get_if<std::string*>(&target)) return **text;
+  if (const auto* whole = std::get_if<Whole>(&target)) {
+    const auto* to = std::get_if<std::uint64_t*>(&whole->to);
+    return to ? fmt::format("{}", **to) : "";
+  }
   const auto* many = std::get_if<std::vector<std::string>*>(&target);
   return many && !(*many)->empty() ? fmt::format("[{}]", fmt::join(**many, ",")) : "";
 }

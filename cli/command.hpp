@@ -2,6 +2,7 @@
 // the manual pages are made (app.cpp hands them to the parser).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,10 +14,23 @@ namespace lorentz::cli {
 /// What a subcommand does once its options are parsed; returns an ExitStatus.
 using Action = std::function<int()>;
 
+/// Numbers: a whole one from `least` to `most`, with a default or to be left out; one above zero; the
+/// tolerance k of the verdicts.
+struct Whole {
+  std::variant<std::uint64_t*, std::optional<std::uint64_t>*> to;
+  std::uint64_t least = 0, most = ~std::uint64_t{0};
+};
+struct Positive {
+  std::optional<double>* to;
+};
+struct Tolerance {
+  std::optional<double>* to;
+};
+
 /// Where an option's value goes: a flag's, that of an option with a default (none if empty), one that may be
-/// left out, one that may be given several times. Nothing: the parser's own.
-using Target =
-    std::variant<std::monostate, bool*, std::string*, std::optional<std::string>*, std::vector<std::string>*>;
+/// left out, one that may be given several times; a number. Nothing: the parser's own.
+using Target = std::variant<std::monostate, bool*, std::string*, std::optional<std::string>*,
+                            std::vector<std::string>*, Whole, Positive, Tolerance>;
 
 enum Trait : unsigned {
   kPlain = 0,
@@ -40,6 +54,7 @@ struct Option {
 
   bool is_argument() const { return !names.starts_with('-'); }
   bool is_hidden() const { return traits & kHidden; }
+  bool is_number() const { return target.index() >= 5; }
   bool takes_value() const;
   bool takes_many() const { return std::holds_alternative<std::vector<std::string>*>(target); }
 

@@ -9,7 +9,6 @@
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/reason.hpp"
 #include "cli/scene_option.hpp"
@@ -27,9 +26,10 @@ constexpr int kRounds = 5;
 
 struct Options {
   std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, radius, queries, disagreements, ulps, timeout;
-  std::string count = "10000", seed = std::to_string(kDefaultSeed);
-  std::string failures = "3", judge = "oracle";
+  std::optional<std::string> scene, queries, disagreements;
+  std::optional<double> radius, ulps, timeout;
+  std::uint64_t count = 10'000, seed = kDefaultSeed, failures = 3;
+  std::string judge = "oracle";
   bool json = false, strict = false, times = false, no_oracle = false;
 };
 
@@ -239,7 +239,7 @@ class Departures {
   Departures(const Options& options, const CaseSet& set)
       : times_(options.times),
         is_json_(options.json),
-        most_(static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000))),
+        most_(static_cast<std::size_t>(options.failures)),
         set_(set),
         file_(options.disagreements) {
     file_.begin(set);
@@ -283,8 +283,8 @@ class Departures {
 
 // The cases that were asked for: drawn, or read from a stream.
 CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
-  const std::uint64_t count = whole_number(options.count, "--count", 0, 1'000'000'000);
-  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const std::uint64_t count = options.count;
+  const std::optional<double> radius = options.radius;
   std::optional<Scene> scene;
   if (options.scene || !options.queries)
     scene = load_scene(options.scene.value_or("square"), radius, unknown_keys(options));
@@ -326,11 +326,10 @@ int act(const Options& options) {
     throw InputError("--answers needs the oracle; leave --no-oracle out");
   if (!options.queries && !all_logged.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
-  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  const double timeout =
-      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
+  const std::uint64_t seed = options.seed;
+  const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
 
-  const double ulps = tolerance(options.ulps);
+  const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
   bool bad_input = false;
   const CaseSet set = cases_of(options, seed, bad_input);
   if (!all_logged.empty()) check_ids(set, bad_input);
@@ -368,21 +367,23 @@ Command compare_command() {
           {"--answers", &options->answers, "NAME=FILE",
            "judge an answer stream that some program wrote, as an engine NAME"},
           {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue (default: square)"},
-          {"--radius", &options->radius, "R", "radius of every ball of --scene"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
           {"--queries", &options->queries, "FILE",
            "query stream (NDJSON) instead of drawn queries; - is standard input", kPlain, "--count"},
-          {"--count", &options->count, "N", "how many queries to draw", kPlain, "--queries"},
-          {"--seed", &options->seed, "N", "of the drawn queries"},
+          {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
+           "--queries"},
+          {"--seed", Whole{&options->seed}, "N", "of the drawn queries"},
           {"--disagreements", &options->disagreements, "FILE",
            "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream",
            kOutput},
-          {"--ulps", &options->ulps, "K",
+          {"--ulps", Tolerance{&options->ulps}, "K",
            "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
            "(default: 4)"},
           {"--judge", &options->judge, "oracle|certified", kJudgeHelp},
-          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+          {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
           {"--json", &options->json, "", "one JSON object instead of a table"},
-          {"--failures", &options->failures, "N", "show so many wrong answers of each engine"},
+          {"--failures", Whole{&options->failures, 0, 1'000'000}, "N",
+           "show so many wrong answers of each engine"},
           {"--times", &options->times, "", "wrong times count: exit status 1, and in --disagreements"},
           {"--strict", &options->strict, "",
            "exit status 1 also for ill-posed, undecided, missing answers and errors; unknown keys are "

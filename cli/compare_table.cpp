@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/numbers.hpp"
 #include "cli/table.hpp"
 #include "report/share.hpp"
 

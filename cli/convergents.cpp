@@ -4,14 +4,14 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/table.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::string slope, run = "1", limit = "10000";
+  std::string slope, run = "1";
+  std::uint64_t limit = 10'000;
   bool json = false;
 };
 
@@ -24,7 +24,7 @@ std::string json_integer(const Integer& n) {
 int act(const Options& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
-  const std::size_t limit = whole_number(options.limit, "--limit", 1, 1'000'000);
+  const std::size_t limit = options.limit;
   const auto convergents = oracle::convergents(rise, run, limit);
   const bool complete = convergents.back().remainder_exact == "0";
   if (options.json) {
@@ -65,7 +65,7 @@ Command convergents_command() {
           {"slope", &options->slope, "TEXT",
            "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64", kRequired},
           {"run", &options->run, "TEXT", "the run (v_1): the slope is rise / run, exactly"},
-          {"--limit", &options->limit, "N", "print N terms at most"},
+          {"--limit", Whole{&options->limit, 1, 1'000'000}, "N", "print N terms at most"},
           {"--json", &options->json, "", "one JSON object, the remainders also as exact fractions"},
       },
 

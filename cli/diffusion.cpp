@@ -8,7 +8,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/table.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/nearest_name.hpp"
@@ -24,8 +23,10 @@ using chaos::Estimate;
 using flights::Ensemble;
 
 struct Options : ChaosOptions {
-  std::string count = "100000", from = "uniform";
-  std::optional<std::string> time, csv;
+  std::uint64_t count = 100'000;
+  std::string from = "uniform";
+  std::optional<double> time;
+  std::optional<std::string> csv;
 };
 
 // What was found, with all that stands beside it.
@@ -140,9 +141,8 @@ Ensemble ensemble_of(const std::string& name) {
 int act(const Options& options) {
   Report report;
   report.scene = options.scene;
-  report.plan = {scene_of(options), ensemble_of(options.from), seed_of(options),
-                 whole_number(options.count, "--count", 1, std::uint64_t{1} << 52),
-                 positive_number(options.time, "--time").value_or(100)};
+  report.plan = {scene_of(options), ensemble_of(options.from), options.seed, options.count,
+                 options.time.value_or(100)};
   RequestedFile csv(options.csv);
   const store::Plan words{{"count", std::to_string(report.plan.count)},
                           {"time", fmt::format("{}", report.plan.time)},
@@ -169,19 +169,20 @@ int act(const Options& options) {
 
 Command diffusion_command() {
   auto options = std::make_shared<Options>();
-  return {"diffusion", "Mean squared displacements of many particles, and theory beside them.",
-          joined(chaos_rows(*options),
-                 {
-                     {"--count", &options->count, "N", "how many particles"},
-                     {"--time", &options->time, "T", "until when they are followed, at speed 1 [100]"},
-                     {"--from", &options->from, "uniform|surface",
-                      "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
-                     {"--csv", &options->csv, "FILE", "the displacements to a file", kOutput},
-                 }),
+  return {
+      "diffusion", "Mean squared displacements of many particles, and theory beside them.",
+      joined(chaos_rows(*options),
+             {
+                 {"--count", Whole{&options->count, 1, std::uint64_t{1} << 52}, "N", "how many particles"},
+                 {"--time", Positive{&options->time}, "T", "until when they are followed, at speed 1 [100]"},
+                 {"--from", &options->from, "uniform|surface",
+                  "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
+                 {"--csv", &options->csv, "FILE", "the displacements to a file", kOutput},
+             }),
 
-          "docs/chaos.md: what is measured, how, and what theory knows.\n"
-          "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
-          [options] { return act(*options); }};
+      "docs/chaos.md: what is measured, how, and what theory knows.\n"
+      "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -6,7 +6,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/first_hit_columns.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
@@ -23,7 +22,9 @@ namespace {
 
 struct Options {
   std::string queries = "-", engine = "oracle", format = "ndjson";
-  std::optional<std::string> scene, radius, digits, max_time, timeout, jobs;
+  std::optional<std::string> scene;
+  std::optional<double> radius, max_time, timeout;
+  std::optional<std::uint64_t> digits, jobs;
   bool detail = false, strict = false;
 };
 
@@ -85,16 +86,16 @@ oracle::Request request_of(const Options& options) {
   if (options.digits) {
     if (!traits_of(options.engine).knows_digits)
       throw InputError("--digits: only the oracle knows more digits than a binary64 has");
-    request.digits = static_cast<int>(whole_number(*options.digits, "--digits", 1, 100'000));
+    request.digits = static_cast<int>(*options.digits);
   }
-  request.max_time = positive_number(options.max_time, "--max-time");
+  request.max_time = options.max_time;
   request.detail = options.detail;
   return request;
 }
 
 int jobs_of(const Options& options) {
   if (!options.jobs) return 1;
-  const auto jobs = static_cast<int>(whole_number(*options.jobs, "--jobs", 1, 1024));
+  const auto jobs = static_cast<int>(*options.jobs);
   if (!traits_of(options.engine).in_bulk)
     throw InputError("--jobs: only the engines batch and certified-batch use more than one thread");
   return jobs;
@@ -109,10 +110,10 @@ int act_on_columns(const Options& options, ColumnOrder::Format format) {
   if (options.digits || options.detail)
     throw InputError((options.digits ? "--digits" : "--detail") +
                      std::string(": only streams in JSON have it (--format ndjson)"));
-  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const std::optional<double> radius = options.radius;
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = options.engine};
-  order.max_time = positive_number(options.max_time, "--max-time");
+  order.max_time = options.max_time;
   order.jobs = jobs_of(options), order.strict = options.strict;
   order.scene = load_scene(*options.scene, radius, unknown);
   return answer_columns(order);
@@ -123,9 +124,9 @@ int act_on_lines(const Options& options) {
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;
   answerer_options.jobs = jobs_of(options);
-  if (const auto timeout = positive_number(options.timeout, "--timeout")) answerer_options.timeout = *timeout;
+  if (const auto timeout = options.timeout) answerer_options.timeout = *timeout;
   const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
-  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const std::optional<double> radius = options.radius;
   if (radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
@@ -185,18 +186,20 @@ Command first_hit_command() {
           {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line: a file, or a name of the catalogue"},
-          {"--radius", &options->radius, "R", "radius of every ball of --scene"},
-          {"--digits", &options->digits, "N",
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+          {"--digits", Whole{&options->digits, 1, 100'000}, "N",
            "also print the time with N significant decimal digits (oracle)"},
-          {"--max-time", &options->max_time, "T", "answer `later` if nothing is entered before time T"},
+          {"--max-time", Positive{&options->max_time}, "T",
+           "answer `later` if nothing is entered before time T"},
           {"--detail", &options->detail, "",
            "add the collision point, the outward normal and the impact parameter"},
           {"--format", &options->format, "ndjson|csv|npy",
            "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
            "docs/formats.md), which need --scene"},
-          {"--jobs", &options->jobs, "N", "threads, of batch and certified-batch: the same answers"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+           "threads, of batch and certified-batch: the same answers"},
           {"--strict", &options->strict, "", kStrictKeysHelp},
-          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
+          {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
       },
 
       "Examples:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "

@@ -29,10 +29,10 @@ constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct Options {
-  std::string scene = "square", engine = "batch", from = "uniform", count = "1000000",
-              seed = std::to_string(compare::kDefaultSeed), jobs = "1", shard = "0/1",
-              cells = std::to_string(flights::kCellsOfBox);
-  std::optional<std::string> seconds, store, csv, svg, density_svg, html;
+  std::string scene = "square", engine = "batch", from = "uniform", shard = "0/1";
+  std::uint64_t count = 1'000'000, seed = compare::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
+  std::optional<double> seconds;
+  std::optional<std::string> store, csv, svg, density_svg, html;
   bool json = false;
   std::vector<std::string> radii, parts;
 };
@@ -54,9 +54,9 @@ Plan plan_of(const Options& options, std::optional<double> radius) {
         "starts for others");
   plan.engine = options.engine;
   plan.from = ensemble_of(options.from);
-  plan.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  plan.count = whole_number(options.count, "--count", 1, kMostFlights);
-  plan.cells = whole_number(options.cells, "--cells", 1, std::uint64_t{1} << 40);
+  plan.seed = options.seed;
+  plan.count = options.count;
+  plan.cells = options.cells;
   return plan;
 }
 
@@ -81,8 +81,8 @@ std::vector<Task> tasks_of(const Options& options) {
 
 flights::Bounds bounds_of(const Options& options) {
   flights::Bounds bounds;
-  bounds.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
-  bounds.seconds = positive_number(options.seconds, "--time").value_or(0);
+  bounds.jobs = static_cast<unsigned>(options.jobs);
+  bounds.seconds = options.seconds.value_or(0);
   const auto slash = options.shard.find('/');
   if (slash == std::string::npos)
     throw InputError(
@@ -259,11 +259,11 @@ Command flights_command() {
            "collision to the next (cosine law)"},
           {"-e,--engine", &options->engine, "ENGINE",
            "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", "))},
-          {"--count", &options->count, "N", "how many"},
-          {"--time", &options->seconds, "SECONDS", "stop after so long (each radius)"},
-          {"--seed", &options->seed, "N", "of the starts"},
-          {"--jobs", &options->jobs, "N", "threads; the result is the same"},
-          {"--cells", &options->cells, "N",
+          {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
+          {"--time", Positive{&options->seconds}, "SECONDS", "stop after so long (each radius)"},
+          {"--seed", Whole{&options->seed}, "N", "of the starts"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads; the result is the same"},
+          {"--cells", Whole{&options->cells, 1, std::uint64_t{1} << 40}, "N",
            "cells of the box in which the starts of superposed lattices lie"},
           {"--store", &options->store, "FILE", "where counts are kept every few seconds, and gone on from",
            kOutput},

@@ -7,7 +7,6 @@
 #include "cli/fuzz_progress.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
 #include "fuzz/campaign/ranks.hpp"
@@ -73,7 +72,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
-  const auto seconds_a_line = positive_number(options.progress, "--progress");
+  const auto seconds_a_line = options.progress;
   Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   bool failed = false;
@@ -99,8 +98,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
 int act(const FuzzOptions& options) {
   const fuzz::Plan plan = plan_of(options);
   const unsigned jobs = bounds_of(options).jobs;
-  const double timeout =
-      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
+  const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   const fuzz::MakeSubject make_subject = fuzz::subject_maker(options.engine, {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       ranks::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");

@@ -20,8 +20,7 @@ namespace {
 fuzz::Scope scope_of(const FuzzOptions& options) {
   using Scenes = fuzz::Scope::Scenes;
   fuzz::Scope scope;
-  if (options.dimension)
-    scope.dimension = static_cast<int>(whole_number(*options.dimension, "--dimension", 2, 3));
+  if (options.dimension) scope.dimension = static_cast<int>(*options.dimension);
   if (options.scenes == "any") return scope;
   if (options.scenes != "lattice" && options.scenes != "unit")
     throw InputError(fmt::format("--scenes: there are no scenes called {}; there are unit, lattice and any",
@@ -81,28 +80,28 @@ void set_shard(const std::string& text, fuzz::Plan& plan) {
 
 fuzz::Plan plan_of(const FuzzOptions& options) {
   fuzz::Plan plan;
-  plan.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
+  plan.seed = options.seed;
   plan.scope = scope_of(options);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));
   set_shard(options.shard, plan);
-  plan.keep = whole_number(options.keep, "--keep", 1, 1'000'000);
-  plan.mutate = whole_number(options.mutate, "--mutate", 0, 1'000'000'000);
-  plan.reword = whole_number(options.reword, "--reword", 0, 1'000'000'000);
+  plan.keep = options.keep;
+  plan.mutate = options.mutate;
+  plan.reword = options.reword;
   plan.truth = truth_named(options.judge, {options.engine});
   plan.counts.times = options.times;
   plan.counts.undecided =
       options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
-  plan.counts.ulps = tolerance(options.ulps);
+  plan.counts.ulps = options.ulps.value_or(oracle::kDefaultUlps);
   return plan;
 }
 
 fuzz::Bounds bounds_of(const FuzzOptions& options) {
   fuzz::Bounds bounds;
-  if (options.count) bounds.count = whole_number(*options.count, "--count", 1, kMostCases);
-  const auto seconds = positive_number(options.seconds, "--time");
+  if (options.count) bounds.count = *options.count;
+  const auto seconds = options.seconds;
   if (seconds || !options.count) bounds.seconds = seconds.value_or(kDefaultSeconds);
   bounds.first = options.first;
-  bounds.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
+  bounds.jobs = static_cast<unsigned>(options.jobs);
   return bounds;
 }
 
@@ -130,13 +129,13 @@ fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
 std::string command_of(const FuzzOptions& o) {
   const FuzzOptions usual;
   std::string command = "lorentz fuzz";
-  const auto add = [&](const char* option, const std::string& value) {
-    command += fmt::format(" {} {}", option, shell_quoted(value));
+  const auto add = [&](const char* option, const auto& value) {
+    command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
   };
-  const auto add_if = [&](const char* option, const std::optional<std::string>& value) {
+  const auto add_if = [&](const char* option, const auto& value) {
     if (value) add(option, *value);
   };
-  const auto add_unless = [&](const char* option, const std::string& value, const std::string& by_default) {
+  const auto add_unless = [&](const char* option, const auto& value, const auto& by_default) {
     if (value != by_default) add(option, value);
   };
   const auto add_flag = [&](const char* option, bool is_set) {
@@ -170,38 +169,41 @@ std::string command_of(const FuzzOptions& o) {
 std::vector<Option> rows_of(FuzzOptions& options) {
   std::vector<std::string> names;
   for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
-  return {
-      {"-t,--target", &options.targets, "TARGET",
-       fmt::format("what to aim at (default: all): {}", fmt::join(names, ", "))},
-      {"--dimension", &options.dimension, "2|3", "only scenes in the plane, or in space (default: both)"},
-      {"--scenes", &options.scenes, "unit|lattice|any",
-       "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
-       "ball), lattice (one, with one ball), any"},
-      {"-e,--engine", &options.engine, "ENGINE", names_for_help()},
-      {"--time", &options.seconds, "SECONDS", "how long (default: 60, or until --count)"},
-      {"--count", &options.count, "N",
-       "until each target has had so many cases, its variants not counted, those that --scenes "
-       "leaves out counted"},
-      {"--seed", &options.seed, "N", "of the cases"},
-      {"--jobs", &options.jobs, "N", "threads (of each process, under mpirun); the findings are the same"},
-      {"--store", &options.store, "FILE", "where findings are kept and campaigns gone on with", kOutput},
-      {"--shard", &options.shard, "I/N", "only the indices I modulo N"},
-      {"--keep", &options.keep, "N", "findings of one sort that are kept and shrunk, of each target"},
-      {"--mutate", &options.mutate, "N", "climb to smaller margins from one in so many cases; 0: from none"},
-      {"--reword", &options.reword, "N",
-       "ask one in so many cases, and its variants, in other words, too; 0: none"},
-      {"--judge", &options.judge, "oracle|certified", kJudgeHelp},
-      {"--first", &options.first, "", "stop at the first finding"},
-      {"--ulps", &options.ulps, "K",
-       "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other"},
-      {"--timeout", &options.timeout, "SECONDS", kTimeoutHelp},
-      {"--times", &options.times, "", "wrong times are findings, too"},
-      {"--undecided", &options.undecided, "", "`undecided` is a finding (the default, but for reduction)",
-       kPlain, "--no-undecided"},
-      {"--no-undecided", &options.no_undecided, "", "`undecided` is no finding", kPlain, "--undecided"},
-      {"--progress", &options.progress, "SECONDS",
-       "where stderr is no terminal: a line there each so many seconds (default: 60)"},
-      {"--json", &options.json, "", "one JSON object instead of tables"}};
+  return {{"-t,--target", &options.targets, "TARGET",
+           fmt::format("what to aim at (default: all): {}", fmt::join(names, ", "))},
+          {"--dimension", Whole{&options.dimension, 2, 3}, "2|3",
+           "only scenes in the plane, or in space (default: both)"},
+          {"--scenes", &options.scenes, "unit|lattice|any",
+           "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
+           "ball), lattice (one, with one ball), any"},
+          {"-e,--engine", &options.engine, "ENGINE", names_for_help()},
+          {"--time", Positive{&options.seconds}, "SECONDS", "how long (default: 60, or until --count)"},
+          {"--count", Whole{&options.count, 1, kMostCases}, "N",
+           "until each target has had so many cases, its variants not counted, those that --scenes "
+           "leaves out counted"},
+          {"--seed", Whole{&options.seed}, "N", "of the cases"},
+          {"--jobs", Whole{&options.jobs, 1, 1024}, "N",
+           "threads (of each process, under mpirun); the findings are the same"},
+          {"--store", &options.store, "FILE", "where findings are kept and campaigns gone on with", kOutput},
+          {"--shard", &options.shard, "I/N", "only the indices I modulo N"},
+          {"--keep", Whole{&options.keep, 1, 1'000'000}, "N",
+           "findings of one sort that are kept and shrunk, of each target"},
+          {"--mutate", Whole{&options.mutate, 0, 1'000'000'000}, "N",
+           "climb to smaller margins from one in so many cases; 0: from none"},
+          {"--reword", Whole{&options.reword, 0, 1'000'000'000}, "N",
+           "ask one in so many cases, and its variants, in other words, too; 0: none"},
+          {"--judge", &options.judge, "oracle|certified", kJudgeHelp},
+          {"--first", &options.first, "", "stop at the first finding"},
+          {"--ulps", Tolerance{&options.ulps}, "K",
+           "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other"},
+          {"--timeout", Positive{&options.timeout}, "SECONDS", kTimeoutHelp},
+          {"--times", &options.times, "", "wrong times are findings, too"},
+          {"--undecided", &options.undecided, "", "`undecided` is a finding (the default, but for reduction)",
+           kPlain, "--no-undecided"},
+          {"--no-undecided", &options.no_undecided, "", "`undecided` is no finding", kPlain, "--undecided"},
+          {"--progress", Positive{&options.progress}, "SECONDS",
+           "where stderr is no terminal: a line there each so many seconds (default: 60)"},
+          {"--json", &options.json, "", "one JSON object instead of tables"}};
 }
 
 }  // namespace lorentz::cli

@@ -17,9 +17,11 @@ inline constexpr std::uint64_t kMostCases = 1'000'000'000'000;
 
 struct FuzzOptions {
   std::vector<std::string> targets;
-  std::optional<std::string> seconds, count, store, ulps, timeout, dimension, progress;
-  std::string engine = "reduction", seed = std::to_string(compare::kDefaultSeed), jobs = "1", shard = "0/1",
-              keep = "3", mutate = "32", reword = "1", judge = "oracle", scenes = "any";
+  std::optional<std::string> store;
+  std::optional<double> seconds, ulps, timeout, progress;
+  std::optional<std::uint64_t> count, dimension;
+  std::uint64_t seed = compare::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
+  std::string engine = "reduction", shard = "0/1", judge = "oracle", scenes = "any";
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 

@@ -10,7 +10,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
@@ -28,8 +27,10 @@ namespace {
 
 struct Options {
   std::vector<std::string> engines, sets;
-  std::optional<std::string> ulps, timeout, id, first;
-  std::string failures = "10";
+  std::optional<std::string> id;
+  std::optional<double> ulps, timeout;
+  std::optional<std::uint64_t> first;
+  std::uint64_t failures = 10;
   bool strict = false, times = false, json = false, markdown = false;
 };
 
@@ -326,13 +327,11 @@ int act(const Options& options) {
   const std::vector<std::string> engines = names_in(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
   for (const std::string& engine : engines) check_name(engine);
-  const double ulps = tolerance(options.ulps);
-  const double timeout =
-      positive_number(options.timeout, "--timeout").value_or(AnswererOptions::kDefaultTimeout);
-  auto most = static_cast<std::size_t>(whole_number(options.failures, "--failures", 0, 1'000'000));
+  const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  auto most = static_cast<std::size_t>(options.failures);
   if (options.json) most = 0;  // which counts only
-  const std::uint64_t first = options.first ? whole_number(*options.first, "--first", 1, 1'000'000'000'000)
-                                            : std::numeric_limits<std::uint64_t>::max();
+  const std::uint64_t first = options.first ? *options.first : std::numeric_limits<std::uint64_t>::max();
   const std::vector<std::string> files = find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
@@ -372,29 +371,31 @@ int act(const Options& options) {
 
 Command golden_check_command() {
   auto options = std::make_shared<Options>();
-  return {
-      "check",
-      "Checks an engine against sets: a table by set and tag, the first failures.",
-      {
-          {"-e,--engine", &options->engines, "ENGINE",
-           names_for_help() + "; several with commas, or once each", kOneAtATime},
-          {"sets", &options->sets, "SET",
-           "files, folders, or names of committed sets (default: all of these)"},
-          {"--ulps", &options->ulps, "K", "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
-          {"--first", &options->first, "N", "only the first N records of each set"},
-          {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},
-          {"--failures", &options->failures, "N", "list so many failures of each engine"},
-          {"--timeout", &options->timeout, "SECONDS", kTimeoutHelp},
-          {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
-          {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},
-          {"--json", &options->json, "", "one JSON object an engine"},
-          {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
-      },
+  return {"check",
+          "Checks an engine against sets: a table by set and tag, the first failures.",
+          {
+              {"-e,--engine", &options->engines, "ENGINE",
+               names_for_help() + "; several with commas, or once each", kOneAtATime},
+              {"sets", &options->sets, "SET",
+               "files, folders, or names of committed sets (default: all of these)"},
+              {"--ulps", Tolerance{&options->ulps}, "K",
+               "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
+              {"--first", Whole{&options->first, 1, 1'000'000'000'000}, "N",
+               "only the first N records of each set"},
+              {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},
+              {"--failures", Whole{&options->failures, 0, 1'000'000}, "N",
+               "list so many failures of each engine"},
+              {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
+              {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
+              {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},
+              {"--json", &options->json, "", "one JSON object an engine"},
+              {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
+          },
 
-      "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
-      "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
-      "generic-3d",
-      [options] { return act(*options); }};
+          "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
+          "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
+          "generic-3d",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

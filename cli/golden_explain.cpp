@@ -7,7 +7,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "golden/reader.hpp"
@@ -16,7 +15,8 @@ namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::string id, most = "12";
+  std::string id;
+  std::uint64_t most = 12;
   std::vector<std::string> sets;
   CaseFiles files;
 };
@@ -87,7 +87,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
 }
 
 int act(const Options& options) {
-  const auto most = static_cast<std::size_t>(whole_number(options.most, "--most", 1, 10'000));
+  const auto most = static_cast<std::size_t>(options.most);
   std::set<std::string> ids;
   std::string place;  // the set of the first
   for (const std::string& path : find_sets(options.sets)) {
@@ -126,7 +126,7 @@ Command golden_explain_command() {
                   {"id", &options->id, "TEXT", "the record's id, or its first characters", kRequired},
                   {"sets", &options->sets, "SET",
                    "files, folders, or names of committed sets, to look in (default: all of these)"},
-                  {"--most", &options->most, "N", "list so many obstacles"},
+                  {"--most", Whole{&options->most, 1, 10'000}, "N", "list so many obstacles"},
               },
               options->files.rows()),
           "Example:\n  lorentz golden explain 9cbb135e --html record.html",

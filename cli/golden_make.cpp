@@ -7,7 +7,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/sampling.hpp"
@@ -22,8 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::optional<std::string> set, count, folder;
-  std::string output = "-", seed = std::to_string(kDefaultSeed), jobs = "1";
+  std::optional<std::string> set, folder;
+  std::optional<std::uint64_t> count;
+  std::string output = "-";
+  std::uint64_t seed = kDefaultSeed, jobs = 1;
 };
 
 const golden::Set& set_named(const std::string& name) {
@@ -86,8 +87,7 @@ int make_all(golden::Order order, const std::string& folder) {
 
 int make_one(golden::Order order, const Options& options) {
   order.set = &set_named(*options.set);
-  order.count =
-      options.count ? whole_number(*options.count, "--count", 1, 1'000'000'000'000) : order.set->committed;
+  order.count = options.count ? *options.count : order.set->committed;
   if (order.count > order.set->most) {
     say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
     order.count = order.set->most;
@@ -109,8 +109,8 @@ int make_one(golden::Order order, const Options& options) {
 
 int act(const Options& options) {
   golden::Order order;
-  order.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  order.jobs = whole_number(options.jobs, "--jobs", 1, 1024);
+  order.seed = options.seed;
+  order.jobs = options.jobs;
   if (options.folder && (options.set || options.count))
     throw InputError("--all makes every set at its own count; leave --set and --count out");
   if (options.folder) return make_all(order, *options.folder);
@@ -127,9 +127,10 @@ Command golden_make_command() {
       "Produces a set: the same, bit for bit, whatever --jobs.",
       {
           {"--set", &options->set, "SET", "which set (lorentz golden list)"},
-          {"--count", &options->count, "N", "how many records (default: as many as are committed)"},
-          {"--seed", &options->seed, "N", "of the cases"},
-          {"--jobs", &options->jobs, "N", "threads"},
+          {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
+           "how many records (default: as many as are committed)"},
+          {"--seed", Whole{&options->seed}, "N", "of the cases"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
           {"-o,--output", &options->output, "FILE",
            "file to write (- is standard output); killed in between, the same command goes on where it was",
            kOutput},

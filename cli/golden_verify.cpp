@@ -5,7 +5,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "golden/maker.hpp"
 #include "golden/reader.hpp"

@@ -8,7 +8,6 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
 #include "cli/table.hpp"
@@ -42,8 +41,9 @@ std::string verdict_of(const oracle::Horizon& h, bool limited) {
 namespace {
 
 struct Options {
-  std::optional<std::string> name, scene, radius, min_width;
-  std::string limit = "20";
+  std::optional<std::string> name, scene;
+  std::optional<double> radius, min_width;
+  std::uint64_t limit = 20;
   bool no_cylinders = false, json = false;
 };
 
@@ -234,9 +234,9 @@ int act(const Options& options) {
   if (!options.name && !options.scene)
     throw InputError("which scene? give a file, or a name of the catalogue");
   const std::string& name = options.name ? *options.name : *options.scene;
-  const auto min_width = positive_number(options.min_width, "--min-width");
-  const std::size_t limit = whole_number(options.limit, "--limit", 0, 1'000'000'000);
-  const Scene scene = load_scene(name, positive_number(options.radius, "--radius"));
+  const auto min_width = options.min_width;
+  const std::size_t limit = options.limit;
+  const Scene scene = load_scene(name, options.radius);
   try {
     const oracle::Horizon horizon =
         oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders, search_progress());
@@ -259,10 +259,10 @@ Command horizon_command() {
           {
               {"name", &options->name, "SCENE", "the scene: a file, or a name of the catalogue"},
               {"--scene", &options->scene, "SCENE", "the same"},
-              {"--radius", &options->radius, "R", "radius of every ball"},
-              {"--min-width", &options->min_width, "W",
+              {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
+              {"--min-width", Positive{&options->min_width}, "W",
                "only corridors and planar channels at least W wide (for small obstacles)"},
-              {"--limit", &options->limit, "N", "print N rows of a table at most"},
+              {"--limit", Whole{&options->limit, 0, 1'000'000'000}, "N", "print N rows of a table at most"},
               {"--no-cylinders", &options->no_cylinders, "", "leave out the search for cylindrical channels"},
               {"--json", &options->json, "", "one JSON object, with all channels"},
           },

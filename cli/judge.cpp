@@ -7,7 +7,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/judging.hpp"
-#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/whole_file.hpp"
@@ -18,8 +17,10 @@ namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::string engine, seed = std::to_string(compare::kDefaultSeed), jobs = "1";
-  std::optional<std::string> ulps, timeout, seconds, html;
+  std::string engine;
+  std::uint64_t seed = compare::kDefaultSeed, jobs = 1;
+  std::optional<double> ulps, timeout, seconds;
+  std::optional<std::string> html;
   bool quick = false, json = false, times = false, strict = false;
 };
 
@@ -48,11 +49,11 @@ std::function<void(const std::string&)> clock_of(double seconds) {
 std::string command_of(const Options& o) {
   std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
   if (o.quick) command += " --quick";
-  if (o.seconds) command += " --time " + *o.seconds;
-  if (o.seed != Options{}.seed) command += " --seed " + o.seed;
-  if (o.jobs != Options{}.jobs) command += " --jobs " + o.jobs;
-  if (o.ulps) command += " --ulps " + *o.ulps;
-  if (o.timeout) command += " --timeout " + *o.timeout;
+  if (o.seconds) command += fmt::format(" --time {}", *o.seconds);
+  if (o.seed != Options{}.seed) command += fmt::format(" --seed {}", o.seed);
+  if (o.jobs != Options{}.jobs) command += fmt::format(" --jobs {}", o.jobs);
+  if (o.ulps) command += fmt::format(" --ulps {}", *o.ulps);
+  if (o.timeout) command += fmt::format(" --timeout {}", *o.timeout);
   if (o.times) command += " --times";
   if (o.strict) command += " --strict";
   return command;
@@ -63,11 +64,11 @@ JudgeOrder order_of(const Options& options) {
   order.engine = options.engine;
   order.command = command_of(options);
   order.quick = options.quick;
-  order.time = positive_number(options.seconds, "--time");
-  order.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  order.jobs = static_cast<unsigned>(whole_number(options.jobs, "--jobs", 1, 1024));
-  order.ulps = tolerance(options.ulps);
-  order.timeout = positive_number(options.timeout, "--timeout");
+  order.time = options.seconds;
+  order.seed = options.seed;
+  order.jobs = static_cast<unsigned>(options.jobs);
+  order.ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  order.timeout = options.timeout;
   order.times = options.times;
   order.strict = options.strict;
   order.listener = terminal();
@@ -100,13 +101,14 @@ Command judge_command() {
       {
           {"-e,--engine", &options->engine, "ENGINE", compare::names_for_help(), kRequired},
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights"},
-          {"--time", &options->seconds, "SECONDS",
+          {"--time", Positive{&options->seconds}, "SECONDS",
            "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)"},
-          {"--seed", &options->seed, "N", "of all that is drawn"},
-          {"--jobs", &options->jobs, "N", "threads of the campaign; all else is asked on one"},
-          {"--ulps", &options->ulps, "K",
+          {"--seed", Whole{&options->seed}, "N", "of all that is drawn"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+           "threads of the campaign; all else is asked on one"},
+          {"--ulps", Tolerance{&options->ulps}, "K",
            "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)"},
-          {"--timeout", &options->timeout, "SECONDS",
+          {"--timeout", Positive{&options->timeout}, "SECONDS",
            "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
            "in all, from 2 to 60; for its first answer 60)"},
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",

@@ -7,7 +7,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/finding_json.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/table.hpp"
 #include "flights/theory/laws.hpp"
 
@@ -19,7 +18,7 @@ using chaos::Lyapunov;
 using chaos::LyapunovPlan;
 
 struct Options : ChaosOptions {
-  std::string collisions = "1000000";
+  std::uint64_t collisions = 1'000'000;
   bool spectrum = false;
 };
 
@@ -92,9 +91,7 @@ std::string Report::json() const {
 int act(const Options& options) {
   Report report;
   report.scene = options.scene;
-  report.plan = {scene_of(options), seed_of(options),
-                 whole_number(options.collisions, "--collisions", 1, std::uint64_t{1} << 52),
-                 options.spectrum};
+  report.plan = {scene_of(options), options.seed, options.collisions, options.spectrum};
   const Scene& scene = report.plan.scene;
   const store::Plan words{{"collisions", std::to_string(report.plan.collisions)},
                           {"spectrum", report.plan.whole_spectrum ? "whole" : "above zero"},
@@ -120,7 +117,7 @@ Command lyapunov_command() {
   return {"lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.",
           joined(chaos_rows(*options),
                  {
-                     {"--collisions", &options->collisions, "N",
+                     {"--collisions", Whole{&options->collisions, 1, std::uint64_t{1} << 52}, "N",
                       "how many are counted, of 4096 particles together"},
                      {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
                  }),

@@ -50,13 +50,28 @@ std::optional<double> positive_number(const std::optional<std::string>& text, co
   return value;
 }
 
-double tolerance(const std::optional<std::string>& text) {
-  const double ulps = text ? number(*text, "--ulps") : oracle::kDefaultUlps;
-  if (!(ulps >= 0)) throw InputError("--ulps: must not be below zero");
+namespace {
+
+double tolerance(const std::string& text, const char* option) {
+  const double ulps = number(text, option);
+  if (!(ulps >= 0)) throw InputError(fmt::format("{}: must not be below zero", option));
   if (ulps > oracle::kLargestMargin)
-    throw InputError(
-        fmt::format("--ulps: {} is above {}, up to which margins are known", ulps, oracle::kLargestMargin));
+    throw InputError(fmt::format("{}: {} is above {}, up to which margins are known", option, ulps,
+                                 oracle::kLargestMargin));
   return ulps;
+}
+
+}  // namespace
+
+void take_number(const Option& option, const std::string& text) {
+  const std::string name = option.name();
+  if (const auto* whole = std::get_if<Whole>(&option.target))
+    std::visit([&](auto* to) { *to = whole_number(text, name.c_str(), whole->least, whole->most); },
+               whole->to);
+  else if (const auto* positive = std::get_if<Positive>(&option.target))
+    *positive->to = positive_number(text, name.c_str());
+  else if (const auto* k = std::get_if<Tolerance>(&option.target))
+    *k->to = tolerance(text, name.c_str());
 }
 
 }  // namespace lorentz::cli

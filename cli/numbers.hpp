@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/command.hpp"
+
 namespace lorentz::cli {
 
 /// A whole number from `least` to `most`: digits, or a form like 1e6. Throws InputError, naming the option.
@@ -15,8 +17,7 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 /// InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
 
-/// The tolerance k of the verdicts (--ulps): zero, which forgives nothing, or more; 4 if it was not given.
-/// Throws InputError.
-double tolerance(const std::optional<std::string>& text);
+/// The number that was given goes to where the option says. Throws InputError, naming the option.
+void take_number(const Option& option, const std::string& text);
 
 }  // namespace lorentz::cli

@@ -5,7 +5,6 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
@@ -23,9 +22,9 @@ using flights::Kind;
 namespace {
 
 struct Options {
-  std::string scene = "square", kind = "uniform", count = "1000", format = "ndjson";
-  std::string seed = std::to_string(compare::kDefaultSeed);
-  std::optional<std::string> radius;
+  std::string scene = "square", kind = "uniform", format = "ndjson";
+  std::uint64_t count = 1000, seed = compare::kDefaultSeed;
+  std::optional<double> radius;
   bool strict = false;
 };
 
@@ -53,9 +52,9 @@ struct Order {
 Order order_of(const Options& options) {
   const auto kind = static_cast<Kind>(choice(options.kind, "--kind", flights::kind_names()));
   const auto format = static_cast<Format>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
-  const std::uint64_t count = whole_number(options.count, "--count", 1, 1'000'000'000'000);
-  const std::uint64_t seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  const std::optional<double> radius = positive_number(options.radius, "--radius");
+  const std::uint64_t count = options.count;
+  const std::uint64_t seed = options.seed;
+  const std::optional<double> radius = options.radius;
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   return {load_scene(options.scene, radius, unknown), kind, format, count, seed};
 }
@@ -131,13 +130,13 @@ Command sample_command() {
       "Drawn starts of flights: a query stream for first-hit, or columns.",
       {
           {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue"},
-          {"--radius", &options->radius, "R", "radius of every ball"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
           {"--kind", &options->kind, "uniform|surface|near-rational|grazing",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
            "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
            "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40"},
-          {"--count", &options->count, "N", "how many"},
-          {"--seed", &options->seed, "N", "of the starts"},
+          {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N", "how many"},
+          {"--seed", Whole{&options->seed}, "N", "of the starts"},
           {"--format", &options->format, "ndjson|csv|npy",
            "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
            "(docs/formats.md), which first-hit reads with --scene"},

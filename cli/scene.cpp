@@ -8,7 +8,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/horizon_verdict.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/scene_draw.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
@@ -20,7 +19,8 @@ namespace lorentz::cli {
 namespace {
 
 struct Options {
-  std::optional<std::string> scene, radius;
+  std::optional<std::string> scene;
+  std::optional<double> radius;
   bool json = false, no_horizon = false;
 };
 
@@ -232,7 +232,7 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
 }
 
 int show(const Options& options) {
-  const Scene scene = read_scene(*options.scene, positive_number(options.radius, "--radius"));
+  const Scene scene = read_scene(*options.scene, options.radius);
   const Findings findings = findings_on(scene);
   (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings,
                                          !options.no_horizon);
@@ -253,7 +253,7 @@ Command scene_show_command() {
   return {"show",
           "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.",
           {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file", kRequired},
-           {"--radius", &options->radius, "R", "radius of every ball"},
+           {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
            {"--no-horizon", &options->no_horizon, "",
             "leave out the horizon: among small obstacles its search takes half a minute"},
            {"--json", &options->json, "", "as one JSON object"}},

@@ -28,7 +28,9 @@ using namespace pictures;
 namespace {
 
 struct Options {
-  std::optional<std::string> scene, radius, queries, window, title, channels;
+  std::optional<std::string> scene, queries, window, title;
+  std::optional<double> radius;
+  std::optional<std::uint64_t> channels;
   std::string output = "-", size = "800";
   bool no_legend = false;
 };
@@ -166,12 +168,12 @@ std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
 std::string title_of(const Options& options) {
   if (options.title) return *options.title;
   std::string title = options.scene.value_or(options.queries.value_or(""));
-  if (options.radius) title += " --radius " + *options.radius;
+  if (options.radius) title += fmt::format(" --radius {}", *options.radius);
   return title;
 }
 
 int draw(const Options& options) {
-  const auto radius = positive_number(options.radius, "--radius");
+  const auto radius = options.radius;
   if (!options.scene && !options.queries)
     throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
   if (radius && !options.scene)
@@ -181,7 +183,7 @@ int draw(const Options& options) {
   drawing_options.legend = !options.no_legend;
   drawing_options.window = window_of(options);
   read_size(options, drawing_options);
-  const std::size_t most = options.channels ? whole_number(*options.channels, "--channels", 1, 100) : 0;
+  const std::size_t most = options.channels ? *options.channels : 0;
   refuse_other_formats(options.output);
   if (options.output != "-" && is_other_than_svg(options.output))
     throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
@@ -220,10 +222,10 @@ Command scene_draw_command() {
       {
           {"scene", &options->scene, "SCENE",
            "a name of the catalogue, or a file; without it, the first scene of the queries"},
-          {"--radius", &options->radius, "R", "radius of every ball"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
           {"--queries", &options->queries, "FILE",
            "query stream (NDJSON): its flights to their first hits, exactly; - is standard input"},
-          {"--channels", &options->channels, "N",
+          {"--channels", Whole{&options->channels, 1, 100}, "N",
            "draw the N widest corridors (2D), planar channels and cylinders (3D)"},
           {"--window", &options->window, "X0,Y0,X1,Y1", "2D: the part of the plane to show"},
           {"--size", &options->size, "W[xH]", "in pixels: the width, or what the picture is to fit into"},

@@ -29,10 +29,11 @@ using oracle::CertifiedCollision;
 using oracle::Itinerary;
 
 struct Options {
-  std::string scene = "square", engine = "reduction", count = "100", collisions = "500",
-              seed = std::to_string(compare::kDefaultSeed);
+  std::string scene = "square", engine = "reduction";
+  std::uint64_t count = 100, collisions = 500, seed = compare::kDefaultSeed;
   std::vector<std::string> bits{"53,106,128,256"};
-  std::optional<std::string> radius, csv, svg, html;
+  std::optional<double> radius;
+  std::optional<std::string> csv, svg, html;
   bool json = false;
 };
 
@@ -224,16 +225,16 @@ int act(const Options& options) {
   if (compare::is_command(options.engine))
     throw InputError(
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
-  const auto radius = positive_number(options.radius, "--radius");
+  const auto radius = options.radius;
   const Scene scene = load_scene(options.scene, radius);
   Survival survival;
   survival.scene = options.scene;
   survival.radius = radius;
   survival.engine = options.engine;
-  survival.seed = whole_number(options.seed, "--seed", 0, ~std::uint64_t{0});
-  survival.collisions = whole_number(options.collisions, "--collisions", 1, 1'000'000);
+  survival.seed = options.seed;
+  survival.collisions = options.collisions;
   survival.arithmetics = arithmetics_of(options);
-  const std::uint64_t count = whole_number(options.count, "--count", 1, 10'000'000);
+  const std::uint64_t count = options.count;
   const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
   const oracle::Oracle oracle(scene);
   const RationalScene exact = rational(scene);
@@ -256,32 +257,34 @@ int act(const Options& options) {
 
 Command survival_command() {
   auto options = std::make_shared<Options>();
-  return {"survival",
-          "How many collisions of a trajectory are right, in binary64 and in more bits.",
-          {
-              {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
-              {"--radius", &options->radius, "R", "radius of every ball"},
-              {"-e,--engine", &options->engine, "ENGINE",
-               "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
-              {"--bits", &options->bits, "LIST",
-               "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
-               "arithmetic of so many bits"},
-              {"--count", &options->count, "N", "starts, off the surface of an obstacle (cosine law)"},
-              {"--collisions", &options->collisions, "N", "at most so many of each start"},
-              {"--seed", &options->seed, "N", "of the starts"},
-              {"--csv", &options->csv, "FILE",
-               "shares of starts that are right after k collisions, to a file", kOutput},
-              {"--svg", &options->svg, "FILE", "the same as a picture", kOutput},
-              {"--html", &options->html, "FILE",
-               "a page that opens offline: the same with 95 % bounds, and its numbers", kOutput},
-              {"--json", &options->json, "", "one JSON object instead of a table"},
-          },
+  return {
+      "survival",
+      "How many collisions of a trajectory are right, in binary64 and in more bits.",
+      {
+          {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
+          {"-e,--engine", &options->engine, "ENGINE",
+           "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
+          {"--bits", &options->bits, "LIST",
+           "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
+           "arithmetic of so many bits"},
+          {"--count", Whole{&options->count, 1, 10'000'000}, "N",
+           "starts, off the surface of an obstacle (cosine law)"},
+          {"--collisions", Whole{&options->collisions, 1, 1'000'000}, "N", "at most so many of each start"},
+          {"--seed", Whole{&options->seed}, "N", "of the starts"},
+          {"--csv", &options->csv, "FILE", "shares of starts that are right after k collisions, to a file",
+           kOutput},
+          {"--svg", &options->svg, "FILE", "the same as a picture", kOutput},
+          {"--html", &options->html, "FILE",
+           "a page that opens offline: the same with 95 % bounds, and its numbers", kOutput},
+          {"--json", &options->json, "", "one JSON object instead of a table"},
+      },
 
-          "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
-          "another\n"
-          "obstacle. docs/itineraries.md has figures.\n"
-          "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
-          [options] { return act(*options); }};
+      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
+      "another\n"
+      "obstacle. docs/itineraries.md has figures.\n"
+      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -6,7 +6,6 @@
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/scene_option.hpp"
@@ -26,9 +25,12 @@ using oracle::Itinerary;
 using oracle::Journey;
 using oracle::JourneyEnd;
 
+constexpr std::uint64_t kMostBits = 1u << 26;
+
 struct Options {
   std::string starts = "-", precision = "binary64";
-  std::optional<std::string> scene, radius, collisions, time, digits, bits, most_bits, engine, csv, svg;
+  std::optional<std::string> scene, radius, time, engine, csv, svg;
+  std::optional<std::uint64_t> collisions, digits, bits, most_bits;
   bool detail = false, strict = false, json = false;
 };
 
@@ -44,15 +46,11 @@ Journey journey_of(const Options& options) {
   Journey journey;
   if (!options.collisions && !options.time)
     throw InputError("needs --collisions N or --time T: how far to follow each start");
-  if (options.collisions) journey.collisions = whole_number(*options.collisions, "--collisions", 0, 1u << 30);
+  if (options.collisions) journey.collisions = *options.collisions;
   if (options.time) journey.time = positive_rational(*options.time, "--time");
-  if (options.digits)
-    journey.digits = static_cast<int>(whole_number(*options.digits, "--digits", 1, 100'000));
-  constexpr std::uint64_t kMostBits = 1u << 26;
-  if (options.most_bits)
-    journey.most_bits = static_cast<long>(whole_number(*options.most_bits, "--max-bits", 32, kMostBits));
-  if (options.bits)
-    journey.first_bits = static_cast<long>(whole_number(*options.bits, "--bits", 32, kMostBits));
+  if (options.digits) journey.digits = static_cast<int>(*options.digits);
+  if (options.most_bits) journey.most_bits = static_cast<long>(*options.most_bits);
+  if (options.bits) journey.first_bits = static_cast<long>(*options.bits);
   journey.states = options.detail;
   journey.stop = &Interrupt::came();
   return journey;
@@ -292,12 +290,14 @@ Command trajectory_command() {
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line: a file, or a name of the catalogue"},
           {"--radius", &options->radius, "R", "radius of every ball of --scene, exactly: 1/3, 0.1"},
-          {"--collisions", &options->collisions, "N", "follow each start so far"},
+          {"--collisions", Whole{&options->collisions, 0, 1u << 30}, "N", "follow each start so far"},
           {"--time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
-          {"--digits", &options->digits, "N", "digits of times, places and velocities (default: 17)"},
+          {"--digits", Whole{&options->digits, 1, 100'000}, "N",
+           "digits of times, places and velocities (default: 17)"},
           {"--detail", &options->detail, "", "place and velocity at each collision, too"},
-          {"--bits", &options->bits, "B", "precision to begin with (default: by --digits)"},
-          {"--max-bits", &options->most_bits, "B",
+          {"--bits", Whole{&options->bits, 32, kMostBits}, "B",
+           "precision to begin with (default: by --digits)"},
+          {"--max-bits", Whole{&options->most_bits, 32, kMostBits}, "B",
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",
            "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help()},
