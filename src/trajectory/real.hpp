@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
