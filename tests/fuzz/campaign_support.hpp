@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sstream>
+#include <utility>
 
 #include <lorentz/oracle.hpp>
 #include "fuzz/campaign/store.hpp"
