@@ -44,6 +44,9 @@ std::size_t affordable(const BenchPlan& plan, const CaseSet& all, const std::str
     options.counts = {pilot};
     const Tally t = measure(all, {}, {engine}, {}, options).front();
     failed |= t.failed;
+    // A program that dies is not slow, however busy the machine is; one that is silent would be so each time.
+    if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4)
+      return std::min(all.cases.size(), kFewestQueries);
     count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
     if (count < kFewestQueries / 8.0) break;
   }
