@@ -2,7 +2,7 @@
 // and its tests.
 #pragma once
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/published/published_unit.hpp"
 
 namespace lorentz::compare {

@@ -13,7 +13,7 @@
 
 namespace lorentz {
 
-struct Ray;  // a flight as the engines take it (src/engines/base/ray.hpp)
+struct Ray;  // a flight as the engines take it (engine_base.hpp)
 
 /// A first-hit engine for one scene.
 ///
@@ -52,7 +52,7 @@ class Engine {
   /// True if first_hit_scaled decides the limit. Otherwise its rounded time is compared with it.
   virtual bool decides_limit() const { return false; }
 
-  /// What first_hit does, with `fly(ray, max_time, answer)` in place of first_hit_scaled.
+  /// What first_hit does, with `fly(ray, max_time, answer)` in place of first_hit_scaled (engine_base.hpp).
   template <class Fly>
   void first_hit_by(const Query& query, double max_time, Answer& answer, const Fly& fly) const;
 

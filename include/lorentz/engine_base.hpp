@@ -1,4 +1,4 @@
-// What engines of binary64 share: the scaling of the velocity. Private to the engines.
+// For those who derive an Engine: flights as engines take them, and the scaling of the velocity.
 #pragma once
 
 #include <algorithm>

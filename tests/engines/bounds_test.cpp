@@ -2,7 +2,7 @@
 // that carry a bound of their error, and the predicates on cases at their boundary, with the bounds as they
 // are and 50 times too small. What an ellipsoid brings is measured besides: shape_test.cpp.
 #include "src/engines/reduction/bounds.hpp"
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/reduction/basis_3d.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>

@@ -9,11 +9,11 @@
 
 #include <lorentz/batch.hpp>
 #include <lorentz/certified.hpp>
+#include <lorentz/engine_base.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/target.hpp"
-#include "src/engines/base/ray.hpp"
 #include "tests/engines/reduction_support.hpp"
 
 using namespace lorentz;

@@ -1,6 +1,6 @@
 #include <lorentz/engine.hpp>
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 
 namespace lorentz {
 

@@ -7,7 +7,7 @@
 #define LORENTZ_BATCH_START_INL_HPP
 #endif
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/batch/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

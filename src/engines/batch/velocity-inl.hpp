@@ -1,4 +1,4 @@
-// Velocities in lanes: ScaledVelocity of src/engines/base/ray.hpp. Private to the batch engine.
+// Velocities in lanes: ScaledVelocity of engine_base.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_VELOCITY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_VELOCITY_INL_HPP
 #undef LORENTZ_BATCH_VELOCITY_INL_HPP
@@ -6,7 +6,7 @@
 #define LORENTZ_BATCH_VELOCITY_INL_HPP
 #endif
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/batch/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

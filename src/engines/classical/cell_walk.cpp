@@ -1,11 +1,11 @@
 #include "src/engines/classical/cell_walk.hpp"
-#include "src/engines/base/ray.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/geometry.hpp>
 #include "src/engines/base/double_double.hpp"
 

@@ -1,9 +1,9 @@
 #include "src/engines/classical/classical.hpp"
-#include "src/engines/base/ray.hpp"
 
 #include <cmath>
 #include <optional>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/geometry.hpp>
 #include "src/engines/classical/cell_walk.hpp"
 

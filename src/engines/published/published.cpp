@@ -1,6 +1,6 @@
 #include "src/engines/published/published.hpp"
-#include "src/engines/base/ray.hpp"
 
+#include <lorentz/engine_base.hpp>
 #include "src/engines/published/published_bravais.hpp"
 #include "src/engines/published/published_unit.hpp"
 

@@ -1,9 +1,9 @@
 #include "src/engines/published/published_bravais.hpp"
-#include "src/engines/base/ray.hpp"
 
 #include <Eigen/SVD>
 #include <cmath>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/geometry.hpp>
 #include "src/engines/published/published_search.hpp"
 

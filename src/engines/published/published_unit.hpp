@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/published/published_search.hpp"
 
 namespace lorentz::published_search {

@@ -1,5 +1,5 @@
-// Every constant of a decision of the reduction engine, but two that all engines share (kTinyComponent,
-// src/engines/base/ray.hpp, and kMaxStart, engine.hpp). First what formulas err by: docs/bounds.md derives
+// Every constant of a decision of the reduction engine, but two that all engines share (kTinyComponent in
+// engine_base.hpp, kMaxStart in engine.hpp). First what formulas err by: docs/bounds.md derives
 // each of these, and tests/engines/bounds_test.cpp computes it again, by running the engine's own formulas
 // (formulas.hpp) on numbers that carry their error. Then by how much ranges are widened, which follows from
 // them. Last what is no error bound: caps, ranges, and from where on another formula is used.

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/flight.hpp>
-#include "src/engines/base/ray.hpp"
 #include "src/engines/reduction/bravais.hpp"
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"

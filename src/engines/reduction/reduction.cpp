@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "src/engines/base/ray.hpp"
+#include <lorentz/engine_base.hpp>
 #include "src/engines/reduction/kernels.hpp"
 #include "src/engines/reduction/offset.hpp"
 
