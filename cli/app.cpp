@@ -37,9 +37,6 @@ struct NumberGiven {
 using NumbersGiven = std::deque<NumberGiven>;  // which stay where they are
 
 CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbers) {
-  if (option.is_number())
-    return app.add_option(option.names, numbers.emplace_back(NumberGiven{option}).text, option.help)
-        ->type_name(option.type);
   return std::visit(
       [&](auto target) -> CLI::Option* {
         using To = std::remove_pointer_t<decltype(target)>;
@@ -50,7 +47,9 @@ CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbe
         else if constexpr (std::is_pointer_v<decltype(target)>)
           return app.add_option(option.names, *target, option.help)->type_name(option.type);
         else
-          return nullptr;
+          return app.add_option(option.names, numbers.emplace_back(NumberGiven{option}).text, option.help)
+              ->type_name(option.type)
+              ->default_str(option.default_text());
       },
       option.target);
 }
@@ -58,10 +57,7 @@ CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbe
 void add(CLI::App& app, const Command& command, NumbersGiven& numbers) {
   for (const Option& option : command.options) {
     CLI::Option* added = add_option(app, option, numbers);
-    if (option.is_number())
-      added->default_str(option.default_text());
-    else if (!option.default_text().empty())
-      added->capture_default_str();
+    if (!option.default_text().empty() && added->get_default_str().empty()) added->capture_default_str();
     if (option.traits & kRequired) added->required();
     if (option.traits & kCommas) added->delimiter(',');
     if (option.traits & kOneAtATime) added->allow_extra_args(false);

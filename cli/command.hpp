@@ -54,7 +54,6 @@ struct Option {
 
   bool is_argument() const { return !names.starts_with('-'); }
   bool is_hidden() const { return traits & kHidden; }
-  bool is_number() const { return target.index() >= 5; }
   bool takes_value() const;
   bool takes_many() const { return std::holds_alternative<std::vector<std::string>*>(target); }
 

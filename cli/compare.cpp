@@ -283,15 +283,13 @@ class Departures {
 
 // The cases that were asked for: drawn, or read from a stream.
 CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
-  const std::uint64_t count = options.count;
-  const std::optional<double> radius = options.radius;
   std::optional<Scene> scene;
   if (options.scene || !options.queries)
-    scene = load_scene(options.scene.value_or("square"), radius, unknown_keys(options));
-  else if (radius)
+    scene = load_scene(options.scene.value_or("square"), options.radius, unknown_keys(options));
+  else if (options.radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   return options.queries ? read_cases(*options.queries, scene, unknown_keys(options), bad_input)
-                         : draw_cases(*scene, seed, count);
+                         : draw_cases(*scene, seed, options.count);
 }
 
 void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies,
@@ -326,12 +324,11 @@ int act(const Options& options) {
     throw InputError("--answers needs the oracle; leave --no-oracle out");
   if (!options.queries && !all_logged.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
-  const std::uint64_t seed = options.seed;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
 
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
   bool bad_input = false;
-  const CaseSet set = cases_of(options, seed, bad_input);
+  const CaseSet set = cases_of(options, options.seed, bad_input);
   if (!all_logged.empty()) check_ids(set, bad_input);
   Departures departures(options, set);
   const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
@@ -348,7 +345,7 @@ int act(const Options& options) {
     check_matches(logged.file, tallies.back(), answers.size(), bad_input);
   }
   departures.close();
-  show(options, set, seed, tallies, departures);
+  show(options, set, options.seed, tallies, departures);
   return exit_status(tallies, options, bad_input);
 }
 
@@ -383,7 +380,7 @@ Command compare_command() {
           {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
           {"--json", &options->json, "", "one JSON object instead of a table"},
           {"--failures", Whole{&options->failures, 0, 1'000'000}, "N",
-           "show so many wrong answers of each engine"},
+           "show at most N wrong answers of each engine"},
           {"--times", &options->times, "", "wrong times count: exit status 1, and in --disagreements"},
           {"--strict", &options->strict, "",
            "exit status 1 also for ill-posed, undecided, missing answers and errors; unknown keys are "

@@ -24,8 +24,7 @@ std::string json_integer(const Integer& n) {
 int act(const Options& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
-  const std::size_t limit = options.limit;
-  const auto convergents = oracle::convergents(rise, run, limit);
+  const auto convergents = oracle::convergents(rise, run, options.limit);
   const bool complete = convergents.back().remainder_exact == "0";
   if (options.json) {
     std::string out = "{\"rise\":";
@@ -50,7 +49,7 @@ int act(const Options& options) {
         {std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
   }
   print(table.text());
-  if (!complete) print(fmt::format("... (stopped after --limit {} terms)\n", limit));
+  if (!complete) print(fmt::format("... (stopped after --limit {} terms)\n", options.limit));
   return kDone;
 }
 

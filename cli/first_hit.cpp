@@ -110,12 +110,11 @@ int act_on_columns(const Options& options, ColumnOrder::Format format) {
   if (options.digits || options.detail)
     throw InputError((options.digits ? "--digits" : "--detail") +
                      std::string(": only streams in JSON have it (--format ndjson)"));
-  const std::optional<double> radius = options.radius;
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = options.engine};
   order.max_time = options.max_time;
   order.jobs = jobs_of(options), order.strict = options.strict;
-  order.scene = load_scene(*options.scene, radius, unknown);
+  order.scene = load_scene(*options.scene, options.radius, unknown);
   return answer_columns(order);
 }
 
@@ -124,15 +123,14 @@ int act_on_lines(const Options& options) {
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;
   answerer_options.jobs = jobs_of(options);
-  if (const auto timeout = options.timeout) answerer_options.timeout = *timeout;
+  answerer_options.timeout = options.timeout.value_or(answerer_options.timeout);
   const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
-  const std::optional<double> radius = options.radius;
-  if (radius && !options.scene)
+  if (options.radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   std::optional<Scene> initial;
   if (options.scene) {
-    initial = load_scene(*options.scene, radius, unknown);
+    initial = load_scene(*options.scene, options.radius, unknown);
     answerer->set_scene(*initial);
   }
   QueryStream stream(options.queries, initial, unknown);

@@ -260,7 +260,7 @@ Command flights_command() {
           {"-e,--engine", &options->engine, "ENGINE",
            "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", "))},
           {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
-          {"--time", Positive{&options->seconds}, "SECONDS", "stop after so long (each radius)"},
+          {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each radius)"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads; the result is the same"},
           {"--cells", Whole{&options->cells, 1, std::uint64_t{1} << 40}, "N",

@@ -72,13 +72,12 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
-  const auto seconds_a_line = options.progress;
   Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   bool failed = false;
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size(),
-                                seconds_a_line.value_or(kDefaultSecondsALine));
+                                options.progress.value_or(kDefaultSecondsALine));
     failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks, unshrunk);
   }
   report.findings = findings_of(store, campaign);

@@ -98,8 +98,7 @@ fuzz::Plan plan_of(const FuzzOptions& options) {
 fuzz::Bounds bounds_of(const FuzzOptions& options) {
   fuzz::Bounds bounds;
   if (options.count) bounds.count = *options.count;
-  const auto seconds = options.seconds;
-  if (seconds || !options.count) bounds.seconds = seconds.value_or(kDefaultSeconds);
+  if (options.seconds || !options.count) bounds.seconds = options.seconds.value_or(kDefaultSeconds);
   bounds.first = options.first;
   bounds.jobs = static_cast<unsigned>(options.jobs);
   return bounds;
@@ -179,8 +178,7 @@ std::vector<Option> rows_of(FuzzOptions& options) {
           {"-e,--engine", &options.engine, "ENGINE", names_for_help()},
           {"--time", Positive{&options.seconds}, "SECONDS", "how long (default: 60, or until --count)"},
           {"--count", Whole{&options.count, 1, kMostCases}, "N",
-           "until each target has had so many cases, its variants not counted, those that --scenes "
-           "leaves out counted"},
+           "until each target has had N cases: its variants do not count, cases that --scenes leaves out do"},
           {"--seed", Whole{&options.seed}, "N", "of the cases"},
           {"--jobs", Whole{&options.jobs, 1, 1024}, "N",
            "threads (of each process, under mpirun); the findings are the same"},
@@ -189,9 +187,9 @@ std::vector<Option> rows_of(FuzzOptions& options) {
           {"--keep", Whole{&options.keep, 1, 1'000'000}, "N",
            "findings of one sort that are kept and shrunk, of each target"},
           {"--mutate", Whole{&options.mutate, 0, 1'000'000'000}, "N",
-           "climb to smaller margins from one in so many cases; 0: from none"},
+           "climb to smaller margins from one case in N; 0: from none"},
           {"--reword", Whole{&options.reword, 0, 1'000'000'000}, "N",
-           "ask one in so many cases, and its variants, in other words, too; 0: none"},
+           "ask one case in N, and its variants, in other words, too; 0: none"},
           {"--judge", &options.judge, "oracle|certified", kJudgeHelp},
           {"--first", &options.first, "", "stop at the first finding"},
           {"--ulps", Tolerance{&options.ulps}, "K",
@@ -202,7 +200,7 @@ std::vector<Option> rows_of(FuzzOptions& options) {
            kPlain, "--no-undecided"},
           {"--no-undecided", &options.no_undecided, "", "`undecided` is no finding", kPlain, "--undecided"},
           {"--progress", Positive{&options.progress}, "SECONDS",
-           "where stderr is no terminal: a line there each so many seconds (default: 60)"},
+           "where stderr is not a terminal: print a line there every SECONDS (default: 60)"},
           {"--json", &options.json, "", "one JSON object instead of tables"}};
 }
 

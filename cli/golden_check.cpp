@@ -331,7 +331,7 @@ int act(const Options& options) {
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   auto most = static_cast<std::size_t>(options.failures);
   if (options.json) most = 0;  // which counts only
-  const std::uint64_t first = options.first ? *options.first : std::numeric_limits<std::uint64_t>::max();
+  const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
   const std::vector<std::string> files = find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
@@ -384,7 +384,7 @@ Command golden_check_command() {
                "only the first N records of each set"},
               {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},
               {"--failures", Whole{&options->failures, 0, 1'000'000}, "N",
-               "list so many failures of each engine"},
+               "list at most N failures of each engine"},
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
               {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},

@@ -126,7 +126,7 @@ Command golden_explain_command() {
                   {"id", &options->id, "TEXT", "the record's id, or its first characters", kRequired},
                   {"sets", &options->sets, "SET",
                    "files, folders, or names of committed sets, to look in (default: all of these)"},
-                  {"--most", Whole{&options->most, 1, 10'000}, "N", "list so many obstacles"},
+                  {"--most", Whole{&options->most, 1, 10'000}, "N", "list at most N obstacles"},
               },
               options->files.rows()),
           "Example:\n  lorentz golden explain 9cbb135e --html record.html",

@@ -87,7 +87,7 @@ int make_all(golden::Order order, const std::string& folder) {
 
 int make_one(golden::Order order, const Options& options) {
   order.set = &set_named(*options.set);
-  order.count = options.count ? *options.count : order.set->committed;
+  order.count = options.count.value_or(order.set->committed);
   if (order.count > order.set->most) {
     say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
     order.count = order.set->most;

@@ -234,17 +234,15 @@ int act(const Options& options) {
   if (!options.name && !options.scene)
     throw InputError("which scene? give a file, or a name of the catalogue");
   const std::string& name = options.name ? *options.name : *options.scene;
-  const auto min_width = options.min_width;
-  const std::size_t limit = options.limit;
   const Scene scene = load_scene(name, options.radius);
   try {
     const oracle::Horizon horizon =
-        oracle::horizon_of(scene, min_width.value_or(0), !options.no_cylinders, search_progress());
-    print(options.json ? json_of(horizon, name, min_width.has_value())
-                       : human_text(horizon, limit, min_width.has_value()));
+        oracle::horizon_of(scene, options.min_width.value_or(0), !options.no_cylinders, search_progress());
+    print(options.json ? json_of(horizon, name, options.min_width.has_value())
+                       : human_text(horizon, options.limit, options.min_width.has_value()));
   } catch (const oracle::TooManyChannels& error) {
     throw InputError(fmt::format("{}: {}; --min-width W restricts the search to channels {}", name,
-                                 error.what(), min_width ? "wider than that" : "at least W wide"));
+                                 error.what(), options.min_width ? "wider than that" : "at least W wide"));
   }
   return kDone;
 }

@@ -52,11 +52,8 @@ struct Order {
 Order order_of(const Options& options) {
   const auto kind = static_cast<Kind>(choice(options.kind, "--kind", flights::kind_names()));
   const auto format = static_cast<Format>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
-  const std::uint64_t count = options.count;
-  const std::uint64_t seed = options.seed;
-  const std::optional<double> radius = options.radius;
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  return {load_scene(options.scene, radius, unknown), kind, format, count, seed};
+  return {load_scene(options.scene, options.radius, unknown), kind, format, options.count, options.seed};
 }
 
 void append(QueryRows& rows, const Query& query, const Order& order) {

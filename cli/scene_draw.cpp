@@ -173,22 +173,21 @@ std::string title_of(const Options& options) {
 }
 
 int draw(const Options& options) {
-  const auto radius = options.radius;
   if (!options.scene && !options.queries)
     throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
-  if (radius && !options.scene)
+  if (options.radius && !options.scene)
     throw InputError("--radius: needs a scene (those of a stream say their radii themselves)");
   DrawOptions drawing_options;
   drawing_options.title = title_of(options);
   drawing_options.legend = !options.no_legend;
   drawing_options.window = window_of(options);
   read_size(options, drawing_options);
-  const std::size_t most = options.channels ? *options.channels : 0;
+  const std::size_t most = options.channels.value_or(0);
   refuse_other_formats(options.output);
   if (options.output != "-" && is_other_than_svg(options.output))
     throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;
-  if (options.scene) scene = load_scene(*options.scene, radius);
+  if (options.scene) scene = load_scene(*options.scene, options.radius);
   std::vector<Flight> flights;
   bool bad = false;
   if (options.queries) {

@@ -1,4 +1,4 @@
-// lorentz survival: how many collisions arithmetic of so many bits gets right.
+// lorentz survival: how many collisions are right in arithmetic with a given number of bits.
 #include <algorithm>
 #include <cmath>
 
@@ -225,26 +225,24 @@ int act(const Options& options) {
   if (compare::is_command(options.engine))
     throw InputError(
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
-  const auto radius = options.radius;
-  const Scene scene = load_scene(options.scene, radius);
+  const Scene scene = load_scene(options.scene, options.radius);
   Survival survival;
   survival.scene = options.scene;
-  survival.radius = radius;
+  survival.radius = options.radius;
   survival.engine = options.engine;
   survival.seed = options.seed;
   survival.collisions = options.collisions;
   survival.arithmetics = arithmetics_of(options);
-  const std::uint64_t count = options.count;
   const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
   const oracle::Oracle oracle(scene);
   const RationalScene exact = rational(scene);
   RequestedFile csv(options.csv), svg(options.svg), html(options.html);
   const Interrupt interrupt;
-  Progress progress("following", count, 1);
-  for (std::uint64_t i = 0; i < count && !Interrupt::came(); ++i, progress.at(i))
+  Progress progress("following", options.count, 1);
+  for (std::uint64_t i = 0; i < options.count && !Interrupt::came(); ++i, progress.at(i))
     follow(exact, start_of(starts, oracle, i), survival);
   if (Interrupt::came())
-    say("{}: after {} of {} starts", Interrupt::what(), survival.arithmetics[0].right.size(), count);
+    say("{}: after {} of {} starts", Interrupt::what(), survival.arithmetics[0].right.size(), options.count);
   if (survival.arithmetics[0].right.empty()) return kFailed;
   print(options.json ? survival.json() : survival.table());
   csv.write([&] { return survival.csv(); });
@@ -257,34 +255,33 @@ int act(const Options& options) {
 
 Command survival_command() {
   auto options = std::make_shared<Options>();
-  return {
-      "survival",
-      "How many collisions of a trajectory are right, in binary64 and in more bits.",
-      {
-          {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
-          {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
-          {"-e,--engine", &options->engine, "ENGINE",
-           "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
-          {"--bits", &options->bits, "LIST",
-           "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
-           "arithmetic of so many bits"},
-          {"--count", Whole{&options->count, 1, 10'000'000}, "N",
-           "starts, off the surface of an obstacle (cosine law)"},
-          {"--collisions", Whole{&options->collisions, 1, 1'000'000}, "N", "at most so many of each start"},
-          {"--seed", Whole{&options->seed}, "N", "of the starts"},
-          {"--csv", &options->csv, "FILE", "shares of starts that are right after k collisions, to a file",
-           kOutput},
-          {"--svg", &options->svg, "FILE", "the same as a picture", kOutput},
-          {"--html", &options->html, "FILE",
-           "a page that opens offline: the same with 95 % bounds, and its numbers", kOutput},
-          {"--json", &options->json, "", "one JSON object instead of a table"},
-      },
+  return {"survival",
+          "How many collisions of a trajectory are right, in binary64 and in more bits.",
+          {
+              {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
+              {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
+              {"-e,--engine", &options->engine, "ENGINE",
+               "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
+              {"--bits", &options->bits, "LIST",
+               "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
+               "arithmetic of that many bits"},
+              {"--count", Whole{&options->count, 1, 10'000'000}, "N",
+               "starts, off the surface of an obstacle (cosine law)"},
+              {"--collisions", Whole{&options->collisions, 1, 1'000'000}, "N", "at most N of each start"},
+              {"--seed", Whole{&options->seed}, "N", "of the starts"},
+              {"--csv", &options->csv, "FILE",
+               "shares of starts that are right after k collisions, to a file", kOutput},
+              {"--svg", &options->svg, "FILE", "the same as a picture", kOutput},
+              {"--html", &options->html, "FILE",
+               "a page that opens offline: the same with 95 % bounds, and its numbers", kOutput},
+              {"--json", &options->json, "", "one JSON object instead of a table"},
+          },
 
-      "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
-      "another\n"
-      "obstacle. docs/itineraries.md has figures.\n"
-      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
-      [options] { return act(*options); }};
+          "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
+          "another\n"
+          "obstacle. docs/itineraries.md has figures.\n"
+          "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli
