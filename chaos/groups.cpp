@@ -1,7 +1,5 @@
 #include "chaos/groups.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <exception>
@@ -10,15 +8,17 @@
 
 #include <lorentz/errors.hpp>
 #include "src/exchange/exchange_json.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::chaos {
 
 std::string text_of(std::uint64_t group, const Sums& sums) {
-  std::string values;
-  for (const double value : sums.values)
-    values += fmt::format("{}{}", values.empty() ? "" : ",", std::bit_cast<std::uint64_t>(value));
-  return fmt::format("{{\"group\":{},\"values\":[{}],\"particles\":{},\"collisions\":{},\"stopped\":{}}}",
-                     group, values, sums.particles, sums.collisions, sums.stopped);
+  std::vector<json::Digits> values;
+  for (const double value : sums.values) values.push_back({std::bit_cast<std::uint64_t>(value)});
+  return json::text_of([&](json::Members& object) {
+    object.add("group", group, "values", values, "particles", sums.particles, "collisions", sums.collisions,
+               "stopped", sums.stopped);
+  });
 }
 
 Sums sums_in(std::string_view text, std::uint64_t& group) {

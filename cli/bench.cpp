@@ -15,6 +15,7 @@
 #include "compare/registry.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 
@@ -82,9 +83,7 @@ int act(const Options& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
   RequestedFile csv(options.csv), html(options.html);
   if (options.store) goes_on_when_repeated();
-  std::string manifest_text;
-  append_manifest(manifest_text, manifest);
-  BenchStore store(options.store, plan, groups, words_of(manifest), manifest_text);
+  BenchStore store(options.store, plan, groups, words_of(manifest), json::text_of(manifest));
   std::vector<report::Cell> cells;
   bool failed = false;
   for (const BenchGroup& group : groups) {

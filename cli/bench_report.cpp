@@ -8,6 +8,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/table.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 
@@ -188,28 +189,18 @@ std::string bench_csv(const std::vector<Cell>& cells) {
 }
 
 std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest) {
-  std::string out = fmt::format(
-      "{{\"format\":1,\"kind\":\"bench\",\"title\":\"Speed against error\",\"manifest\":{},\"cells\":[",
-      manifest);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    out += i ? ",\n" : "\n";
-    append_cell(out, cells[i]);
-  }
-  out += "],\"fits\":[";
-  bool first = true;
-  for (const auto& [scene, engine, difficulty, fit] : bench_fits(cells)) {
-    out += fmt::format("{}{{\"scene\":{},\"engine\":{},\"difficulty\":{}", first ? "\n" : ",\n",
-                       json_quoted(scene), json_quoted(engine), json_quoted(difficulty));
-    for (const auto& [key, value] : {std::pair{"exponent", fit.exponent},
-                                     {"low", fit.low},
-                                     {"high", fit.high},
-                                     {"from", fit.from},
-                                     {"to", fit.to}})
-      append_number(out += fmt::format(",\"{}\":", key), value);
-    out += '}';
-    first = false;
-  }
-  return out + "]}\n";
+  constexpr const char* kNewLine = "\n";
+  const auto fits = bench_fits(cells);
+  const auto fit = [](json::Members& one, const BenchFit& its) {
+    one.add("scene", its.scene, "engine", its.engine, "difficulty", its.difficulty, "exponent",
+            its.fit.exponent, "low", its.fit.low, "high", its.fit.high, "from", its.fit.from, "to",
+            its.fit.to);
+  };
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "bench", "title", "Speed against error", "manifest", json::Raw{manifest});
+    page.add("cells", json::array(cells, json::append<Cell>, kNewLine), "fits",
+             json::objects(fits, fit, kNewLine));
+  });
 }
 
 }  // namespace lorentz::cli

@@ -9,6 +9,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -74,7 +75,7 @@ std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& grou
 void BenchStore::add(const std::vector<report::Cell>& cells) {
   std::vector<std::string> pieces;
   for (const report::Cell& cell : cells)
-    if (cells_.emplace(key_of(cell), cell).second) append_cell(pieces.emplace_back(), cell);
+    if (cells_.emplace(key_of(cell), cell).second) pieces.push_back(json::text_of(cell));
   store_.add(std::move(pieces));
 }
 

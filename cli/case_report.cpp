@@ -10,6 +10,8 @@
 #include "pictures/finding_drawing.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
+#include "report/query_text.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -43,21 +45,17 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
   return dispute ? std::optional(dispute->radii) : std::nullopt;
 }
 
-std::string finding_of(const CaseReport& report) {
+void add_finding(json::Members& object, const CaseReport& report) {
   const int dimension = report.scene.dimension;
   const oracle::Margins margins(report.scene);
   const std::string drawing = drawing_of(report);
-  return fmt::format(
-      "{{\"cause\":{},\"explanation\":{},\"count\":1,\"where\":{},\"verdict\":{},\"scene\":{},\"query\":{{{}}"
-      "},"
-      "\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},\"commands\":{},\"drawing\":{}}"
-      "}",
-      json_quoted(report.cause), json_quoted(report.explanation), json_quoted(report.where),
-      json_quoted(report.verdict), scene_object(report.scene), query_members(report.query, dimension),
-      report.given ? answer_object(*report.given, dimension) : "null", answer_object(report.exact, dimension),
-      number_or_null(radii_of(report, margins)), number_or_null(report.by_ulps),
-      array_of(reason_lines(report, margins)), array_of(commands_of(report)),
-      drawing.empty() ? "null" : json_quoted(drawing));
+  object.add("cause", report.cause, "explanation", report.explanation, "count", 1, "where", report.where,
+             "verdict", report.verdict, "scene", report.scene, "query",
+             json::Raw{report::hexadecimal_query(report.query, dimension)});
+  object.add("given", report.given ? std::optional(json_of(*report.given, dimension)) : std::nullopt, "exact",
+             json_of(report.exact, dimension), "by_radii", json::finite(radii_of(report, margins)), "by_ulps",
+             json::finite(report.by_ulps), "reason", reason_lines(report, margins), "commands",
+             commands_of(report), "drawing", drawing.empty() ? std::nullopt : std::optional(drawing));
 }
 
 }  // namespace
@@ -68,11 +66,12 @@ std::string drawing_of(const CaseReport& report) {
                       : pictures::finding_drawing(report.scene, report.query, report.exact);
 }
 
-std::string json_of(const CaseReport& report) {
-  std::string out =
-      fmt::format("{{\"format\":1,\"kind\":\"case\",\"title\":{},\"manifest\":", json_quoted(report.title));
-  report::append_manifest(out, report::manifest_of(0, report.command));
-  return out + ",\"findings\":[" + finding_of(report) + "]}\n";
+std::string page_json(const CaseReport& report) {
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "case", "title", report.title, "manifest",
+             report::manifest_of(0, report.command), "findings",
+             json::objects(std::span(&report, 1), add_finding));
+  });
 }
 
 std::vector<Option> CaseFiles::rows() {
@@ -87,7 +86,7 @@ std::string CaseFiles::as_typed() const {
 
 void CaseFiles::write(const CaseReport& report) const {
   const auto text_for = [&](bool page) {
-    if (page) return report::page(json_of(report));
+    if (page) return report::page(page_json(report));
     std::string drawing = drawing_of(report);
     if (drawing.empty())
       throw InputError(

@@ -33,7 +33,7 @@ struct CaseReport {
 std::string drawing_of(const CaseReport& report);
 
 /// The report of kind "case", with one finding, as docs/page.md has it.
-std::string json_of(const CaseReport& report);
+std::string page_json(const CaseReport& report);
 
 /// Where a case is written to besides.
 struct CaseFiles {

@@ -58,10 +58,6 @@ std::string name_with_radius(const std::string& name, const Scene& scene) {
   return same && radius ? fmt::format("{}, r = {:g}", name, *radius) : name;
 }
 
-std::string finite_or_null(double x) {
-  return std::isfinite(x) ? fmt::format("{}", x) : "null";
-}
-
 std::string remark_on_end(bool is_whole) {
   return is_whole ? "" : "interrupted: only the parts that were done by then\n";
 }

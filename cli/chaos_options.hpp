@@ -36,9 +36,6 @@ void with_work(const ChaosOptions& options, const std::string& kind, const store
 /// "square", or "square, r = 0.1" if all are balls of one radius.
 std::string name_with_radius(const std::string& name, const Scene& scene);
 
-/// A JSON number, or null if it is not finite.
-std::string finite_or_null(double x);
-
 /// What a result that is not whole says of itself, or nothing.
 std::string remark_on_end(bool is_whole);
 

@@ -15,6 +15,7 @@
 #include "cli/terminal.hpp"
 #include "compare/measure.hpp"
 #include "compare/sampling.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 
@@ -153,53 +154,34 @@ void check_matches(const std::string& file, const Tally& tally, std::size_t answ
 }
 
 // Median, 99 % and largest; null of nothing.
-void append_spread(std::string& out, const char* key, const std::vector<double>& values) {
-  out += fmt::format(",\"{}\":", key);
-  if (values.empty()) {
-    out += "null";
-    return;
-  }
-  const std::pair<const char*, double> parts[] = {
-      {"{\"median\":", 0.5}, {",\"p99\":", 0.99}, {",\"max\":", 1}};
-  for (const auto& [text, part] : parts) {
-    out += text;
-    append_number(out, quantile(values, part));
-  }
-  out += '}';
+auto spread_of(const std::vector<double>& values) {
+  const auto spread = [&values](json::Members& object) {
+    object.add("median", quantile(values, 0.5), "p99", quantile(values, 0.99), "max", quantile(values, 1));
+  };
+  return values.empty() ? std::nullopt : std::optional(spread);
+}
+
+void add_tally(json::Members& object, const Tally& t, bool judged) {
+  const auto count = [&](std::size_t n) { return judged ? std::optional(n) : std::nullopt; };
+  const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
+  const auto if_fast = [&](double ns) { return t.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
+  object.add("engine", t.name, "queries", t.queries, "agree", count(t.agree), "ill_posed", count(t.ill_posed),
+             "wrong", count(t.wrong), "undecided", count(t.undecided), "unsupported", count(t.unsupported),
+             "error", count(t.error), "missing", count(t.missing));
+  object.add("max_ulp", if_timed(t.max_ulp), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
+             if_fast(t.ns_per_query), "ns_median", if_fast(t.ns_median), "wrong_time", count(t.wrong_time),
+             "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
+             spread_of(t.wrong_conditions));
 }
 
 std::string json_of(const std::string& scene, const std::string& seed, const std::vector<Tally>& tallies,
                     const std::optional<std::string>& judge) {
-  const bool judged = judge.has_value();
-  std::string out = fmt::format("{{\"scene\":{},\"seed\":{},\"judge\":{},\"engines\":[", json_quoted(scene),
-                                seed, judged ? json_quoted(*judge) : "null");
-  for (std::size_t i = 0; i < tallies.size(); ++i) {
-    const Tally& t = tallies[i];
-    const auto count = [&](std::size_t n) { return judged ? std::to_string(n) : std::string("null"); };
-    out += fmt::format(
-        "{}{{\"engine\":{},\"queries\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},"
-        "\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"max_ulp\":",
-        i ? "," : "", json_quoted(t.name), t.queries, count(t.agree), count(t.ill_posed), count(t.wrong),
-        count(t.undecided), count(t.unsupported), count(t.error), count(t.missing));
-    const auto measured = [&](double value, bool was_measured) {
-      if (was_measured)
-        append_number(out, value);
-      else
-        out += "null";
-    };
-    measured(t.max_ulp, t.timed_hits > 0);
-    out += ",\"mean_ulp\":";
-    measured(t.mean_ulp(), t.timed_hits > 0);
-    out += ",\"ns_per_query\":";
-    measured(t.ns_per_query, t.ns_per_query > 0);
-    out += ",\"ns_median\":";
-    measured(t.ns_median, t.ns_per_query > 0);
-    out += ",\"wrong_time\":" + count(t.wrong_time);
-    append_spread(out, "wrong_time_ulps", t.wrong_ulps);
-    append_spread(out, "wrong_time_conditions", t.wrong_conditions);
-    out += '}';
-  }
-  return out + "]}\n";
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene, "seed", json::Raw{seed}, "judge", judge, "engines",
+               json::objects(tallies, [&](json::Members& one, const Tally& tally) {
+                 add_tally(one, tally, judge.has_value());
+               }));
+  });
 }
 
 std::vector<Logged> logged_answers(const Options& options) {

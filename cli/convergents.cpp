@@ -5,6 +5,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -15,31 +16,21 @@ struct Options {
   bool json = false;
 };
 
-std::string json_integer(const Integer& n) {
-  std::string out;
-  append_integer(out, n);
-  return out;
-}
-
 int act(const Options& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
   const auto convergents = oracle::convergents(rise, run, options.limit);
   const bool complete = convergents.back().remainder_exact == "0";
   if (options.json) {
-    std::string out = "{\"rise\":";
-    append_number(out, rise);
-    out += ",\"run\":";
-    append_number(out, run);
-    out += ",\"convergents\":[";
-    for (std::size_t i = 0; i < convergents.size(); ++i) {
-      const auto& c = convergents[i];
-      out += fmt::format("{}{{\"a\":{},\"p\":{},\"q\":{},\"remainder\":", i ? "," : "", json_integer(c.a),
-                         json_integer(c.p), json_integer(c.q));
-      append_number(out, c.remainder);
-      out += ",\"remainder_exact\":\"" + c.remainder_exact + "\"}";
-    }
-    print(out + fmt::format("],\"complete\":{}}}\n", complete));
+    print(json::line_of([&](json::Members& object) {
+      object.add("rise", rise, "run", run, "convergents",
+                 json::objects(convergents,
+                               [](json::Members& one, const oracle::Convergent& c) {
+                                 one.add("a", c.a, "p", c.p, "q", c.q, "remainder", c.remainder,
+                                         "remainder_exact", c.remainder_exact);
+                               }),
+                 "complete", complete);
+    }));
     return kDone;
   }
   Table table({"n", "a", "p", "q", "q m - p"});

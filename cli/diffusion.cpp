@@ -12,6 +12,7 @@
 #include "cli/whole_file.hpp"
 #include "compare/nearest_name.hpp"
 #include "flights/theory/laws.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -110,25 +111,24 @@ std::string Report::csv() const {
 }
 
 std::string Report::json() const {
-  std::string rows;
-  for (const Displacement& at : found.displacements)
-    rows += fmt::format(
-        "{}{{\"t\":{},\"msd\":{},\"msd_error\":{},\"by_velocities\":{},\"by_velocities_error\":{}}}",
-        rows.empty() ? "" : ",", at.time, finite_or_null(at.square.value), finite_or_null(at.square.error),
-        is_uniform() ? finite_or_null(at.from_velocity.value) : "null",
-        is_uniform() ? finite_or_null(at.from_velocity.error) : "null");
-  return fmt::format(
-      "{{\"scene\":{},\"from\":\"{}\",\"seed\":{},\"particles\":{},\"collisions\":{},\"stopped\":{},"
-      "\"whole\":{},"
-      "\"displacements\":[{}],\"open\":{},\"D\":{},\"D_error\":{},\"machta_zwanzig\":{},\"logarithmic\":{},"
-      "\"logarithmic_error\":{},\"two_C\":{}}}\n",
-      json_quoted(scene), is_uniform() ? "uniform" : "surface", plan.seed, found.particles, found.collisions,
-      found.stopped, found.is_whole, rows, tail.open ? fmt::format("{}", *tail.open) : "null",
-      has_corridors() ? "null" : finite_or_null(found.coefficient.value),
-      has_corridors() ? "null" : finite_or_null(found.coefficient.error),
-      random_walk ? finite_or_null(*random_walk) : "null", finite_or_null(found.logarithmic.value),
-      finite_or_null(found.logarithmic.error),
-      has_corridors() && tail.constant ? finite_or_null(2 * *tail.constant) : "null");
+  using json::finite;
+  const auto if_uniform = [&](double x) { return is_uniform() ? finite(x) : std::nullopt; };
+  const auto if_bounded = [&](double x) { return has_corridors() ? std::nullopt : finite(x); };
+  return json::line_of([&](json::Members& report) {
+    report.add("scene", scene, "from", is_uniform() ? "uniform" : "surface", "seed", plan.seed, "particles",
+               found.particles, "collisions", found.collisions, "stopped", found.stopped, "whole",
+               found.is_whole);
+    report.add("displacements",
+               json::objects(found.displacements, [&](json::Members& one, const Displacement& at) {
+                 one.add("t", at.time, "msd", finite(at.square.value), "msd_error", finite(at.square.error),
+                         "by_velocities", if_uniform(at.from_velocity.value), "by_velocities_error",
+                         if_uniform(at.from_velocity.error));
+               }));
+    report.add("open", tail.open, "D", if_bounded(found.coefficient.value), "D_error",
+               if_bounded(found.coefficient.error), "machta_zwanzig", finite(random_walk), "logarithmic",
+               finite(found.logarithmic.value), "logarithmic_error", finite(found.logarithmic.error), "two_C",
+               has_corridors() && tail.constant ? finite(2 * *tail.constant) : std::nullopt);
+  });
 }
 
 Ensemble ensemble_of(const std::string& name) {

@@ -1,4 +1,5 @@
 #include "cli/disagreement_file.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 #include <fmt/format.h>
 
@@ -29,22 +30,21 @@ void DisagreementFile::add(const Case& one, const Answer& exact, const std::stri
   if (!file_) return;
   if (one.scene != scene_) write_scene(one.scene);
   const int dimension = set_->scenes[one.scene].dimension;
-  std::string out;
-  append_query_line(out, one.id, one.query, dimension);
-  out.resize(out.size() - 2);  // "}\n": the object goes on
-  out += ",\"engine\":" + json_quoted(name);
-  const char* verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
-                        : judgement.wrong_time                      ? "wrong-time"
-                                                                    : "ill-posed";
-  out += fmt::format(",\"verdict\":\"{}\",\"departs\":", verdict);
-  append_number(out, judgement.departs);
-  out += ",\"expected\":";
-  append_answer_line(out, one.id, exact, dimension);
-  out.back() = ',';
-  out += "\"given\":";
-  append_answer_line(out, one.id, given, dimension);
-  out.back() = '}';
-  file_->write(out + '\n');
+  const std::string_view verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
+                                   : judgement.wrong_time                      ? "wrong-time"
+                                                                               : "ill-posed";
+  const auto answer = [&](const Answer& its) {
+    return [&](json::Members& object) {
+      object.add("id", json::Raw{one.id});
+      add_answer(object, its, dimension);
+    };
+  };
+  file_->write(json::line_of([&](json::Members& line) {
+    line.add("id", json::Raw{one.id});
+    add_query(line, one.query, dimension);
+    line.add("engine", name, "verdict", verdict, "departs", judgement.departs, "expected", answer(exact),
+             "given", answer(given));
+  }));
 }
 
 void DisagreementFile::close() {

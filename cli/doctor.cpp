@@ -10,6 +10,7 @@
 #include "cli/versions.hpp"
 #include "fitness/examination.hpp"
 #include "report/manifest.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -86,24 +87,18 @@ std::string text_of(const Diagnosis& diagnosis) {
   return text + verdict(diagnosis);
 }
 
-std::string json_list(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ",") + json_quoted(word);
-  return '[' + list + ']';
-}
-
 std::string json_of(const Diagnosis& diagnosis) {
-  std::string findings;
-  for (const Finding& finding : diagnosis.findings)
-    findings += fmt::format("{}{{\"name\":{},\"fit\":{},\"found\":{}}}", findings.empty() ? "" : ",",
-                            json_quoted(finding.name), finding.fit, json_quoted(finding.found));
-  return fmt::format(
-      "{{\"fit\":{},\"fit_for\":{},\"not_fit_for\":{},\"version\":{},\"compiler\":{},\"machine\":{},"
-      "\"instructions\":{},\"findings\":[{}],\"libraries\":{}}}\n",
-      diagnosis.fit(), json_list(names(fit_uses(diagnosis))), json_list(names(diagnosis.unfit)),
-      json_quoted(diagnosis.manifest.version), json_quoted(diagnosis.manifest.compiler),
-      json_quoted(diagnosis.manifest.machine), json_list(diagnosis.instruction_sets), findings,
-      json_list(diagnosis.libraries));
+  return json::line_of([&](json::Members& object) {
+    object.add("fit", diagnosis.fit(), "fit_for", names(fit_uses(diagnosis)), "not_fit_for",
+               names(diagnosis.unfit), "version", diagnosis.manifest.version, "compiler",
+               diagnosis.manifest.compiler, "machine", diagnosis.manifest.machine, "instructions",
+               diagnosis.instruction_sets, "findings",
+               json::objects(diagnosis.findings,
+                             [](json::Members& one, const Finding& finding) {
+                               one.add("name", finding.name, "fit", finding.fit, "found", finding.found);
+                             }),
+               "libraries", diagnosis.libraries);
+  });
 }
 
 int act(const Options& options) {

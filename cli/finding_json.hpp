@@ -1,34 +1,22 @@
 // The parts of a finding, as reports (docs/page.md) and shell lines have them.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <lorentz/answer.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
 namespace lorentz::cli {
 
-/// {"scene":{..}}, a line of a query stream without its end; and the inner object alone.
+/// {"scene":{..}}, a line of a query stream without its end.
 std::string scene_line(const Scene& scene);
-std::string scene_object(const Scene& scene);
 
 /// The members of a query without braces and id, its numbers in hexadecimal.
 std::string query_members(const Query& query, int dimension);
 
-/// The same for people: an object with decimal numbers.
-std::string query_object(const Query& query, int dimension);
-
-/// An answer without its id.
-std::string answer_object(const Answer& answer, int dimension);
-
 /// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);
-
-std::string array_of(const std::vector<std::string>& texts);
-std::string number_or_null(const std::optional<double>& value);
 
 /// The lines of a text in which all of them end.
 std::vector<std::string> lines_of(const std::string& text);

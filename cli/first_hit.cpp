@@ -176,36 +176,36 @@ int act(const Options& options) {
 
 Command first_hit_command() {
   auto options = std::make_shared<Options>();
-  return {
-      "first-hit",
-      "Which obstacle is hit first? Queries to answers, line by line.",
-      {
-          {"queries", &options->queries, "FILE", "queries; - is standard input"},
-          {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
-          {"--scene", &options->scene, "SCENE",
-           "scene before the first scene line: a file, or a name of the catalogue"},
-          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
-          {"--digits", Whole{&options->digits, 1, 100'000}, "N",
-           "also print the time with N significant decimal digits (oracle)"},
-          {"--max-time", Positive{&options->max_time}, "T",
-           "answer `later` if nothing is entered before time T"},
-          {"--detail", &options->detail, "",
-           "add the collision point, the outward normal and the impact parameter"},
-          {"--format", &options->format, "ndjson|csv|npy",
-           "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
-           "docs/formats.md), which need --scene"},
-          {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
-           "threads, of batch and certified-batch: the same answers"},
-          {"--strict", &options->strict, "", kStrictKeysHelp},
-          {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
-      },
+  return {"first-hit",
+          "Which obstacle is hit first? Queries to answers, line by line.",
+          {
+              {"queries", &options->queries, "FILE", "queries; - is standard input"},
+              {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
+              {"--scene", &options->scene, "SCENE",
+               "scene before the first scene line: a file, or a name of the catalogue"},
+              {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+              {"--digits", Whole{&options->digits, 1, 100'000}, "N",
+               "also print the time with N significant decimal digits (oracle)"},
+              {"--max-time", Positive{&options->max_time}, "T",
+               "answer `later` if nothing is entered before time T"},
+              {"--detail", &options->detail, "",
+               "add the collision point, the outward normal and the impact parameter"},
+              {"--format", &options->format, "ndjson|csv|npy",
+               "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
+               "docs/formats.md), which need --scene"},
+              {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+               "threads, of batch and certified-batch: the same answers"},
+              {"--strict", &options->strict, "", kStrictKeysHelp},
+              {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
+          },
 
-      "Examples:\n  echo '{\"id\":1,\"x\":[0,0.445],\"v\":[1,0.0175]}' | lorentz first-hit --scene square "
-      "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
-      "--format "
-      "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
-      "answers.npy",
-      [options] { return act(*options); }};
+          "Examples:\n"
+          R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
+          "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
+          "--format "
+          "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
+          "answers.npy",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

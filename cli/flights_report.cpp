@@ -8,8 +8,11 @@
 #include "cli/table.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
+
+using json::finite;
 
 using namespace flights;
 
@@ -99,17 +102,6 @@ std::string table_of_survival(const FlightsFindings& found) {
   return table.text();
 }
 
-std::string number_or_null(const std::optional<double>& x) {
-  return x && std::isfinite(*x) ? fmt::format("{}", *x) : "null";
-}
-
-std::string keys_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
-  const auto measured = found.measured_constant_of(tail);
-  if (!measured) return "";
-  return fmt::format(",\"measured\":{},\"measured_error\":{},\"measured_from\":{},\"measured_count\":{}",
-                     measured->value, measured->error, measured->from, measured->count);
-}
-
 std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindings& found) {
   return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
 }
@@ -145,6 +137,24 @@ std::string line_of_mean(const FlightsReport& report, const FlightsFindings& fou
   return text;
 }
 
+void add_theory(json::Members& object, const FlightsFindings& found) {
+  using Fit = FlightsFindings::Fit;
+  const auto fit = [](json::Members& one, const Fit& f) {
+    one.add("name", f.law.name, "when", f.law.when, "statistic", finite(f.as_it_is.statistic), "degrees",
+            f.as_it_is.degrees, "p_value", finite(f.as_it_is.p_value), "p_value_of_1.02",
+            finite(f.two_percent_more.p_value), "tail_exponent", finite(f.local_exponent));
+  };
+  const auto tail = [&](json::Members& one, const Tail& t) {
+    one.add("when", t.when, "exponent", finite(t.exponent), "constant", finite(t.constant), "remark",
+            t.remark);
+    if (const auto measured = found.measured_constant_of(t))
+      one.add("measured", measured->value, "measured_error", measured->error, "measured_from", measured->from,
+              "measured_count", measured->count);
+  };
+  object.add("tails", json::objects(found.tails, tail), "theory", json::objects(found.fits, fit), "no_theory",
+             found.no_law);
+}
+
 }  // namespace
 
 std::string FlightsReport::name_with_radius() const {
@@ -175,45 +185,28 @@ std::string FlightsReport::table() const {
 std::string FlightsReport::json() const {
   const FlightsFindings found(*this);
   const Tally& tally = account.tally;
-  const bool any = tally.hits > 0;
-  std::string theory;
-  for (const FlightsFindings::Fit& fit : found.fits)
-    theory += fmt::format(
-        "{}{{\"name\":{},\"when\":{},\"statistic\":{},\"degrees\":{},\"p_value\":{},"
-        "\"p_value_of_1.02\":{},\"tail_exponent\":{}}}",
-        theory.empty() ? "" : ",", json_quoted(fit.law.name), json_quoted(fit.law.when),
-        number_or_null(fit.as_it_is.statistic), fit.as_it_is.degrees, number_or_null(fit.as_it_is.p_value),
-        number_or_null(fit.two_percent_more.p_value), number_or_null(fit.local_exponent));
-  std::string tails;
-  for (const Tail& tail : found.tails)
-    tails += fmt::format("{}{{\"when\":{},\"exponent\":{},\"constant\":{},\"remark\":{}{}}}",
-                         tails.empty() ? "" : ",", json_quoted(tail.when), number_or_null(tail.exponent),
-                         number_or_null(tail.constant), json_quoted(tail.remark),
-                         keys_of_measured_constant(tail, found));
-  std::string survival;
+  const auto if_any = [&](double x) { return tally.hits > 0 ? finite(x) : std::nullopt; };
+  std::vector<std::string> survival;
   for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
     if (found.beyond[i] > 0 && found.beyond[i] < found.total)
-      survival += fmt::format("{}[{},{}]", survival.empty() ? "" : ",", found.edges[i], found.beyond[i]);
+      survival.push_back(fmt::format("[{},{}]", found.edges[i], found.beyond[i]));
   const auto& e = found.exponent;
-  return fmt::format(
-      "{{\"scene\":{},{}\"from\":\"{}\",\"engine\":{},\"seed\":{},\"count\":{},\"asked\":{},\"hits\":{},"
-      "\"never\":{},"
-      "\"undecided\":{},\"drawn_anew\":{},\"mean\":{},\"mean_error\":{},\"mean_exact\":{},\"mean_remark\":{},"
-      "\"mean_log\":{},\"shortest\":{},\"longest\":{},\"tail_exponent\":{},\"tail_interval\":{},\"tail_"
-      "from\":{},"
-      "\"tail_count\":{},\"tails\":[{}],\"theory\":[{}],\"no_theory\":{},\"survival\":[{}],\"seconds\":{}}}"
-      "\n",
-      json_quoted(scene_name), radius ? fmt::format("\"radius\":{},", *radius) : "", name_of(plan.from),
-      json_quoted(plan.engine), plan.seed, tally.flights(), plan.count, tally.hits, tally.never,
-      tally.undecided, tally.inside, any ? number_or_null(tally.mean()) : "null",
-      any ? number_or_null(tally.standard_error()) : "null", number_or_null(exact_mean(*this, found)),
-      json_quoted(remark_on_mean(plan.from, found.tails.back())),
-      any ? number_or_null(tally.mean_log()) : "null", any ? number_or_null(tally.shortest) : "null",
-      any ? number_or_null(tally.longest) : "null",
-      number_or_null(e ? std::optional(e->exponent) : std::nullopt),
-      e ? fmt::format("[{},{}]", number_or_null(e->low), number_or_null(e->high)) : "null",
-      number_or_null(e ? std::optional(e->from) : std::nullopt), e ? e->count : 0, tails, theory,
-      json_quoted(found.no_law), survival, number_or_null(seconds));
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene_name);
+    if (radius) object.add("radius", *radius);
+    object.add("from", name_of(plan.from), "engine", plan.engine, "seed", plan.seed, "count", tally.flights(),
+               "asked", plan.count, "hits", tally.hits, "never", tally.never, "undecided", tally.undecided,
+               "drawn_anew", tally.inside);
+    object.add("mean", if_any(tally.mean()), "mean_error", if_any(tally.standard_error()), "mean_exact",
+               finite(exact_mean(*this, found)), "mean_remark", remark_on_mean(plan.from, found.tails.back()),
+               "mean_log", if_any(tally.mean_log()), "shortest", if_any(tally.shortest), "longest",
+               if_any(tally.longest));
+    object.add("tail_exponent", e ? finite(e->exponent) : std::nullopt, "tail_interval",
+               e ? std::optional(std::array{finite(e->low), finite(e->high)}) : std::nullopt, "tail_from",
+               e ? finite(e->from) : std::nullopt, "tail_count", e ? e->count : 0);
+    add_theory(object, found);
+    object.add("survival", json::raw(survival), "seconds", finite(seconds));
+  });
 }
 
 namespace {
@@ -294,13 +287,11 @@ std::string page_json(const std::vector<FlightsReport>& reports, const std::stri
       line += fmt::format(" ± {:.2g}", tally.standard_error());
     if (const auto exact = exact_mean(report, found)) line += fmt::format(", exact {:.6g}", *exact);
   }
-  std::string out = fmt::format(
-      "{{\"format\":1,\"kind\":\"flights\",\"title\":{},\"line\":{},\"manifest\":",
-      json_quoted(fmt::format("Free paths: {}, {} starts", first.scene_name, name_of(first.plan.from))),
-      json_quoted(line));
-  report::append_manifest(out, report::manifest_of(first.plan.seed, command));
-  report::append_curves(out, "free_paths", curves);
-  return out + "}\n";
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "flights", "title",
+             fmt::format("Free paths: {}, {} starts", first.scene_name, name_of(first.plan.from)), "line",
+             line, "manifest", report::manifest_of(first.plan.seed, command), "free_paths", curves);
+  });
 }
 
 std::string csv_of(const std::vector<FlightsReport>& reports) {

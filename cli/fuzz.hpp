@@ -7,6 +7,7 @@
 
 #include "cli/command.hpp"
 #include "fuzz/campaign/store.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 
@@ -30,7 +31,7 @@ struct FuzzReport {
 
   /// The parts of both that say what was asked, and how much of it.
   std::string target_table() const;
-  std::string json_of_targets() const;  ///< the members, without braces
+  void add_targets(json::Members& object) const;
 };
 
 /// Says what of a store cannot be read.
@@ -56,6 +57,6 @@ std::string table_of(const std::vector<Cause>& causes);
 std::string text_of(const fuzz::CaseText& text);
 
 /// A finding as one JSON object; its lines are in it as they stand in streams.
-std::string json_of(const fuzz::Stored& finding);
+void add_finding(json::Members& object, const fuzz::Stored& finding);
 
 }  // namespace lorentz::cli

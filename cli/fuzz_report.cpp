@@ -120,45 +120,43 @@ std::string FuzzReport::text() const {
   return out;
 }
 
-std::string FuzzReport::json_of_targets() const {
-  const auto seed = [](std::uint64_t n) {
-    return n <= 1ull << 53 ? std::to_string(n) : json_quoted(std::to_string(n));
-  };
-  std::string out =
-      fmt::format("\"version\":{},\"engine\":{},\"seed\":{},\"shard\":{},\"options\":{},\"targets\":[",
-                  json_quoted(manifest.version), json_quoted(manifest.engine), seed(manifest.seed),
-                  json_quoted(manifest.shard), json_quoted(manifest.options));
-  for (std::size_t t = 0; t < targets.size(); ++t) {
-    const TargetTally& a = tallies[t];
-    const std::uint64_t n = answered(a);
-    out +=
-        fmt::format("{}{{\"target\":{},\"next\":{},\"cases\":{},\"variants\":{},\"reworded\":{},\"fine\":{}",
-                    t ? "," : "", json_quoted(targets[t]), a.next, a.cases, a.variants, a.reworded,
-                    number_of(a, Kind::fine));
-    for (const Kind kind : kCounted) {
-      std::string key(name_of(kind));
-      std::replace(key.begin(), key.end(), ' ', '_');
-      out += fmt::format(",\"{}\":{}", key, number_of(a, kind));
-    }
-    out += fmt::format(",\"binary64\":{},\"double_double\":{},\"exact\":{}", a.stages[0], a.stages[1],
-                       a.stages[2]);
-    out += ",\"smallest_margin\":" + (std::isfinite(a.margin) ? number(a.margin) : "null");
-    out += ",\"wrong_at_most\":";
-    out += number_of(a, Kind::wrong) == 0 && n > 0 ? number(3.0 / static_cast<double>(n)) : "null";
-    out += '}';
+namespace {
+
+void add_target(json::Members& object, const std::string& name, const TargetTally& tally) {
+  object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants, "reworded",
+             tally.reworded, "fine", number_of(tally, Kind::fine));
+  for (const Kind kind : kCounted) {
+    std::string key(name_of(kind));
+    std::replace(key.begin(), key.end(), ' ', '_');
+    object.add_named(key, number_of(tally, kind));
   }
-  return out + ']';
+  const std::uint64_t n = answered(tally);
+  const bool none = number_of(tally, Kind::wrong) == 0 && n > 0;
+  object.add("binary64", tally.stages[0], "double_double", tally.stages[1], "exact", tally.stages[2],
+             "smallest_margin", json::finite(tally.margin), "wrong_at_most",
+             none ? std::optional(3.0 / static_cast<double>(n)) : std::nullopt);
+}
+
+}  // namespace
+
+void FuzzReport::add_targets(json::Members& object) const {
+  object.add("version", manifest.version, "engine", manifest.engine, "seed", manifest.seed, "shard",
+             manifest.shard, "options", manifest.options);
+  object.add("targets", json::objects(tallies, [&](json::Members& one, const TargetTally& tally) {
+               add_target(one, targets[static_cast<std::size_t>(&tally - tallies.data())], tally);
+             }));
 }
 
 std::string FuzzReport::json() const {
-  std::string out = '{' + json_of_targets() + ",\"causes\":[";
-  for (const Cause& cause : causes_of(findings))
-    out += fmt::format("{}{{\"cause\":{},\"findings\":{},\"simplest\":{},\"bits\":{}}}",
-                       out.back() == '[' ? "" : ",", json_quoted(cause.name), cause.findings,
-                       json_quoted(cause.simplest->label()), cause.simplest->finding.bits);
-  out += "],\"findings\":[";
-  for (const fuzz::Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
-  return out + "]}\n";
+  const auto cause = [](json::Members& one, const Cause& its) {
+    one.add("cause", its.name, "findings", its.findings, "simplest", its.simplest->label(), "bits",
+            its.simplest->finding.bits);
+  };
+  return json::line_of([&](json::Members& object) {
+    add_targets(object);
+    object.add("causes", json::objects(causes_of(findings), cause), "findings",
+               json::objects(findings, add_finding));
+  });
 }
 
 std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings) {
@@ -215,21 +213,19 @@ std::string text_of(const fuzz::CaseText& text) {
   return out + reason_in(text);
 }
 
-std::string json_of(const fuzz::Stored& stored) {
+void add_finding(json::Members& object, const fuzz::Stored& stored) {
   const fuzz::Finding& f = stored.finding;
   const auto lines = [](const fuzz::CaseText& text) {
-    return fmt::format(
-        "{{\"scene_line\":{},\"query_line\":{},\"given\":{},\"exact\":{},\"departs\":{},\"margin\":{}}}",
-        text.scene, text.query, text.given, text.exact, number(text.departs),
-        text.margin ? number(*text.margin) : "null");
+    return [&text](json::Members& one) {
+      one.add("scene_line", json::Raw{text.scene}, "query_line", json::Raw{text.query}, "given",
+              json::Raw{text.given}, "exact", json::Raw{text.exact}, "departs", text.departs, "margin",
+              text.margin);
+    };
   };
   constexpr const char* kShrinking[] = {"due", "cut short", "done"};
-  return fmt::format(
-      "{{\"id\":{},\"words\":{},\"kind\":{},\"cause\":{},\"shrinking\":{},\"bits\":{},\"tries\":{},"
-      "\"case\":{},\"shrunk\":{}}}",
-      json_quoted(stored.label()), f.words.empty() ? "null" : json_quoted(f.words), json_quoted(f.kind),
-      json_quoted(f.cause), json_quoted(kShrinking[static_cast<int>(f.shrinking)]), f.bits, f.tries,
-      lines(f.text), lines(f.shrunk));
+  object.add("id", stored.label(), "words", f.words.empty() ? std::nullopt : std::optional(f.words), "kind",
+             f.kind, "cause", f.cause, "shrinking", kShrinking[static_cast<int>(f.shrinking)], "bits", f.bits,
+             "tries", f.tries, "case", lines(f.text), "shrunk", lines(f.shrunk));
 }
 
 }  // namespace lorentz::cli

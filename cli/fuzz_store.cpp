@@ -11,6 +11,7 @@
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -50,13 +51,14 @@ std::string finding_table(const std::vector<Stored>& findings) {
 }
 
 std::string json_of_list(const Store& store, const std::vector<Stored>& findings) {
-  std::string out = "{\"campaigns\":[";
-  for (const fuzz::Campaign& campaign : store.campaigns())
-    out += fmt::format("{}{{\"campaign\":{},{}}}", out.back() == '[' ? "" : ",", campaign.id,
-                       report_of(store, campaign).json_of_targets());
-  out += "],\"findings\":[";
-  for (const Stored& one : findings) out += (out.back() == '[' ? "" : ",") + json_of(one);
-  return out + "]}\n";
+  return json::line_of([&](json::Members& object) {
+    object.add("campaigns",
+               json::objects(store.campaigns(), [&](json::Members& one, const fuzz::Campaign& its) {
+                 one.add("campaign", its.id);
+                 report_of(store, its).add_targets(one);
+               }));
+    object.add("findings", json::objects(findings, add_finding));
+  });
 }
 
 int list(const Options& options) {
@@ -129,7 +131,8 @@ int show(const Options& options) {
   for (const Stored& one : store.findings()) {
     if (one.label() != options.id) continue;
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
-    print(options.json ? json_of(one) + '\n' : text_of(options.id, one.finding));
+    print(options.json ? json::line_of([&](json::Members& object) { add_finding(object, one); })
+                       : text_of(options.id, one.finding));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",

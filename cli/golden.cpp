@@ -12,16 +12,17 @@
 #include "compare/nearest_name.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-int list(bool json) {
+int list(bool as_json) {
   Table table({"set", "records", "committed", "tags", "what"});
   table.with_prose();
-  std::string out = "{\"sets\":[";
+  std::vector<std::string> json;
   for (const golden::Set& set : golden::sets()) {
     std::string committed = "-";
     std::uint64_t count = 0;
@@ -31,14 +32,15 @@ int list(bool json) {
     const bool endless = set.most > set.committed;
     table.add({set.name, endless ? "any" : std::to_string(set.most), committed,
                std::to_string(set.tags.size()), set.description});
-    out +=
-        fmt::format("{}{{\"name\":{},\"committed\":{},\"description\":{},\"tags\":{{",
-                    out.back() == '[' ? "" : ",", json_quoted(set.name), count, json_quoted(set.description));
-    for (const cases::Tag& tag : set.tags)
-      out += (&tag == &set.tags.front() ? "" : ",") + json_quoted(tag.name) + ':' + json_quoted(tag.note);
-    out += "}}";
+    json.push_back(json::text_of([&](json::Members& one) {
+      one.add("name", set.name, "committed", count, "description", set.description, "tags",
+              [&](json::Members& tags) {
+                for (const cases::Tag& tag : set.tags) tags.add_named(tag.name, tag.note);
+              });
+    }));
   }
-  print(json ? out + "]}\n" : table.text());
+  print(as_json ? json::line_of([&](json::Members& object) { object.add("sets", json::raw(json)); })
+                : table.text());
   return kDone;
 }
 

@@ -17,6 +17,7 @@
 #include "compare/measure.hpp"
 #include "compare/registry.hpp"
 #include "golden/reader.hpp"
+#include "src/exchange/exchange_write.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::cli {
@@ -174,9 +175,8 @@ const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agr
                                         "wrong", "wrong time", "undecided", "unsupported", "error"};
 
 std::string short_answer(const Answer& answer, int dimension) {
-  std::string text;
-  append_answer_line(text, "0", answer, dimension);
-  text = text.substr(8, text.size() - 10);
+  std::string text = json::text_of(json_of(answer, dimension));
+  text = text.substr(1, text.size() - 2);
   constexpr std::size_t kLongest = 160;
   return shortened(text, kLongest);
 }
@@ -205,26 +205,24 @@ std::string describe(const Failure& failure) {
                      shell_quoted(failure.id), shell_quoted(failure.set));
 }
 
+void add_counts(json::Members& object, const Tally& t) {
+  object.add("records", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
+             t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error);
+}
+
+void add_set(json::Members& object, const SetTally& set) {
+  object.add("set", set.all.name);
+  add_counts(object, set.all);
+  object.add("not_asked", set.not_asked, "tags", [&](json::Members& tags) {
+    for (const auto& [tag, tally] : set.by_tag)
+      tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
+  });
+}
+
 std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies, std::size_t not_asked) {
-  std::string out = fmt::format("{{\"engine\":{},\"sets\":[", json_quoted(engine));
-  const auto counts = [](const Tally& t) {
-    return fmt::format(
-        "\"records\":{},\"agree\":{},\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},\"undecided\":{},"
-        "\"unsupported\":{},"
-        "\"error\":{}",
-        t.queries, t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error);
-  };
-  for (const SetTally& set : tallies) {
-    out += fmt::format("{}{{\"set\":{},{},\"not_asked\":{},\"tags\":{{", &set == &tallies.front() ? "" : ",",
-                       json_quoted(set.all.name), counts(set.all), set.not_asked);
-    bool first = true;
-    for (const auto& [tag, tally] : set.by_tag) {
-      out += fmt::format("{}{}:{{{}}}", first ? "" : ",", json_quoted(tag), counts(tally));
-      first = false;
-    }
-    out += "}}";
-  }
-  return out + fmt::format("],\"not_asked\":{}}}\n", not_asked);
+  return json::line_of([&](json::Members& object) {
+    object.add("engine", engine, "sets", json::objects(tallies, add_set), "not_asked", not_asked);
+  });
 }
 
 // Of all sets together.

@@ -11,6 +11,7 @@
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
 #include "cli/table.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -148,82 +149,52 @@ std::string human_text(const oracle::Horizon& h, std::size_t limit, bool limited
   return out;
 }
 
-std::string json_vec(const Vec& a, int dimension) {
-  std::string out = "[";
-  for (int i = 0; i < dimension; ++i) {
-    if (i) out += ',';
-    append_number(out, a[i]);
-  }
-  return out + "]";
+// Each item on a line of its own.
+constexpr const char* kNewLine = "\n ";
+
+void add_channel(json::Members& object, const oracle::Channel& c, int d) {
+  const auto indices = components(c.indices, d);
+  const auto vector = components(c.vector, d);
+  if (d == 2)
+    object.add("direction", indices, "vector", vector);
+  else
+    object.add("planes", indices, "normal", vector);
+  object.add("width", c.width, "point", components(c.point, d), "point_inside", c.inside, "count", c.count);
 }
 
-std::string json_indices(const Indices& indices, int dimension) {
-  std::string out = "[";
-  for (int i = 0; i < dimension; ++i) {
-    if (i) out += ',';
-    append_integer(out, indices[i]);
-  }
-  return out + "]";
-}
-
-std::string json_number(double value) {
-  std::string out;
-  append_number(out, value);
-  return out;
-}
-
-// "[" + each item as text + "]"
-template <class Items, class TextOf>
-std::string json_list(const Items& items, TextOf text_of_item) {
-  std::string out = "[";
-  for (const auto& item : items) out += (out.size() > 1 ? ",\n " : "\n ") + text_of_item(item);
-  return out + "]";
-}
-
-std::string json_channel(const oracle::Channel& c, int dimension) {
-  const bool flat = dimension == 2;
-  std::string count;
-  append_integer(count, c.count);
-  return fmt::format("{{\"{}\":{},\"{}\":{},\"width\":{},\"point\":{},\"point_inside\":{},\"count\":{}}}",
-                     flat ? "direction" : "planes", json_indices(c.indices, dimension),
-                     flat ? "vector" : "normal", json_vec(c.vector, dimension), json_number(c.width),
-                     json_vec(c.point, dimension), c.inside, count);
-}
-
-std::string json_cylinders(const oracle::Horizon& h) {
-  const std::string reason = h.no_cylinders.empty() ? "" : ",\"reason\":" + json_quoted(h.no_cylinders);
-  const auto list = json_list(h.cylinders, [](const oracle::Cylinder& c) {
-    return fmt::format("{{\"direction\":{},\"vector\":{},\"point\":{},\"point_inside\":{},\"radius\":{}}}",
-                       json_indices(c.direction, 3), json_vec(c.vector, 3), json_vec(c.point, 3), c.inside,
-                       json_number(c.radius));
-  });
-  const auto families = json_list(h.families, [](const oracle::CylinderFamily& family) {
-    const std::string directions = family.infinite ? "" : ",\"directions\":" + json_number(family.directions);
-    return fmt::format("{{\"planes\":{},\"infinite\":{}{}}}", json_indices(family.indices, 3),
-                       family.infinite, directions);
-  });
-  return fmt::format("{{\"complete\":{}{},\"open\":{},\"families\":{}}}", reason.empty(), reason, list,
-                     families);
+void add_cylinders(json::Members& object, const oracle::Horizon& h) {
+  object.add("complete", h.no_cylinders.empty());
+  if (!h.no_cylinders.empty()) object.add("reason", h.no_cylinders);
+  const auto cylinder = [](json::Members& one, const oracle::Cylinder& c) {
+    one.add("direction", c.direction, "vector", c.vector, "point", c.point, "point_inside", c.inside,
+            "radius", c.radius);
+  };
+  const auto family = [](json::Members& one, const oracle::CylinderFamily& f) {
+    one.add("planes", f.indices, "infinite", f.infinite);
+    if (!f.infinite) one.add("directions", f.directions);
+  };
+  object.add("open", json::objects(h.cylinders, cylinder, kNewLine), "families",
+             json::objects(h.families, family, kNewLine));
 }
 
 }  // namespace
 
 std::string json_of(const oracle::Horizon& h, const std::string& scene, bool limited) {
   const int d = h.dimension;
-  std::string out = fmt::format("{{\"scene\":{},\"dimension\":{},\"horizon\":\"{}\",\"directions\":{}",
-                                json_quoted(scene), d,
-                                h.is_infinite()             ? "infinite"
-                                : h.is_finite() && !limited ? "finite"
-                                                            : "undecided",
-                                h.normals);
-  out += ",\"channels\":" +
-         json_list(h.channels, [d](const oracle::Channel& channel) { return json_channel(channel, d); });
-  out += ",\"undecided\":" +
-         json_list(h.undecided, [d](const Indices& indices) { return json_indices(indices, d); });
-  if (d == 3) out += ",\"cylinders\":" + json_cylinders(h);
-  out += h.tail_constant ? ",\"tail_constant\":" + json_number(*h.tail_constant)
-                         : ",\"no_tail_constant\":" + json_quoted(h.no_tail_constant);
-  return out + "}\n";
+  const bool is_finite = h.is_finite() && !limited;
+  const auto channel = [d](json::Members& one, const oracle::Channel& c) { add_channel(one, c, d); };
+  const auto undecided = [d](std::string& out, const Indices& i) { json::append(out, components(i, d)); };
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene, "dimension", d, "horizon",
+               h.is_infinite() ? "infinite" : (is_finite ? "finite" : "undecided"), "directions", h.normals);
+    object.add("channels", json::objects(h.channels, channel, kNewLine), "undecided",
+               json::array(h.undecided, undecided, kNewLine));
+    if (d == 3) object.add("cylinders", [&](json::Members& cylinders) { add_cylinders(cylinders, h); });
+    if (h.tail_constant)
+      object.add("tail_constant", *h.tail_constant);
+    else
+      object.add("no_tail_constant", h.no_tail_constant);
+  });
 }
 
 namespace {

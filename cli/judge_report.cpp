@@ -14,6 +14,7 @@
 #include "judge/repetition.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/manifest.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 
@@ -36,8 +37,8 @@ std::string members_of(const Example& example) {
 }
 
 std::string readable_query(const Example& example) {
-  return example.question.is_query() ? query_object(example.question.query, dimension_of(example))
-                                     : fmt::format("{{{}}}", example.question.text);
+  if (!example.question.is_query()) return fmt::format("{{{}}}", example.question.text);
+  return json::text_of(json_of(example.question.query, dimension_of(example)));
 }
 
 Answer exact_of(const Example& example) {
@@ -155,19 +156,20 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
   if (finding.severity() == Severity::ill_posed) return text;
   text += fmt::format("   the simplest, from {}:\n   {}\n   {}\n   says  {}\n   truth {}\n", finding.where,
                       scene_line(example.question.setting->scene()), readable_query(example),
-                      answer_object(example.given, dimension), answer_object(exact_of(example), dimension));
+                      json::text_of(json_of(example.given, dimension)),
+                      json::text_of(json_of(exact_of(example), dimension)));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
   for (const std::string& command : commands_of(finding, report)) text += "   $ " + command + '\n';
   return text;
 }
 
 // Nothing is drawn of an invalid question, nor where nothing can be.
-std::string drawing_of(const Example& example) {
-  if (!example.question.is_query()) return "null";
-  const std::string drawing =
+std::optional<std::string> drawing_of(const Example& example) {
+  if (!example.question.is_query()) return std::nullopt;
+  std::string drawing =
       pictures::finding_drawing(example.question.setting->scene(), example.question.query, example.given,
                                 example.question.exact, example.judgement.obstacle);
-  return drawing.empty() ? "null" : json_quoted(drawing);
+  return drawing.empty() ? std::nullopt : std::optional(std::move(drawing));
 }
 
 // How far the inputs must move for the answer to be right, or how much tolerance the time would need.
@@ -176,22 +178,17 @@ std::optional<double> ulps_of(const Example& example) {
   return departs > 0 ? std::optional(departs) : std::nullopt;
 }
 
-std::string json_of(const Finding& finding, const JudgeReport& report) {
+void add_finding(json::Members& object, const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
   const int dimension = dimension_of(example);
-  return fmt::format(
-      "{{\"cause\":{},\"explanation\":{},\"count\":{},\"share_of_plain\":{},\"share_of_hard\":{},\"often\":{}"
-      ",\"where\":{},\"verdict\":{},"
-      "\"scene\":{},\"query\":{{{}}},\"given\":{},\"exact\":{},\"by_radii\":{},\"by_ulps\":{},\"reason\":{},"
-      "\"commands\":{},\"drawing\":{}}}",
-      json_quoted(judge::name_of(finding.cause())), json_quoted(finding.explanation()), finding.count,
-      number_or_null(finding.share_of_plain), number_or_null(finding.share_of_hard),
-      json_quoted(often(finding, report)), json_quoted(finding.where),
-      json_quoted(name_of(finding.severity())), scene_object(example.question.setting->scene()),
-      members_of(example), answer_object(example.given, dimension),
-      answer_object(exact_of(example), dimension), number_or_null(example.diagnosis.by_radii),
-      number_or_null(ulps_of(example)), array_of(reason_lines(finding)),
-      array_of(commands_of(finding, report)), drawing_of(example));
+  object.add("cause", judge::name_of(finding.cause()), "explanation", finding.explanation(), "count",
+             finding.count, "share_of_plain", finding.share_of_plain, "share_of_hard", finding.share_of_hard,
+             "often", often(finding, report), "where", finding.where, "verdict", name_of(finding.severity()));
+  object.add("scene", example.question.setting->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
+             "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
+  object.add("by_radii", json::finite(example.diagnosis.by_radii), "by_ulps", json::finite(ulps_of(example)),
+             "reason", reason_lines(finding), "commands", commands_of(finding, report), "drawing",
+             drawing_of(example));
 }
 
 // ---- The verdict
@@ -369,28 +366,16 @@ std::string table_of(const JudgeReport& report) {
   return text + given_up_lines(report);
 }
 
-std::string json_of(const judge::Row& row, const JudgeReport& report) {
+void add_row(json::Members& object, const judge::Row& row, const JudgeReport& report) {
   const compare::Tally& t = row.tally;
-  return fmt::format(
-      "{{\"name\":{},\"explanation\":{},\"state\":\"{}\",\"scenes_given_up\":{},\"why\":{},\"queries\":{},"
-      "\"agree\":{},"
-      "\"ill_posed\":{},\"wrong\":{},\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},"
-      "\"missing\":{},\"nonsense\":{},\"max_ulp\":{},\"ns_per_query\":{}}}",
-      json_quoted(row.name), json_quoted(row.explanation),
-      kRowStates[static_cast<int>(state_of(row, report))], row.scenes_given_up,
-      row.scenes_given_up == 0 ? "null" : json_quoted(row.last_failure), t.queries, t.agree, t.ill_posed,
-      t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error, t.missing, row.nonsense,
-      number_or_null(t.timed_hits ? std::optional(t.max_ulp) : std::nullopt),
-      number_or_null(t.ns_per_query > 0 ? std::optional(t.ns_per_query) : std::nullopt));
-}
-
-void append_calls(std::string& out, const judge::Calls& calls) {
-  out += ",\"calls\":[";
-  for (const auto& [decade, call] : calls.by_decade())
-    out += fmt::format("{}{{\"decade\":{},\"right\":{},\"ill_posed\":{},\"wrong\":{},\"undecided\":{}}}",
-                       out.back() == '[' ? "" : ",", decade, call.right, call.ill_posed, call.wrong,
-                       call.undecided);
-  out += ']';
+  object.add("name", row.name, "explanation", row.explanation, "state",
+             kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
+             "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
+  object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
+             t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error,
+             "missing", t.missing, "nonsense", row.nonsense);
+  object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp) : std::nullopt, "ns_per_query",
+             t.ns_per_query > 0 ? json::finite(t.ns_per_query) : std::nullopt);
 }
 
 }  // namespace
@@ -446,26 +431,28 @@ std::string JudgeReport::text() const {
 
 std::string JudgeReport::json() const {
   const compare::Tally t = total();
-  std::string out = fmt::format("{{\"format\":1,\"kind\":\"judge\",\"title\":{},\"manifest\":",
-                                json_quoted(engine + ", judged"));
-  report::append_manifest(out, report::manifest_of(seed, command));
-  out += fmt::format(
-      ",\"engine\":{},\"verdict\":\"{}\",\"line\":{},\"queries\":{},\"wrong\":{},\"ill_posed\":{},"
-      "\"wrong_time\":{},\"undecided\":{},\"unsupported\":{},\"error\":{},\"missing\":{},\"nonsense\":{},"
-      "\"ns_per_query\":{},"
-      "\"ns_of_reduction\":{},\"start_up_seconds\":{},\"difficulties\":[",
-      json_quoted(engine), verdict(), json_quoted(line()), t.queries, t.wrong, t.ill_posed, t.wrong_time,
-      t.undecided, t.unsupported, t.error, t.missing, nonsense(), number_or_null(ns_per_query),
-      number_or_null(ns_of_reduction), number_or_null(start_up));
-  for (const judge::Row& row : rows) out += (&row == &rows.front() ? "" : ",") + json_of(row, *this);
-  out += "],\"findings\":[";
-  for (const Finding& finding : findings)
-    out += (&finding == &findings.front() ? "" : ",") + json_of(finding, *this);
-  append_calls(out += ']', calls);
   std::vector<report::FreePathCurve> curves;
   for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine));
-  report::append_curves(out, "free_paths", curves);
-  return out + "}\n";
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "judge", "title", engine + ", judged", "manifest",
+             report::manifest_of(seed, command), "engine", engine, "verdict", verdict(), "line", line());
+    page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
+             "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error, "missing", t.missing,
+             "nonsense", nonsense(), "ns_per_query", json::finite(ns_per_query), "ns_of_reduction",
+             json::finite(ns_of_reduction), "start_up_seconds", json::finite(start_up));
+    page.add("difficulties", json::objects(rows, [&](json::Members& one, const judge::Row& row) {
+               add_row(one, row, *this);
+             }));
+    page.add("findings", json::objects(findings, [&](json::Members& one, const Finding& finding) {
+               add_finding(one, finding, *this);
+             }));
+    page.add("calls", json::objects(calls.by_decade(), [](json::Members& one, const auto& decade) {
+               const auto& [exponent, call] = decade;
+               one.add("decade", exponent, "right", call.right, "ill_posed", call.ill_posed, "wrong",
+                       call.wrong, "undecided", call.undecided);
+             }));
+    page.add("free_paths", curves);
+  });
 }
 
 }  // namespace lorentz::cli

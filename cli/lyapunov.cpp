@@ -9,6 +9,7 @@
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
 #include "flights/theory/laws.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -71,21 +72,20 @@ std::string Report::table() const {
 }
 
 std::string Report::json() const {
-  std::string exponents;
-  for (std::size_t k = 0; k < found.map.size(); ++k)
-    exponents +=
-        fmt::format("{}{{\"map\":{},\"map_error\":{},\"flow\":{},\"flow_error\":{}}}", k > 0 ? "," : "",
-                    finite_or_null(found.map[k].value), finite_or_null(found.map[k].error),
-                    finite_or_null(flow(k).value), finite_or_null(flow(k).error));
-  return fmt::format(
-      "{{\"scene\":{},\"seed\":{},\"collisions\":{},\"particles\":{},\"stopped\":{},\"whole\":{},"
-      "\"exponents\":[{}],\"sum\":{},\"sum_error\":{},\"growing\":{},\"small_obstacles\":{},"
-      "\"mean_flight\":{},\"mean_flight_error\":{},\"mean_free_path\":{}}}\n",
-      json_quoted(scene), plan.seed, found.collisions, chaos::kGroups * chaos::kParticles, found.stopped,
-      found.is_whole, exponents, finite_or_null(found.sum.value), finite_or_null(found.sum.error),
-      finite_or_null(found.growing.value), limit ? finite_or_null(*limit) : "null",
-      finite_or_null(found.mean_flight.value), finite_or_null(found.mean_flight.error),
-      exact.value ? finite_or_null(*exact.value) : "null");
+  using json::finite;
+  return json::line_of([&](json::Members& report) {
+    report.add("scene", scene, "seed", plan.seed, "collisions", found.collisions, "particles",
+               chaos::kGroups * chaos::kParticles, "stopped", found.stopped, "whole", found.is_whole);
+    report.add("exponents", json::objects(found.map, [&](json::Members& one, const Estimate& map) {
+                 const auto k = static_cast<std::size_t>(&map - found.map.data());
+                 one.add("map", finite(map.value), "map_error", finite(map.error), "flow",
+                         finite(flow(k).value), "flow_error", finite(flow(k).error));
+               }));
+    report.add("sum", finite(found.sum.value), "sum_error", finite(found.sum.error), "growing",
+               finite(found.growing.value), "small_obstacles", finite(limit), "mean_flight",
+               finite(found.mean_flight.value), "mean_flight_error", finite(found.mean_flight.error),
+               "mean_free_path", finite(exact.value));
+  });
 }
 
 int act(const Options& options) {

@@ -12,6 +12,7 @@
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
 #include "cli/table.hpp"
+#include "src/exchange/exchange_write.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cli {
@@ -45,7 +46,7 @@ std::size_t atoms_in(const Scene& scene) {
 int list(const Options& options) {
   Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
   table.with_prose();
-  std::string json;
+  std::vector<std::string> json;
   bool bad = false;
   const std::vector<CatalogueEntry> entries = catalogue();
   if (entries.empty()) throw FileError("no catalogue of scenes; looked for in " + data_places("scenes"));
@@ -55,16 +56,17 @@ int list(const Options& options) {
       const std::string what = description_in(entry.file);
       table.add({entry.name, std::to_string(scene.dimension), std::to_string(scene.lattices.size()),
                  std::to_string(atoms_in(scene)), what});
-      json += fmt::format(
-          "{}{{\"name\":{},\"dimension\":{},\"lattices\":{},\"atoms\":{},\"description\":{},\"file\":{}}}",
-          json.empty() ? "" : ",", json_quoted(entry.name), scene.dimension, scene.lattices.size(),
-          atoms_in(scene), json_quoted(what), json_quoted(entry.file));
+      json.push_back(json::text_of([&](json::Members& one) {
+        one.add("name", entry.name, "dimension", scene.dimension, "lattices", scene.lattices.size(), "atoms",
+                atoms_in(scene), "description", what, "file", entry.file);
+      }));
     } catch (const InputError& error) {
       say("{}", error.what());
       bad = true;
     }
   }
-  print(options.json ? "{\"scenes\":[" + json + "]}\n" : table.text());
+  print(options.json ? json::line_of([&](json::Members& object) { object.add("scenes", json::raw(json)); })
+                     : table.text());
   return bad ? kBadInput : kDone;
 }
 
@@ -189,46 +191,35 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   print(line("horizon", with_horizon ? horizon_verdict(scene) : "not searched, as asked for"));
 }
 
-std::string json_number(const std::optional<double>& value) {
-  if (!value) return "null";
-  std::string out;
-  append_number(out, *value);
-  return out;
-}
-
-std::string json_contact(const oracle::Contact& contact, int dimension) {
-  std::string cell;
-  for (int i = 0; contact.cell && i < dimension; ++i) {
-    cell += i ? "," : "[";
-    append_integer(cell, (*contact.cell)[i]);
-  }
-  return fmt::format(
-      "{{\"lattice\":{},\"atom\":{},\"other_lattice\":{},\"other_atom\":{},\"cell\":{},\"kind\":\"{}\"}}",
-      contact.lattice, contact.atom, contact.other_lattice, contact.other_atom,
-      contact.cell ? cell + "]" : "null", contact.overlap ? "overlap" : "touch");
+void add_contact(json::Members& object, const oracle::Contact& contact, int dimension) {
+  object.add("lattice", contact.lattice, "atom", contact.atom, "other_lattice", contact.other_lattice,
+             "other_atom", contact.other_atom, "cell",
+             contact.cell ? std::optional(components(*contact.cell, dimension)) : std::nullopt, "kind",
+             contact.overlap ? "overlap" : "touch");
 }
 
 void show_json(const std::string& name, const std::string& file, const Scene& scene, const Findings& findings,
                bool with_horizon) {
-  std::string cells, contacts, scene_line;
-  for (const Lattice& lattice : scene.lattices)
-    cells += (cells.empty() ? "" : ",") + json_number(cell_volume(lattice, scene.dimension));
-  const std::size_t count = findings.contacts.found.size();
-  for (std::size_t i = 0; i < count && i < kContactsShown; ++i)
-    contacts += (i ? "," : "") + json_contact(findings.contacts.found[i], scene.dimension);
-  append_scene_line(scene_line, scene);
-  scene_line = scene_line.substr(1, scene_line.rfind('}') - 1);  // "scene":{..}
-  const auto& filling = findings.filling;
-  print(fmt::format(
-      "{{\"name\":{},\"description\":{},\"file\":{},{},\"cell_volumes\":[{}],\"contacts\":{{\"count\":{},"
-      "\"complete\":{},"
-      "\"first\":[{}]}},\"filling\":{},\"surface_per_volume\":{},\"mean_free_path\":{},\"horizon\":{}}}\n",
-      json_quoted(name), json_quoted(description_in(file)), json_quoted(file), scene_line, cells, count,
-      findings.contacts.end == oracle::SearchEnd::complete, contacts,
-      json_number(filling ? std::optional(filling->fraction) : std::nullopt),
-      json_number(filling ? std::optional(filling->surface) : std::nullopt),
-      json_number(filling ? std::optional(filling->mean_free_path) : std::nullopt),
-      with_horizon ? json_quoted(horizon_verdict(scene)) : "null"));
+  std::vector<double> volumes;
+  for (const Lattice& lattice : scene.lattices) volumes.push_back(cell_volume(lattice, scene.dimension));
+  const std::vector<oracle::Contact>& contacts = findings.contacts.found;
+  const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));
+  const auto contact = [&](json::Members& one, const oracle::Contact& c) {
+    add_contact(one, c, scene.dimension);
+  };
+  const auto filling = [&](double Filling::*number) {
+    return findings.filling ? std::optional(*findings.filling.*number) : std::nullopt;
+  };
+  print(json::line_of([&](json::Members& object) {
+    object.add("name", name, "description", description_in(file), "file", file, "scene", scene);
+    object.add("cell_volumes", volumes, "contacts", [&](json::Members& all) {
+      all.add("count", contacts.size(), "complete", findings.contacts.end == oracle::SearchEnd::complete,
+              "first", json::objects(first, contact));
+    });
+    object.add("filling", filling(&Filling::fraction), "surface_per_volume", filling(&Filling::surface),
+               "mean_free_path", filling(&Filling::mean_free_path), "horizon",
+               with_horizon ? std::optional(horizon_verdict(scene)) : std::nullopt);
+  }));
 }
 
 int show(const Options& options) {

@@ -21,6 +21,7 @@
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -123,12 +124,14 @@ std::string Survival::table() const {
 }
 
 std::string Survival::json() const {
-  std::string text = fmt::format("{{\"scene\":{},\"engine\":{},\"seed\":{},\"count\":{},\"arithmetics\":[",
-                                 json_quoted(scene), json_quoted(engine), seed, arithmetics[0].right.size());
-  for (const Arithmetic& one : arithmetics)
-    text += fmt::format("{}{{\"bits\":{},\"mean\":{:.6g},\"right\":[{}]}}",
-                        &one == &arithmetics[0] ? "" : ",", one.bits, one.mean(), fmt::join(one.right, ","));
-  return text + "]}\n";
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene, "engine", engine, "seed", seed, "count", arithmetics[0].right.size(),
+               "arithmetics",
+               json::objects(arithmetics, [](json::Members& one, const Arithmetic& arithmetic) {
+                 one.add("bits", arithmetic.bits, "mean", json::Raw{fmt::format("{:.6g}", arithmetic.mean())},
+                         "right", arithmetic.right);
+               }));
+  });
 }
 
 std::string Survival::csv() const {
@@ -175,11 +178,10 @@ std::string Survival::page_json() const {
     line += fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(), one.name(engine));
     curves.push_back(std::move(curve));
   }
-  std::string out = fmt::format("{{\"format\":1,\"kind\":\"survival\",\"title\":{},\"line\":{},\"manifest\":",
-                                json_quoted("How long trajectories stay right: " + scene), json_quoted(line));
-  report::append_manifest(out, report::manifest_of(seed, command_line()));
-  report::append_curves(out, "survival", curves);
-  return out + "}\n";
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "survival", "title", "How long trajectories stay right: " + scene, "line",
+             line, "manifest", report::manifest_of(seed, command_line()), "survival", curves);
+  });
 }
 
 // Start `index`, off the surface of an obstacle by the cosine law: the first candidate that lies in no other.

@@ -15,6 +15,7 @@
 #include "compare/registry.hpp"
 #include "pictures/path_drawing.hpp"
 #include "src/exchange/exchange_number.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -76,10 +77,6 @@ std::optional<RationalScene> scene_of(const Options& options) {
       options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
 }
 
-void append_texts(std::string& out, const char* key, const std::vector<std::string>& texts) {
-  if (!texts.empty()) out += fmt::format(",\"{}\":[\"{}\"]", key, fmt::join(texts, "\",\""));
-}
-
 std::string cell_text(const ObstacleId& obstacle, int dimension, const char* separator) {
   std::string text;
   for (int i = 0; i < dimension; ++i) {
@@ -87,6 +84,13 @@ std::string cell_text(const ObstacleId& obstacle, int dimension, const char* sep
     append_integer(text, obstacle.cell[i]);
   }
   return text;
+}
+
+// Position and velocity, where they are asked for.
+template <class State>
+void add_state(json::Members& line, const State& state) {
+  if (!state.x.empty()) line.add("x", state.x);
+  if (!state.v.empty()) line.add("v", state.v);
 }
 
 // An id as a table's field.
@@ -120,15 +124,15 @@ class Report {
 
   void collision(const CertifiedCollision& c, const Rival* rival) {
     ++number_;
-    std::string& line = out_.buffer();
-    line += fmt::format(
-        "{{\"id\":{},\"collision\":{},\"lattice\":{},\"atom\":{},\"cell\":[{}],\"time\":\"{}\"", id_, number_,
-        c.obstacle.lattice, c.obstacle.atom, cell_text(c.obstacle, dimension_, ","), c.time);
-    append_texts(line, "x", c.x);
-    append_texts(line, "v", c.v);
-    line += fmt::format(",\"bits\":{}", c.bits);
-    if (rival) line += fmt::format(",\"engine_bits\":{:.1f}", rival->bits_right());
-    line += "}\n";
+    json::append(out_.buffer(), [&](json::Members& line) {
+      line.add("id", json::Raw{id_}, "collision", number_);
+      add_obstacle(line, c.obstacle, dimension_);
+      line.add("time", c.time);
+      add_state(line, c);
+      line.add("bits", c.bits);
+      if (rival) line.add("engine_bits", json::Raw{fmt::format("{:.1f}", rival->bits_right())});
+    });
+    out_.buffer() += '\n';
     out_.flush_if_due();
     if (!csv_) return;
     csv_->write(fmt::format("{},{},{},{},{},{},{}", in_table(id_), number_, c.obstacle.lattice,
@@ -137,18 +141,16 @@ class Report {
   }
 
   void end(const Arrival& arrival, const Rival* rival) {
-    std::string& line = out_.buffer();
-    line += fmt::format("{{\"id\":{},\"end\":\"{}\",\"collisions\":{},\"bits\":{}", id_, name_of(arrival.end),
-                        arrival.collisions, arrival.bits);
-    append_texts(line, "x", arrival.x);
-    append_texts(line, "v", arrival.v);
-    if (!arrival.distance.empty()) line += fmt::format(",\"distance\":\"{}\"", arrival.distance);
-    if (rival) {
-      line += rival->diverged() ? fmt::format(",\"diverged\":{}", *rival->diverged()) : ",\"diverged\":null";
-      if (const std::string why = rival->stopped(); !why.empty())
-        line += fmt::format(",\"stopped\":\"{}\"", why);
-    }
-    line += "}\n";
+    json::append(out_.buffer(), [&](json::Members& line) {
+      line.add("id", json::Raw{id_}, "end", name_of(arrival.end), "collisions", arrival.collisions, "bits",
+               arrival.bits);
+      add_state(line, arrival);
+      if (!arrival.distance.empty()) line.add("distance", arrival.distance);
+      if (!rival) return;
+      line.add("diverged", rival->diverged());
+      if (const std::string why = rival->stopped(); !why.empty()) line.add("stopped", why);
+    });
+    out_.buffer() += '\n';
     out_.flush();
   }
 
@@ -166,7 +168,10 @@ class Report {
 };
 
 void append_error(std::string& out, const Id& id, const std::string& message) {
-  out += fmt::format("{{\"id\":{},\"outcome\":\"error\",\"message\":{}}}\n", id, json_quoted(message));
+  json::append(out, [&](json::Members& line) {
+    line.add("id", json::Raw{id}, "outcome", "error", "message", message);
+  });
+  out += '\n';
 }
 
 // The picture of the first start: its path, and the engine's from where they part.
@@ -313,7 +318,7 @@ Command trajectory_command() {
       "docs/itineraries.md: what is certified, and how. `bits`: of a collision, by how many bits an error of "
       "the\nstart has grown; of the end, the precision that it took.\n"
       "Example, problem 2 of the SIAM 100-digit challenge to 100 digits:\n"
-      "  echo '{\"x\":[\"1/2\",\"1/10\"],\"v\":[1,0]}' | lorentz trajectory --scene square --radius 1/3 "
+      R"(  echo '{"x":["1/2","1/10"],"v":[1,0]}' | lorentz trajectory --scene square --radius 1/3 )"
       "--time 10 --digits 100",
       [options] { return act(*options); }};
 }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "compare/registry.hpp"
+#include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::compare {
@@ -73,7 +74,7 @@ void CommandEngine::append_line(std::string& out, const Id& id, const Asked& ask
   if (asked.text.empty())
     append_query_line(out, id, asked.query, asked.scene->dimension);
   else
-    out += "{\"id\":" + id + ',' + asked.text + "}\n";
+    out += json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
 }
 
 void CommandEngine::add(Asked asked) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include <lorentz/exchange.hpp>
 #include "flights/plan.hpp"
 #include "src/exchange/exchange_json.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::flights {
 
@@ -66,11 +68,11 @@ void Account::add(const Account& other) {
 namespace {
 
 // A histogram as pairs of a bin and its count; most are empty.
-std::string text_of(const std::vector<std::uint64_t>& counts) {
-  std::string text;
+std::vector<std::array<std::uint64_t, 2>> pairs_of(const std::vector<std::uint64_t>& counts) {
+  std::vector<std::array<std::uint64_t, 2>> pairs;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] != 0) text += fmt::format("{}[{},{}]", text.empty() ? "" : ",", i, counts[i]);
-  return text;
+    if (counts[i] != 0) pairs.push_back({i, counts[i]});
+  return pairs;
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -107,17 +109,16 @@ ExactSum read_sum(json::Object& object, const char* key) {
 }  // namespace
 
 std::string Account::text() const {
-  std::string ranges;
-  for (const auto& [first, last] : done.all())
-    ranges += fmt::format("{}[{},{}]", ranges.empty() ? "" : ",", first, last);
-  return fmt::format(
-      "{{\"blocks\":[{}],\"exponent\":{},\"hits\":{},\"never\":{},\"undecided\":{},"
-      "\"inside\":{},\"logarithms\":{},\"shortest\":{},\"longest\":{},\"time\":\"{}\","
-      "\"square\":\"{}\",\"log\":\"{}\",\"logarithmic\":[{}],\"linear\":[{}]}}",
-      ranges, tally.bins.exponent(), tally.hits, tally.never, tally.undecided, tally.inside, tally.logarithms,
-      std::bit_cast<std::uint64_t>(tally.shortest), std::bit_cast<std::uint64_t>(tally.longest),
-      tally.time.text(), tally.square.text(), tally.log.text(), text_of(tally.bins.logarithmic),
-      text_of(tally.bins.linear));
+  std::vector<std::array<std::uint64_t, 2>> blocks;
+  for (const auto& [first, last] : done.all()) blocks.push_back({first, last});
+  const auto bits = [](double x) { return json::Digits{std::bit_cast<std::uint64_t>(x)}; };
+  return json::text_of([&](json::Members& account) {
+    account.add("blocks", blocks, "exponent", tally.bins.exponent(), "hits", tally.hits, "never", tally.never,
+                "undecided", tally.undecided, "inside", tally.inside, "logarithms", tally.logarithms,
+                "shortest", bits(tally.shortest), "longest", bits(tally.longest), "time", tally.time.text(),
+                "square", tally.square.text(), "log", tally.log.text(), "logarithmic",
+                pairs_of(tally.bins.logarithmic), "linear", pairs_of(tally.bins.linear));
+  });
 }
 
 Account Account::of(std::string_view text) {

@@ -1,4 +1,5 @@
 #include "golden/maker.hpp"
+#include "src/exchange/json_writer.hpp"
 
 #include <stdexcept>
 
@@ -109,7 +110,9 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   oracle::Request request;
   request.digits = kDigits;
   record.expect = impl_->oracle.first_hit(*query, request);
-  const std::string asked = impl_->scene_line + "\n{\"id\":\"" + record.id + "\"," + record.question + "}";
+  const std::string asked = impl_->scene_line + '\n' + json::text_of([&](json::Members& line) {
+                              line.add("id", record.id).add_members(record.question);
+                            });
   const auto disagree = [&](const std::string& who) {
     throw std::logic_error(who + " does not agree with the oracle:\n" + asked);
   };

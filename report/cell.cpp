@@ -1,80 +1,41 @@
 #include "report/cell.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 namespace {
 
-void append(std::string& out, const char* key, double value) {
-  out += fmt::format("\"{}\":", key);
-  append_number(out, value);
+void add_times(json::Members& object, const Times& ns) {
+  object.add("median", ns.median, "q1", ns.q1, "q3", ns.q3, "mean", ns.mean);
 }
 
-void append_times(std::string& out, const Times& ns) {
-  append(out, "median", ns.median);
-  append(out += ',', "q1", ns.q1);
-  append(out += ',', "q3", ns.q3);
-  append(out += ',', "mean", ns.mean);
+void add_worst(json::Members& object, const Worst& worst) {
+  object.add("verdict", worst.verdict, "ulps", worst.ulps, "query", json::Raw{worst.query}, "command",
+             worst.command);
 }
-
-void append_worst(std::string& out, const Worst& worst) {
-  out += fmt::format("{{\"verdict\":{},\"ulps\":", json_quoted(worst.verdict));
-  if (worst.ulps)
-    append_number(out, *worst.ulps);
-  else
-    out += "null";
-  out += fmt::format(",\"query\":{},\"command\":{}}}", worst.query, json_quoted(worst.command));
-}
-
-void append_measured(std::string& out, const Cell& cell) {
-  append_times(out += ",\"ns\":{", cell.ns);
-  out += "},\"instructions\":";
-  if (cell.instructions)
-    append_number(out, *cell.instructions);
-  else
-    out += "null";
-  append(out += ',', "mean_path", cell.mean_path);
-  append_share(out += ",\"undecided\":", cell.undecided);
-  append_share(out += ",\"ill_posed\":", cell.ill_posed);
-  append_share(out += ",\"wrong\":", cell.wrong);
-  append_share(out += ",\"wrong_time\":", cell.wrong_time);
-  out += fmt::format(",\"error\":{},\"missing\":{}", cell.error, cell.missing);
-  append_histogram(out += ",\"ulps\":", cell.ulps);
-  append_histogram(out += ",\"conditions\":", cell.conditions);
-  out += ",\"worst\":";
-  if (cell.worst)
-    append_worst(out, *cell.worst);
-  else
-    out += "null";
-}
-
-constexpr const char* kNotMeasured =
-    ",\"ns\":null,\"instructions\":null,\"mean_path\":null,\"undecided\":null,\"ill_posed\":null,"
-    "\"wrong\":null,\"wrong_time\":null,\"error\":null,\"missing\":null,\"ulps\":null,"
-    "\"conditions\":null,\"worst\":null";
 
 }  // namespace
 
-void append_cell(std::string& out, const Cell& cell) {
-  out += fmt::format("{{\"scene\":{},\"radius\":", json_quoted(cell.scene));
-  if (cell.radius)
-    append_number(out, *cell.radius);
-  else
-    out += "null";
-  out += fmt::format(
-      ",\"dimension\":{},\"difficulty\":{},\"engine\":{},\"queries\":{},\"skipped\":{},\"unsupported\":{}",
-      cell.dimension, json_quoted(cell.difficulty), json_quoted(cell.engine), cell.queries, cell.skipped,
-      cell.unsupported);
-  if (cell.skipped)
-    out += kNotMeasured;
-  else
-    append_measured(out, cell);
-  out += '}';
+void append_json(std::string& out, const Cell& cell) {
+  // null for all that was not measured
+  const auto measured = [&](const auto& value) { return cell.skipped ? std::nullopt : std::optional(value); };
+  json::append(out, [&](json::Members& object) {
+    object.add("scene", cell.scene, "radius", cell.radius, "dimension", cell.dimension, "difficulty",
+               cell.difficulty, "engine", cell.engine, "queries", cell.queries, "skipped", cell.skipped,
+               "unsupported", cell.unsupported);
+    object.add("ns", measured([&](json::Members& ns) { add_times(ns, cell.ns); }), "instructions",
+               cell.skipped ? std::nullopt : cell.instructions, "mean_path", measured(cell.mean_path),
+               "undecided", measured(cell.undecided), "ill_posed", measured(cell.ill_posed), "wrong",
+               measured(cell.wrong), "wrong_time", measured(cell.wrong_time), "error", measured(cell.error),
+               "missing", measured(cell.missing), "ulps", measured(cell.ulps), "conditions",
+               measured(cell.conditions), "worst",
+               cell.worst && !cell.skipped
+                   ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
+                   : std::nullopt);
+  });
 }
 
 namespace {

@@ -49,10 +49,10 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// Appends the object, its keys as the members are called; of a skipped cell null for what was not measured.
-void append_cell(std::string& out, const Cell& cell);
+/// An object, its keys as the members are called; of a skipped cell null for what was not measured.
+void append_json(std::string& out, const Cell& cell);
 
-/// What append_cell wrote. Throws InputError.
+/// What append_json wrote. Throws InputError.
 Cell cell_of(std::string_view json);
 
 /// Why no engine can have come to this with up to `most` queries, or nothing: counts that do not fit

@@ -1,53 +1,37 @@
 #include "report/curves.hpp"
 
-#include <fmt/format.h>
-
-#include <lorentz/exchange.hpp>
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 namespace {
 
-void append_or_null(std::string& out, const char* key, const std::optional<double>& value) {
-  out += fmt::format(",\"{}\":", key);
-  if (value)
-    append_number(out, *value);
-  else
-    out += "null";
-}
-
-// The scene, the radius and the engine; the object stays open.
 template <class Curve>
-void append_place(std::string& out, const Curve& curve) {
-  out += fmt::format("{{\"scene\":{},\"engine\":{}", json_quoted(curve.scene), json_quoted(curve.engine));
-  append_or_null(out, "radius", curve.radius);
+void add_place(json::Members& object, const Curve& curve) {
+  object.add("scene", curve.scene, "engine", curve.engine, "radius", curve.radius);
 }
 
 }  // namespace
 
-void append_curve(std::string& out, const FreePathCurve& curve) {
-  append_place(out, curve);
-  out += fmt::format(",\"from\":{},\"law\":{},\"points\":[", json_quoted(curve.from), json_quoted(curve.law));
-  for (const FreePathCurve::Point& point : curve.points) {
-    append_number(out += &point == &curve.points.front() ? "{\"t\":" : ",{\"t\":", point.t);
-    append_or_null(out, "survival", point.survival);
-    append_or_null(out, "exact", point.exact);
-    append_or_null(out, "theory", point.theory);
-    out += '}';
-  }
-  out += "]}";
+void append_json(std::string& out, const FreePathCurve& curve) {
+  json::append(out, [&](json::Members& object) {
+    add_place(object, curve);
+    object.add("from", curve.from, "law", curve.law, "points",
+               json::objects(curve.points, [](json::Members& one, const FreePathCurve::Point& point) {
+                 one.add("t", point.t, "survival", point.survival, "exact", point.exact, "theory",
+                         point.theory);
+               }));
+  });
 }
 
-void append_curve(std::string& out, const SurvivalCurve& curve) {
-  append_place(out, curve);
-  out += ",\"points\":[";
-  for (const SurvivalCurve::Point& point : curve.points) {
-    out += fmt::format("{}{{\"collisions\":{}", &point == &curve.points.front() ? "" : ",", point.collisions);
-    append_or_null(out, "share", point.share);
-    append_or_null(out, "low", point.bounds.low);
-    append_or_null(out, "high", point.bounds.high);
-    out += '}';
-  }
-  out += "]}";
+void append_json(std::string& out, const SurvivalCurve& curve) {
+  json::append(out, [&](json::Members& object) {
+    add_place(object, curve);
+    object.add("points",
+               json::objects(curve.points, [](json::Members& one, const SurvivalCurve::Point& point) {
+                 one.add("collisions", point.collisions, "share", point.share, "low", point.bounds.low,
+                         "high", point.bounds.high);
+               }));
+  });
 }
 
 }  // namespace lorentz::report

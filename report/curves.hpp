@@ -36,16 +36,8 @@ struct SurvivalCurve {
   std::vector<Point> points;
 };
 
-/// Appends the object, its keys as the members are called; `low` and `high` stand for `bounds`.
-void append_curve(std::string& out, const FreePathCurve& curve);
-void append_curve(std::string& out, const SurvivalCurve& curve);
-
-/// Appends ,"NAME":[..] with all of them.
-template <class Curve>
-void append_curves(std::string& out, const char* name, const std::vector<Curve>& curves) {
-  out += std::string(",\"") + name + "\":[";
-  for (const Curve& curve : curves) append_curve(out += &curve == &curves.front() ? "" : ",", curve);
-  out += ']';
-}
+/// An object, its keys as the members are called; `low` and `high` stand for `bounds`.
+void append_json(std::string& out, const FreePathCurve& curve);
+void append_json(std::string& out, const SurvivalCurve& curve);
 
 }  // namespace lorentz::report

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include <lorentz/exchange.hpp>
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 
@@ -35,18 +35,11 @@ Histogram histogram_of(const std::vector<double>& errors) {
   return histogram;
 }
 
-void append_histogram(std::string& out, const Histogram& histogram) {
-  out += "{\"exact\":" + std::to_string(histogram.exact) + ",\"first\":" + std::to_string(histogram.first) +
-         ",\"counts\":[";
-  for (std::size_t i = 0; i < histogram.counts.size(); ++i)
-    out += (i ? "," : "") + std::to_string(histogram.counts[i]);
-  out += "],\"mean\":";
-  append_number(out, histogram.mean);
-  out += ",\"p99\":";
-  append_number(out, histogram.p99);
-  out += ",\"max\":";
-  append_number(out, histogram.max);
-  out += '}';
+void append_json(std::string& out, const Histogram& histogram) {
+  json::append(out, [&](json::Members& object) {
+    object.add("exact", histogram.exact, "first", histogram.first, "counts", histogram.counts, "mean",
+               histogram.mean, "p99", histogram.p99, "max", histogram.max);
+  });
 }
 
 }  // namespace lorentz::report

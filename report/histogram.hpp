@@ -19,7 +19,7 @@ struct Histogram {
 /// Of finite errors, none below zero; others are an std::invalid_argument.
 Histogram histogram_of(const std::vector<double>& errors);
 
-/// Appends {"exact":2,"first":-3,"counts":[1,0,4],"mean":..,"p99":..,"max":..}.
-void append_histogram(std::string& out, const Histogram& histogram);
+/// {"exact":2,"first":-3,"counts":[1,0,4],"mean":..,"p99":..,"max":..}.
+void append_json(std::string& out, const Histogram& histogram);
 
 }  // namespace lorentz::report

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include <lorentz/batch.hpp>
-#include <lorentz/exchange.hpp>
 #include "report/commit.inc"  // made with each build: kCommit
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 namespace {
@@ -54,16 +54,12 @@ Manifest manifest_of(std::uint64_t seed, std::string command) {
   return manifest;
 }
 
-void append_manifest(std::string& out, const Manifest& manifest) {
-  const std::pair<const char*, const std::string&> texts[] = {
-      {"version", manifest.version}, {"commit", manifest.commit},   {"compiler", manifest.compiler},
-      {"flags", manifest.flags},     {"machine", manifest.machine}, {"instructions", manifest.instructions},
-      {"system", manifest.system},   {"date", manifest.date}};
-  out += '{';
-  for (const auto& [name, text] : texts) out += fmt::format("\"{}\":{},", name, json_quoted(text));
-  out += "\"seed\":";
-  append_integer(out, Integer::from_decimal(std::to_string(manifest.seed)).value());
-  out += ",\"command\":" + json_quoted(manifest.command) + '}';
+void append_json(std::string& out, const Manifest& manifest) {
+  json::append(out, [&](json::Members& object) {
+    object.add("version", manifest.version, "commit", manifest.commit, "compiler", manifest.compiler, "flags",
+               manifest.flags, "machine", manifest.machine, "instructions", manifest.instructions, "system",
+               manifest.system, "date", manifest.date, "seed", manifest.seed, "command", manifest.command);
+  });
 }
 
 }  // namespace lorentz::report

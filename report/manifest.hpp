@@ -23,7 +23,7 @@ struct Manifest {
 /// Of this program, on this machine, today.
 Manifest manifest_of(std::uint64_t seed, std::string command);
 
-/// Appends the object, its keys as the members are called. A seed beyond 2^53 becomes a string.
-void append_manifest(std::string& out, const Manifest& manifest);
+/// An object, its keys as the members are called. A seed beyond 2^53 becomes a string.
+void append_json(std::string& out, const Manifest& manifest);
 
 }  // namespace lorentz::report

@@ -2,29 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <lorentz/exchange.hpp>
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::report {
 namespace {
 
-std::string vector_text(const Vec& a, int dimension) {
-  std::string text;
-  for (int i = 0; i < dimension; ++i) text += fmt::format("{}\"{:a}\"", i ? "," : "[", a[i]);
-  return text + ']';
+std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
+  std::vector<std::string> texts;
+  for (const double x : components(a, dimension)) texts.push_back(fmt::format("{:a}", x));
+  return texts;
 }
 
 }  // namespace
 
 std::string hexadecimal_query(const Query& query, int dimension) {
-  std::string text =
-      fmt::format("{{\"x\":{},\"v\":{}", vector_text(query.x, dimension), vector_text(query.v, dimension));
-  if (query.from) {
-    text += fmt::format(",\"from\":{{\"lattice\":{},\"atom\":{},\"cell\":", query.from->lattice,
-                        query.from->atom);
-    for (int i = 0; i < dimension; ++i) append_integer(text += i ? ',' : '[', query.from->cell[i]);
-    text += "]}";
-  }
-  return text + '}';
+  return json::text_of([&](json::Members& object) {
+    object.add("x", hexadecimal(query.x, dimension), "v", hexadecimal(query.v, dimension));
+    if (query.from)
+      object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, dimension); });
+  });
 }
 
 }  // namespace lorentz::report

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <lorentz/exchange.hpp>
 #include "report/beta_quantile.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 
@@ -27,12 +27,10 @@ double bound_of_none(std::size_t total) {
   return total == 0 ? 1 : -std::expm1(std::log(0.05) / static_cast<double>(total));
 }
 
-void append_share(std::string& out, const Share& share) {
-  out += "{\"count\":" + std::to_string(share.count) + ",\"low\":";
-  append_number(out, share.low);
-  out += ",\"high\":";
-  append_number(out, share.high);
-  out += '}';
+void append_json(std::string& out, const Share& share) {
+  json::append(out, [&](json::Members& object) {
+    object.add("count", share.count, "low", share.low, "high", share.high);
+  });
 }
 
 }  // namespace lorentz::report

@@ -24,7 +24,7 @@ Share share_of(std::size_t count, std::size_t total);
 /// this. About 3 / total; 1 of no trials.
 double bound_of_none(std::size_t total);
 
-/// Appends {"count":3,"low":1e-4,"high":2e-3}.
-void append_share(std::string& out, const Share& share);
+/// {"count":3,"low":1e-4,"high":2e-3}
+void append_json(std::string& out, const Share& share);
 
 }  // namespace lorentz::report

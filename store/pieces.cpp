@@ -4,6 +4,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
+#include "src/exchange/json_writer.hpp"
 #include "store/check.hpp"
 
 namespace lorentz::store {
@@ -31,10 +32,13 @@ std::string_view checked(std::string_view line, std::uint64_t begin) {
 }
 
 std::string header_of(std::string_view kind, const Plan& plan) {
-  std::string words;
-  for (const auto& [name, value] : plan)
-    words += fmt::format("{}{}:{}", words.empty() ? "" : ",", json_quoted(name), json_quoted(value));
-  return fmt::format("{{\"store\":{},\"format\":2,\"plan\":{{{}}}", json_quoted(kind), words);
+  std::string line = json::text_of([&](json::Members& header) {
+    header.add("store", kind, "format", 2, "plan", [&](json::Members& words) {
+      for (const auto& [name, value] : plan) words.add_named(name, value);
+    });
+  });
+  line.pop_back();  // the check is a member, too
+  return line;
 }
 
 // What is different in a header that is not the one of this kind and plan.

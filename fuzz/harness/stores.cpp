@@ -54,7 +54,7 @@ void read_cell(const std::string& piece) {
   const auto cell = read_or_refused([&] { return report::cell_of(piece); });
   if (!cell || !flaw_of(*cell, 1'000'000).empty()) return;
   std::string text;
-  append_cell(text, *cell);
+  append_json(text, *cell);
   const auto again = read_or_refused([&] { return report::cell_of(text); });
   require(again && *again == *cell, "a cell is read as it was written", piece);
 }

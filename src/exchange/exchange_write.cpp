@@ -1,8 +1,10 @@
+#include "src/exchange/exchange_write.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
-#include <lorentz/exchange.hpp>
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz {
@@ -50,102 +52,94 @@ void append_number(std::string& out, double value) {
 }
 
 void append_integer(std::string& out, const Integer& n) {
-  constexpr std::int64_t kExactInBinary64 = std::int64_t{1} << 53;
-  if (!n.fits_int64()) {
+  if (n.fits_int64())
+    json::append_whole(out, n.int64());
+  else
     out += '"' + n.decimal() + '"';
-    return;
-  }
-  const bool small = n.int64() >= -kExactInBinary64 && n.int64() <= kExactInBinary64;
-  char text[24];
-  const auto end = std::to_chars(text, text + sizeof text, n.int64()).ptr;
-  if (!small) out += '"';
-  out.append(text, end);
-  if (!small) out += '"';
 }
 
 namespace {
 
-void append_vector(std::string& out, const Vec& a, int dimension) {
-  for (int i = 0; i < dimension; ++i) {
-    out += i == 0 ? '[' : ',';
-    append_number(out, a[i]);
+void add_atom(json::Members& object, const Atom& atom, int dimension) {
+  object.add("position", components(atom.position, dimension));
+  if (atom.is_ball()) {
+    object.add("radius", atom.radius);
+    return;
   }
-  out += ']';
+  std::vector<std::span<const double>> semiaxes;
+  for (const Vec& axis : atom.semiaxes) semiaxes.push_back(components(axis, dimension));
+  object.add("semiaxes", semiaxes);
 }
 
-void append_obstacle(std::string& out, const ObstacleId& obstacle, int dimension) {
-  out += "\"lattice\":";
-  append_integer(out, Integer(obstacle.lattice));
-  out += ",\"atom\":";
-  append_integer(out, Integer(obstacle.atom));
-  out += ",\"cell\":";
-  for (int i = 0; i < dimension; ++i) {
-    out += i == 0 ? '[' : ',';
-    append_integer(out, obstacle.cell[i]);
-  }
-  out += ']';
+void add_lattice(json::Members& object, const Lattice& lattice, int dimension) {
+  std::vector<std::span<const double>> vectors;
+  for (int i = 0; i < dimension; ++i) vectors.push_back(components(lattice.vectors[i], dimension));
+  object.add("vectors", vectors, "atoms",
+             json::objects(lattice.atoms,
+                           [&](json::Members& one, const Atom& atom) { add_atom(one, atom, dimension); }));
 }
 
 // What a hit has besides the obstacle.
-void append_hit(std::string& out, const Answer& answer, int dimension) {
-  if (answer.time) {
-    out += ",\"time\":";
-    append_number(out, *answer.time);
-  }
-  if (!answer.time_decimal.empty()) out += ",\"time_decimal\":\"" + answer.time_decimal + '"';
-  if (!answer.detail) return;
-  out += ",\"point\":";
-  append_vector(out, answer.detail->point, dimension);
-  out += ",\"normal\":";
-  append_vector(out, answer.detail->normal, dimension);
-  out += ",\"impact_parameter\":";
-  append_number(out, answer.detail->impact_parameter);
+void add_hit(json::Members& object, const Answer& answer, int dimension) {
+  if (answer.time) object.add("time", *answer.time);
+  if (!answer.time_decimal.empty()) object.add("time_decimal", answer.time_decimal);
+  if (answer.detail)
+    object.add("point", components(answer.detail->point, dimension), "normal",
+               components(answer.detail->normal, dimension), "impact_parameter",
+               answer.detail->impact_parameter);
 }
 
 }  // namespace
 
+void add_obstacle(json::Members& object, const ObstacleId& obstacle, int dimension) {
+  object.add("lattice", obstacle.lattice, "atom", obstacle.atom, "cell",
+             components(obstacle.cell, dimension));
+}
+
+void add_scene(json::Members& object, const Scene& scene) {
+  object.add("dimension", scene.dimension, "lattices",
+             json::objects(scene.lattices, [&](json::Members& one, const Lattice& lattice) {
+               add_lattice(one, lattice, scene.dimension);
+             }));
+}
+
+void add_query(json::Members& object, const Query& query, int dimension) {
+  object.add("x", components(query.x, dimension), "v", components(query.v, dimension));
+  if (query.from)
+    object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, dimension); });
+}
+
+void add_answer(json::Members& object, const Answer& answer, int dimension) {
+  object.add("outcome", name_of(answer.outcome));
+  if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside)
+    add_obstacle(object, answer.obstacle, dimension);
+  if (answer.outcome == Outcome::hit) add_hit(object, answer, dimension);
+  if (answer.outcome != Outcome::error) return;
+  object.add("message", answer.message);
+  if (answer.unsupported) object.add("reason", "unsupported");
+}
+
 void append_scene_line(std::string& out, const Scene& scene) {
-  out += "{\"scene\":{\"dimension\":" + std::to_string(scene.dimension) + ",\"lattices\":[";
-  for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
-    const Lattice& lattice = scene.lattices[l];
-    out += l == 0 ? "{\"vectors\":[" : ",{\"vectors\":[";
-    for (int i = 0; i < scene.dimension; ++i) {
-      if (i > 0) out += ',';
-      append_vector(out, lattice.vectors[i], scene.dimension);
-    }
-    out += "],\"atoms\":[";
-    for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
-      const Atom& atom = lattice.atoms[a];
-      out += a == 0 ? "{\"position\":" : ",{\"position\":";
-      append_vector(out, atom.position, scene.dimension);
-      if (atom.is_ball()) {
-        out += ",\"radius\":";
-        append_number(out, atom.radius);
-      } else {
-        for (std::size_t i = 0; i < atom.semiaxes.size(); ++i) {
-          out += i == 0 ? ",\"semiaxes\":[" : ",";
-          append_vector(out, atom.semiaxes[i], scene.dimension);
-        }
-        out += ']';
-      }
-      out += '}';
-    }
-    out += "]}";
-  }
-  out += "]}}\n";
+  json::append(out, [&](json::Members& line) {
+    line.add("scene", [&](json::Members& object) { add_scene(object, scene); });
+  });
+  out += '\n';
 }
 
 void append_query_line(std::string& out, const Id& id, const Query& query, int dimension) {
-  out += "{\"id\":" + id + ",\"x\":";
-  append_vector(out, query.x, dimension);
-  out += ",\"v\":";
-  append_vector(out, query.v, dimension);
-  if (query.from) {
-    out += ",\"from\":{";
-    append_obstacle(out, *query.from, dimension);
-    out += '}';
-  }
-  out += "}\n";
+  json::append(out, [&](json::Members& line) {
+    line.add("id", json::Raw{id});
+    add_query(line, query, dimension);
+  });
+  out += '\n';
+}
+
+void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension) {
+  json::append(out, [&](json::Members& line) {
+    line.add("id", json::Raw{id});
+    add_answer(line, answer, dimension);
+  });
+  out += '\n';
 }
 
 std::string_view name_of(Outcome outcome) {
@@ -164,24 +158,6 @@ std::string_view name_of(Outcome outcome) {
       break;
   }
   return "error";
-}
-
-void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension) {
-  out += "{\"id\":";
-  out += id;
-  out += ",\"outcome\":\"";
-  out += name_of(answer.outcome);
-  out += '"';
-  if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {
-    out += ',';
-    append_obstacle(out, answer.obstacle, dimension);
-  }
-  if (answer.outcome == Outcome::hit) append_hit(out, answer, dimension);
-  if (answer.outcome == Outcome::error) {
-    out += ",\"message\":" + json_quoted(answer.message);
-    if (answer.unsupported) out += ",\"reason\":\"unsupported\"";
-  }
-  out += "}\n";
 }
 
 }  // namespace lorentz

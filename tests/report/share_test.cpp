@@ -45,7 +45,7 @@ TEST_CASE("Bounds of a share are those of Clopper and Pearson", "[report][share]
   CHECK(share_of(0, 0) == Share{0, 0, 1});
   CHECK_THROWS_AS(share_of(2, 1), std::invalid_argument);
   std::string text;
-  append_share(text, {3, 0.25, 0.5});
+  append_json(text, {3, 0.25, 0.5});
   CHECK(text == R"({"count":3,"low":0.25,"high":0.5})");
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("A manifest says what made the numbers, whatever the command was", "[r
   CHECK(manifest.flags.find("-ffp-contract=off") != std::string::npos);
   CHECK(manifest.date.size() == 10);
   std::string json;
-  append_manifest(json, manifest);
+  append_json(json, manifest);
   CHECK(json.starts_with("{\"version\":\""));
   const std::string end =
       "\"seed\":\"18446744073709551615\",\"command\":\"lorentz bench --engine 'cmd:\\\"a\\\"\\u000a'\"}";

@@ -1,0 +1,44 @@
+"""One word, one thing; one home for JSON: words_test.py SOURCE"""
+
+import re
+import sys
+import unittest
+from collections import defaultdict
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1))
+NOT_OURS = {"tests", "bench", "examples", "build"}
+# Names that two files may define: each is another thing in another room.
+MOST_SHARED_NAMES = 94
+TYPE = re.compile(r"^\s*(?:struct|class|enum class|enum|union)\s+(?:\[\[\w+\]\]\s+)?(\w+)(?:\s+final)?\s*(?::[^:;{]*)?\{", re.MULTILINE)
+# A key of JSON with a value put behind it: `"{\"id\":" + id`, `",\"x\":{}"`.
+GLUED = re.compile(r'\\"\w+\\":(?:"|\{\}|\[\{\}|\\"\{)')
+TEXTS_OF_THEIR_OWN = {"cases/bad_queries.cpp",  # bad on purpose
+                      "store/pieces.cpp", "golden/production.cpp", "fuzz/harness/stores.cpp"}  # read what begins so
+
+
+def sources():
+    for path in sorted(SOURCE.rglob("*")):
+        if path.suffix in (".cpp", ".hpp") and not NOT_OURS & set(path.relative_to(SOURCE).parts[:-1]):
+            yield path.relative_to(SOURCE).as_posix(), re.sub(r"//[^\n]*", "", path.read_text())
+
+
+class Words(unittest.TestCase):
+    def test_type_names(self):
+        files = defaultdict(set)
+        for name, text in sources():
+            for word in TYPE.findall(text):
+                files[word].add(name)
+        shared = {word: sorted(where) for word, where in files.items() if len(where) > 1}
+        self.assertGreater(len(files), 300)
+        listed = "\n".join(f"{word}: {', '.join(where)}" for word, where in sorted(shared.items()))
+        self.assertLessEqual(len(shared), MOST_SHARED_NAMES, listed)
+
+    def test_json_is_written_in_one_place(self):
+        self.assertTrue(GLUED.search(r'out += "{\"id\":" + id'))
+        glued = [f"{name}: {found}" for name, text in sources() if name not in TEXTS_OF_THEIR_OWN for found in GLUED.findall(text)]
+        self.assertEqual(glued, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
