@@ -12,7 +12,7 @@
 #include "cli/messages.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -68,8 +68,7 @@ store::Plan words_of(const report::Manifest& manifest) {
 
 BenchPlan plan_of(const Options& options) {
   BenchPlan plan;
-  plan.engines = names_in(options.engines);
-  for (const std::string& name : plan.engines) check_name(name);
+  plan.engines = engines_named(options.engines);
   plan.seed = options.seed;
   plan.count = options.count;
   plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
@@ -99,7 +98,7 @@ int act(const Options& options) {
   const std::string json = bench_json(cells, store.manifest());
   print(options.json ? json
                      : fmt::format("Speed against error, one thread (seed {}).\n\n{}", plan.seed,
-                                   bench_text(cells, plan.engines)));
+                                   bench_text(cells, names_of(plan.engines))));
   csv.write([&] { return bench_csv(cells); });
   html.write([&] { return report::page(json); });
   return failed ? kFailed : kDone;

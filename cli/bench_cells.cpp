@@ -34,9 +34,9 @@ CaseSet cases_of(const BenchPlan& plan, const BenchGroup& group) {
 
 // How many of the queries an engine does in the time of a round; by the first few, or the first two if these
 // take so long that there is no hope.
-std::size_t affordable(const BenchPlan& plan, const CaseSet& all, const std::string& engine, bool& failed) {
+std::size_t affordable(const BenchPlan& plan, const CaseSet& all, const EngineInfo& engine, bool& failed) {
   MeasureOptions options;
-  options.rounds = is_command(engine) ? 3 : 1;  // the first round of another program has its start in it
+  options.rounds = engine.is_command() ? 3 : 1;  // the first round of another program has its start in it
   options.timeout = plan.timeout;
   options.listener = terminal();
   double count = 0;
@@ -149,8 +149,8 @@ BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
   options.rounds = kRounds;
   options.timeout = plan.timeout;
   options.listener = terminal();
-  std::vector<std::string> fast;  // those that are not skipped
-  for (const std::string& engine : plan.engines) {
+  std::vector<EngineInfo> fast;  // those that are not skipped
+  for (const EngineInfo& engine : plan.engines) {
     const std::size_t count = affordable(plan, set, engine, result.failed);
     if (count < kFewestQueries) continue;
     fast.push_back(engine);
@@ -165,16 +165,16 @@ BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
   };
   const std::vector<Tally> tallies = measure(set, exact, fast, {}, options);
   std::size_t next = 0;
-  for (const std::string& engine : plan.engines) {
-    report::Cell& cell = result.cells.emplace_back(named_cell(group, set, engine));
-    cell.skipped = next == fast.size() || fast[next] != engine;
+  for (const EngineInfo& engine : plan.engines) {
+    report::Cell& cell = result.cells.emplace_back(named_cell(group, set, engine.name));
+    cell.skipped = next == fast.size() || fast[next].name != engine.name;
     if (cell.skipped) continue;
     result.failed |= tallies[next].failed;
     fill(cell, tallies[next]);
     cell.skipped = cell.unsupported == cell.queries;  // how fast it says so is nobody's question
     cell.mean_path = mean_path(exact, options.counts[next]);
     cell.conditions = report::histogram_of(errors[next].in_conditions());
-    cell.worst = errors[next].worst(group, engine, set);
+    cell.worst = errors[next].worst(group, engine.name, set);
     ++next;
   }
   return result;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/engines.hpp"
 #include "compare/hard_cases.hpp"
 #include "report/cell.hpp"
 
@@ -19,7 +20,7 @@ struct BenchGroup {
 };
 
 struct BenchPlan {
-  std::vector<std::string> engines;
+  std::vector<compare::EngineInfo> engines;
   std::uint64_t count = 0, seed = 0;
   double timeout = 0;  ///< of other programs
 };

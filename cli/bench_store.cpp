@@ -30,7 +30,7 @@ store::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& group
                                 compare::name_of(group.difficulty)));
     append_scene_line(scenes, load_scene(group.scene, positive_number(group.radius, "--radius")));
   }
-  store::Plan words{{"engines", fmt::format("{}", fmt::join(plan.engines, ", "))},
+  store::Plan words{{"engines", fmt::format("{}", fmt::join(names_of(plan.engines), ", "))},
                     {"queries", std::to_string(plan.count)},
                     {"seed", std::to_string(plan.seed)},
                     {"cells", fmt::format("{}", fmt::join(names, " "))},
@@ -56,7 +56,7 @@ void BenchStore::read(const std::string& piece, const std::vector<BenchGroup>& g
   const CellKey key = key_of(cell);
   const bool is_asked = std::any_of(groups.begin(), groups.end(), [&](const BenchGroup& group) {
     return std::any_of(plan_.engines.begin(), plan_.engines.end(),
-                       [&](const std::string& engine) { return key == key_of(group, engine); });
+                       [&](const compare::EngineInfo& engine) { return key == key_of(group, engine.name); });
   });
   if (!is_asked) throw InputError("is a cell that the run has not");
   if (!cells_.emplace(key, std::move(cell)).second) throw InputError("is a cell that was there before");
@@ -64,8 +64,8 @@ void BenchStore::read(const std::string& piece, const std::vector<BenchGroup>& g
 
 std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& group) const {
   std::vector<report::Cell> found;
-  for (const std::string& engine : plan_.engines) {
-    const auto cell = cells_.find(key_of(group, engine));
+  for (const compare::EngineInfo& engine : plan_.engines) {
+    const auto cell = cells_.find(key_of(group, engine.name));
     if (cell == cells_.end()) return std::nullopt;
     found.push_back(cell->second);
   }

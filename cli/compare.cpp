@@ -296,9 +296,8 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
 
 int act(const Options& options) {
   const std::vector<Logged> all_logged = logged_answers(options);
-  std::vector<std::string> engines = names_in(options.engines);
-  if (engines.empty() && all_logged.empty()) engines = {"classical", "published"};
-  for (const std::string& name : engines) check_name(name);
+  std::vector<EngineInfo> engines = engines_named(options.engines);
+  if (engines.empty() && all_logged.empty()) engines = engines_named({"classical", "published"});
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
     throw InputError("--judge: nobody is judged with --no-oracle");

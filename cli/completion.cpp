@@ -8,7 +8,7 @@
 #include "cases/families/target.hpp"
 #include "cli/golden.hpp"
 #include "cli/scene_option.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "golden/sets.hpp"
 
 namespace lorentz::cli {
@@ -26,7 +26,7 @@ struct Values {
 
 std::vector<Word> engines() {
   std::vector<Word> words;
-  for (const std::string& name : compare::answerer_names()) words.push_back({name, "an engine"});
+  for (const std::string& name : compare::own_names()) words.push_back({name, "an engine"});
   return words;
 }
 

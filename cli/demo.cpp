@@ -65,8 +65,8 @@ class Report {
     };
     MeasureOptions options;
     options.listener = terminal();
-    const auto tallies =
-        measure(set, exact_answers(set, terminal()), {"classical", kPublished, "oracle"}, on_wrong, options);
+    const auto tallies = measure(set, exact_answers(set, terminal()),
+                                 engines_named({"classical", kPublished, "oracle"}), on_wrong, options);
     for (const Tally& t : tallies) {
       const bool is_first = &t == &tallies.front();
       table_.add({is_first ? what : "", is_first ? std::to_string(t.queries) : "", t.name,

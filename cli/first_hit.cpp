@@ -11,8 +11,8 @@
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
+#include "compare/engines.hpp"
 #include "compare/nearest_name.hpp"
-#include "compare/registry.hpp"
 
 namespace lorentz::cli {
 
@@ -81,10 +81,10 @@ class AnswerOrder {
 
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query would not be bounded otherwise
 
-oracle::Request request_of(const Options& options) {
+oracle::Request request_of(const Options& options, const EngineInfo& engine) {
   oracle::Request request;
   if (options.digits) {
-    if (!traits_of(options.engine).knows_digits)
+    if (!engine.traits.knows_digits)
       throw InputError("--digits: only the oracle knows more digits than a binary64 has");
     request.digits = static_cast<int>(*options.digits);
   }
@@ -93,38 +93,39 @@ oracle::Request request_of(const Options& options) {
   return request;
 }
 
-int jobs_of(const Options& options) {
+int jobs_of(const Options& options, const EngineInfo& engine) {
   if (!options.jobs) return 1;
   const auto jobs = static_cast<int>(*options.jobs);
-  if (!traits_of(options.engine).in_bulk)
+  if (!engine.traits.in_bulk)
     throw InputError("--jobs: only the engines batch and certified-batch use more than one thread");
   return jobs;
 }
 
 int act_on_columns(const Options& options, ColumnOrder::Format format) {
-  check_name(options.engine);
+  const EngineInfo engine = engine_named(options.engine);
   const std::string option = "--format " + options.format;
-  if (is_command(options.engine))
+  if (engine.is_command())
     throw InputError(option + ": not with cmd: engines, which read and write streams in JSON");
   if (!options.scene) throw InputError(option + ": needs --scene, for columns hold no scene");
   if (options.digits || options.detail)
     throw InputError((options.digits ? "--digits" : "--detail") +
                      std::string(": only streams in JSON have it (--format ndjson)"));
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = options.engine};
+  ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = engine};
   order.max_time = options.max_time;
-  order.jobs = jobs_of(options), order.strict = options.strict;
+  order.jobs = jobs_of(options, engine), order.strict = options.strict;
   order.scene = load_scene(*options.scene, options.radius, unknown);
   return answer_columns(order);
 }
 
 int act_on_lines(const Options& options) {
-  AnswererOptions answerer_options{request_of(options)};
+  const EngineInfo engine = engine_named(options.engine);
+  AnswererOptions answerer_options{request_of(options, engine)};
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;
-  answerer_options.jobs = jobs_of(options);
+  answerer_options.jobs = jobs_of(options, engine);
   answerer_options.timeout = options.timeout.value_or(answerer_options.timeout);
-  const std::unique_ptr<Answerer> answerer = make_answerer(options.engine, answerer_options);
+  const std::unique_ptr<Answerer> answerer = engine.answerer(answerer_options);
   if (options.radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;

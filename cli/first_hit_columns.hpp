@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lorentz/scene.hpp>
+#include "compare/engines.hpp"
 
 namespace lorentz::cli {
 
@@ -12,7 +13,8 @@ namespace lorentz::cli {
 struct ColumnOrder {
   enum class Format { csv, npy };
   Format format{};
-  std::string queries, engine;
+  std::string queries;
+  compare::EngineInfo engine;
   Scene scene{};
   std::optional<double> max_time{};
   int jobs = 1;

@@ -12,8 +12,8 @@
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
+#include "compare/engines.hpp"
 #include "compare/nearest_name.hpp"
-#include "compare/registry.hpp"
 #include "compare/sampling.hpp"
 #include "flights/ranks.hpp"
 #include "flights/run.hpp"
@@ -47,8 +47,7 @@ flights::Ensemble ensemble_of(const std::string& name) {
 Plan plan_of(const Options& options, std::optional<double> radius) {
   Plan plan;
   plan.scene = load_scene(options.scene, radius);
-  compare::check_name(options.engine);
-  if (compare::is_command(options.engine))
+  if (!compare::engine_named(options.engine).is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
         "starts for others");
@@ -258,7 +257,7 @@ Command flights_command() {
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
            "collision to the next (cosine law)"},
           {"-e,--engine", &options->engine, "ENGINE",
-           "one of " + fmt::format("{}", fmt::join(compare::answerer_names(), ", "))},
+           "one of " + fmt::format("{}", fmt::join(compare::own_names(), ", "))},
           {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
           {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each radius)"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},

@@ -98,7 +98,8 @@ int act(const FuzzOptions& options) {
   const fuzz::Plan plan = plan_of(options);
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  const fuzz::MakeSubject make_subject = fuzz::subject_maker(options.engine, {{}, timeout, terminal()});
+  const fuzz::MakeSubject make_subject =
+      fuzz::subject_maker(compare::engine_named(options.engine), {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       ranks::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
   if (!ranks) return run_campaign(options, plan, make_subject, nullptr);

@@ -7,7 +7,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/messages.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "golden/maker.hpp"
 
 namespace lorentz::cli {

@@ -8,8 +8,8 @@
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
+#include "compare/engines.hpp"
 #include "compare/nearest_name.hpp"
-#include "compare/registry.hpp"
 
 namespace lorentz::cli {
 
@@ -80,6 +80,7 @@ void set_shard(const std::string& text, fuzz::Plan& plan) {
 
 fuzz::Plan plan_of(const FuzzOptions& options) {
   fuzz::Plan plan;
+  const compare::EngineInfo engine = compare::engine_named(options.engine);
   plan.seed = options.seed;
   plan.scope = scope_of(options);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));
@@ -87,10 +88,9 @@ fuzz::Plan plan_of(const FuzzOptions& options) {
   plan.keep = options.keep;
   plan.mutate = options.mutate;
   plan.reword = options.reword;
-  plan.truth = truth_named(options.judge, {options.engine});
+  plan.truth = truth_named(options.judge, {engine});
   plan.counts.times = options.times;
-  plan.counts.undecided =
-      options.undecided || (!options.no_undecided && !traits_of(options.engine).leaves_undecided);
+  plan.counts.undecided = options.undecided || (!options.no_undecided && !engine.traits.leaves_undecided);
   plan.counts.ulps = options.ulps.value_or(oracle::kDefaultUlps);
   return plan;
 }

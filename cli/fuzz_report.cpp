@@ -8,7 +8,7 @@
 #include "cli/messages.hpp"
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "report/share.hpp"
 
 namespace lorentz::cli {
@@ -47,9 +47,9 @@ std::string layers(const FuzzReport& report) {
     return fmt::format("{} ({:.3g} %)", all.stages[stage],
                        100 * static_cast<double>(all.stages[stage]) / static_cast<double>(sum));
   };
-  return fmt::format(
-      "decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
-      compare::traits_of(report.manifest.engine).is_exact ? "by exact arithmetic" : "not decided", share(2));
+  const compare::EngineInfo* engine = compare::own_engine(report.manifest.engine);
+  return fmt::format("decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
+                     engine && engine->traits.is_exact ? "by exact arithmetic" : "not decided", share(2));
 }
 
 // Of each kind of failure that was not met, what that says.

@@ -14,8 +14,8 @@
 #include "cli/reason.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
+#include "compare/engines.hpp"
 #include "compare/measure.hpp"
-#include "compare/registry.hpp"
 #include "golden/reader.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/problem/safe_text.hpp"
@@ -57,13 +57,13 @@ struct SetTally {
 // Asks an engine the questions of a set and judges the answers as they come.
 class Examination {
  public:
-  Examination(std::string engine, double ulps, bool times, bool strict, double timeout,
+  Examination(const EngineInfo& engine, double ulps, bool times, bool strict, double timeout,
               std::size_t most_failures)
-      : engine_(std::move(engine)),
+      : engine_(engine.name),
         ulps_(ulps),
         times_(times),
         most_failures_(most_failures),
-        answerer_(make_answerer(engine_, {{}, timeout, terminal(), strict})) {
+        answerer_(engine.answerer({{}, timeout, terminal(), strict})) {
     answerer_->on_answer([this](Answer& answer) { take(answer); });
   }
 
@@ -271,10 +271,10 @@ std::string in_markdown(const std::string& text) {
   return out;
 }
 
-std::string summary_page(const std::vector<std::string>& engines,
+std::string summary_page(const std::vector<EngineInfo>& engines,
                          const std::vector<std::vector<SetTally>>& tallies) {
   std::string page = "| set | records |";
-  for (const std::string& engine : engines) page += fmt::format(" {} |", in_markdown(engine));
+  for (const EngineInfo& engine : engines) page += fmt::format(" {} |", in_markdown(engine.name));
   page += "\n|---|---|" + fmt::format("{}", fmt::join(std::vector<std::string>(engines.size(), "---|"), "")) +
           '\n';
   for (std::size_t s = 0; s < tallies.front().size(); ++s) {
@@ -322,9 +322,8 @@ int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
 }
 
 int act(const Options& options) {
-  const std::vector<std::string> engines = names_in(options.engines);
+  const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
-  for (const std::string& engine : engines) check_name(engine);
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   auto most = static_cast<std::size_t>(options.failures);
@@ -335,8 +334,9 @@ int act(const Options& options) {
   std::size_t records = 0;
   std::vector<std::vector<SetTally>> all_tallies;
   std::string pages;
-  for (const std::string& engine : engines) {
-    Examination examination(engine, ulps, options.times, options.strict, timeout, most);
+  for (const EngineInfo& info : engines) {
+    const std::string& engine = info.name;
+    Examination examination(info, ulps, options.times, options.strict, timeout, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
       if (!examination.is_worth_asking()) {

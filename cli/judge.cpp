@@ -61,7 +61,7 @@ std::string command_of(const Options& o) {
 
 JudgeOrder order_of(const Options& options) {
   JudgeOrder order;
-  order.engine = options.engine;
+  order.engine = compare::engine_named(options.engine);
   order.command = command_of(options);
   order.quick = options.quick;
   order.time = options.seconds;
@@ -76,7 +76,6 @@ JudgeOrder order_of(const Options& options) {
 }
 
 int act(const Options& options) {
-  compare::check_name(options.engine);
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);

@@ -64,19 +64,20 @@ std::string lines_of_question(const Finding& finding) {
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
-  if (compare::is_guest(report.engine)) return {};  // a function in somebody's program has no command
+  if (report.engine.kind == compare::EngineInfo::Kind::guest)
+    return {};  // a function in somebody's program has no command
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
-  std::string engine = shell_quoted(report.engine);
+  std::string engine = shell_quoted(report.engine.name);
   if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.timeout);
   if (finding.simplest.question.is_query())
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}", lines, engine,
                         option_for(finding.severity())),
             fmt::format("{} | lorentz first-hit --engine {}", lines, engine)};
   // Invalid questions only golden sets hand on; a program reads them by itself.
-  if (!compare::is_command(report.engine)) return {};
+  if (!report.engine.is_command()) return {};
   return {fmt::format("{} | sh -c {}", lines,
-                      shell_quoted(report.engine.substr(std::string_view("cmd:").size())))};
+                      shell_quoted(report.engine.name.substr(std::string_view("cmd:").size())))};
 }
 
 // Why an answer is not the exact one: what decides, and whether rounding explains it.
@@ -417,7 +418,7 @@ std::string JudgeReport::line() const {
 }
 
 std::string JudgeReport::text() const {
-  std::string text = fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine, seed, table_of(*this));
+  std::string text = fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine.name, seed, table_of(*this));
   for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)
@@ -432,10 +433,10 @@ std::string JudgeReport::text() const {
 std::string JudgeReport::json() const {
   const compare::Tally t = total();
   std::vector<report::FreePathCurve> curves;
-  for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine));
+  for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {
-    page.add("format", 1, "kind", "judge", "title", engine + ", judged", "manifest",
-             report::manifest_of(seed, command), "engine", engine, "verdict", verdict(), "line", line());
+    page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
+             report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
     page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
              "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error, "missing", t.missing,
              "nonsense", nonsense(), "ns_per_query", json::finite(ns_per_query), "ns_of_reduction",

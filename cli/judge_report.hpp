@@ -7,11 +7,12 @@
 
 #include "cli/judge_paths.hpp"
 #include "judge/examination.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::cli {
 
 struct JudgeReport {
-  std::string engine;
+  compare::EngineInfo engine;
   std::uint64_t seed = 0;
   std::string command;  ///< the shell line that was typed
   std::vector<judge::Row> rows;

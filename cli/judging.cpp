@@ -141,7 +141,7 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
 
 // Who is examined, and on which terms.
 struct Terms {
-  std::string engine;
+  compare::EngineInfo engine;
   double ulps;
   compare::AnswererOptions answerer;
   const std::atomic<bool>& stop;
@@ -181,7 +181,7 @@ void recheck(std::vector<judge::Finding>& findings, const Terms& terms, double s
 // The simplest case of each.
 void simplify(std::vector<judge::Finding>& findings, Examination& examination, const Terms& terms,
               double seconds, double first_answer) {
-  if (!compare::is_command(terms.engine)) return find_simplest(findings, examination, seconds);
+  if (!terms.engine.is_command()) return find_simplest(findings, examination, seconds);
   find_simplest(findings, examination, seconds / 2);
   recheck(findings, terms, seconds / 2, first_answer);
 }
@@ -232,9 +232,10 @@ void race(JudgeReport& report, const std::vector<Place>& places, const Terms& te
   compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
   options.start_timeout = terms.answerer.start_timeout;
   options.enough = [&] { return terms.stop || until.left() == 0; };
-  const std::vector<compare::Tally> tallies = compare::measure(cases_to_race_in(chosen, report.seed, count),
-                                                               {}, {report.engine, "reduction"}, {}, options);
-  const bool is_cut = compare::is_command(report.engine) && options.enough();
+  const std::vector<compare::Tally> tallies =
+      compare::measure(cases_to_race_in(chosen, report.seed, count), {},
+                       {report.engine, compare::engine_named("reduction")}, {}, options);
+  const bool is_cut = report.engine.is_command() && options.enough();
   if (tallies[0].failed || is_cut) return;
   report.ns_per_query = tallies[0].ns_per_query;
   report.ns_of_reduction = tallies[1].ns_per_query;

@@ -14,7 +14,7 @@ namespace lorentz::cli {
 
 /// What is to be done.
 struct JudgeOrder {
-  std::string engine;
+  compare::EngineInfo engine;
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
@@ -31,8 +31,8 @@ struct JudgeOrder {
   double seconds() const;
 };
 
-/// All that can be said of the engine; when `stop` is set, what was found until then. Throws InputError for
-/// an unknown engine, FileError without the catalogue or the golden sets.
+/// All that can be said of the engine; when `stop` is set, what was found until then. Throws
+/// FileError without the catalogue or the golden sets.
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop);
 
 }  // namespace lorentz::cli

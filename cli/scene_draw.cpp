@@ -17,7 +17,7 @@
 #include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "pictures/scene_drawing.hpp"
 
 namespace lorentz::cli {
@@ -78,7 +78,7 @@ std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene)
         say("the picture shows the first {} flights", kMostFlights);
         break;
       }
-      if (!first_hit) first_hit = make_first_hit("certified", *scene);
+      if (!first_hit) first_hit = compare::engine_named("certified").first_hit(*scene);
       Flight flight{item.query, {}};
       first_hit(item.query, {}, flight.answer);
       if (flight.answer.outcome == Outcome::error) {

@@ -14,7 +14,7 @@
 #include "cli/table.hpp"
 #include "cli/trajectory_rival.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "compare/sampling.hpp"
 #include "flights/starts/starts.hpp"
 #include "pictures/free_path_plot.hpp"
@@ -64,7 +64,7 @@ struct Arithmetic {
 // One start in one arithmetic, as long as it is right.
 class Runner {
  public:
-  Runner(const Arithmetic& arithmetic, const std::string& engine, const RationalScene& scene,
+  Runner(const Arithmetic& arithmetic, const compare::EngineInfo& engine, const RationalScene& scene,
          const Start& start) {
     if (arithmetic.bits == 53 || arithmetic.bits == 106)
       rival_ = std::make_unique<Rival>(
@@ -91,7 +91,8 @@ class Runner {
 };
 
 struct Survival {
-  std::string scene, engine;
+  std::string scene;
+  compare::EngineInfo engine;
   std::optional<double> radius;
   std::uint64_t seed = 0, collisions = 0;
   std::vector<Arithmetic> arithmetics;
@@ -113,7 +114,7 @@ std::string Survival::table() const {
   text += fmt::format("{:<28} {:>8} {:>8} {:>8}\n", "arithmetic", "mean", "least", "most");
   for (const Arithmetic& one : arithmetics) {
     const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
-    text += fmt::format("{:<28} {:>8.2f} {:>8} {:>8}\n", one.name(engine), one.mean(), *least, *most);
+    text += fmt::format("{:<28} {:>8.2f} {:>8} {:>8}\n", one.name(engine.name), one.mean(), *least, *most);
   }
   const bool is_cut = std::any_of(arithmetics.begin(), arithmetics.end(),
                                   [&](const Arithmetic& one) { return one.share(collisions) > 0; });
@@ -125,7 +126,7 @@ std::string Survival::table() const {
 
 std::string Survival::json() const {
   return json::line_of([&](json::Members& object) {
-    object.add("scene", scene, "engine", engine, "seed", seed, "count", arithmetics[0].right.size(),
+    object.add("scene", scene, "engine", engine.name, "seed", seed, "count", arithmetics[0].right.size(),
                "arithmetics",
                json::objects(arithmetics, [](json::Members& one, const Arithmetic& arithmetic) {
                  one.add("bits", arithmetic.bits, "mean", json::Raw{fmt::format("{:.6g}", arithmetic.mean())},
@@ -155,7 +156,7 @@ std::string Survival::svg() const {
   plot.t_label = "collisions";
   plot.value_label = "share of starts";
   for (const Arithmetic& one : arithmetics) {
-    pictures::PlotSeries series{one.name(engine), {}};
+    pictures::PlotSeries series{one.name(engine.name), {}};
     for (std::uint64_t k = 1; k <= last_of(one); ++k)
       series.points.push_back({static_cast<double>(k), one.share(k), 0});
     plot.series.push_back(std::move(series));
@@ -169,13 +170,14 @@ std::string Survival::page_json() const {
   std::vector<report::SurvivalCurve> curves;
   std::string line = fmt::format("{} starts; right collisions, the mean:", starts);
   for (const Arithmetic& one : arithmetics) {
-    report::SurvivalCurve curve{scene, one.name(engine), radius, {}};
+    report::SurvivalCurve curve{scene, one.name(engine.name), radius, {}};
     for (std::uint64_t k = 1; k <= last_of(one); ++k) {
       const double share = one.share(k);
       const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(starts)));
       curve.points.push_back({k, share, report::share_of(right, starts)});
     }
-    line += fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(), one.name(engine));
+    line +=
+        fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(), one.name(engine.name));
     curves.push_back(std::move(curve));
   }
   return json::line_of([&](json::Members& page) {
@@ -223,15 +225,15 @@ std::vector<Arithmetic> arithmetics_of(const Options& options) {
 
 int act(const Options& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
-  compare::check_name(options.engine);
-  if (compare::is_command(options.engine))
+  const compare::EngineInfo engine = compare::engine_named(options.engine);
+  if (!engine.is_own())
     throw InputError(
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
   const Scene scene = load_scene(options.scene, options.radius);
   Survival survival;
   survival.scene = options.scene;
   survival.radius = options.radius;
-  survival.engine = options.engine;
+  survival.engine = engine;
   survival.seed = options.seed;
   survival.collisions = options.collisions;
   survival.arithmetics = arithmetics_of(options);

@@ -11,8 +11,8 @@
 #include "cli/scene_option.hpp"
 #include "cli/trajectory_rival.hpp"
 #include "cli/whole_file.hpp"
+#include "compare/engines.hpp"
 #include "compare/nearest_name.hpp"
-#include "compare/registry.hpp"
 #include "pictures/path_drawing.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -204,6 +204,7 @@ class Picture {
 
 struct Run {
   const Options& options;
+  std::optional<compare::EngineInfo> engine;
   const Journey& journey;
   Precision precision;
   Report& report;
@@ -213,7 +214,7 @@ struct Run {
 
 void follow(Run& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
-  if (run.options.engine) rival = std::make_unique<Rival>(*run.options.engine, run.precision, scene, start);
+  if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start);
   Picture* picture = nullptr;
   if (run.options.svg && !run.drawn) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
@@ -245,15 +246,16 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
 }
 
 int act(const Options& options) {
+  std::optional<compare::EngineInfo> engine;
+  if (options.engine) engine = compare::engine_named(*options.engine);
   const Journey journey = journey_of(options);
   const Precision precision = precision_of(options);
-  if (options.engine) compare::check_name(*options.engine);
   StartStream stream(options.starts, scene_of(options),
                      options.strict ? UnknownKeys::errors : UnknownKeys::warned);
   Output output;
   Report report(output, options);
   RequestedFile svg(options.svg);
-  Run run{options, journey, precision, report, {}};
+  Run run{options, std::move(engine), journey, precision, report, {}};
   const Interrupt interrupt;
   bool refused = false;
   for (StartItem item; !Interrupt::came() && stream.next(item);) {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cli/terminal.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::cli {
@@ -28,9 +28,8 @@ AskFirstHit ask_command(compare::Answerer& program) {
   };
 }
 
-AskFirstHit ask_engine(const std::string& engine, const Scene& scene) {
-  return [first_hit = compare::make_first_hit(engine, scene)](const Query& query, double max_time,
-                                                              Answer& answer) {
+AskFirstHit ask_engine(const compare::EngineInfo& engine, const Scene& scene) {
+  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
     first_hit(query, request_until(max_time), answer);
   };
 }
@@ -54,13 +53,14 @@ double bits_in_common(const Vec& a, const Vec& b) {
 
 }  // namespace
 
-Rival::Rival(const std::string& engine, Precision precision, const RationalScene& scene, const Start& start)
+Rival::Rival(const compare::EngineInfo& engine, Precision precision, const RationalScene& scene,
+             const Start& start)
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
-  if (compare::is_command(engine)) {
+  if (engine.is_command()) {
     compare::AnswererOptions options;
     options.listener = terminal();
-    command_ = compare::make_answerer(engine, options);
+    command_ = engine.answerer(options);
     command_->set_scene(scene_);
     ask = ask_command(*command_);
   } else {

@@ -9,6 +9,7 @@
 #include <lorentz/itinerary.hpp>
 #include <lorentz/trajectory.hpp>
 #include "compare/answerer.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::cli {
 
@@ -16,8 +17,9 @@ namespace lorentz::cli {
 /// in the binary64 scene nearest to the scene.
 class Rival {
  public:
-  /// Throws InputError for a name that is none, or a start that the engine's trajectory cannot have.
-  Rival(const std::string& engine, Precision precision, const RationalScene& scene, const Start& start);
+  /// Throws InputError for a start that the engine's trajectory cannot have.
+  Rival(const compare::EngineInfo& engine, Precision precision, const RationalScene& scene,
+        const Start& start);
 
   /// The next certified collision: the rival makes its own, and is compared, as long as it has not diverged.
   void meet(const oracle::CertifiedCollision& truth);

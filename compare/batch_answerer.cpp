@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::compare {
 namespace {

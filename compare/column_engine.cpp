@@ -16,13 +16,13 @@ std::uint8_t usual_stage(const Traits& traits) {
 
 }  // namespace
 
-ColumnEngine::ColumnEngine(const std::string& name, const Scene& scene, std::optional<double> max_time,
+ColumnEngine::ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time,
                            int jobs)
     : scene_(scene),
-      traits_(traits_of(name)),
+      traits_(engine.traits),
       max_time_(max_time),
       jobs_(jobs),
-      single_(make_first_hit(name, scene)) {
+      single_(engine.first_hit(scene)) {
   if (!traits_.in_bulk || Reduction::beyond(scene)) return;
   if (traits_.is_exact)
     certified_batch_.emplace(scene);

@@ -6,17 +6,17 @@
 #include <vector>
 
 #include <lorentz/certified_batch.hpp>
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "src/exchange/columns.hpp"
 
 namespace lorentz::compare {
 
 class ColumnEngine {
  public:
-  /// Not for commands. With `max_time` no row has a later limit. `jobs`: threads, of the batch engines.
-  ColumnEngine(const std::string& name, const Scene& scene, std::optional<double> max_time, int jobs);
+  /// Of this program. With `max_time` no row has a later limit. `jobs`: threads, of the batch engines.
+  ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time, int jobs);
 
-  /// The same answers as of an Answerer of that name; rows with a flaw are errors.
+  /// The same answers as of its answerer; rows with a flaw are errors.
   void answer(const QueryRows& queries, AnswerRows& answers);
 
   /// The same into the rows from `first` on, which must be there: of answers that are filled part by part.

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
 

@@ -94,7 +94,7 @@ std::vector<Answer> certified_answers(const CaseSet& set, const Listener& listen
                    [&](std::size_t a, std::size_t b) { return set.cases[a].scene < set.cases[b].scene; });
   std::vector<Answer> answers(order.size());
   std::size_t told = 0;
-  const auto certified = make_answerer("certified-batch", {});
+  const auto certified = engine_named("certified-batch").answerer({});
   certified->on_answer([&](Answer& answer) {
     answers[order[told++]] = std::move(answer);
     report(listener, kExactAnswers, told, answers.size());
@@ -192,15 +192,14 @@ struct Entrant {
   std::unique_ptr<Answerer> program;  // or this, of who answers in bulk
   std::vector<Round> rounds;
 
-  Entrant(const CaseSet& set, const std::string& name, std::size_t most, const MeasureOptions& options)
+  Entrant(const CaseSet& set, const EngineInfo& engine, std::size_t most, const MeasureOptions& options)
       : count(std::min(most, set.cases.size())) {
-    tally.name = name;
-    if (is_command(name) || traits_of(name).in_bulk)
-      program = make_answerer(
-          name,
+    tally.name = engine.name;
+    if (!engine.is_own() || engine.traits.in_bulk)
+      program = engine.answerer(
           {{}, options.timeout, options.listener, options.strict, 1, options.start_timeout, options.enough});
     else
-      for (const Scene& scene : set.scenes) first_hit.push_back(make_first_hit(name, scene));
+      for (const Scene& scene : set.scenes) first_hit.push_back(engine.first_hit(scene));
   }
 
   template <class Look>
@@ -277,11 +276,11 @@ void run_rounds(const CaseSet& set, std::vector<Entrant>& entrants, const Examin
 }  // namespace
 
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           const std::vector<EngineInfo>& engines, const OnWrong& on_wrong,
                            const MeasureOptions& options) {
   std::vector<Entrant> entrants;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    entrants.emplace_back(set, names[i], options.counts.empty() ? set.cases.size() : options.counts.at(i),
+  for (std::size_t i = 0; i < engines.size(); ++i)
+    entrants.emplace_back(set, engines[i], options.counts.empty() ? set.cases.size() : options.counts.at(i),
                           options);
   run_rounds(set, entrants, Examination(set, exact, on_wrong, options), options);
   std::vector<Tally> tallies;

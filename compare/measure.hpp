@@ -10,7 +10,7 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/verdict.hpp>
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "compare/truth.hpp"
 
 namespace lorentz::compare {
@@ -83,11 +83,11 @@ struct MeasureOptions {
 std::vector<Answer> exact_answers(const CaseSet& set, const Listener& listener = {},
                                   Truth truth = Truth::oracle);
 
-/// Runs the named answerers over the cases, in alternating rounds, timing them alone on one thread. `exact`
+/// Runs the engines over the cases, in alternating rounds, timing them alone on one thread. `exact`
 /// is empty (nothing is judged) or as many answers as there are cases. Another program is timed by the wall,
 /// pipes and all, from the first query to the last answer; where it broke it is not run again.
 std::vector<Tally> measure(const CaseSet& set, const std::vector<Answer>& exact,
-                           const std::vector<std::string>& names, const OnWrong& on_wrong,
+                           const std::vector<EngineInfo>& engines, const OnWrong& on_wrong,
                            const MeasureOptions& options = {});
 
 }  // namespace lorentz::compare

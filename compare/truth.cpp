@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::compare {
 
-Truth truth_named(const std::string& name, const std::vector<std::string>& judged) {
+Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged) {
   if (name == "oracle") return Truth::oracle;
   if (name != "certified")
     throw InputError(fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(name)));
-  for (const std::string& engine : judged)
-    if (traits_of(engine).uses_reduction)
-      throw InputError(fmt::format(
-          "--judge: certified rests on reduction, and is no judge of the engine {}; use oracle", engine));
+  for (const EngineInfo& engine : judged)
+    if (engine.traits.uses_reduction)
+      throw InputError(
+          fmt::format("--judge: certified rests on reduction, and is no judge of the engine {}; use oracle",
+                      engine.name));
   return Truth::certified;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/engines.hpp"
+
 namespace lorentz::compare {
 
 enum class Truth {
@@ -16,6 +18,6 @@ inline constexpr const char* kJudgeHelp =
 
 /// What an option `--judge` calls it. Throws InputError for another name, and where one of the judged rests
 /// on what would judge it.
-Truth truth_named(const std::string& name, const std::vector<std::string>& judged);
+Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged);
 
 }  // namespace lorentz::compare

@@ -15,13 +15,15 @@ constexpr std::uint64_t kTogether = 4096;
 // ---- engines by columns
 
 ColumnFlyer::ColumnFlyer(const std::string& engine, const Scene& scene)
-    : single_(compare::make_first_hit(engine, scene)) {
-  if (engine == "batch" || engine == "reduction") {
+    : single_(compare::engine_named(engine).first_hit(scene)) {
+  if (!flies_in_columns(engine)) return;
+  if (compare::own_engine(engine)->traits.is_exact) {
+    certified_.emplace(scene);
+  } else {
     if (const auto why = Reduction::beyond(scene))
       throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine, *why));
     batch_.emplace(scene);
   }
-  if (engine == "certified-batch" || engine == "certified") certified_.emplace(scene);
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <lorentz/certified_batch.hpp>
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "flights/plan.hpp"
 #include "flights/tally.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include "compare/engines.hpp"
 #include "flights/account.hpp"
 #include "src/problem/scene_geometry.hpp"
 
@@ -32,7 +33,8 @@ int unit_exponent(const Scene& scene) {
 }
 
 bool flies_in_columns(const std::string& engine) {
-  return engine == "batch" || engine == "reduction" || engine == "certified-batch" || engine == "certified";
+  const compare::EngineInfo* own = compare::own_engine(engine);
+  return own && own->traits.uses_reduction;
 }
 
 }  // namespace lorentz::flights

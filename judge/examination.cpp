@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -34,11 +34,11 @@ constexpr std::size_t kCompared = 500;
 
 }  // namespace
 
-Examination::Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
+Examination::Examination(const compare::EngineInfo& engine, compare::AnswererOptions options, double ulps,
                          const std::atomic<bool>& stop)
-    : ulps_(ulps), stop_(stop), is_command_(compare::is_command(engine)) {
+    : ulps_(ulps), stop_(stop), is_command_(engine.is_command()) {
   options.enough = [this] { return is_enough(); };
-  answerer_ = compare::make_answerer(engine, options);
+  answerer_ = engine.answerer(options);
   answerer_->on_answer([this](Answer& answer) {
     answers_.push_back({std::move(answer), answerer_->origin()});
   });

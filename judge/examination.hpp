@@ -12,6 +12,7 @@
 #include "compare/measure.hpp"
 #include "judge/calls.hpp"
 #include "judge/findings.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::judge {
 
@@ -37,8 +38,8 @@ struct Row {
 
 class Examination {
  public:
-  /// Throws InputError for an unknown engine. `stop`, set by somebody else, ends everything soon.
-  Examination(const std::string& engine, compare::AnswererOptions options, double ulps,
+  /// `stop`, set by somebody else, ends everything soon.
+  Examination(const compare::EngineInfo& engine, compare::AnswererOptions options, double ulps,
               const std::atomic<bool>& stop);
   Examination(const Examination&) = delete;
   Examination& operator=(const Examination&) = delete;

@@ -12,8 +12,8 @@ namespace {
 
 // Rows that are flown together: so few that they stay in the cache, so many that threads have enough; and of
 // engines that take their time with each row, so few that Ctrl-C does not wait.
-std::size_t rows_together(const std::string& engine, int threads) {
-  return compare::traits_of(engine).in_bulk ? std::size_t{4096} * static_cast<std::size_t>(threads) : 16;
+std::size_t rows_together(const compare::EngineInfo& engine, int threads) {
+  return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(threads) : 16;
 }
 
 std::string shape_text(const py::array& array) {
@@ -54,13 +54,13 @@ void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
     copy_rows<3>(array, first, count, columns.data());
 }
 
-// Of a column engine of that name.
-const std::string& checked(const std::string& name, int threads) {
-  check_own_engine(name);
+// A column engine.
+compare::EngineInfo checked(const std::string& name, int threads) {
+  compare::EngineInfo engine = own_engine(name);
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
-  if (threads > 1 && !compare::traits_of(name).in_bulk)
+  if (threads > 1 && !engine.traits.in_bulk)
     throw InputError("threads: only the engines batch and certified-batch use more than one");
-  return name;
+  return engine;
 }
 
 void refuse_first(const AnswerRows& answers, std::size_t begin) {
@@ -71,10 +71,11 @@ void refuse_first(const AnswerRows& answers, std::size_t begin) {
 
 }  // namespace
 
-void check_own_engine(const std::string& name) {
-  compare::check_name(name);
-  if (compare::is_command(name) || compare::is_guest(name))
+compare::EngineInfo own_engine(const std::string& name) {
+  compare::EngineInfo engine = compare::engine_named(name);
+  if (!engine.is_own())
     throw InputError("engine: arrays are for engines of this program; judge() takes others");
+  return engine;
 }
 
 QueryArrays QueryArrays::of(Numbers x, Numbers v, std::optional<Numbers> max_time, const py::object& from) {

@@ -12,7 +12,7 @@
 namespace lorentz::python {
 
 /// Throws InputError unless it is the name of an engine of this program.
-void check_own_engine(const std::string& name);
+compare::EngineInfo own_engine(const std::string& name);
 
 /// Columns of queries where NumPy has them, of any layout.
 struct QueryArrays {

@@ -39,7 +39,7 @@ void fly(const flights::Plan& plan, unsigned threads, flights::Account& account)
 // What `lorentz flights --json` says, and its counts: bins, and paths beyond each edge.
 py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::string& start, std::uint64_t seed,
                      const std::string& engine, unsigned threads) {
-  check_own_engine(engine);
+  own_engine(engine);
   if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
   cli::FlightsReport report;

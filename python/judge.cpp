@@ -144,7 +144,7 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
                 std::optional<double> time, std::uint64_t seed, unsigned threads, double ulps, bool times,
                 const std::optional<std::string>& html) {
   cli::JudgeOrder order;
-  order.engine = engine, order.command = command, order.quick = quick, order.time = time;
+  order.command = command, order.quick = quick, order.time = time;
   order.seed = seed, order.jobs = threads, order.ulps = ulps, order.times = times;
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
@@ -152,10 +152,11 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
   if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
   Run run;
   py::function ask;
-  std::optional<compare::GuestEngine> guest;  // until the report is written, which knows it for one
-  if (!function.is_none()) {
+  if (function.is_none()) {
+    order.engine = compare::engine_named(engine);
+  } else {
     ask = function.cast<py::function>();
-    guest.emplace(order.engine, [&](const compare::AnswererOptions&) {
+    order.engine = compare::guest_engine(engine, [&](const compare::AnswererOptions&) {
       return std::make_unique<FunctionAnswerer>(ask, run);
     });
   }

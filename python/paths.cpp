@@ -5,7 +5,7 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "flights/sample/free_starts.hpp"
 #include "python/engine.hpp"
 #include "python/lines.hpp"
@@ -79,17 +79,16 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
   }
 }
 
-AskFirstHit asked(const std::string& engine, const Scene& scene) {
-  return [first_hit = compare::make_first_hit(engine, scene)](const Query& query, double max_time,
-                                                              Answer& answer) {
+AskFirstHit asked(const compare::EngineInfo& engine, const Scene& scene) {
+  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
     oracle::Request request;
     if (max_time < kForEver) request.max_time = max_time;
     first_hit(query, request, answer);
   };
 }
 
-void follow_one_by_one(const std::string& engine, const Scene& scene, const std::vector<Query>& starts,
-                       double until, Precision precision, Paths& paths) {
+void follow_one_by_one(const compare::EngineInfo& engine, const Scene& scene,
+                       const std::vector<Query>& starts, double until, Precision precision, Paths& paths) {
   const AskFirstHit ask = asked(engine, scene);
   SignalWatch watch;
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -105,15 +104,15 @@ void follow_one_by_one(const std::string& engine, const Scene& scene, const std:
 
 std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, std::size_t collisions,
                               double until, const std::string& engine, bool double_double) {
-  check_own_engine(engine);
+  const compare::EngineInfo info = own_engine(engine);
   const std::vector<Query> starts = starts_of(arrays, scene.scene());
   auto paths = std::make_shared<Paths>(starts.size(), collisions, scene.dimension());
   const Precision precision = double_double ? Precision::double_double : Precision::binary64;
   const py::gil_scoped_release release;
-  if (engine == "batch")
+  if (info.traits.in_bulk && !info.traits.is_exact)
     follow_together(scene.scene(), starts, until, precision, *paths);
   else
-    follow_one_by_one(engine, scene.scene(), starts, until, precision, *paths);
+    follow_one_by_one(info, scene.scene(), starts, until, precision, *paths);
   return paths;
 }
 

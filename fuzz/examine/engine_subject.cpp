@@ -10,7 +10,7 @@
 #include <lorentz/reduction.hpp>
 #include <lorentz/walk.hpp>
 #include "compare/answerer.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "fuzz/examine/batch_subject.hpp"
 #include "fuzz/examine/engine_subject.hpp"
 #include "src/engines/published/published.hpp"
@@ -26,8 +26,8 @@ namespace {
 // asked.
 class AnswererSubject final : public Subject {
  public:
-  AnswererSubject(const std::string& engine, const AnswererOptions& options)
-      : answerer_(make_answerer(engine, options)), is_command_(is_command(engine)) {
+  AnswererSubject(const EngineInfo& engine, const AnswererOptions& options)
+      : answerer_(engine.answerer(options)), is_command_(engine.is_command()) {
     answerer_->on_answer([this](Answer& answer) {
       if (answerer_->origin() == Answerer::Origin::not_asked) not_asked_.push_back(replies_.size());
       replies_.push_back({answer});
@@ -223,10 +223,9 @@ std::unique_ptr<Subject> make_reduction_subject(FlyPrepared prepared) {
   return std::make_unique<ReductionSubject>(prepared ? std::move(prepared) : fly_prepared);
 }
 
-MakeSubject subject_maker(const std::string& engine, const AnswererOptions& options) {
-  check_name(engine);
+MakeSubject subject_maker(const EngineInfo& engine, const AnswererOptions& options) {
   for (const auto& subject : kSubjects)
-    if (subject.engine == engine) return subject.make;
+    if (subject.engine == engine.name) return subject.make;
   return [engine, options] { return std::make_unique<AnswererSubject>(engine, options); };
 }
 

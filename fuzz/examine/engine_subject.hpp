@@ -7,12 +7,12 @@
 #include <lorentz/reduction.hpp>
 #include "compare/answerer.hpp"
 #include "fuzz/examine/subject.hpp"
+#include "compare/engines.hpp"
 
 namespace lorentz::fuzz {
 
-/// Makes what a campaign examines: any engine by its name, another program among them. Throws InputError for
-/// an unknown name.
-MakeSubject subject_maker(const std::string& engine, const compare::AnswererOptions& options = {});
+/// Makes what a campaign examines.
+MakeSubject subject_maker(const compare::EngineInfo& engine, const compare::AnswererOptions& options = {});
 
 /// `reduction` flies both ways: at once, and along a direction prepared for many starts (or as it is told
 /// here). The two must say the same, or the reply is an error.

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <csignal>
 
+#include "compare/engines.hpp"
 #include "compare/process.hpp"
-#include "compare/registry.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -197,7 +197,7 @@ TEST_CASE("A program that closes its input is waited for, but nothing more is wr
   scene.lattices[0].atoms.resize(5000, scene.lattices[0].atoms[0]);
   lorentz::compare::AnswererOptions options;
   options.timeout = 0.6;
-  const auto program = lorentz::compare::make_answerer("cmd:exec <&-; exec sleep 1000", options);
+  const auto program = lorentz::compare::engine_named("cmd:exec <&-; exec sleep 1000").answerer(options);
   const double before = processor_seconds();
   const Answers answers = asked(*program, scene, 1);
   REQUIRE(answers.size() == 1);
@@ -220,7 +220,7 @@ done
 [ -n "$held" ] && echo "$held"
 )");
   const auto program =
-      lorentz::compare::make_answerer("cmd:exec sh " + script + " " + folder.file("starts"), {});
+      lorentz::compare::engine_named("cmd:exec sh " + script + " " + folder.file("starts")).answerer({});
   const auto ask = [&] { CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 3).size() == 3); };
   ask(), ask();  // it is told the end after a while, and twice is enough to know it
   const auto start = std::chrono::steady_clock::now();
@@ -244,8 +244,9 @@ done
 )");
   lorentz::compare::AnswererOptions options;
   options.enough = [] { return false; };  // so that the clock is looked at often
-  const auto program = lorentz::compare::make_answerer(
-      "cmd:exec sh " + script + " " + folder.file("starts") + " " + folder.file("slowly"), options);
+  const auto program = lorentz::compare::engine_named("cmd:exec sh " + script + " " + folder.file("starts") +
+                                                      " " + folder.file("slowly"))
+                           .answerer(options);
   const auto starts_after = [&](int queries) {
     for (int i = 0; i < queries; ++i) CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 1).size() == 1);
     return lines(folder.read("starts"));

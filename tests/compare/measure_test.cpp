@@ -104,7 +104,8 @@ TEST_CASE("Of each name as many cases are asked as it is to be asked, in each ro
   options.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
     if (done == total) asked[name] += done;
   };
-  const auto tallies = compare::measure(set, exact, {"oracle", "reduction", "batch", "walk"}, {}, options);
+  const auto tallies = compare::measure(
+      set, exact, compare::engines_named({"oracle", "reduction", "batch", "walk"}), {}, options);
   REQUIRE(tallies.size() == 4);
   const std::size_t counts[] = {0, 17, 30, 40};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -115,7 +116,7 @@ TEST_CASE("Of each name as many cases are asked as it is to be asked, in each ro
       CHECK((counts[i] > 0 ? ns > 0 : ns == 0));
   }
   options.rounds = 0;
-  for (const auto& tally :
-       compare::measure(set, exact, {"oracle", "batch", "walk", "published"}, {}, options))
+  for (const auto& tally : compare::measure(
+           set, exact, compare::engines_named({"oracle", "batch", "walk", "published"}), {}, options))
     CHECK((tally.queries == 0 && tally.ns_per_query == 0));
 }

@@ -51,7 +51,8 @@ TEST_CASE("What grazes at r = 1e-6 is beyond 24 bits and 53, and not beyond 106"
   options.rounds = 1;
   const std::vector<Tally> tallies = measure(
       set, exact_answers(set),
-      {"published-float", "published", "published-dd", "published-128", "published-256"}, {}, options);
+      engines_named({"published-float", "published", "published-dd", "published-128", "published-256"}), {},
+      options);
   CHECK(tallies[0].wrong > 50);
   CHECK(tallies[1].wrong == 0);
   CHECK(tallies[1].ill_posed > 8);

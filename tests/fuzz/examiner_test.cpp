@@ -115,7 +115,7 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
   }
   // The limit goes both ways, too.
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
-    CHECK(said(*fuzz::subject_maker(engine)(), scene, queries, 0.125) == "ll");
+    CHECK(said(*fuzz::subject_maker(compare::engine_named(engine))(), scene, queries, 0.125) == "ll");
 }
 
 TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
@@ -290,7 +290,7 @@ TEST_CASE("What a subject said of one scene it does not say of the next", "[fuzz
   REQUIRE(Reduction::beyond(beyond));
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
     INFO(engine);
-    const auto subject = fuzz::subject_maker(engine)();
+    const auto subject = fuzz::subject_maker(compare::engine_named(engine))();
     const bool is_exact = std::string_view(engine).starts_with("certified");
     const std::string here = outcomes(*subject, unit_scene(2, 0.25));
     CHECK(here.substr(0, 1) == "h");

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "compare/sampling.hpp"
 #include "judge/repetition.hpp"
 #include "tests/support/command_line.hpp"
@@ -62,7 +62,7 @@ class Flagging final : public compare::Answerer {
 TEST_CASE("A program is given up for a scene, not for the run, and the row says why",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination(tolerant("dies-in 3"), {}, 4, stop);
+  Examination examination(compare::engine_named(tolerant("dies-in 3")), {}, 4, stop);
   examination.run({"plane", ""}, questions({2}, 20), kForEver);
   examination.run({"space", ""}, questions({3}, 20), kForEver);
   examination.run({"plane again", ""}, questions({2}, 20), kForEver);
@@ -91,7 +91,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
 
 TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination("cmd:exit 3", {}, 4, stop);
+  Examination examination(compare::engine_named("cmd:exit 3"), {}, 4, stop);
   examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
   examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
   examination.finish();
@@ -124,7 +124,8 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
 TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination whole("oracle", {}, 4, stop), none("oracle", {}, 4, stop);
+  Examination whole(compare::engine_named("oracle"), {}, 4, stop),
+      none(compare::engine_named("oracle"), {}, 4, stop);
   whole.run({"row", ""}, questions({2}, 510), kForEver);
   long calls = 0;
   for (const auto& [decade, call] : whole.calls().by_decade())
@@ -132,7 +133,7 @@ TEST_CASE("Of each row the first 500 questions are compared, and a row without a
   CHECK(whole.rows()[0].tally.agree == 510);
   CHECK(calls == 500);
   none.run({"row", ""}, questions({2}, 0), kForEver);
-  Examination more("oracle", {}, 4, stop);
+  Examination more(compare::engine_named("oracle"), {}, 4, stop);
   more.run({"row", ""}, questions({2}, 0), kForEver);
   more.take_over(none);
   CHECK(more.rows()[0].tally.ns_per_query == 0);
@@ -141,8 +142,9 @@ TEST_CASE("Of each row the first 500 questions are compared, and a row without a
 TEST_CASE("The first question to another program is at an empty place", "[judge][examination]") {
   const Folder folder;
   const std::atomic<bool> stop = false;
-  Examination examination("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE, {}, 4,
-                          stop);
+  Examination examination(
+      compare::engine_named("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE), {}, 4,
+      stop);
   examination.warm_up();
   examination.finish();
   CHECK(contains(folder.read("asked"), R"("x":[0.5,0],"v":[1,0])"));
@@ -150,9 +152,9 @@ TEST_CASE("The first question to another program is at an empty place", "[judge]
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
   std::atomic<bool> stop = false;
-  const compare::GuestEngine guest(
+  const compare::EngineInfo guest = compare::guest_engine(
       "flagging", [&](const compare::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
-  Examination examination("flagging", {}, 4, stop);
+  Examination examination(guest, {}, 4, stop);
   examination.run({"asked", ""}, questions({2}, 1000), kForEver);
   examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
   const std::size_t asked = examination.rows()[0].tally.queries;
@@ -164,7 +166,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
   std::atomic<bool> over = false;
   compare::AnswererOptions options;
   options.timeout = kForEver;
-  Examination silent(tolerant("hangs 1"), options, 4, over);
+  Examination silent(compare::engine_named(tolerant("hangs 1")), options, 4, over);
   std::thread clock([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     over = true;
@@ -183,7 +185,7 @@ TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[ju
   const auto recheck_of = [&](const std::string& fault, const std::atomic<bool>& over) {
     recheck(
         finding,
-        [&] { return std::make_unique<Examination>(tolerant(fault), compare::AnswererOptions{}, 4, over); },
+        [&] { return std::make_unique<Examination>(compare::engine_named(tolerant(fault)), compare::AnswererOptions{}, 4, over); },
         kForEver);
     return finding.recheck;
   };

@@ -11,7 +11,7 @@
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/target.hpp"
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 #include "compare/sampling.hpp"
 #include "flights/sample/free_starts.hpp"
 #include "fuzz/examine/shrink.hpp"
@@ -70,8 +70,9 @@ class Faulty final : public compare::Answerer {
   std::optional<oracle::Oracle> oracle_;
 };
 
-compare::GuestEngine guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
-  return {name, [=](const compare::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); }};
+compare::EngineInfo guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
+  return compare::guest_engine(
+      name, [=](const compare::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); });
 }
 
 // Leaves the disc it comes from at once in 2D, and sees nothing in 3D in the direction -x.
@@ -146,7 +147,7 @@ TEST_CASE("Two threads of a judge's campaign ask different questions, and all of
   Log asked;
   const auto engine = guest("two-threads", two_faults, &asked);
   cli::JudgeOrder order;
-  order.engine = "two-threads";
+  order.engine = engine;
   order.quick = true;
   order.time = 1e6;  // it ends when both have asked enough, however long that takes
   order.jobs = 2;
@@ -181,7 +182,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
   const auto examined = [&](const std::vector<std::uint64_t>& seeds) {
     std::unique_ptr<Examination> first;
     for (const std::uint64_t seed : seeds) {
-      auto one = std::make_unique<Examination>("two-faults", compare::AnswererOptions{}, 4, stop);
+      auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
       one->run({"row", ""}, drawn_in({2, 3}, seed, 30), kForEver);
       if (first)
         first->take_over(*one);
@@ -191,7 +192,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     return first;
   };
   // One that asks the same in one row.
-  Examination whole("two-faults", {}, 4, stop);
+  Examination whole(engine, {}, 4, stop);
   const std::vector<std::uint64_t> seeds{1, 2, 3};
   std::vector<Source> sources;
   for (const std::uint64_t seed : seeds) sources.push_back(drawn_in({2, 3}, seed, 30));
@@ -264,13 +265,13 @@ std::string text_of(const fuzz::Scope& scope) {
 
 TEST_CASE("What another program failed in, and what was nonsense, is added up, too", "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  const auto examined = [&](const std::string& engine, const Source& source) {
+  const auto examined = [&](const compare::EngineInfo& engine, const Source& source) {
     auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
     one->run({"row", ""}, source, kForEver);
     one->finish();
     return one;
   };
-  const std::string fragile = "cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3";
+  const auto fragile = compare::engine_named("cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3");
   const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
              also = examined(fragile, drawn_in({3}, 2, 20));
   CHECK_FALSE(fine->failed());
@@ -282,11 +283,11 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   CHECK(fine->rows()[0].scenes_given_up == 2);
   CHECK(fine->findings().size() == 1);
   CHECK(fine->findings()[0].count == fine->rows()[0].tally.missing);
-  const compare::GuestEngine gullible(
+  const compare::EngineInfo gullible = compare::guest_engine(
       "gullible", [](const compare::AnswererOptions&) { return std::make_unique<Gullible>(); });
   const auto nonsense = [&](std::size_t number) {
     const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
-    return examined("gullible", [=, left = number]() mutable -> std::optional<Question> {
+    return examined(gullible, [=, left = number]() mutable -> std::optional<Question> {
       if (left == 0) return std::nullopt;
       --left;
       return Question{setting, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
@@ -341,7 +342,7 @@ TEST_CASE("A grazing fault says once that it is about grazing", "[judge][examina
 TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge][repetition]") {
   const auto engine = guest("two-faults", two_faults);
   const std::atomic<bool> stop = false;
-  Examination examination("two-faults", {}, 4, stop);
+  Examination examination(engine, {}, 4, stop);
   const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
   const auto setting = std::make_shared<Setting>(unit_scene(3, 0.25));
   const Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
@@ -405,8 +406,8 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
     answer = Answer::inside({0, 0, {7, 7, 0}});
   });
   const std::atomic<bool> stop = false;
-  const auto simplest_of = [&](const std::string& name, const Query& query) {
-    Examination examination(name, {}, 4, stop);
+  const auto simplest_of = [&](const compare::EngineInfo& one, const Query& query) {
+    Examination examination(one, {}, 4, stop);
     const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
     const auto example =
         examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
@@ -417,10 +418,7 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
           fuzz::complexity(setting->scene(), query));
     return kept;
   };
-  CHECK(simplest_of("two-sayings", {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome ==
-        Outcome::hit);
-  CHECK(simplest_of("inside", {{0.123456789, 0.5, 0}, {1, 0, 0}, {}}).question.exact.outcome ==
-        Outcome::never);
-  CHECK(simplest_of("inside", {{0.5123456, 0.01, 0}, {1, 0.001, 0}, {}}).question.exact.outcome ==
-        Outcome::hit);
+  CHECK(simplest_of(engine, {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome == Outcome::hit);
+  CHECK(simplest_of(liar, {{0.123456789, 0.5, 0}, {1, 0, 0}, {}}).question.exact.outcome == Outcome::never);
+  CHECK(simplest_of(liar, {{0.5123456, 0.01, 0}, {1, 0.001, 0}, {}}).question.exact.outcome == Outcome::hit);
 }

@@ -25,7 +25,7 @@ void turn(judge::Row& row, std::size_t compare::Tally::*verdict, std::size_t num
 
 JudgeReport report_of(std::vector<judge::Row> rows) {
   JudgeReport report;
-  report.engine = "cmd:it";
+  report.engine = compare::engine_named("cmd:it");
   report.rows = std::move(rows);
   return report;
 }

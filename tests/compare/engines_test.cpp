@@ -1,5 +1,5 @@
 // The table of answerers: it names every engine, and says what each is like.
-#include "compare/registry.hpp"
+#include "compare/engines.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -15,8 +15,8 @@ namespace {
 
 std::vector<std::string> names_with(bool Traits::*trait) {
   std::vector<std::string> names;
-  for (const std::string& name : answerer_names())
-    if (traits_of(name).*trait) names.push_back(name);
+  for (const EngineInfo& engine : own_engines())
+    if (engine.traits.*trait) names.push_back(engine.name);
   return names;
 }
 
@@ -24,35 +24,35 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("The engines come first among the answerers, in their order", "[compare][registry]") {
-  const Names all = answerer_names(), engines = engine_names();
+TEST_CASE("The engines come first among the answerers, in their order", "[compare][engines]") {
+  const Names all = own_names(), engines = engine_names();
   REQUIRE(all.size() >= engines.size());
   CHECK(Names(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(engines.size())) == engines);
 }
 
 TEST_CASE("Answerers are told apart by their traits, of another program nothing is known",
-          "[compare][registry]") {
+          "[compare][engines]") {
   CHECK(names_with(&Traits::is_exact) == Names{"certified", "certified-batch", "oracle", "walk"});
   CHECK(names_with(&Traits::knows_digits) == Names{"oracle"});
   CHECK(names_with(&Traits::leaves_undecided) == Names{"reduction", "batch"});
   CHECK(names_with(&Traits::uses_reduction) == Names{"reduction", "certified", "batch", "certified-batch"});
   CHECK(names_with(&Traits::in_bulk) == Names{"batch", "certified-batch"});
-  const Traits other = traits_of("cmd:./reduction");
+  const Traits other = engine_named("cmd:./reduction").traits;
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }
 
-TEST_CASE("Whoever is in the table answers in a scene", "[compare][registry]") {
+TEST_CASE("Whoever is in the table answers in a scene", "[compare][engines]") {
   const Scene scene = unit_scene(2, 0.25);
-  for (const std::string& name : answerer_names()) {
-    INFO(name);
+  for (const EngineInfo& engine : own_engines()) {
+    INFO(engine.name);
     Answer answer;
-    make_first_hit(name, scene)({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, answer);
+    engine.first_hit(scene)({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, answer);
     CHECK(answer.outcome == Outcome::hit);
     CHECK(answer.obstacle.cell == Cell{1, 1, 0});
   }
 }
 
-TEST_CASE("Names come in lists and alone, and one that is empty is one", "[compare][registry]") {
+TEST_CASE("Names come in lists and alone, and one that is empty is one", "[compare][engines]") {
   CHECK(names_in({"oracle", "walk,batch"}) == Names{"oracle", "walk", "batch"});
   CHECK(names_in({"oracle,", "", ",walk"}) == Names{"oracle", "", "", "", "walk"});
   CHECK(names_in({"cmd:a,b", "oracle,cmd:a,b,"}) == Names{"cmd:a,b", "oracle", "cmd:a,b,"});
@@ -75,7 +75,7 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
   for (const char* name : {"certified", "certified-batch", "oracle"}) {
     INFO(name);
     AnswerRows answers;
-    ColumnEngine(name, scene, std::nullopt, 1).answer(rows, answers);
+    ColumnEngine(engine_named(name), scene, std::nullopt, 1).answer(rows, answers);
     for (std::size_t i = 0; i < 5; ++i) {
       INFO(i);
       CHECK(answers.outcome[i] == (i % 2 == 0 ? Outcome::inside : Outcome::hit));
@@ -85,14 +85,14 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
   // A batch does not fly what leaves such a one: that row is asked alone, and has no stage.
   rows.x[0].assign(5, 0.5), rows.x[1].assign(5, 0);
   AnswerRows answers;
-  ColumnEngine("batch", unit_scene(2, 0.25), std::nullopt, 1).answer(rows, answers);
+  ColumnEngine(engine_named("batch"), unit_scene(2, 0.25), std::nullopt, 1).answer(rows, answers);
   for (std::size_t i = 0; i < 5; ++i) {
     CHECK((answers.stage[i] == AnswerRows::kNoStage) == (i % 2 == 1));
     CHECK(answers.time[i] == 0.25);
   }
 }
 
-TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compare][registry]") {
+TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compare][engines]") {
   InstructionCounter counter;
   CHECK_FALSE(counter.count());
   counter.resume();
@@ -105,13 +105,14 @@ TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compa
   CHECK(counter.count() == first);  // it pauses
 }
 
-TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compare][registry]") {
+TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compare][engines]") {
   const std::vector<Scene> scenes{unit_scene(2, 0.25), unit_scene(3, 0.3), unit_scene(2, 0.1)};
   for (const bool detail : {false, true})
     for (const auto& [name, alone] : {std::pair{"batch", "reduction"}, {"certified-batch", "certified"}}) {
       AnswererOptions options;
       options.request.detail = detail;
-      const auto together = make_answerer(name, options), single = make_answerer(alone, options);
+      const auto together = engine_named(name).answerer(options),
+                 single = engine_named(alone).answerer(options);
       std::vector<std::string> lines[2];
       int dimension = 2;
       together->on_answer(
@@ -131,7 +132,7 @@ TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compa
       CHECK(lines[0] == lines[1]);
       CHECK(lines[0].size() == 15);
     }
-  const auto together = make_answerer("batch", {});
+  const auto together = engine_named("batch").answerer({});
   std::size_t answered = 0;
   together->on_answer([&](Answer&) { ++answered; });
   together->set_scene(scenes[0]);
