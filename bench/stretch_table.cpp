@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/measure.hpp"
+#include "compare/examine.hpp"
+#include "compare/race.hpp"
 #include "compare/sampling.hpp"
 #include "src/engines/published/published.hpp"
 
@@ -106,22 +107,27 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
   const std::string head =
       fmt::format("| {} | {} | {:.2f} |", family.name, relative_radius, stretch_of(family));
   if (const auto why = Published::beyond(scene)) return head + " unsupported | | | | | | |\n";
-  compare::CaseSet set;
-  set.scenes.push_back(scene);
-  for (const Query& query : compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, count))
-    set.cases.push_back({std::to_string(set.cases.size()), 0, query});
-  const auto tallies = compare::measure(set, compare::exact_answers(set), {"published", "reduction"}, {});
+  const auto place = std::make_shared<compare::Place>(scene);
+  std::vector<compare::Question> questions = compare::questions_of(
+      place, compare::draw_queries(scene, place->oracle(), compare::kDefaultSeed, count));
+  compare::answer_exactly(questions, compare::Truth::oracle);
+  const auto engines = compare::engines_named({"published", "reduction"});
+  std::size_t wrong = 0;
+  compare::examine(
+      compare::all_of(questions), *engines[0].answerer({}), oracle::kDefaultUlps,
+      [&](const compare::Judged& judged) { wrong += judged.judgement.verdict == oracle::Verdict::wrong; });
+  const std::vector<compare::Speed> speeds = compare::race(questions, engines);
   Proposals proposals;
   const Published published(scene);
   std::size_t hits = 0;
-  for (const compare::Case& one : set.cases)
+  for (const compare::Question& one : questions)
     hits +=
         published.first_hit_counted(one.query, std::numeric_limits<double>::infinity(), proposals).outcome ==
         Outcome::hit;
   const double per_hit = 1 / static_cast<double>(std::max<std::size_t>(hits, 1));
-  const compare::Tally &known = tallies[0], &ours = tallies[1];
+  const compare::Speed &known = speeds[0], &ours = speeds[1];
   if (plain == 0) plain = known.ns_median;
-  const auto time = [](const compare::Tally& t) {
+  const auto time = [](const compare::Speed& t) {
     return fmt::format("{:.0f} ({:.0f} to {:.0f})", t.ns_median, t.ns_low, t.ns_high);
   };
   const std::string tricylinder =
@@ -129,7 +135,7 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
           ? "-"
           : fmt::format("{:.2f}", static_cast<double>(proposals.false_tricylinder) * per_hit);
   return head + fmt::format(" {:.2f} | {} | {} | {} | {} | {:.1f} | {:.1f} |\n",
-                            static_cast<double>(proposals.false_ellipse) * per_hit, tricylinder, known.wrong,
+                            static_cast<double>(proposals.false_ellipse) * per_hit, tricylinder, wrong,
                             time(known), time(ours), known.ns_median / plain,
                             known.ns_median / ours.ns_median);
 }

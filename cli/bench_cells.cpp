@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <lorentz/margin.hpp>
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
-#include "compare/measure.hpp"
+#include "compare/examine.hpp"
+#include "compare/race.hpp"
 #include "report/query_text.hpp"
 
 namespace lorentz::cli {
@@ -22,60 +24,57 @@ constexpr double kSecondsPerRound = 0.1;  // an engine that would take longer do
 constexpr std::size_t kPilot = 16;
 constexpr int kRounds = 5;
 
-CaseSet cases_of(const BenchPlan& plan, const BenchGroup& group) {
-  CaseSet set;
-  set.scenes.push_back(load_scene(group.scene, positive_number(group.radius, "--radius")));
-  const Scene& scene = set.scenes[0];
-  const oracle::Oracle oracle(scene);
-  for (const Query& query : hard_queries(group.difficulty, scene, oracle, plan.seed, plan.count, terminal()))
-    set.cases.push_back({std::to_string(set.cases.size()), 0, query});
-  return set;
+std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
+  const auto place =
+      std::make_shared<Place>(load_scene(group.scene, positive_number(group.radius, "--radius")));
+  return compare::questions_of(place, hard_queries(group.difficulty, place->scene(), place->oracle(),
+                                                   plan.seed, plan.count, terminal()));
 }
 
 // How many of the queries an engine does in the time of a round; by the first few, or the first two if these
 // take so long that there is no hope.
-std::size_t affordable(const BenchPlan& plan, const CaseSet& all, const EngineInfo& engine, bool& failed) {
-  MeasureOptions options;
+std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, const EngineInfo& engine,
+                       bool& failed) {
+  RaceOptions options;
   options.rounds = engine.is_command() ? 3 : 1;  // the first round of another program has its start in it
   options.timeout = plan.timeout;
   options.listener = terminal();
   double count = 0;
   for (const std::size_t pilot : {std::size_t{2}, kPilot}) {
     options.counts = {pilot};
-    const Tally t = measure(all, {}, {engine}, {}, options).front();
+    const Speed t = race(all, {engine}, options).front();
     failed |= t.failed;
     // A program that dies is not slow, however busy the machine is; one that is silent would be so each time.
-    if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4)
-      return std::min(all.cases.size(), kFewestQueries);
+    if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4) return std::min(all.size(), kFewestQueries);
     count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
     if (count < kFewestQueries / 8.0) break;
   }
-  return std::min(all.cases.size(), static_cast<std::size_t>(count));
+  return std::min(all.size(), static_cast<std::size_t>(count));
 }
 
 // What one ulp in each input makes of the time, in its ulps; 0 where there is none.
-std::vector<double> conditions_of(const CaseSet& set, const std::vector<Answer>& exact) {
-  const oracle::Margins margins(set.scenes[0]);
-  std::vector<double> conditions(exact.size());
-  for (std::size_t i = 0; i < exact.size(); ++i)
-    if (exact[i].outcome == Outcome::hit && exact[i].time)
-      conditions[i] = margins.condition(set.cases[i].query, exact[i]);
-  return conditions;
+double condition_of(const Question& question) {
+  const Answer& exact = question.exact;
+  return exact.outcome == Outcome::hit && exact.time
+             ? question.place->margins().condition(question.query, exact)
+             : 0;
 }
 
 // The mean length of the flights that hit: what a time is to be divided by for one a length, or a cell.
-double mean_path(const std::vector<Answer>& exact, std::size_t count) {
+double mean_path(std::span<const Question> questions) {
   double sum = 0;
   std::size_t hits = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (exact[i].outcome == Outcome::hit) sum += exact[i].time.value_or(0), ++hits;
+  for (const Question& question : questions)
+    if (question.exact.outcome == Outcome::hit) sum += question.exact.time.value_or(0), ++hits;
   return hits > 0 ? sum / static_cast<double>(hits) : 0;
 }
 
 // Of the answers of one engine what a tally does not keep.
 class Errors {
  public:
-  void add(std::size_t index, const oracle::Judgement& judgement, double condition) {
+  void add(const Judged& judged) {
+    const oracle::Judgement& judgement = judged.judgement;
+    const double condition = judged.question.condition;
     const double ulps = judgement.ulps.value_or(0);
     if (judgement.ulps && condition > 0 && std::isfinite(ulps / condition))
       in_conditions_.push_back(ulps / condition);
@@ -85,14 +84,13 @@ class Errors {
                                                                        : 0;
     const double size = rank > 1 ? judgement.departs : ulps;
     if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
-    rank_ = rank, size_ = size, index_ = index;
+    rank_ = rank, size_ = size, question_ = judged.question;
     worst_ = judgement;
   }
 
   const std::vector<double>& in_conditions() const { return in_conditions_; }
 
-  std::optional<report::Worst> worst(const BenchGroup& group, const std::string& engine,
-                                     const CaseSet& set) const {
+  std::optional<report::Worst> worst(const BenchGroup& group, const std::string& engine) const {
     if (rank_ == 0) return std::nullopt;
     report::Worst worst;
     worst.verdict = rank_ == 3          ? "wrong"
@@ -100,7 +98,7 @@ class Errors {
                     : worst_.wrong_time ? "wrong-time"
                                         : "agree";
     worst.ulps = worst_.ulps;
-    worst.query = report::hexadecimal_query(set.cases[index_].query, set.scenes[0].dimension);
+    worst.query = report::hexadecimal_query(question_.query, question_.place->scene().dimension);
     worst.command =
         fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine {}", worst.query,
                     shell_quoted(group.scene), group.radius ? " --radius " + shell_quoted(*group.radius) : "",
@@ -112,15 +110,15 @@ class Errors {
   std::vector<double> in_conditions_;
   int rank_ = 0;  // of the worst so far: 0 none, 1 right, 2 ill-posed, 3 wrong
   double size_ = -1;
-  std::size_t index_ = 0;
+  Question question_;
   oracle::Judgement worst_;
 };
 
-report::Cell named_cell(const BenchGroup& group, const CaseSet& set, const std::string& engine) {
+report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::string& engine) {
   report::Cell cell;
   cell.scene = group.scene;
   cell.radius = positive_number(group.radius, "--radius");
-  cell.dimension = set.scenes[0].dimension;
+  cell.dimension = scene.dimension;
   cell.difficulty = name_of(group.difficulty);
   cell.engine = engine;
   return cell;
@@ -128,8 +126,6 @@ report::Cell named_cell(const BenchGroup& group, const CaseSet& set, const std::
 
 void fill(report::Cell& cell, const Tally& t) {
   cell.queries = t.queries;
-  cell.ns = {t.ns_median, t.ns_low, t.ns_high, t.ns_per_query};
-  cell.instructions = t.instructions;
   cell.undecided = report::share_of(t.undecided, t.queries);
   cell.ill_posed = report::share_of(t.ill_posed, t.queries);
   cell.wrong = report::share_of(t.wrong, t.queries);
@@ -138,45 +134,77 @@ void fill(report::Cell& cell, const Tally& t) {
   cell.error = t.error;
   cell.missing = t.missing;
   cell.ulps = report::histogram_of(t.ulps);
+  cell.skipped = cell.unsupported == cell.queries;  // how fast it says so is nobody's question
 }
+
+// An engine over the questions, judged.
+void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& group,
+                  std::span<const Question> questions) {
+  Tally tally;
+  Errors errors;
+  examine(all_of(questions), answerer, oracle::kDefaultUlps, [&](const Judged& judged) {
+    tally.count(judged.judgement);
+    errors.add(judged);
+  });
+  fill(cell, tally);
+  cell.mean_path = mean_path(questions);
+  cell.conditions = report::histogram_of(errors.in_conditions());
+  cell.worst = errors.worst(group, cell.engine);
+}
+
+// The engines whose cells get times.
+class Racers {
+ public:
+  void add(const EngineInfo& engine, std::size_t cell, std::size_t count) {
+    engines_.push_back(engine), cells_.push_back(cell), options_.counts.push_back(count);
+  }
+
+  /// True if one broke.
+  bool race(const std::vector<Question>& questions, double timeout, std::vector<report::Cell>& cells) {
+    options_.rounds = kRounds;
+    options_.timeout = timeout;
+    options_.listener = terminal();
+    const std::vector<Speed> speeds = compare::race(questions, engines_, options_);
+    bool failed = false;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      const Speed& speed = speeds[i];
+      cells[cells_[i]].ns = {speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
+      cells[cells_[i]].instructions = speed.instructions;
+      failed |= speed.failed;
+    }
+    return failed;
+  }
+
+ private:
+  std::vector<EngineInfo> engines_;
+  std::vector<std::size_t> cells_;
+  RaceOptions options_;
+};
 
 }  // namespace
 
 BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
   BenchCells result;
-  CaseSet set = cases_of(plan, group);
-  MeasureOptions options;
-  options.rounds = kRounds;
-  options.timeout = plan.timeout;
-  options.listener = terminal();
-  std::vector<EngineInfo> fast;  // those that are not skipped
-  for (const EngineInfo& engine : plan.engines) {
-    const std::size_t count = affordable(plan, set, engine, result.failed);
-    if (count < kFewestQueries) continue;
-    fast.push_back(engine);
-    options.counts.push_back(count);
+  std::vector<Question> questions = questions_of(plan, group);
+  const Scene scene = questions[0].place->scene();
+  std::vector<std::size_t> counts;
+  for (const EngineInfo& engine : plan.engines)
+    counts.push_back(affordable(plan, questions, engine, result.failed));
+  const std::size_t most = *std::max_element(counts.begin(), counts.end());
+  questions.resize(most < kFewestQueries ? 0 : most);
+  answer_exactly(questions, Truth::oracle, terminal());
+  for (Question& question : questions) question.condition = condition_of(question);
+  Racers racers;
+  for (std::size_t i = 0; i < plan.engines.size(); ++i) {
+    report::Cell& cell = result.cells.emplace_back(named_cell(group, scene, plan.engines[i].name));
+    if ((cell.skipped = counts[i] < kFewestQueries)) continue;
+    const auto answerer = plan.engines[i].answerer({{}, plan.timeout, terminal()});
+    examine_into(cell, *answerer, group, std::span(questions).first(counts[i]));
+    if (!cell.skipped && !answerer->failed()) racers.add(plan.engines[i], i, counts[i]);
+    answerer->finish();
+    result.failed |= answerer->failed();
   }
-  set.cases.resize(fast.empty() ? 0 : *std::max_element(options.counts.begin(), options.counts.end()));
-  const std::vector<Answer> exact = exact_answers(set, terminal());
-  const std::vector<double> conditions = conditions_of(set, exact);
-  std::vector<Errors> errors(fast.size());
-  options.on_judged = [&](std::size_t entrant, std::size_t index, const oracle::Judgement& judgement) {
-    errors[entrant].add(index, judgement, conditions[index]);
-  };
-  const std::vector<Tally> tallies = measure(set, exact, fast, {}, options);
-  std::size_t next = 0;
-  for (const EngineInfo& engine : plan.engines) {
-    report::Cell& cell = result.cells.emplace_back(named_cell(group, set, engine.name));
-    cell.skipped = next == fast.size() || fast[next].name != engine.name;
-    if (cell.skipped) continue;
-    result.failed |= tallies[next].failed;
-    fill(cell, tallies[next]);
-    cell.skipped = cell.unsupported == cell.queries;  // how fast it says so is nobody's question
-    cell.mean_path = mean_path(exact, options.counts[next]);
-    cell.conditions = report::histogram_of(errors[next].in_conditions());
-    cell.worst = errors[next].worst(group, engine.name, set);
-    ++next;
-  }
+  result.failed |= racers.race(questions, plan.timeout, result.cells);
   return result;
 }
 

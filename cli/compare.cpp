@@ -1,6 +1,6 @@
 // lorentz compare: engines, and answers logged elsewhere, against the oracle.
 #include <map>
-#include <unordered_map>
+#include <span>
 #include <unordered_set>
 
 #include <lorentz/exchange.hpp>
@@ -8,12 +8,14 @@
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/logged_answers.hpp"
 #include "cli/messages.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/reason.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
-#include "compare/measure.hpp"
+#include "compare/examine.hpp"
+#include "compare/race.hpp"
 #include "compare/sampling.hpp"
 #include "src/exchange/json_writer.hpp"
 
@@ -22,8 +24,6 @@ namespace lorentz::cli {
 using namespace compare;
 
 namespace {
-
-constexpr int kRounds = 5;
 
 struct Options {
   std::vector<std::string> engines, answers;
@@ -38,120 +38,77 @@ UnknownKeys unknown_keys(const Options& options) {
   return options.strict ? UnknownKeys::errors : UnknownKeys::warned;
 }
 
-CaseSet read_cases(const std::string& path, std::optional<Scene> initial, UnknownKeys unknown,
-                   bool& bad_input) {
-  CaseSet set;
-  if (initial) set.scenes.push_back(*initial);
-  QueryStream stream(path, std::move(initial), unknown);
-  for (StreamItem item; stream.next(item);) {
-    if (item.kind == StreamItem::Kind::scene) set.scenes.push_back(item.scene);
-    if (item.kind == StreamItem::Kind::query)
-      set.cases.push_back({item.id, set.scenes.size() - 1, item.query});
+// The questions that were asked for, part by part: drawn, or read from a stream.
+class Questions {
+ public:
+  Questions(const Options& options, DisagreementFile& disagreements)
+      : options_(options), disagreements_(disagreements), has_answers_(!options.answers.empty()) {
+    std::optional<Scene> scene;
+    if (options.scene || !options.queries)
+      scene = load_scene(options.scene.value_or("square"), options.radius, unknown_keys(options));
+    else if (options.radius)
+      throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+    if (scene) enter(*scene);
+    if (options.queries) stream_.emplace(*options.queries, scene, unknown_keys(options));
   }
-  bad_input |= stream.had_bad_input();
-  return set;
-}
 
-CaseSet draw_cases(const Scene& scene, std::uint64_t seed, std::size_t count) {
-  CaseSet set;
-  set.scenes.push_back(scene);
-  const auto queries = draw_queries(scene, oracle::Oracle(scene), seed, count, terminal());
-  for (std::size_t i = 0; i < queries.size(); ++i) set.cases.push_back({std::to_string(i), 0, queries[i]});
-  return set;
-}
+  /// Up to so many more; none: that was all.
+  std::vector<Question> next(std::size_t most) { return stream_ ? read(most) : draw(most); }
 
-struct LoggedAnswer {
-  Answer answer;
-  std::size_t components = 0;  // of its cell
-  std::size_t line = 0;
+  bool had_bad_input() const { return bad_ids_ || (stream_ && stream_->had_bad_input()); }
+  std::size_t count() const { return count_; }
+  std::size_t scenes() const { return scenes_; }  ///< with questions
+
+ private:
+  void enter(const Scene& scene) {
+    place_ = std::make_shared<Place>(scene);
+    disagreements_.begin(scene);
+    is_new_ = true;
+  }
+
+  void add(std::vector<Question>& questions, const Query& query, Id id) {
+    scenes_ += std::exchange(is_new_, false);
+    ++count_;
+    questions.push_back({.place = place_, .query = query, .id = std::move(id)});
+  }
+
+  std::vector<Question> draw(std::size_t most) {
+    std::vector<Question> questions;
+    const std::size_t first = count_;
+    for (const Query& query :
+         draw_queries(place_->scene(), place_->oracle(), options_.seed,
+                      std::min<std::size_t>(most, options_.count - first), terminal(), first))
+      add(questions, query, std::to_string(count_));
+    return questions;
+  }
+
+  std::vector<Question> read(std::size_t most) {
+    std::vector<Question> questions;
+    for (StreamItem item; questions.size() < most && stream_->next(item);) {
+      if (item.kind == StreamItem::Kind::scene) enter(item.scene);
+      if (item.kind != StreamItem::Kind::query) continue;
+      if (has_answers_) check(item.id);
+      add(questions, item.query, item.id);
+    }
+    return questions;
+  }
+
+  // Answers are matched by id, so the queries' must be unique.
+  void check(const Id& id) {
+    if (id == "null" || ids_.insert(id).second) return;
+    bad_ids_ = true;
+    say("the query id {} comes twice: answers cannot be matched to its queries", id);
+  }
+
+  const Options& options_;
+  DisagreementFile& disagreements_;
+  const bool has_answers_;
+  std::optional<QueryStream> stream_;
+  std::shared_ptr<Place> place_;
+  bool is_new_ = false, bad_ids_ = false;
+  std::size_t count_ = 0, scenes_ = 0;
+  std::unordered_set<Id> ids_;
 };
-
-using Answers = std::unordered_map<Id, LoggedAnswer>;
-
-// A logged answer stream, by id. Bad lines and ids that come twice are complained of; answers without an id
-// (to lines that were no queries) are passed over.
-Answers read_answers(const std::string& path, UnknownKeys unknown, bool& bad_input) {
-  Answers answers;
-  LineReader lines(path);
-  ExchangeReader reader;
-  KeyCheck keys(path, unknown);
-  reader.on_unknown_key([&](const std::string& key) { keys(key); });
-  Id id;
-  LoggedAnswer logged;
-  bool empty = true;
-  for (LineReader::Line line; lines.next(line);) {
-    keys.line = line.number;
-    try {
-      if (!reader.read_answer_line(line, id, logged.answer, logged.components)) continue;
-      empty = false;
-      logged.line = line.number;
-      if (id != "null" && !answers.emplace(id, logged).second)
-        throw InputError("the id " + id + " came before; an answer stream has one answer a query");
-    } catch (const InputError& error) {
-      empty = false;
-      bad_input = true;
-      say("{}:{}: {}", path, line.number, error.what());
-    }
-  }
-  if (empty) {
-    bad_input = true;
-    say("{}: is empty: no answer in it", path);
-  }
-  return answers;
-}
-
-// Answers are matched by id, so the queries' must be unique, and the answers' must be among them.
-void check_ids(const CaseSet& set, bool& bad_input) {
-  std::unordered_set<Id> ids;
-  for (const Case& one : set.cases)
-    if (one.id != "null" && !ids.insert(one.id).second) {
-      bad_input = true;
-      say("the query id {} comes twice: answers cannot be matched to its queries", one.id);
-    }
-}
-
-struct Logged {
-  std::string name, file;
-};
-
-Tally judge_logged(const Logged& logged, const Answers& answers, const CaseSet& set,
-                   const std::vector<Answer>& exact, const OnWrong& on_wrong, double ulps, bool& bad_input) {
-  Tally tally;
-  tally.name = logged.name;
-  std::vector<oracle::Judge> judges;
-  for (const Scene& scene : set.scenes) judges.emplace_back(scene);
-  for (std::size_t i = 0; i < set.cases.size(); ++i) {
-    const auto found = answers.find(set.cases[i].id);
-    if (found == answers.end()) {
-      tally.count(oracle::Judgement{});
-      continue;
-    }
-    const auto& [answer, components, line] = found->second;
-    const int dimension = set.scenes[set.cases[i].scene].dimension;
-    if (components != 0 && components != static_cast<std::size_t>(dimension)) {
-      bad_input = true;
-      say("{}:{}: cell: has {} components, the scene has dimension {}", logged.file, line, components,
-          dimension);
-      tally.count({oracle::Verdict::error});
-      continue;
-    }
-    const oracle::Judgement judgement =
-        judges[set.cases[i].scene].judge(set.cases[i].query, exact[i], answer, ulps);
-    tally.count(judgement);
-    if (departs(judgement)) on_wrong(set.cases[i], exact[i], logged.name, answer, judgement);
-  }
-  return tally;
-}
-
-// Says what did not match; nothing matched at all is bad input, the wrong file most likely.
-void check_matches(const std::string& file, const Tally& tally, std::size_t answers, bool& bad_input) {
-  const std::size_t matched = tally.queries - tally.missing;
-  if (answers > matched) say("{}: {} answers have an id that no query has", file, answers - matched);
-  if (matched == 0 && answers > 0) {
-    bad_input = true;
-    say("{}: no answer matches any query; is it the right file?", file);
-  }
-}
 
 // Median, 99 % and largest; null of nothing.
 auto spread_of(const std::vector<double>& values) {
@@ -164,42 +121,47 @@ auto spread_of(const std::vector<double>& values) {
 void add_tally(json::Members& object, const Tally& t, bool judged) {
   const auto count = [&](std::size_t n) { return judged ? std::optional(n) : std::nullopt; };
   const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
-  const auto if_fast = [&](double ns) { return t.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
+  const auto if_fast = [&](double ns) { return t.speed.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
   object.add("engine", t.name, "queries", t.queries, "agree", count(t.agree), "ill_posed", count(t.ill_posed),
              "wrong", count(t.wrong), "undecided", count(t.undecided), "unsupported", count(t.unsupported),
              "error", count(t.error), "missing", count(t.missing));
   object.add("max_ulp", if_timed(t.max_ulp), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
-             if_fast(t.ns_per_query), "ns_median", if_fast(t.ns_median), "wrong_time", count(t.wrong_time),
-             "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
+             if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "wrong_time",
+             count(t.wrong_time), "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
              spread_of(t.wrong_conditions));
 }
 
-std::string json_of(const std::string& scene, const std::string& seed, const std::vector<Tally>& tallies,
+std::string json_of(const std::string& scene, std::uint64_t seed, const std::vector<Tally>& tallies,
                     const std::optional<std::string>& judge) {
   return json::line_of([&](json::Members& object) {
-    object.add("scene", scene, "seed", json::Raw{seed}, "judge", judge, "engines",
+    object.add("scene", scene, "seed", seed, "judge", judge, "engines",
                json::objects(tallies, [&](json::Members& one, const Tally& tally) {
                  add_tally(one, tally, judge.has_value());
                }));
   });
 }
 
-std::vector<Logged> logged_answers(const Options& options) {
-  std::vector<Logged> all;
-  for (const std::string& argument : options.answers) {
-    const auto equals = argument.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
-      throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
-    all.push_back({argument.substr(0, equals), argument.substr(equals + 1)});
-  }
-  return all;
+// Who is compared: an engine, or answers in a file.
+struct Compared {
+  std::string name;
+  std::unique_ptr<Answerer> answerer;
+  std::optional<EngineInfo> engine = {};  // or
+  LoggedAnswers* logged = nullptr;        // which the answerer is
+  Tally tally = {};
+};
+
+Compared logged_answers(const std::string& argument, UnknownKeys unknown) {
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
+    throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
+  auto logged = std::make_unique<LoggedAnswers>(argument.substr(equals + 1), unknown);
+  LoggedAnswers* const raw = logged.get();
+  return {argument.substr(0, equals), std::move(logged), {}, raw};
 }
 
 // The scene's name for the heading; the number of scenes if a file has several.
-std::string title(const Options& options, const CaseSet& set) {
-  std::unordered_set<std::size_t> used;
-  for (const Case& one : set.cases) used.insert(one.scene);
-  if (used.size() > 1) return fmt::format("{} scenes", used.size());
+std::string title(const Options& options, const Questions& questions) {
+  if (questions.scenes() > 1) return fmt::format("{} scenes", questions.scenes());
   const std::string name = options.scene.value_or(options.queries.value_or("square"));
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
@@ -218,24 +180,23 @@ int exit_status(const std::vector<Tally>& tallies, const Options& options, bool 
 // What departs from the exact answers: to the file, and the first wrong ones of each engine for people.
 class Departures {
  public:
-  Departures(const Options& options, const CaseSet& set)
+  explicit Departures(const Options& options)
       : times_(options.times),
         is_json_(options.json),
         most_(static_cast<std::size_t>(options.failures)),
-        set_(set),
-        file_(options.disagreements) {
-    file_.begin(set);
-  }
+        file_(options.disagreements) {}
 
-  void add(const Case& one, const Answer& exact, const std::string& name, const Answer& given,
-           const oracle::Judgement& judgement) {
-    if (judgement.wrong_time && !times_) return;
-    file_.add(one, exact, name, given, judgement);
+  DisagreementFile& file() { return file_; }
+
+  void add(const Judged& judged, const std::string& name) {
+    const oracle::Judgement& judgement = judged.judgement;
+    if (!departs(judgement) || (judgement.wrong_time && !times_)) return;
+    file_.add(judged, name);
     if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
-    const Scene& scene = set_.scenes[one.scene];
-    text_[name] +=
-        description(one, exact, given, scene) +
-        reason_of(oracle::Margins(scene), scene, one.query, exact, given, judgement.obstacle, "    ");
+    const auto& [question, given, origin, same] = judged;
+    const Place& place = *question.place;
+    text_[name] += description(judged) + reason_of(place.margins(), place.scene(), question.query,
+                                                   question.exact, given, judgement.obstacle, "    ");
   }
 
   /// The first wrong answers of an engine, for people; empty if there are none.
@@ -246,45 +207,33 @@ class Departures {
   void close() { file_.close(); }
 
  private:
-  static std::string description(const Case& one, const Answer& exact, const Answer& given,
-                                 const Scene& scene) {
+  static std::string description(const Judged& judged) {
+    const Question& question = judged.question;
+    const int dimension = question.place->scene().dimension;
     std::string query, truth, says;
-    append_query_line(query, one.id, one.query, scene.dimension);
-    append_answer_line(truth, one.id, exact, scene.dimension);
-    append_answer_line(says, one.id, given, scene.dimension);
+    append_query_line(query, question.id, question.query, dimension);
+    append_answer_line(truth, question.id, question.exact, dimension);
+    append_answer_line(says, question.id, judged.given, dimension);
     return fmt::format("  {}    says  {}    truth {}", query, says, truth);
   }
 
   const bool times_, is_json_;
   const std::size_t most_;
-  const CaseSet& set_;
   DisagreementFile file_;
   std::map<std::string, std::size_t> listed_;
   std::map<std::string, std::string> text_;
 };
 
-// The cases that were asked for: drawn, or read from a stream.
-CaseSet cases_of(const Options& options, std::uint64_t seed, bool& bad_input) {
-  std::optional<Scene> scene;
-  if (options.scene || !options.queries)
-    scene = load_scene(options.scene.value_or("square"), options.radius, unknown_keys(options));
-  else if (options.radius)
-    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  return options.queries ? read_cases(*options.queries, scene, unknown_keys(options), bad_input)
-                         : draw_cases(*scene, seed, options.count);
-}
-
-void show(const Options& options, const CaseSet& set, std::uint64_t seed, const std::vector<Tally>& tallies,
+void show(const Options& options, const Questions& questions, const std::vector<Tally>& tallies,
           const Departures& departures) {
-  const std::string seed_text = std::to_string(seed);
   if (options.json) {
-    print(json_of(title(options, set), seed <= 1ull << 53 ? seed_text : json_quoted(seed_text), tallies,
+    print(json_of(title(options, questions), options.seed, tallies,
                   options.no_oracle ? std::nullopt : std::optional(options.judge)));
     return;
   }
   const bool drawn = !options.queries;
-  print(fmt::format("{}: {} {} queries{}{}\n\n{}", title(options, set), set.cases.size(),
-                    drawn ? "drawn" : "given", drawn ? ", seed " + seed_text : "",
+  print(fmt::format("{}: {} {} queries{}{}\n\n{}", title(options, questions), questions.count(),
+                    drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
                     options.judge == "oracle" ? "" : ", judged by " + options.judge,
                     table_of(tallies, !options.no_oracle)));
   if (options.no_oracle) return;
@@ -294,39 +243,89 @@ void show(const Options& options, const CaseSet& set, std::uint64_t seed, const 
   }
 }
 
-int act(const Options& options) {
-  const std::vector<Logged> all_logged = logged_answers(options);
-  std::vector<EngineInfo> engines = engines_named(options.engines);
-  if (engines.empty() && all_logged.empty()) engines = engines_named({"classical", "published"});
+void check(const Options& options, const std::vector<EngineInfo>& engines) {
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
     throw InputError("--judge: nobody is judged with --no-oracle");
-  if (options.no_oracle && !all_logged.empty())
+  if (options.no_oracle && !options.answers.empty())
     throw InputError("--answers needs the oracle; leave --no-oracle out");
-  if (!options.queries && !all_logged.empty())
+  if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
-  const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+}
 
+std::vector<Compared> all_compared(const Options& options, const std::vector<EngineInfo>& engines) {
+  const AnswererOptions answerer{
+      {}, options.timeout.value_or(AnswererOptions::kDefaultTimeout), terminal(), options.strict};
+  std::vector<Compared> all;
+  for (const EngineInfo& engine : engines) all.push_back({engine.name, engine.answerer(answerer), engine});
+  for (const std::string& argument : options.answers)
+    all.push_back(logged_answers(argument, unknown_keys(options)));
+  for (Compared& one : all) one.tally.name = one.name;
+  return all;
+}
+
+// Asks part after part, so that what is held in memory does not grow with the queries. Returns the first of
+// them, for the race.
+std::vector<Question> examine_all(const Options& options, Questions& questions,
+                                  std::vector<Compared>& compared, Departures& departures) {
+  constexpr std::size_t kTogether = 10'000;
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
-  bool bad_input = false;
-  const CaseSet set = cases_of(options, options.seed, bad_input);
-  if (!all_logged.empty()) check_ids(set, bad_input);
-  Departures departures(options, set);
-  const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
-                               const Answer& given, const oracle::Judgement& judgement) {
-    departures.add(one, exact, name, given, judgement);
-  };
-  const std::vector<Answer> exact =
-      options.no_oracle ? std::vector<Answer>{} : exact_answers(set, terminal(), truth);
-  std::vector<Tally> tallies =
-      measure(set, exact, engines, on_wrong, {ulps, kRounds, timeout, terminal(), options.strict});
-  for (const Logged& logged : all_logged) {
-    const Answers answers = read_answers(logged.file, unknown_keys(options), bad_input);
-    tallies.push_back(judge_logged(logged, answers, set, exact, on_wrong, ulps, bad_input));
-    check_matches(logged.file, tallies.back(), answers.size(), bad_input);
+  std::vector<Question> first;
+  for (std::vector<Question> part; !(part = questions.next(kTogether)).empty();) {
+    if (!options.no_oracle) {
+      answer_exactly(part, truth_named(options.judge, {}), terminal());
+      for (Compared& one : compared)
+        examine(all_of(part), *one.answerer, ulps, [&](const Judged& judged) {
+          one.tally.count(judged.judgement);
+          departures.add(judged, one.name);
+        });
+    }
+    if (first.empty() || options.no_oracle)
+      first.insert(first.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
   }
-  departures.close();
-  show(options, set, options.seed, tallies, departures);
+  return first;
+}
+
+// The speeds of the engines that did not break.
+void race_all(const Options& options, const std::vector<Question>& questions,
+              std::vector<Compared>& compared) {
+  RaceOptions race_options;
+  std::vector<EngineInfo> engines;
+  std::vector<Tally*> tallies;
+  for (Compared& one : compared)
+    if (one.engine && !one.answerer->failed()) {
+      engines.push_back(*one.engine), tallies.push_back(&one.tally);
+      race_options.running.push_back(one.answerer.get());
+    }
+  race_options.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  race_options.listener = terminal();
+  race_options.strict = options.strict;
+  const std::vector<Speed> speeds = race(questions, engines, race_options);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    tallies[i]->speed = speeds[i];
+    if (options.no_oracle) tallies[i]->queries = questions.size();
+  }
+}
+
+int act(const Options& options) {
+  std::vector<EngineInfo> engines = engines_named(options.engines);
+  if (engines.empty() && options.answers.empty()) engines = engines_named({"classical", "published"});
+  check(options, engines);
+  std::vector<Compared> compared = all_compared(options, engines);
+  Departures departures(options);
+  Questions questions(options, departures.file());
+  const std::vector<Question> first = examine_all(options, questions, compared, departures);
+  race_all(options, first, compared);
+  bool bad_input = questions.had_bad_input();
+  for (Compared& one : compared) {
+    one.answerer->finish();
+    one.tally.failed = one.answerer->failed();
+    bad_input |= one.logged && one.logged->had_bad_input();
+  }
+  departures.file().close();
+  std::vector<Tally> tallies;
+  for (Compared& one : compared) tallies.push_back(std::move(one.tally));
+  show(options, questions, tallies, departures);
   return exit_status(tallies, options, bad_input);
 }
 

@@ -26,7 +26,8 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
   if (!judged) {
     Table table({"engine", "queries", "ns/query", "ns median"});
     for (const Tally& t : tallies)
-      table.add({t.name, std::to_string(t.queries), nanoseconds(t.ns_per_query), nanoseconds(t.ns_median)});
+      table.add({t.name, std::to_string(t.queries), nanoseconds(t.speed.ns_per_query),
+                 nanoseconds(t.speed.ns_median)});
     return table.text();
   }
   Table table({"engine", "queries", "agree", "ill-posed", "wrong", "wrong time", "undecided", "unsupported",
@@ -37,8 +38,8 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
                share(t.wrong, answers), share(t.wrong_time, answers), std::to_string(t.undecided),
                std::to_string(t.unsupported), std::to_string(t.error), std::to_string(t.missing),
                t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
-               t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.ns_per_query),
-               nanoseconds(t.ns_median)});
+               t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.speed.ns_per_query),
+               nanoseconds(t.speed.ns_median)});
   }
   return table.text();
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/measure.hpp"
+#include "compare/tally.hpp"
 
 namespace lorentz::cli {
 

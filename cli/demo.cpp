@@ -9,7 +9,8 @@
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
-#include "compare/measure.hpp"
+#include "compare/examine.hpp"
+#include "compare/race.hpp"
 #include "compare/sampling.hpp"
 
 namespace lorentz::cli {
@@ -19,64 +20,59 @@ using namespace compare;
 namespace {
 
 // The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions of 1 to 89 degrees.
-CaseSet paper_example() {
-  CaseSet set;
-  set.scenes.push_back(unit_scene(2, 0.1));
-  for (int degrees = 1; degrees < 90; ++degrees) {
-    const double angle = degrees * std::numbers::pi / 180;
-    set.cases.push_back({json_quoted(fmt::format("paper/{}", degrees)),
-                         0,
-                         {{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}}});
-  }
-  return set;
+std::vector<Question> questions_of(std::string_view kind, const Scene& scene,
+                                   const std::vector<Query>& queries, std::size_t first = 0) {
+  const auto place = std::make_shared<Place>(scene);
+  std::vector<Question> questions;
+  for (const Query& query : queries)
+    questions.push_back({.place = place,
+                         .query = query,
+                         .id = json_quoted(fmt::format("{}/{}", kind, first + questions.size()))});
+  return questions;
 }
 
-CaseSet set_of(std::string_view kind, int dimension, double radius, const std::vector<Query>& queries) {
-  CaseSet set;
-  set.scenes.push_back(unit_scene(dimension, radius));
-  for (std::size_t i = 0; i < queries.size(); ++i)
-    set.cases.push_back(
-        {json_quoted(fmt::format("{}-{}d/{}/{}", kind, dimension, radius, i)), 0, queries[i]});
-  return set;
+std::vector<Question> paper_example() {
+  std::vector<Query> queries;
+  for (int degrees = 1; degrees < 90; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    queries.push_back({{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}});
+  }
+  return questions_of("paper", unit_scene(2, 0.1), queries, 1);
 }
 
 // Where the published algorithm skips discs.
-CaseSet leaving_flights(int dimension, double radius, std::size_t count) {
-  return set_of("leaving", dimension, radius,
-                draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count));
+std::vector<Question> leaving_flights(int dimension, double radius, std::size_t count) {
+  return questions_of(fmt::format("leaving-{}d/{}", dimension, radius), unit_scene(dimension, radius),
+                      draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count));
 }
 
-CaseSet drawn(int dimension, double radius, std::size_t count) {
+std::vector<Question> drawn(int dimension, double radius, std::size_t count) {
   const Scene scene = unit_scene(dimension, radius);
-  return set_of("drawn", dimension, radius,
-                draw_queries(scene, oracle::Oracle(scene), kDefaultSeed, count, terminal()));
+  return questions_of(fmt::format("drawn-{}d/{}", dimension, radius), scene,
+                      draw_queries(scene, oracle::Oracle(scene), kDefaultSeed, count, terminal()));
 }
 
 class Report {
  public:
   explicit Report(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
 
-  void add(const std::string& what, const CaseSet& set) {
-    disagreements_.begin(set);
-    const OnWrong on_wrong = [&](const Case& one, const Answer& exact, const std::string& name,
-                                 const Answer& given, const oracle::Judgement& judgement) {
-      if (name == kPublished && judgement.verdict == oracle::Verdict::wrong)  // those that are counted below
-        disagreements_.add(one, exact, name, given, judgement);
-    };
-    MeasureOptions options;
+  void add(const std::string& what, std::vector<Question> questions) {
+    disagreements_.begin(questions[0].place->scene());
+    answer_exactly(questions, Truth::oracle, terminal());
+    const std::vector<EngineInfo> engines = engines_named({"classical", kPublished, "oracle"});
+    RaceOptions options;
     options.listener = terminal();
-    const auto tallies = measure(set, exact_answers(set, terminal()),
-                                 engines_named({"classical", kPublished, "oracle"}), on_wrong, options);
-    for (const Tally& t : tallies) {
-      const bool is_first = &t == &tallies.front();
-      table_.add({is_first ? what : "", is_first ? std::to_string(t.queries) : "", t.name,
+    const std::vector<Speed> speeds = race(questions, engines, options);
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+      const Tally t = tally_of(engines[i], questions);
+      table_.add({i == 0 ? what : "", i == 0 ? std::to_string(t.queries) : "", engines[i].name,
                   std::to_string(t.agree), std::to_string(t.ill_posed), std::to_string(t.wrong),
                   std::to_string(t.wrong_time), std::to_string(t.undecided),
                   t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-",
                   t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
-                  fmt::format("{:.2f}", t.ns_per_query / 1000)});
+                  fmt::format("{:.2f}", speeds[i].ns_per_query / 1000)});
+      if (engines[i].name == kPublished) published_.add(t);
     }
-    published_.add(tallies[1]);
   }
 
   void show() {
@@ -96,6 +92,16 @@ class Report {
 
  private:
   static constexpr const char* kPublished = "published";
+
+  Tally tally_of(const EngineInfo& engine, const std::vector<Question>& questions) {
+    Tally tally;
+    examine(all_of(questions), *engine.answerer({}), oracle::kDefaultUlps, [&](const Judged& judged) {
+      tally.count(judged.judgement);
+      if (engine.name == kPublished && judged.judgement.verdict == oracle::Verdict::wrong)
+        disagreements_.add(judged, engine.name);  // those that are counted below
+    });
+    return tally;
+  }
 
   DisagreementFile disagreements_;
   Table table_{{"flights", "number", "engine", "right", "ill-posed", "wrong", "wrong time", "undecided",

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/whole_file.hpp"
-#include "compare/measure.hpp"
+#include "compare/examine.hpp"
 
 namespace lorentz::cli {
 
@@ -15,21 +15,19 @@ class DisagreementFile {
   /// Writes nothing without a path. Throws FileError if the file cannot be written.
   explicit DisagreementFile(const std::optional<std::string>& path);
 
-  /// The cases that follow are of this set. Writes its first scene, so that the file is a stream even if
+  /// A scene of questions that may follow; the first is written at once, so that the file is a stream even if
   /// nothing disagrees.
-  void begin(const compare::CaseSet& set);
-  void add(const compare::Case& one, const Answer& exact, const std::string& name, const Answer& given,
-           const oracle::Judgement& judgement);
+  void begin(const Scene& scene);
+  void add(const compare::Judged& judged, const std::string& engine);
 
   /// Puts the file in its place. Throws FileError if something was not written.
   void close();
 
  private:
-  void write_scene(std::size_t scene);
+  void write_scene(const Scene& scene);
 
-  const compare::CaseSet* set_ = nullptr;
   std::optional<WholeFile> file_;
-  std::size_t scene_ = 0;
+  std::string scene_line_;  // the last
 };
 
 }  // namespace lorentz::cli

@@ -1,5 +1,4 @@
 // lorentz golden check: an engine against golden sets.
-#include <deque>
 #include <filesystem>
 #include <map>
 
@@ -15,8 +14,9 @@
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "compare/engines.hpp"
-#include "compare/measure.hpp"
-#include "golden/reader.hpp"
+#include "compare/examine.hpp"
+#include "compare/tally.hpp"
+#include "golden/questions.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/problem/safe_text.hpp"
 
@@ -54,7 +54,21 @@ struct SetTally {
   std::size_t not_asked = 0;  // records, for it was given up
 };
 
-// Asks an engine the questions of a set and judges the answers as they come.
+// The first records of a set, and of these the ones with an id that begins so.
+Source records_of(golden::Reader& reader, const std::optional<std::string>& id, std::uint64_t first,
+                  Progress& progress) {
+  return [records = golden::questions_of(reader), id, first, &progress,
+          read = std::uint64_t{0}]() mutable -> std::optional<Question> {
+    while (read < first) {
+      std::optional<Question> question = records();
+      progress.at(++read);
+      if (!question || !id || question->where.starts_with(*id)) return question;
+    }
+    return std::nullopt;
+  };
+}
+
+// Asks an engine the questions of sets, and keeps what came of each.
 class Examination {
  public:
   Examination(const EngineInfo& engine, double ulps, bool times, bool strict, double timeout,
@@ -63,9 +77,7 @@ class Examination {
         ulps_(ulps),
         times_(times),
         most_failures_(most_failures),
-        answerer_(engine.answerer({{}, timeout, terminal(), strict})) {
-    answerer_->on_answer([this](Answer& answer) { take(answer); });
-  }
+        answerer_(engine.answerer({{}, timeout, terminal(), strict})) {}
 
   /// A program that was given up may do another set; not if it never answered anything.
   bool is_worth_asking() {
@@ -74,75 +86,39 @@ class Examination {
   }
 
   SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
-    tally_ = {};
     golden::Reader reader(path);
-    set_ = path;
-    tally_.all.name = reader.header().name;
-    tally_.description = reader.header().description;
-    tally_.notes = reader.header().tags;
+    SetTally tally;
+    tally.all.name = reader.header().name;
+    tally.description = reader.header().description;
+    tally.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
-    std::size_t scene = 0;
-    std::uint64_t records = 0;
-    for (golden::ReadRecord read; records < first && reader.next(read); progress.at(records)) {
-      ++records;
-      if (id && !read.record.id.starts_with(*id)) continue;
-      if (scene != reader.scene_number()) {
-        scene = reader.scene_number();
-        bench_ = std::make_shared<Bench>(reader.scene());
-        answerer_->set_scene(reader.scene());
-      }
-      open_.push_back({std::move(read.record), bench_, read.query});
-      const golden::Record& record = open_.back().record;
-      if (read.query)
-        answerer_->ask(json_quoted(record.id), *read.query);
-      else
-        answerer_->ask_text(json_quoted(record.id), record.question);
-    }
-    answerer_->drain();
-    tally_.failed = answerer_->failed();
-    return std::move(tally_);
+    examine(records_of(reader, id, first, progress), *answerer_, ulps_,
+            [&](const Judged& judged) { take(judged, path, tally); });
+    tally.failed = answerer_->failed();
+    return tally;
   }
 
   void finish() { answerer_->finish(); }
   const std::vector<Failure>& failures() const { return failures_; }
 
  private:
-  // A scene and who judges its answers.
-  struct Bench {
-    Scene scene;
-    oracle::Judge judge;
-    oracle::Margins margins;
-    explicit Bench(const Scene& of_scene) : scene(of_scene), judge(of_scene), margins(of_scene) {}
-  };
-
-  struct Open {
-    golden::Record record;
-    std::shared_ptr<const Bench> bench;
-    std::optional<Query> query;
-  };
-
-  void take(Answer& given) {
-    const Open open = std::move(open_.front());
-    open_.pop_front();
-    if (answerer_->origin() == Answerer::Origin::not_asked) {
-      ++tally_.not_asked;
+  void take(const Judged& judged, const std::string& set, SetTally& tally) {
+    const auto& [question, given, origin, judgement] = judged;
+    if (origin == Answerer::Origin::not_asked) {
+      ++tally.not_asked;
       return;
     }
-    const golden::Record& record = open.record;
-    const oracle::Judgement judgement =
-        open.query ? open.bench->judge.judge(*open.query, record.expect, given, ulps_)
-                   : judgement_of_invalid(given);
-    tally_.all.count(judgement);
-    for (const std::string& tag : record.tags) tally_.by_tag[tag].count(judgement);
+    tally.all.count(judgement);
+    for (const std::string& tag : question.tags) tally.by_tag[tag].count(judgement);
     const bool failed = judgement.verdict == oracle::Verdict::wrong ||
                         judgement.verdict == oracle::Verdict::error || (times_ && judgement.wrong_time);
     if (!failed || failures_.size() >= most_failures_) return;
-    const Scene& scene = open.bench->scene;
-    failures_.push_back({set_, record.id, fmt::format("{}", fmt::join(record.tags, ", ")), engine_, judgement,
-                         record.margin, record.expect, given, scene.dimension, ""});
-    if (open.query && judgement.verdict == oracle::Verdict::wrong)
-      failures_.back().reason = reason_of(open.bench->margins, scene, *open.query, record.expect, given,
-                                          judgement.obstacle, "    ");
+    Place& place = *question.place;
+    failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
+                         judgement, question.margin, question.exact, given, place.scene().dimension, ""});
+    if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
+      failures_.back().reason = reason_of(place.margins(), place.scene(), question.query, question.exact,
+                                          given, judgement.obstacle, "    ");
   }
 
   const std::string engine_;
@@ -150,10 +126,6 @@ class Examination {
   const bool times_;
   const std::size_t most_failures_;
   std::unique_ptr<Answerer> answerer_;
-  std::shared_ptr<const Bench> bench_;
-  std::deque<Open> open_;
-  std::string set_;
-  SetTally tally_;
   std::vector<Failure> failures_;
 };
 

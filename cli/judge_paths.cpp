@@ -58,15 +58,15 @@ report::FreePathCurve FlownScene::curve(const std::string& engine) const {
 }
 
 std::vector<FlownScene> fly_free_paths(judge::Examination& examination, std::uint64_t seed, double seconds) {
-  std::vector<judge::Place> places;
+  std::vector<judge::NamedPlace> places;
   std::vector<FlownScene> flown;
   for (const auto& [scene, radius] : kWhere) {
     flown.push_back({scene, radius, {}});
-    places.push_back({flown.back().name(), std::make_shared<judge::Setting>(read_scene(scene, radius))});
+    places.push_back({flown.back().name(), std::make_shared<compare::Place>(read_scene(scene, radius))});
   }
   const auto look = [&](const judge::Question& question, const Answer& given) {
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (question.setting == places[i].setting) flown[i].paths.add(question, given);
+      if (question.place == places[i].place) flown[i].paths.add(question, given);
   };
   examination.run(
       {"free paths", "from collision to collision: starts on obstacles, by the cosine law", false},

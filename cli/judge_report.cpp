@@ -27,7 +27,7 @@ using judge::Severity;
 namespace {
 
 int dimension_of(const Example& example) {
-  return example.question.setting->scene().dimension;
+  return example.question.place->scene().dimension;
 }
 
 // An invalid question stands as it was asked.
@@ -59,8 +59,7 @@ const char* option_for(Severity severity) {
 
 // The shell command that prints the question, as often as it takes.
 std::string lines_of_question(const Finding& finding) {
-  return printed(finding.simplest.question.setting->scene(), members_of(finding.simplest),
-                 finding.repetitions);
+  return printed(finding.simplest.question.place->scene(), members_of(finding.simplest), finding.repetitions);
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
@@ -82,9 +81,9 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
 
 // Why an answer is not the exact one: what decides, and whether rounding explains it.
 std::vector<std::string> lines_of_dispute(const Example& example) {
-  const judge::Setting& setting = *example.question.setting;
+  const compare::Place& place = *example.question.place;
   std::vector<std::string> lines;
-  if (const auto dispute = dispute_of(setting.margins(), setting.scene(), example.question.query,
+  if (const auto dispute = dispute_of(place.margins(), place.scene(), example.question.query,
                                       example.question.exact, example.given, example.judgement.obstacle))
     lines.push_back(dispute->text);
   const double departs = example.judgement.departs;
@@ -156,7 +155,7 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
                       often(finding, report));
   if (finding.severity() == Severity::ill_posed) return text;
   text += fmt::format("   the simplest, from {}:\n   {}\n   {}\n   says  {}\n   truth {}\n", finding.where,
-                      scene_line(example.question.setting->scene()), readable_query(example),
+                      scene_line(example.question.place->scene()), readable_query(example),
                       json::text_of(json_of(example.given, dimension)),
                       json::text_of(json_of(exact_of(example), dimension)));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
@@ -168,7 +167,7 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
 std::optional<std::string> drawing_of(const Example& example) {
   if (!example.question.is_query()) return std::nullopt;
   std::string drawing =
-      pictures::finding_drawing(example.question.setting->scene(), example.question.query, example.given,
+      pictures::finding_drawing(example.question.place->scene(), example.question.query, example.given,
                                 example.question.exact, example.judgement.obstacle);
   return drawing.empty() ? std::nullopt : std::optional(std::move(drawing));
 }
@@ -185,7 +184,7 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
   object.add("cause", judge::name_of(finding.cause()), "explanation", finding.explanation(), "count",
              finding.count, "share_of_plain", finding.share_of_plain, "share_of_hard", finding.share_of_hard,
              "often", often(finding, report), "where", finding.where, "verdict", name_of(finding.severity()));
-  object.add("scene", example.question.setting->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
+  object.add("scene", example.question.place->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
              "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
   object.add("by_radii", json::finite(example.diagnosis.by_radii), "by_ulps", json::finite(ulps_of(example)),
              "reason", reason_lines(finding), "commands", commands_of(finding, report), "drawing",
@@ -323,7 +322,7 @@ std::vector<std::string> cells_of(const compare::Tally& t, std::size_t nonsense)
           number(t.missing),
           number(nonsense),
           t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
-          t.ns_per_query > 0 ? fmt::format("{:.0f}", t.ns_per_query) : "-"};
+          t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"};
 }
 
 enum class RowState { asked, unsupported, no_time, given_up };
@@ -376,7 +375,7 @@ void add_row(json::Members& object, const judge::Row& row, const JudgeReport& re
              t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error,
              "missing", t.missing, "nonsense", row.nonsense);
   object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp) : std::nullopt, "ns_per_query",
-             t.ns_per_query > 0 ? json::finite(t.ns_per_query) : std::nullopt);
+             t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 
 }  // namespace
@@ -418,7 +417,8 @@ std::string JudgeReport::line() const {
 }
 
 std::string JudgeReport::text() const {
-  std::string text = fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine.name, seed, table_of(*this));
+  std::string text =
+      fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine.name, seed, table_of(*this));
   for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)

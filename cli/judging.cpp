@@ -11,7 +11,7 @@
 #include "cli/judge_paths.hpp"
 #include "cli/numbers.hpp"
 #include "cli/scene_option.hpp"
-#include "compare/measure.hpp"
+#include "compare/race.hpp"
 #include "judge/questions.hpp"
 #include "judge/repetition.hpp"
 #include "judge/simplest.hpp"
@@ -20,7 +20,7 @@ namespace lorentz::cli {
 
 using compare::Difficulty;
 using judge::Examination;
-using judge::Place;
+using judge::NamedPlace;
 
 namespace {
 
@@ -55,14 +55,14 @@ const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001",
                                       {"ellipse", {}},
                                       {"ellipsoid", {}}};
 
-std::vector<Place> places_of(const Scenery& scenery) {
+std::vector<NamedPlace> places_of(const Scenery& scenery) {
   const auto place = [&](const std::optional<std::string>& radius) {
     const std::string name =
         radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
-    return Place{name, std::make_shared<judge::Setting>(
-                           read_scene(scenery.scene, positive_number(radius, "--radius")))};
+    return NamedPlace{name, std::make_shared<compare::Place>(
+                                read_scene(scenery.scene, positive_number(radius, "--radius")))};
   };
-  std::vector<Place> places;
+  std::vector<NamedPlace> places;
   for (const char* radius : scenery.radii) places.push_back(place(radius));
   if (places.empty()) places.push_back(place(std::nullopt));
   return places;
@@ -94,11 +94,11 @@ class Shares {
 };
 
 // Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
-std::vector<Place> fly_drawn(Examination& examination, const Plan& plan, std::uint64_t seed) {
-  std::vector<Place> all;
+std::vector<NamedPlace> fly_drawn(Examination& examination, const Plan& plan, std::uint64_t seed) {
+  std::vector<NamedPlace> all;
   Shares drawn(plan.drawn, kSceneries.size());
   for (const Scenery& scenery : kSceneries) {
-    const std::vector<Place> places = places_of(scenery);
+    const std::vector<NamedPlace> places = places_of(scenery);
     examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
                     judge::drawn(places, Difficulty::drawn, seed, plan.count), drawn.next());
     all.insert(all.end(), places.begin(), places.end());
@@ -189,58 +189,56 @@ void simplify(std::vector<judge::Finding>& findings, Examination& examination, c
 // ---- Speed
 
 // Of the places where the engine answered: the square and cubic lattice at r = 0.1, if these are among them.
-std::vector<const Place*> places_to_race_in(const std::vector<Place>& places) {
-  std::vector<const Place*> chosen;
-  for (const Place& place : places)
-    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") &&
-        place.setting->was_answered() && !place.setting->is_beyond_engine())
+std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& places) {
+  std::vector<const NamedPlace*> chosen;
+  for (const NamedPlace& place : places)
+    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") && place.place->was_answered() &&
+        !place.place->is_beyond_engine())
       chosen.push_back(&place);
-  for (const Place& place : places)
-    if (chosen.empty() && place.setting->was_answered() && !place.setting->is_beyond_engine())
+  for (const NamedPlace& place : places)
+    if (chosen.empty() && place.place->was_answered() && !place.place->is_beyond_engine())
       chosen.push_back(&place);
   return chosen;
 }
 
 // As many of each place as can be afforded.
-compare::CaseSet cases_to_race_in(const std::vector<const Place*>& places, std::uint64_t seed,
-                                  std::size_t count) {
-  compare::CaseSet set;
-  for (const Place* place : places) {
-    const Scene& scene = place->setting->scene();
-    for (const Query& query : compare::draw_queries(scene, place->setting->oracle(), seed, count))
-      set.cases.push_back({std::to_string(set.cases.size()), set.scenes.size(), query});
-    set.scenes.push_back(scene);
-  }
-  return set;
+std::vector<compare::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
+                                                    std::uint64_t seed, std::size_t count) {
+  std::vector<compare::Question> all;
+  for (const NamedPlace* named : places)
+    for (compare::Question& question : compare::questions_of(
+             named->place, compare::draw_queries(named->place->scene(), named->place->oracle(), seed, count)))
+      all.push_back(std::move(question));
+  return all;
 }
 
 std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
   constexpr double kFewest = 32, kMost = 2000;
   double slowest = 1;
   for (const judge::Row& row : report.rows)
-    if (!row.is_hard) slowest = std::max(slowest, row.tally.ns_per_query);
+    if (!row.is_hard) slowest = std::max(slowest, row.tally.speed.ns_per_query);
   return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
 }
 
-void race(JudgeReport& report, const std::vector<Place>& places, const Terms& terms, double seconds) {
+void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms, double seconds) {
   constexpr int kRounds = 5;
   constexpr double kTooLong = 2;  // times as long as it should take
-  const std::vector<const Place*> chosen = places_to_race_in(places);
+  const std::vector<const NamedPlace*> chosen = places_to_race_in(places);
   if (chosen.empty()) return;
   const std::size_t count = affordable(report, kRounds, seconds);
   const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
-  compare::MeasureOptions options{terms.ulps, kRounds, terms.answerer.timeout, terms.answerer.listener};
+  compare::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
   options.start_timeout = terms.answerer.start_timeout;
   options.enough = [&] { return terms.stop || until.left() == 0; };
-  const std::vector<compare::Tally> tallies =
-      compare::measure(cases_to_race_in(chosen, report.seed, count), {},
-                       {report.engine, compare::engine_named("reduction")}, {}, options);
+  const std::vector<compare::Speed> speeds =
+      compare::race(questions_to_race_in(chosen, report.seed, count),
+                    {report.engine, compare::engine_named("reduction")}, options);
   const bool is_cut = report.engine.is_command() && options.enough();
-  if (tallies[0].failed || is_cut) return;
-  report.ns_per_query = tallies[0].ns_per_query;
-  report.ns_of_reduction = tallies[1].ns_per_query;
+  if (speeds[0].failed || is_cut) return;
+  report.ns_per_query = speeds[0].ns_per_query;
+  report.ns_of_reduction = speeds[1].ns_per_query;
   std::vector<std::string> names;
-  for (const Place* place : chosen) names.push_back(place->name);
+  for (const NamedPlace* place : chosen) names.push_back(place->name);
   report.speed_of =
       fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
 }
@@ -258,10 +256,10 @@ Terms terms_of(const JudgeOrder& order, const Plan& plan, const std::atomic<bool
 }
 
 // All that it is asked in turn; returns where.
-std::vector<Place> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
-                           JudgeReport& report) {
+std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
+                                JudgeReport& report) {
   const Countdown all(plan.seconds());
-  std::vector<Place> places = fly_drawn(examination, plan, report.seed);
+  std::vector<NamedPlace> places = fly_drawn(examination, plan, report.seed);
   report.flown = fly_free_paths(examination, report.seed, plan.paths);
   check_golden_sets(examination, plan.golden);
   std::vector<std::unique_ptr<Examination>> others;
@@ -304,7 +302,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   const Examination::Start start = examination->warm_up();
   report.start_up = start.start_up, report.first_answer = start.first_answer;
   if (!examination->is_over()) examination->limit(plan.seconds());
-  const std::vector<Place> places = examine(*examination, terms, plan, order.jobs, report);
+  const std::vector<NamedPlace> places = examine(*examination, terms, plan, order.jobs, report);
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();

@@ -9,12 +9,12 @@ namespace lorentz::compare {
 using cases::Random;
 
 std::vector<Query> draw_queries(const Scene& scene, const oracle::Oracle& oracle, std::uint64_t seed,
-                                std::size_t count, const Listener& listener) {
+                                std::size_t count, const Listener& listener, std::size_t first) {
   constexpr std::uint64_t kTries = 10'000;
   const cases::Box box = cases::Box::of(scene);
   std::vector<Query> queries;
   queries.reserve(count);
-  for (std::size_t index = 0; index < count; ++index) {
+  for (std::size_t index = first; index < first + count; ++index) {
     Random random(seed, "drawn queries", index);
     Query query;
     std::uint64_t tries = 0;

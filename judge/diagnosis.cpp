@@ -14,7 +14,7 @@ bool names_obstacle(const Answer& answer) {
 }
 
 bool exists(const Question& question, const ObstacleId& obstacle) {
-  return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.setting->scene());
+  return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.place->scene());
 }
 
 struct Fault {
@@ -30,7 +30,7 @@ Fault graded(Cause grazing, Cause gross, double gap) {
 
 // The answer says that x lies in an obstacle, which must exist.
 Fault of_false_inside(const Question& question, const Answer& given, const ObstacleId& decisive) {
-  const double gap = question.setting->margins().approach(question.query, given.obstacle).start_gap;
+  const double gap = question.place->margins().approach(question.query, given.obstacle).start_gap;
   if (question.exact.outcome == Outcome::inside && (gap < 0 || decisive != given.obstacle))
     return {Cause::inside_another};
   return {Cause::inside_not_so, gap};  // x lies outside: else it were the one above, or right
@@ -38,14 +38,13 @@ Fault of_false_inside(const Question& question, const Answer& given, const Obsta
 
 // The answer says that another obstacle is hit than the exact one, or that one is where none is.
 Fault of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
-  const judge::Setting& setting = *question.setting;
-  const oracle::Approach approach = setting.margins().approach(question.query, decisive);
+  const compare::Place& place = *question.place;
+  const oracle::Approach approach = place.margins().approach(question.query, decisive);
   if (decisive == given.obstacle) {
     if (!approach.ahead && approach.start_gap >= 0) return {Cause::behind};
     return graded(Cause::false_hit_grazing, Cause::false_hit, approach.gap);
   }
-  if (fuzz::is_tie(setting.scene(), setting.judge(), question.query, question.exact, given))
-    return {Cause::tie};
+  if (fuzz::is_tie(place.scene(), place.judge(), question.query, question.exact, given)) return {Cause::tie};
   return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 
@@ -53,7 +52,7 @@ Fault of_false_hit(const Question& question, const Answer& given, const Obstacle
 // not missed, nor does it lie behind.)
 bool is_touched(const Question& question, const Answer& given) {
   return given.outcome == Outcome::hit &&
-         question.setting->margins().approach(question.query, given.obstacle).gap >= 0;
+         question.place->margins().approach(question.query, given.obstacle).gap >= 0;
 }
 
 Fault of_another_answer(const Question& question, const Answer& given,
@@ -69,7 +68,7 @@ Fault of_another_answer(const Question& question, const Answer& given,
                                : is_touched(question, given) ? given.obstacle
                                                              : exact.obstacle;
   if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
-  const oracle::Approach approach = question.setting->margins().approach(query, decisive);
+  const oracle::Approach approach = question.place->margins().approach(query, decisive);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)
     return {Cause::inside_not_seen, std::fabs(approach.start_gap)};
   if (given.outcome == Outcome::hit) return of_false_hit(question, given, decisive);

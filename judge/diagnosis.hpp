@@ -6,9 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "judge/question.hpp"
+#include "compare/question.hpp"
 
 namespace lorentz::judge {
+
+using compare::Place;
+using compare::Question;
 
 /// The ways of being wrong. docs/judge.md has them.
 enum class Cause {

@@ -52,9 +52,9 @@ Examination::Start Examination::warm_up() {
   constexpr int kTries = 3;
   constexpr double kFast = 0.05;  // seconds
   if (!is_command_) return {};
-  const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const Question question{setting, along, setting->oracle().first_hit(along), "the first question", ""};
+  const Question question{place, along, place->oracle().first_hit(along), "the first question", ""};
   double longest = 0, last = 0;
   for (int i = 0; i < kTries && !is_over() && (i == 0 || last > kFast); ++i) {
     longest = std::max(longest, last = ask({question}));
@@ -74,7 +74,7 @@ double Examination::ask(const std::vector<Question>& questions) {
   answers_.clear();
   const auto start = Clock::now();
   for (const Question& question : questions) {
-    if (question.setting != setting_) answerer_->set_scene((setting_ = question.setting)->scene());
+    if (question.place != place_) answerer_->set_scene((place_ = question.place)->scene());
     if (question.is_query())
       answerer_->ask("null", question.query);
     else
@@ -87,7 +87,7 @@ double Examination::ask(const std::vector<Question>& questions) {
 void Examination::run(Row row, const Source& source, double seconds, const Look& look) {
   const auto start = Clock::now();
   row.tally.name = row.name;
-  setting_.reset();
+  place_.reset();
   answerer_->try_again();
   double asking = 0;
   std::size_t at_once = kFewestAtOnce;
@@ -104,43 +104,45 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
     asking += took;
     at_once = next_number(questions.size(), took);
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      questions[i].setting->note_time(took / static_cast<double>(answers_.size()));
+      questions[i].place->note_time(took / static_cast<double>(answers_.size()));
       take(questions[i], answers_[i], row);
       if (look && answers_[i].was_asked()) look(questions[i], answers_[i].answer);
     }
-    if (answerer_->given_up() && setting_) leave(*setting_, row);
+    if (answerer_->given_up() && place_) leave(*place_, row);
     if (answerer_->is_hopeless()) break;
   }
-  if (row.tally.queries > 0) row.tally.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
+  if (row.tally.queries > 0)
+    row.tally.speed.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
   rows_.push_back(std::move(row));
 }
 
 void Examination::take_over(const Examination& other) {
   compare::Tally& its = rows_.back().tally;
   const compare::Tally& more = other.rows_.back().tally;
-  const auto time = [](const compare::Tally& t) { return t.ns_per_query * static_cast<double>(t.queries); };
+  const auto time = [](const compare::Tally& t) {
+    return t.speed.ns_per_query * static_cast<double>(t.queries);
+  };
   const double ns = time(its) + time(more);
   its.add(more);
   rows_.back().nonsense += other.rows_.back().nonsense;
   rows_.back().scenes_given_up += other.rows_.back().scenes_given_up;
   if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
-  if (its.queries > 0) its.ns_per_query = ns / static_cast<double>(its.queries);
+  if (its.queries > 0) its.speed.ns_per_query = ns / static_cast<double>(its.queries);
   findings_.add(other.findings_);
   calls_.add(other.calls_);
   failed_ |= other.failed();
 }
 
-void Examination::leave(Setting& setting, Row& row) const {
-  if (setting.is_given_up()) return;
-  setting.give_up();
+void Examination::leave(Place& place, Row& row) const {
+  if (place.is_given_up()) return;
+  place.give_up();
   ++row.scenes_given_up;
   row.last_failure = last_fault_;
 }
 
 Judgement Examination::judgement_of(const Question& question, const Given& given) const {
   if (given.origin == Origin::fault) return {Verdict::missing};
-  if (!question.is_query()) return compare::judgement_of_invalid(given.answer);
-  return question.setting->judge().judge(question.query, question.exact, given.answer, ulps_);
+  return compare::judgement_of(question, given.answer, ulps_);
 }
 
 std::optional<Example> Examination::departing(const Question& question, const Given& given) const {
@@ -151,7 +153,7 @@ std::optional<Example> Examination::departing(const Question& question, const Gi
 }
 
 void Examination::take(const Question& question, const Given& given, Row& row) {
-  if (!given.was_asked()) return leave(*question.setting, row);
+  if (!given.was_asked()) return leave(*question.place, row);
   const Judgement judgement = judgement_of(question, given);
   if (given.origin == Origin::fault) last_fault_ = given.answer.message;
   const auto diagnosis = diagnosis_of(question, given.answer, judgement);
@@ -160,7 +162,7 @@ void Examination::take(const Question& question, const Given& given, Row& row) {
     ++row.nonsense;
   else
     row.tally.count(judgement);
-  question.setting->note(judgement.verdict == Verdict::unsupported);
+  question.place->note(judgement.verdict == Verdict::unsupported);
   if (diagnosis) findings_.add({question, given.answer, judgement, *diagnosis}, row.name);
   if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(question);

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "compare/answerer.hpp"
-#include "compare/measure.hpp"
+#include "compare/engines.hpp"
+#include "compare/examine.hpp"
+#include "compare/tally.hpp"
 #include "judge/calls.hpp"
 #include "judge/findings.hpp"
-#include "compare/engines.hpp"
 
 namespace lorentz::judge {
 
-/// The next question, or nothing: that was all.
-using Source = std::function<std::optional<Question>()>;
+using compare::Source;
 
 /// Sees each answer of a row.
 using Look = std::function<void(const Question&, const Answer& given)>;
@@ -101,7 +101,7 @@ class Examination {
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
   void take(const Question& question, const Given& given, Row& row);
-  void leave(Setting& setting, Row& row) const;
+  void leave(Place& place, Row& row) const;
   oracle::Judgement judgement_of(const Question& question, const Given& given) const;
   std::optional<Example> departing(const Question& question, const Given& given) const;
 
@@ -112,7 +112,7 @@ class Examination {
   bool failed_ = false;  // of those that were taken over
   const bool is_command_;
   std::unique_ptr<compare::Answerer> answerer_;
-  std::shared_ptr<Setting> setting_;  // that the answerer is in
+  std::shared_ptr<Place> place_;  // that the answerer is in
   std::vector<Given> answers_;
   std::string last_fault_;
   std::vector<Row> rows_;

@@ -47,7 +47,7 @@ double largest_number(const Question& question) {
 }  // namespace
 
 Features features_of(const Question& question) {
-  const Scene& scene = question.setting->scene();
+  const Scene& scene = question.place->scene();
   const Query& query = question.query;
   const double unit = shortest_vector(scene);
   Features its;
@@ -65,7 +65,7 @@ Features features_of(const Question& question) {
   its.speed = length(query.v);
   if (question.exact.outcome != Outcome::hit) return its;
   its.flight = question.exact.time.value_or(Features::kNone) * its.speed / unit;
-  its.depth = -question.setting->margins().approach(query, question.exact.obstacle).gap;
+  its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
   return its;
 }
 

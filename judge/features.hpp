@@ -3,9 +3,12 @@
 
 #include <limits>
 
-#include "judge/question.hpp"
+#include "compare/question.hpp"
 
 namespace lorentz::judge {
+
+using compare::Place;
+using compare::Question;
 
 struct Features {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

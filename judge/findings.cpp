@@ -15,7 +15,7 @@ constexpr std::size_t kMostFeatures = 2000;
 // Valid questions before invalid ones, which have no numbers: of these the shortest text.
 std::pair<bool, long> complexity_of(const Question& question) {
   if (!question.is_query()) return {true, static_cast<long>(question.text.size())};
-  return {false, fuzz::complexity(question.setting->scene(), question.query)};
+  return {false, fuzz::complexity(question.place->scene(), question.query)};
 }
 
 // Of all that was asked in the rows that are hard, or in the others.

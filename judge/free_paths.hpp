@@ -4,9 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "judge/question.hpp"
+#include "compare/question.hpp"
 
 namespace lorentz::judge {
+
+using compare::Place;
+using compare::Question;
 
 /// P(free path > t), twice: of the same flights, so that whatever sets the two apart is the engine's.
 struct PathPoint {

@@ -10,21 +10,21 @@
 #include "cases/families/target.hpp"
 #include "flights/sample/free_starts.hpp"
 #include "fuzz/examine/variants.hpp"
-#include "golden/reader.hpp"
+#include "golden/questions.hpp"
 
 namespace lorentz::judge {
 namespace {
 
 constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
 
-Question question_of(const Place& place, const Query& query, const std::string& where) {
-  return {place.setting, query, place.setting->oracle().first_hit(query), where, ""};
+Question question_of(const NamedPlace& place, const Query& query, const std::string& where) {
+  return {place.place, query, place.place->oracle().first_hit(query), where, ""};
 }
 
 // Blocks of all places in turn.
 class Drawn {
  public:
-  Drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
+  Drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
         std::size_t count)
       : places_(places), difficulty_(difficulty), seed_(seed), left_(count) {}
 
@@ -38,11 +38,11 @@ class Drawn {
   // The next block, of the next place that the engine does. False if there is none.
   bool draw() {
     for (std::size_t tried = 0; tried < places_.size(); ++tried, ++block_) {
-      const Place& place = places_[block_ % places_.size()];
-      if (place.setting->is_beyond_engine()) continue;
+      const NamedPlace& place = places_[block_ % places_.size()];
+      if (place.place->is_beyond_engine()) continue;
       place_ = &place;
       next_ = 0;
-      queries_ = compare::hard_queries(difficulty_, place.setting->scene(), place.setting->oracle(),
+      queries_ = compare::hard_queries(difficulty_, place.place->scene(), place.place->oracle(),
                                        seed_ + block_ / places_.size(), kBlock);
       ++block_;
       return true;
@@ -50,27 +50,27 @@ class Drawn {
     return false;
   }
 
-  const std::vector<Place>& places_;
+  const std::vector<NamedPlace>& places_;
   const compare::Difficulty difficulty_;
   const std::uint64_t seed_;
   std::size_t left_, block_ = 0, next_ = 0;
-  const Place* place_ = nullptr;
+  const NamedPlace* place_ = nullptr;
   std::vector<Query> queries_;
 };
 
 // The same of flights that begin on an obstacle.
 class Flown {
  public:
-  Flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count)
+  Flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count)
       : places_(places), count_(count) {
-    for (const Place& place : places)
-      starts_.emplace_back(place.setting->scene(), flights::Kind::surface, seed);
+    for (const NamedPlace& place : places)
+      starts_.emplace_back(place.place->scene(), flights::Kind::surface, seed);
   }
 
   std::optional<Question> next() {
     for (std::size_t tried = 0; number_ < count_ && tried < places_.size(); ++tried) {
       const std::size_t block = number_ / kBlock, which = block % places_.size();
-      if (const Place& place = places_[which]; !place.setting->is_beyond_engine()) {
+      if (const NamedPlace& place = places_[which]; !place.place->is_beyond_engine()) {
         Query query;
         starts_[which].draw(block / places_.size() * kBlock + number_ % kBlock, query);
         ++number_;
@@ -82,7 +82,7 @@ class Flown {
   }
 
  private:
-  const std::vector<Place>& places_;
+  const std::vector<NamedPlace>& places_;
   const std::size_t count_;
   std::size_t number_ = 0;
   std::vector<flights::FreeStarts> starts_;
@@ -90,29 +90,19 @@ class Flown {
 
 class Golden {
  public:
-  explicit Golden(const std::string& path) : reader_(path) {}
+  explicit Golden(const std::string& path) : reader_(path), records_(golden::questions_of(reader_)) {}
 
   std::optional<Question> next() {
-    golden::ReadRecord read;
-    do {
-      if (!reader_.next(read)) return std::nullopt;
-      if (setting_ && number_ == reader_.scene_number()) continue;
-      number_ = reader_.scene_number();
-      setting_ = std::make_shared<Setting>(reader_.scene());
-    } while (setting_->is_beyond_engine());
-    const std::string where = fmt::format("golden {}, {}", reader_.header().name, read.record.id);
-    Question question{setting_, {}, std::move(read.record.expect), where, ""};
-    if (read.query)
-      question.query = *read.query;
-    else
-      question.text = read.record.question;
+    std::optional<Question> question;
+    do question = records_();
+    while (question && question->place->is_beyond_engine());
+    if (question) question->where = fmt::format("golden {}, {}", reader_.header().name, question->where);
     return question;
   }
 
  private:
   golden::Reader reader_;
-  std::size_t number_ = 0;
-  std::shared_ptr<Setting> setting_;
+  const compare::Source records_;
 };
 
 // For an examiner that is to know what is exact, and asks nobody.
@@ -166,23 +156,23 @@ class Campaign {
   void make(const cases::Target& target, std::uint64_t begin) {
     const cases::Case base = target.make(seed_, begin);
     if (!scope_.admits(base.scene)) return;
-    auto setting = std::make_shared<Setting>(base.scene);
+    auto place = std::make_shared<Place>(base.scene);
     const auto add = [&](const Query& query, const Answer& exact, std::uint64_t index, int step) {
       questions_.push_back(
-          {setting, query, exact,
+          {place, query, exact,
            fmt::format("campaign, {}/{}{}", target.name(), index, step > 0 ? fmt::format(".{}", step) : ""),
            ""});
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
       const cases::Case one = target.make(seed_, index);
-      if (one.scene == base.scene) add(one.query, setting->oracle().first_hit(one.query), index, 0);
+      if (one.scene == base.scene) add(one.query, place->oracle().first_hit(one.query), index, 0);
     }
     NoSubject nobody;
     const fuzz::Examiner examiner(nobody, base.scene, oracle::kDefaultUlps);
     int step = 0;
     for (const fuzz::Variant& variant :
          fuzz::climb(cases::Random(seed_, target.name(), begin, cases::Use::variants), base, examiner,
-                     setting->margins()))
+                     place->margins()))
       add(variant.question.query, variant.question.exact, begin, ++step);
   }
 
@@ -204,12 +194,12 @@ Source source_of(Arguments&&... arguments) {
 
 }  // namespace
 
-Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
+Source drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
              std::size_t count) {
   return source_of<Drawn>(places, difficulty, seed, count);
 }
 
-Source flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count) {
+Source flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count) {
   return source_of<Flown>(places, seed, count);
 }
 
@@ -221,12 +211,12 @@ Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, uns
   return source_of<Campaign>(seed, scope, part, parts);
 }
 
-fuzz::Scope scope_of(const std::vector<Place>& places) {
+fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {
   using Scenes = fuzz::Scope::Scenes;
   bool in_plane = false, in_space = false, mixed = false, skewed = false;
-  for (const Place& place : places) {
-    if (!place.setting->was_answered()) continue;
-    const Scene& scene = place.setting->scene();
+  for (const NamedPlace& place : places) {
+    if (!place.place->was_answered()) continue;
+    const Scene& scene = place.place->scene();
     (scene.dimension == 2 ? in_plane : in_space) = true;
     skewed |= !is_unit_scene(scene);
     mixed |= !fuzz::Scope{Scenes::lattice, 0}.admits(scene);

@@ -12,19 +12,19 @@
 namespace lorentz::judge {
 
 /// A scene with what to call it: "square, r = 0.1".
-struct Place {
+struct NamedPlace {
   std::string name;
-  std::shared_ptr<Setting> setting;
+  std::shared_ptr<Place> place;
 };
 
 /// `count` queries, a few of each place in turn; none of those that are beyond the engine. The places must
 /// outlast the source.
-Source drawn(const std::vector<Place>& places, compare::Difficulty difficulty, std::uint64_t seed,
+Source drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
              std::size_t count);
 
 /// `count` flights from collision to collision, a few in each place in turn: starts on obstacles, by the
 /// cosine law. The places must outlast the source.
-Source flown(const std::vector<Place>& places, std::uint64_t seed, std::size_t count);
+Source flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count);
 
 /// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
 /// does.
@@ -37,6 +37,6 @@ Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part = 0,
 
 /// The narrowest scope with all scenes of these in which the engine answered; all scenes if it answered
 /// nowhere.
-fuzz::Scope scope_of(const std::vector<Place>& places);
+fuzz::Scope scope_of(const std::vector<NamedPlace>& places);
 
 }  // namespace lorentz::judge

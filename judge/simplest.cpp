@@ -22,12 +22,12 @@ class SameWay {
       : like_(finding.simplest), by_radii_(finding.by_radii), examination_(examination) {}
 
   bool operator()(const Scene& scene, const Query& query) {
-    if (!setting_ || setting_->scene() != scene) {
+    if (!place_ || place_->scene() != scene) {
       if (!fuzz::is_sound(scene) || !fuzz::is_sane(scene)) return false;
-      setting_ = std::make_shared<Setting>(scene);
+      place_ = std::make_shared<Place>(scene);
     }
     if (flaw_of(query, scene)) return false;
-    const Question question{setting_, query, setting_->oracle().first_hit(query), like_.question.where, ""};
+    const Question question{place_, query, place_->oracle().first_hit(query), like_.question.where, ""};
     last_ = examination_.example_of(question);
     return last_ && is_alike(*last_, like_, by_radii_);
   }
@@ -42,7 +42,7 @@ class SameWay {
   const Example& like_;
   std::optional<double> by_radii_;
   Examination& examination_;
-  std::shared_ptr<Setting> setting_;
+  std::shared_ptr<Place> place_;
   std::optional<Example> last_;
 };
 
@@ -55,7 +55,7 @@ Example simplest(const Finding& finding, Examination& examination, double second
   if (!example.question.is_query() || example.diagnosis.cause == Cause::no_answer) return example;
   const auto start = Clock::now();
   SameWay same(finding, examination);
-  const Scene& scene = example.question.setting->scene();
+  const Scene& scene = example.question.place->scene();
   if (examination.is_over() || !same(scene, example.question.query)) return example;
   const auto is_up = [&] {
     return examination.is_over() || std::chrono::duration<double>(Clock::now() - start).count() > seconds;

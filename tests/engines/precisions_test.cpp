@@ -4,11 +4,12 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/verdict.hpp>
+#include "compare/examine.hpp"
 #include "compare/hard_cases.hpp"
-#include "compare/measure.hpp"
 #include "compare/precisions/big_number.hpp"
 #include "compare/precisions/published_in.hpp"
 #include "compare/precisions/wide_number.hpp"
+#include "compare/tally.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -43,16 +44,18 @@ TEST_CASE("In 53 bits of any library the search is `published`, bit by bit", "[e
 
 TEST_CASE("What grazes at r = 1e-6 is beyond 24 bits and 53, and not beyond 106", "[engines][precisions]") {
   const Scene scene = unit_scene(2, 1e-6);
-  const oracle::Oracle oracle(scene);
-  CaseSet set{{scene}, {}};
-  for (const Query& query : hard_queries(Difficulty::grazing, scene, oracle, 20161115, 60))
-    set.cases.push_back({"0", 0, query});
-  MeasureOptions options;
-  options.rounds = 1;
-  const std::vector<Tally> tallies = measure(
-      set, exact_answers(set),
-      engines_named({"published-float", "published", "published-dd", "published-128", "published-256"}), {},
-      options);
+  const auto place = std::make_shared<Place>(scene);
+  std::vector<Question> questions =
+      questions_of(place, hard_queries(Difficulty::grazing, scene, place->oracle(), 20161115, 60));
+  answer_exactly(questions, Truth::oracle);
+  std::vector<Tally> tallies;
+  for (const EngineInfo& engine :
+       engines_named({"published-float", "published", "published-dd", "published-128", "published-256"})) {
+    Tally& tally = tallies.emplace_back();
+    tally.name = engine.name;
+    examine(all_of(questions), *engine.answerer({}), oracle::kDefaultUlps,
+            [&](const Judged& judged) { tally.count(judged.judgement); });
+  }
   CHECK(tallies[0].wrong > 50);
   CHECK(tallies[1].wrong == 0);
   CHECK(tallies[1].ill_posed > 8);

@@ -11,9 +11,9 @@ using namespace lorentz::judge;
 namespace {
 
 Question asked(double radius, Vec x, Vec v, std::optional<ObstacleId> from = {}) {
-  const auto setting = std::make_shared<Setting>(unit_scene(2, radius));
+  const auto place = std::make_shared<Place>(unit_scene(2, radius));
   const Query query{x, v, from};
-  return {setting, query, setting->oracle().first_hit(query), "here", ""};
+  return {place, query, place->oracle().first_hit(query), "here", ""};
 }
 
 ObstacleId disc(long i, long j) {
@@ -21,8 +21,7 @@ ObstacleId disc(long i, long j) {
 }
 
 std::optional<Diagnosis> diagnosed(const Question& question, const Answer& given) {
-  return diagnosis_of(question, given,
-                      question.setting->judge().judge(question.query, question.exact, given));
+  return diagnosis_of(question, given, question.place->judge().judge(question.query, question.exact, given));
 }
 
 // The name of the cause, after a ~ if rounding of the inputs explains it.
@@ -72,7 +71,7 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
   Scene two = unit_scene(2, 0.25);
   two.lattices[0].atoms.push_back({{0.25, 0, 0}, 0.125, {}});
   // On the edge of one and within another: rounding decides which.
-  const auto overlapping = std::make_shared<Setting>(two);
+  const auto overlapping = std::make_shared<Place>(two);
   const Query on_edge{{0.25, 0, 0}, {0, 1, 0}, {}};
   const Question within{overlapping, on_edge, overlapping->oracle().first_hit(on_edge), "", ""};
   REQUIRE(within.exact.obstacle == ObstacleId{0, 1, {0, 0, 0}});
@@ -106,17 +105,17 @@ TEST_CASE("The obstacle that is told of is the one that condemns", "[judge][diag
   const Question two = asked(0.25, {-0.5, -0.25 - 0x1p-31 + 0x1p-54, 0}, {1, 0x1p-30, 0});
   REQUIRE(two.exact.obstacle == disc(0, 0));
   const Answer given = Answer::hit(disc(2, 0), 2.3);
-  const auto judgement = two.setting->judge().judge(two.query, two.exact, given);
+  const auto judgement = two.place->judge().judge(two.query, two.exact, given);
   REQUIRE(judgement.verdict == oracle::Verdict::wrong);
   CHECK(judgement.obstacle == disc(1, 0));
   const auto diagnosis = diagnosis_of(two, given, judgement);
   REQUIRE(diagnosis);
-  const double depth = -two.setting->margins().approach(two.query, disc(1, 0)).gap;
+  const double depth = -two.place->margins().approach(two.query, disc(1, 0)).gap;
   CHECK(diagnosis->by_radii == Approx(depth));
   CHECK(judgement.departs > 4);
   // What rounding forgives is told with the rounding that it takes.
   const Answer next = Answer::hit(disc(1, 0), *two.exact.time + 1);
-  const auto forgiven = two.setting->judge().judge(two.query, two.exact, next);
+  const auto forgiven = two.place->judge().judge(two.query, two.exact, next);
   CHECK(forgiven.verdict == oracle::Verdict::ill_posed);
   CHECK(forgiven.obstacle == disc(0, 0));
   CHECK(forgiven.departs > 0);
@@ -171,7 +170,7 @@ TEST_CASE("What only touches the line is told of as that", "[judge][diagnosis]")
   // The line touches the disc (0, 0) and enters (1, 1). No input needs to move for the one that is named.
   const Question question = asked(0.3125, {0.203125, -0.25, 0}, {3, 4, 0});
   REQUIRE(question.exact.obstacle == disc(1, 1));
-  CHECK(question.setting->margins().approach(question.query, disc(0, 0)).gap == 0);
+  CHECK(question.place->margins().approach(question.query, disc(0, 0)).gap == 0);
   CHECK(cause(question, Answer::hit(disc(0, 0), 0.05)) == "~false-hit-grazing");
 }
 
@@ -181,9 +180,9 @@ TEST_CASE("Features are those of the whole scene, in lengths of its shortest vec
   scene.lattices[0].atoms.push_back(Atom{{1, 1.5, 0}, 0.2, {}});
   scene.lattices.push_back({{{{0, 1.5, 0}, {7, 0, 0}, {}}}, {Atom{{0.5, 0.7, 0}, 0.25, {}}}});
   const auto of = [](const Scene& asked_of, const Query& query) {
-    const auto setting = std::make_shared<Setting>(asked_of);
-    return std::pair(features_of({setting, query, setting->oracle().first_hit(query), "here", ""}),
-                     setting->oracle().first_hit(query));
+    const auto place = std::make_shared<Place>(asked_of);
+    return std::pair(features_of({place, query, place->oracle().first_hit(query), "here", ""}),
+                     place->oracle().first_hit(query));
   };
   const Query query{{0.8, -0.7, 0}, {1.75, 6, 0}, {}};
   const auto [its, exact] = of(scene, query);
@@ -225,7 +224,7 @@ TEST_CASE("Findings of one cause are one, the simplest case in front, the most f
                  odd = asked(0.25, {0.4375, 0.0234375, 0}, {0.984375, 0.015625, 0});
   Findings findings;
   const auto add = [&](const Question& question, const Answer& given, const char* row) {
-    const auto judgement = question.setting->judge().judge(question.query, question.exact, given);
+    const auto judgement = question.place->judge().judge(question.query, question.exact, given);
     findings.add({question, given, judgement, *diagnosis_of(question, given, judgement)}, row);
   };
   add(odd, Answer::never(), "many");

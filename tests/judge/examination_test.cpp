@@ -30,12 +30,12 @@ std::string tolerant(const std::string& fault) {
 Source questions(std::vector<int> dimensions, std::size_t number) {
   const auto all = std::make_shared<std::vector<Question>>();
   for (const int dimension : dimensions) {
-    const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
-    for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), kSeed, number))
-      all->push_back({setting, query, setting->oracle().first_hit(query), "here", ""});
+    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
+    for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), kSeed, number))
+      all->push_back({place, query, place->oracle().first_hit(query), "here", ""});
   }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
-    while (next < all->size() && (*all)[next].setting->is_beyond_engine()) ++next;
+    while (next < all->size() && (*all)[next].place->is_beyond_engine()) ++next;
     return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
   };
 }
@@ -103,10 +103,10 @@ TEST_CASE("A program that never answered is not asked on and on", "[judge][exami
 TEST_CASE("An engine is asked no more where it is slow, or does none of the first questions",
           "[judge][examination]") {
   const auto setting_with = [](int asked, int unsupported, double seconds) {
-    Setting setting(unit_scene(2, 0.25));
-    for (int i = 0; i < asked; ++i) setting.note(i < unsupported);
-    setting.note_time(seconds / 2), setting.note_time(seconds / 2);
-    return setting;
+    Place place(unit_scene(2, 0.25));
+    for (int i = 0; i < asked; ++i) place.note(i < unsupported);
+    place.note_time(seconds / 2), place.note_time(seconds / 2);
+    return place;
   };
   CHECK_FALSE(setting_with(4, 0, 0.1 * 4).is_beyond_engine());
   CHECK(setting_with(4, 0, std::nextafter(0.1 * 4, 1)).is_beyond_engine());
@@ -116,7 +116,7 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
   CHECK_FALSE(setting_with(3, 3, 0).is_beyond_engine());
   CHECK(setting_with(4, 3, 0).was_answered());
   CHECK_FALSE(setting_with(4, 4, 0).was_answered());
-  Setting given_up = setting_with(1, 0, 0);
+  Place given_up = setting_with(1, 0, 0);
   given_up.give_up();
   CHECK((given_up.is_beyond_engine() && !given_up.was_answered()));
 }
@@ -136,7 +136,7 @@ TEST_CASE("Of each row the first 500 questions are compared, and a row without a
   Examination more(compare::engine_named("oracle"), {}, 4, stop);
   more.run({"row", ""}, questions({2}, 0), kForEver);
   more.take_over(none);
-  CHECK(more.rows()[0].tally.ns_per_query == 0);
+  CHECK(more.rows()[0].tally.speed.ns_per_query == 0);
 }
 
 TEST_CASE("The first question to another program is at an empty place", "[judge][examination]") {
@@ -185,7 +185,10 @@ TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[ju
   const auto recheck_of = [&](const std::string& fault, const std::atomic<bool>& over) {
     recheck(
         finding,
-        [&] { return std::make_unique<Examination>(compare::engine_named(tolerant(fault)), compare::AnswererOptions{}, 4, over); },
+        [&] {
+          return std::make_unique<Examination>(compare::engine_named(tolerant(fault)),
+                                               compare::AnswererOptions{}, 4, over);
+        },
         kForEver);
     return finding.recheck;
   };

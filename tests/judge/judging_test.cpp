@@ -85,10 +85,9 @@ void two_faults(const Scene& scene, const Query& query, Answer& answer) {
 Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::size_t number) {
   const auto all = std::make_shared<std::vector<Question>>();
   for (const int dimension : dimensions) {
-    const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
-    for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), seed, number))
-      all->push_back(
-          {setting, query, setting->oracle().first_hit(query), "seed " + std::to_string(seed), ""});
+    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
+    for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), seed, number))
+      all->push_back({place, query, place->oracle().first_hit(query), "seed " + std::to_string(seed), ""});
   }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
     return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
@@ -99,7 +98,7 @@ Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::siz
 std::string text_of(const Finding& finding) {
   std::string text = finding.explanation() + ", " + std::to_string(finding.count) + ", " + finding.where +
                      ", " +
-                     stream(finding.simplest.question.setting->scene(), finding.simplest.question.query) +
+                     stream(finding.simplest.question.place->scene(), finding.simplest.question.query) +
                      std::to_string(finding.by_radii.value_or(-1)) + ", " +
                      std::to_string(finding.share_of_plain) + ", " + std::to_string(finding.share_of_hard);
   for (const auto& [row, count] : finding.by_row) text += ", " + row + " " + std::to_string(count);
@@ -171,7 +170,7 @@ TEST_CASE("Two threads of a judge's campaign ask different questions, and all of
   for (const Finding& finding : report.findings)
     if (finding.severity() == Severity::wrong) worst[finding.cause()] = &finding;
   REQUIRE(worst.contains(Cause::never_for_hit));
-  CHECK(worst[Cause::never_for_hit]->simplest.question.setting->scene().dimension == 3);
+  CHECK(worst[Cause::never_for_hit]->simplest.question.place->scene().dimension == 3);
   CHECK(worst.contains(Cause::false_hit));
   CHECK(report.verdict() == "wrong");
 }
@@ -213,7 +212,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     CHECK(its.agree == all.agree);
     CHECK(its.wrong == all.wrong);
     CHECK(all.wrong > 30);
-    CHECK(its.ns_per_query > 0);
+    CHECK(its.speed.ns_per_query > 0);
     CHECK(text_of(one->calls()) == text_of(whole.calls()));
     const auto found = one->findings(), expected = whole.findings();
     REQUIRE(found.size() == expected.size());
@@ -242,17 +241,17 @@ class Gullible final : public compare::Answerer {
 };
 
 Example example_in(int dimension, Cause cause) {
-  const auto setting = std::make_shared<Setting>(unit_scene(dimension, 0.25));
+  const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
   const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  return {{setting, query, setting->oracle().first_hit(query), "here", ""},
+  return {{place, query, place->oracle().first_hit(query), "here", ""},
           Answer::never(),
           {oracle::Verdict::wrong},
           {cause, Severity::wrong, 1}};
 }
 
-Place place_of(Scene scene, bool is_answered = true) {
-  Place place{"place", std::make_shared<Setting>(std::move(scene))};
-  place.setting->note(!is_answered);
+NamedPlace place_of(Scene scene, bool is_answered = true) {
+  NamedPlace place{"place", std::make_shared<Place>(std::move(scene))};
+  place.place->note(!is_answered);
   return place;
 }
 
@@ -286,11 +285,11 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   const compare::EngineInfo gullible = compare::guest_engine(
       "gullible", [](const compare::AnswererOptions&) { return std::make_unique<Gullible>(); });
   const auto nonsense = [&](std::size_t number) {
-    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
+    const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
     return examined(gullible, [=, left = number]() mutable -> std::optional<Question> {
       if (left == 0) return std::nullopt;
       --left;
-      return Question{setting, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
+      return Question{place, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
     });
   };
   const auto two = nonsense(2), three = nonsense(3);
@@ -344,8 +343,8 @@ TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge]
   const std::atomic<bool> stop = false;
   Examination examination(engine, {}, 4, stop);
   const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
-  const auto setting = std::make_shared<Setting>(unit_scene(3, 0.25));
-  const Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
+  const auto place = std::make_shared<Place>(unit_scene(3, 0.25));
+  const Question question{place, query, place->oracle().first_hit(query), "here", ""};
   CHECK(examination.repeat(question, 3, {Cause::never_for_hit, Severity::wrong}).failed == 1);
   CHECK_FALSE(examination.repeat(question, 3, {Cause::never_for_hit, Severity::ill_posed}).failed);
   CHECK_FALSE(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).failed);
@@ -369,29 +368,29 @@ TEST_CASE("The scope of a campaign is the narrowest with all that was answered",
 
 TEST_CASE("Drawn and flown questions come in blocks of each place, and none is left out or comes twice",
           "[judge][questions]") {
-  const std::vector<Place> places{place_of(unit_scene(2, 0.1)), place_of(unit_scene(2, 0.2)),
-                                  place_of(unit_scene(3, 0.3))};
+  const std::vector<NamedPlace> places{place_of(unit_scene(2, 0.1)), place_of(unit_scene(2, 0.2)),
+                                       place_of(unit_scene(3, 0.3))};
   const auto by_place = [&](const Source& source) {
     std::vector<std::vector<Query>> all(places.size());
     while (const auto question = source())
       for (std::size_t p = 0; p < places.size(); ++p)
-        if (question->setting == places[p].setting) all[p].push_back(question->query);
+        if (question->place == places[p].place) all[p].push_back(question->query);
     return all;
   };
   const auto drawn_ones = by_place(drawn(places, compare::Difficulty::drawn, kSeed, 90)),
              flown_ones = by_place(flown(places, kSeed, 90));
   for (std::size_t p = 0; p < places.size(); ++p) {
-    const Setting& setting = *places[p].setting;
+    const Place& place = *places[p].place;
     REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));
     REQUIRE(flown_ones[p].size() == drawn_ones[p].size());
-    flights::FreeStarts starts(setting.scene(), flights::Kind::surface, kSeed);
+    flights::FreeStarts starts(place.scene(), flights::Kind::surface, kSeed);
     for (std::size_t i = 0; i < drawn_ones[p].size(); ++i) {
-      const auto block = compare::hard_queries(compare::Difficulty::drawn, setting.scene(), setting.oracle(),
+      const auto block = compare::hard_queries(compare::Difficulty::drawn, place.scene(), place.oracle(),
                                                kSeed + i / 16, 16);
-      CHECK(stream(setting.scene(), drawn_ones[p][i]) == stream(setting.scene(), block[i % 16]));
+      CHECK(stream(place.scene(), drawn_ones[p][i]) == stream(place.scene(), block[i % 16]));
       Query start;
       starts.draw(i, start);
-      CHECK(stream(setting.scene(), flown_ones[p][i]) == stream(setting.scene(), start));
+      CHECK(stream(place.scene(), flown_ones[p][i]) == stream(place.scene(), start));
     }
   }
 }
@@ -408,14 +407,13 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
   const std::atomic<bool> stop = false;
   const auto simplest_of = [&](const compare::EngineInfo& one, const Query& query) {
     Examination examination(one, {}, 4, stop);
-    const auto setting = std::make_shared<Setting>(unit_scene(2, 0.25));
-    const auto example =
-        examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
+    const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+    const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});
     REQUIRE(example);
     const Example kept = simplest({*example, "here", 1, 1e300}, examination, 1e9);
     CHECK(kept.diagnosis.cause == example->diagnosis.cause);
-    CHECK(fuzz::complexity(kept.question.setting->scene(), kept.question.query) <
-          fuzz::complexity(setting->scene(), query));
+    CHECK(fuzz::complexity(kept.question.place->scene(), kept.question.query) <
+          fuzz::complexity(place->scene(), query));
     return kept;
   };
   CHECK(simplest_of(engine, {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome == Outcome::hit);

@@ -16,10 +16,9 @@ TEST_CASE("The simplest case is simpler, of the same cause, and no deeper than w
   // radii.
   const std::atomic<bool> stop = false;
   Examination examination(compare::engine_named("published"), {}, 4, stop);
-  const auto setting = std::make_shared<Setting>(unit_scene(2, 0.5));
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.5));
   const Query query{{-0.25, 0, 0}, {2, 0.7601234567, 0}, ObstacleId{0, 0, {0, 0, 0}}};
-  const auto example =
-      examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""});
+  const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});
   REQUIRE(example);
   REQUIRE(example->diagnosis.by_radii);
   Finding finding{*example, "here", 1, example->diagnosis.by_radii};
@@ -40,18 +39,18 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
   // In binary32 most times are off so far that they count as another quantity; few discs are passed over.
   const std::atomic<bool> stop = false;
   Examination examination(compare::engine_named("published-float"), {}, 4, stop);
-  const auto setting = std::make_shared<Setting>(unit_scene(2, 0.01));
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.01));
   constexpr std::uint64_t kSeed = 20161115;
   std::map<Cause, Example> met;
-  for (const Query& query : compare::draw_queries(setting->scene(), setting->oracle(), kSeed, 300))
+  for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), kSeed, 300))
     if (const auto example =
-            examination.example_of({setting, query, setting->oracle().first_hit(query), "here", ""}))
+            examination.example_of({place, query, place->oracle().first_hit(query), "here", ""}))
       met.try_emplace(example->diagnosis.cause, *example);
   REQUIRE(met.contains(Cause::passed_over));
   REQUIRE(met.contains(Cause::other_quantity));
   const Example& example = met.at(Cause::passed_over);
   const Example kept = simplest({example, "here", 1, 1e300}, examination, 60);
   CHECK(kept.diagnosis.cause == Cause::passed_over);
-  CHECK(fuzz::complexity(kept.question.setting->scene(), kept.question.query) <
-        fuzz::complexity(setting->scene(), example.question.query));
+  CHECK(fuzz::complexity(kept.question.place->scene(), kept.question.query) <
+        fuzz::complexity(place->scene(), example.question.query));
 }

@@ -79,9 +79,9 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
   turn(report.rows[0], &compare::Tally::wrong, 5);
-  const auto setting = std::make_shared<judge::Setting>(unit_scene(2, 0.25));
+  const auto place = std::make_shared<compare::Place>(unit_scene(2, 0.25));
   const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{setting, query, setting->oracle().first_hit(query), "here", ""};
+  const judge::Question question{place, query, place->oracle().first_hit(query), "here", ""};
   const auto add = [&](judge::Cause cause, judge::Severity severity) {
     report.findings.push_back(finding(question, cause, severity));
   };

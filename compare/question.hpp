@@ -1,21 +1,25 @@
-// A question with its exact answer, and the scene that it is asked in with those who judge there.
+// A question with its exact answer, and the place that it is asked in: a scene with those who judge there.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
+#include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/verdict.hpp>
 
-namespace lorentz::judge {
+namespace lorentz::compare {
 
 /// A scene without flaws. Oracle, judge and margins are made when they are first needed: many scenes never
 /// need one. For one thread.
-class Setting {
+class Place {
  public:
-  explicit Setting(Scene scene) : scene_(std::move(scene)) {}
+  explicit Place(Scene scene) : scene_(std::move(scene)) {}
 
   const Scene& scene() const { return scene_; }
   const oracle::Oracle& oracle() const { return made(oracle_); }
@@ -58,12 +62,36 @@ class Setting {
 };
 
 struct Question {
-  std::shared_ptr<Setting> setting;
+  std::shared_ptr<Place> place;
   Query query;
   Answer exact;
-  std::string where;  ///< which row it is of, and of what there: "drawn, square, r = 0.1"
-  std::string text;   ///< in place of the query, where the question is none: a line without braces and id
+  std::string where = {};  ///< which row it is of, and of what there: "drawn, square, r = 0.1"
+  std::string text =
+      {};  ///< in place of the query, where the question is invalid: a line without braces and id
+  Id id = "null";
+  std::vector<std::string> tags = {};  ///< of a golden record
+  std::optional<double> margin = {};   ///< of a golden record
+  double condition = 0;  ///< what an ulp in each input makes of the time, in its ulps; 0: not known
   bool is_query() const { return text.empty(); }
 };
 
-}  // namespace lorentz::judge
+/// Questions of one place, with their numbers as ids, and not yet with their answers.
+inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
+                                          const std::vector<Query>& queries) {
+  std::vector<Question> questions;
+  for (const Query& query : queries)
+    questions.push_back({.place = place, .query = query, .id = std::to_string(questions.size())});
+  return questions;
+}
+
+/// The next question, or nothing: that was all.
+using Source = std::function<std::optional<Question>()>;
+
+/// A source of questions that are there already, and outlast it.
+inline Source all_of(std::span<const Question> questions) {
+  return [questions, next = std::size_t{0}]() mutable -> std::optional<Question> {
+    return next < questions.size() ? std::optional(questions[next++]) : std::nullopt;
+  };
+}
+
+}  // namespace lorentz::compare

@@ -1,0 +1,48 @@
+// Answers that some program wrote to a file, as an answerer.
+#pragma once
+
+#include <unordered_map>
+#include <unordered_set>
+
+#include "cli/unknown_keys.hpp"
+#include "compare/answerer.hpp"
+
+namespace lorentz::cli {
+
+/// Answers are matched by id; a query without an answer is `not_asked`. A file in the order of the queries is
+/// read as they are asked; answers that come early are kept until then. Bad lines, and ids that come twice, are
+/// complained of; answers without an id (to lines that were no queries) are passed over.
+class LoggedAnswers final : public compare::Answerer {
+ public:
+  /// Throws FileError.
+  LoggedAnswers(const std::string& path, UnknownKeys unknown);
+
+  void set_scene(const Scene& scene) override { dimension_ = scene.dimension; }
+  void ask(const Id& id, const Query& query) override;
+  /// Reads the rest, and says what did not match; nothing matched at all is bad input, the wrong file most
+  /// likely.
+  void finish() override;
+  bool had_bad_input() const { return bad_input_; }
+
+ private:
+  struct Logged {
+    Answer answer;
+    std::size_t components = 0;  // of its cell
+    std::size_t line = 0;
+  };
+
+  bool read(Id& id, Logged& logged);
+  bool find(const Id& id, Logged& logged);
+  void complain(std::size_t line, const std::string& what);
+
+  LineReader lines_;
+  ExchangeReader reader_;
+  KeyCheck keys_;
+  std::unordered_map<Id, Logged> early_;
+  std::unordered_set<Id> ids_;  // of all that were read
+  std::size_t matched_ = 0;
+  int dimension_ = 0;
+  bool is_empty_ = true, bad_input_ = false;
+};
+
+}  // namespace lorentz::cli

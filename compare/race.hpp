@@ -1,0 +1,29 @@
+// How fast engines are over the same queries, in alternating rounds. Nothing is judged.
+#pragma once
+
+#include "compare/engines.hpp"
+#include "compare/question.hpp"
+#include "compare/tally.hpp"
+
+namespace lorentz::compare {
+
+struct RaceOptions {
+  int rounds = 5;
+  double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
+  Listener listener = {};
+  bool strict = false;                ///< of another program: AnswererOptions::strict
+  double start_timeout = 0;           ///< AnswererOptions::start_timeout
+  std::function<bool()> enough = {};  ///< AnswererOptions::enough
+  std::vector<std::size_t> counts =
+      {};  ///< of each engine, how many of the questions, from the first; none: all
+  /// Of each engine that is asked many at a time one that is running already, which is not ended; none, or
+  /// null: a new one.
+  std::vector<Answerer*> running = {};
+};
+
+/// The engines' speeds, on one thread. Another program is timed by the wall, pipes and all, from the first query
+/// to the last answer; where it broke it is not run again.
+std::vector<Speed> race(std::span<const Question> questions, const std::vector<EngineInfo>& engines,
+                        const RaceOptions& options = {});
+
+}  // namespace lorentz::compare

@@ -1,0 +1,24 @@
+#include "golden/questions.hpp"
+
+namespace lorentz::golden {
+
+compare::Source questions_of(Reader& reader) {
+  return [&reader, scene = std::size_t{0},
+          place = std::shared_ptr<compare::Place>()]() mutable -> std::optional<compare::Question> {
+    ReadRecord read;
+    if (!reader.next(read)) return std::nullopt;
+    if (scene != reader.scene_number()) place = std::make_shared<compare::Place>(reader.scene());
+    scene = reader.scene_number();
+    Record& record = read.record;
+    return compare::Question{.place = place,
+                    .query = read.query.value_or(Query()),
+                    .exact = std::move(record.expect),
+                    .where = record.id,
+                    .text = read.query ? "" : std::move(record.question),
+                    .id = json_quoted(record.id),
+                    .tags = std::move(record.tags),
+                    .margin = record.margin};
+  };
+}
+
+}  // namespace lorentz::golden

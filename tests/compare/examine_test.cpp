@@ -1,0 +1,178 @@
+// Questions, their exact answers, and what comes of an engine's: judged, counted, raced.
+#include "compare/examine.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "compare/hard_cases.hpp"
+#include "compare/race.hpp"
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using compare::Place, compare::Question, compare::Tally;
+using oracle::Verdict;
+
+TEST_CASE("A tally counts each verdict, and wrong times among those that agree", "[compare][examine]") {
+  Tally tally;
+  for (const Verdict verdict : {Verdict::agree, Verdict::ill_posed, Verdict::undecided, Verdict::unsupported,
+                                Verdict::error, Verdict::missing, Verdict::wrong, Verdict::wrong})
+    tally.count({verdict});
+  tally.count({.verdict = Verdict::agree, .ulps = 9, .departs = 7, .wrong_time = true});
+  CHECK(tally.queries == 9);
+  for (const std::size_t once : {tally.ill_posed, tally.undecided, tally.unsupported, tally.error,
+                                 tally.missing, tally.wrong_time, tally.timed_hits})
+    CHECK(once == 1);
+  CHECK(tally.wrong == 2);
+  CHECK(tally.agree == 2);
+  CHECK(tally.wrong_ulps == std::vector<double>{9});
+  CHECK(tally.wrong_conditions == std::vector<double>{7});
+  Tally twice = tally;
+  twice.add(tally);
+  CHECK((twice.queries == 18 && twice.agree == 4 && twice.wrong == 4 && twice.wrong_time == 2));
+  CHECK((twice.timed_hits == 2 && twice.sum_ulp == 18 && twice.max_ulp == 9));
+  CHECK(twice.wrong_ulps == std::vector<double>{9, 9});
+}
+
+TEST_CASE("Quantiles: the value that a share does not exceed", "[compare][examine]") {
+  CHECK(compare::quantile({}, 0.5) == 0);
+  CHECK(compare::quantile({3, 1, 2}, 0.5) == 2);
+  CHECK(compare::quantile({3, 1, 2}, 0.99) == 3);
+}
+
+TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of them does not exceed",
+          "[compare][examine]") {
+  Tally tally;
+  CHECK(tally.mean_ulp() == 0);
+  CHECK(tally.ulp_at(0.5) == 0);
+  for (const double ulps : {3, 10, 1, 2, 9, 4, 8, 5, 7, 6})
+    tally.count({.verdict = Verdict::agree, .ulps = ulps});
+  tally.count({Verdict::agree});  // without a time
+  CHECK(tally.timed_hits == 10);
+  CHECK(tally.max_ulp == 10);
+  CHECK(tally.mean_ulp() == 5.5);
+  CHECK(tally.ulp_at(0) == 1);
+  CHECK(tally.ulp_at(0.3) == 4);    // the nearest to 2.7 steps up from the first
+  CHECK(tally.ulp_at(0.99) == 10);  // to 8.91
+  CHECK(tally.ulp_at(1) == 10);
+}
+
+TEST_CASE("Exact answers are the same from the oracle and from certified, scenes mixed",
+          "[compare][examine]") {
+  constexpr std::uint64_t kSeed = 4711;
+  const auto catalogue = test::all_scenes();
+  std::vector<std::vector<Question>> by_place;
+  for (const char* name : {"square", "honeycomb", "cubic", "ellipsoids-mixed"}) {
+    const auto place = std::make_shared<Place>(catalogue.at(name));
+    std::vector<Query> queries =
+        compare::hard_queries(compare::Difficulty::grazing, place->scene(), place->oracle(), kSeed, 100);
+    // Tangent to discs on both sides, along a lattice vector; and an obstacle left that no column can name.
+    queries.push_back({{0.25, 0.5, 0}, {1, 0, 0}, {}});
+    const Integer far = *Integer::from_decimal("100000000000000000000");
+    queries.push_back({queries[0].x, {1, 0.25, 0}, ObstacleId{0, 0, {far, 0, 0}}});
+    by_place.push_back(compare::questions_of(place, queries));
+  }
+  std::vector<Question> questions;
+  for (std::size_t i = 0; i < by_place[0].size(); ++i)
+    for (const std::vector<Question>& some : by_place) questions.push_back(some[i]);
+  std::vector<Question> certified = questions;
+  compare::answer_exactly(questions, compare::Truth::oracle);
+  compare::answer_exactly(certified, compare::Truth::certified);
+  std::map<Outcome, int> met;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    INFO(test::stream(questions[i].place->scene(), questions[i].query) << "seed " << kSeed);
+    ++met[questions[i].exact.outcome];
+    CHECK(test::same(questions[i].exact, certified[i].exact));
+  }
+  CHECK(met[Outcome::hit] > 380);
+  CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
+}
+
+namespace {
+
+// 20 questions of the square lattice and 20 of the cubic one, along diagonals.
+std::vector<Question> diagonals() {
+  std::vector<Question> questions;
+  for (const int dimension : {2, 3}) {
+    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
+    const double z = dimension == 3 ? 1 : 0;
+    const std::vector<Query> queries(20, Query{{0.5, 0.5, z / 2}, {1, 1, z}, {}});
+    for (Question& question : compare::questions_of(place, queries)) questions.push_back(question);
+  }
+  compare::answer_exactly(questions, compare::Truth::oracle);
+  return questions;
+}
+
+// Answers what is exact but for every third question, which it misses; from the tenth on it was given up.
+class Lazy final : public compare::Answerer {
+ public:
+  void set_scene(const Scene& scene) override { dimensions.push_back(scene.dimension); }
+  void ask(const Id&, const Query& query) override { open_.push_back(query); }
+  void drain() override {
+    for (const Query& query : std::exchange(open_, {})) {
+      ++asked_;
+      Answer answer = asked_ % 3 == 0 ? Answer::never()
+                                      : Answer::hit({0, 0, {1, 1, query.x[2] > 0 ? 1 : 0}},
+                                                    0.5 - 0.25 / std::sqrt(query.x[2] > 0 ? 3 : 2));
+      deliver(answer, asked_ < 10 ? Origin::engine : Origin::not_asked);
+    }
+  }
+  std::vector<int> dimensions;
+
+ private:
+  std::vector<Query> open_;
+  int asked_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("Answers that come late are judged with their own questions, and what was not asked is not",
+          "[compare][examine]") {
+  std::vector<Question> questions = diagonals();
+  questions.insert(questions.begin(), questions[30]);  // so that the place changes, and changes back
+  Lazy lazy;
+  Tally tally;
+  std::vector<std::string> ids;
+  compare::examine(compare::all_of(questions), lazy, 4, [&](const compare::Judged& judged) {
+    tally.count(judged.judgement);
+    ids.push_back(judged.question.id);
+    CHECK((judged.origin == compare::Answerer::Origin::engine) == (ids.size() < 10));
+    CHECK(compare::departs(judged.judgement) == (ids.size() < 10 && ids.size() % 3 == 0));
+  });
+  CHECK(lazy.dimensions == std::vector<int>{3, 2, 3});
+  CHECK((tally.agree == 6 && tally.wrong == 3 && tally.missing == 32 && tally.queries == 41));
+  CHECK((ids.size() == 41 && ids[0] == "10" && ids[1] == "0" && ids[40] == "19"));
+}
+
+TEST_CASE("The right answer to an invalid question is an error", "[compare][examine]") {
+  const Question invalid{.place = std::make_shared<Place>(unit_scene(2, 0.25)), .text = R"("x":[0,0])"};
+  const auto verdict = [&](const Answer& given) { return compare::judgement_of(invalid, given, 4).verdict; };
+  CHECK(verdict(Answer::error("no v")) == Verdict::agree);
+  CHECK(verdict(Answer::unsupported_because("it has none")) == Verdict::unsupported);
+  CHECK(verdict(Answer::undecided()) == Verdict::undecided);
+  for (const Answer& valid : {Answer::never(), Answer::hit({}, 1), Answer::inside({})})
+    CHECK(verdict(valid) == Verdict::wrong);
+}
+
+TEST_CASE("Of each engine as many questions are raced as it is to be asked, in each round",
+          "[compare][race]") {
+  const std::vector<Question> questions = diagonals();
+  const auto engines = compare::engines_named({"oracle", "reduction", "batch", "walk"});
+  compare::RaceOptions options;
+  options.rounds = 2;
+  options.counts = {0, 17, 30, 99};
+  std::map<std::string, std::size_t> asked;
+  options.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
+    if (done == total) asked[name] += done;
+  };
+  const std::vector<compare::Speed> speeds = compare::race(questions, engines, options);
+  REQUIRE(speeds.size() == 4);
+  const std::size_t counts[] = {0, 17, 30, 40};
+  for (std::size_t i = 0; i < 4; ++i) {
+    INFO(engines[i].name);
+    CHECK(asked[engines[i].name] == 2 * counts[i]);
+    for (const double ns : {speeds[i].ns_per_query, speeds[i].ns_median, speeds[i].ns_low, speeds[i].ns_high})
+      CHECK((counts[i] > 0 ? ns > 0 : ns == 0));
+  }
+  options.rounds = 0;
+  for (const compare::Speed& speed : compare::race(questions, engines, options))
+    CHECK((speed.ns_per_query == 0 && !speed.failed));
+}
