@@ -5,6 +5,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
@@ -17,6 +18,8 @@
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
 #include "compare/sampling.hpp"
+#include "src/exchange/columns_csv.hpp"
+#include "src/exchange/columns_npy.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
@@ -24,91 +27,6 @@ namespace lorentz::cli {
 using namespace compare;
 
 namespace {
-
-struct Options {
-  std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, queries, disagreements;
-  std::optional<double> radius, ulps, timeout;
-  std::uint64_t count = 10'000, seed = kDefaultSeed, failures = 3;
-  std::string judge = "oracle";
-  bool json = false, strict = false, times = false, no_oracle = false;
-};
-
-UnknownKeys unknown_keys(const Options& options) {
-  return options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-}
-
-// The questions that were asked for, part by part: drawn, or read from a stream.
-class Questions {
- public:
-  Questions(const Options& options, DisagreementFile& disagreements)
-      : options_(options), disagreements_(disagreements), has_answers_(!options.answers.empty()) {
-    std::optional<Scene> scene;
-    if (options.scene || !options.queries)
-      scene = load_scene(options.scene.value_or("square"), options.radius, unknown_keys(options));
-    else if (options.radius)
-      throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-    if (scene) enter(*scene);
-    if (options.queries) stream_.emplace(*options.queries, scene, unknown_keys(options));
-  }
-
-  /// Up to so many more; none: that was all.
-  std::vector<Question> next(std::size_t most) { return stream_ ? read(most) : draw(most); }
-
-  bool had_bad_input() const { return bad_ids_ || (stream_ && stream_->had_bad_input()); }
-  std::size_t count() const { return count_; }
-  std::size_t scenes() const { return scenes_; }  ///< with questions
-
- private:
-  void enter(const Scene& scene) {
-    place_ = std::make_shared<Place>(scene);
-    disagreements_.begin(scene);
-    is_new_ = true;
-  }
-
-  void add(std::vector<Question>& questions, const Query& query, Id id) {
-    scenes_ += std::exchange(is_new_, false);
-    ++count_;
-    questions.push_back({.place = place_, .query = query, .id = std::move(id)});
-  }
-
-  std::vector<Question> draw(std::size_t most) {
-    std::vector<Question> questions;
-    const std::size_t first = count_;
-    for (const Query& query :
-         draw_queries(place_->scene(), place_->oracle(), options_.seed,
-                      std::min<std::size_t>(most, options_.count - first), terminal(), first))
-      add(questions, query, std::to_string(count_));
-    return questions;
-  }
-
-  std::vector<Question> read(std::size_t most) {
-    std::vector<Question> questions;
-    for (StreamItem item; questions.size() < most && stream_->next(item);) {
-      if (item.kind == StreamItem::Kind::scene) enter(item.scene);
-      if (item.kind != StreamItem::Kind::query) continue;
-      if (has_answers_) check(item.id);
-      add(questions, item.query, item.id);
-    }
-    return questions;
-  }
-
-  // Answers are matched by id, so the queries' must be unique.
-  void check(const Id& id) {
-    if (id == "null" || ids_.insert(id).second) return;
-    bad_ids_ = true;
-    say("the query id {} comes twice: answers cannot be matched to its queries", id);
-  }
-
-  const Options& options_;
-  DisagreementFile& disagreements_;
-  const bool has_answers_;
-  std::optional<QueryStream> stream_;
-  std::shared_ptr<Place> place_;
-  bool is_new_ = false, bad_ids_ = false;
-  std::size_t count_ = 0, scenes_ = 0;
-  std::unordered_set<Id> ids_;
-};
 
 // Median, 99 % and largest; null of nothing.
 auto spread_of(const std::vector<double>& values) {
@@ -150,23 +68,38 @@ struct Compared {
   Tally tally = {};
 };
 
-Compared logged_answers(const std::string& argument, UnknownKeys unknown) {
+std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const ComparedQuestions& questions,
+                                         UnknownKeys unknown) {
+  if (!is_columns(path)) return std::make_unique<LoggedAnswers>(path, unknown);
+  if (!questions.are_columns())
+    throw InputError("--answers: " + path +
+                     ": its rows are matched by their numbers; --queries needs columns, too");
+  std::unique_ptr<AnswerReader> reader;
+  if (path.ends_with(".npy"))
+    reader = std::make_unique<NpyAnswerReader>(path, questions.dimension());
+  else
+    reader = std::make_unique<CsvAnswerReader>(path, questions.dimension());
+  return std::make_unique<LoggedAnswers>(std::move(reader));
+}
+
+Compared logged_answers(const std::string& argument, const ComparedQuestions& questions,
+                        UnknownKeys unknown) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
     throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
-  auto logged = std::make_unique<LoggedAnswers>(argument.substr(equals + 1), unknown);
+  auto logged = logged_in(argument.substr(equals + 1), questions, unknown);
   LoggedAnswers* const raw = logged.get();
   return {argument.substr(0, equals), std::move(logged), {}, raw};
 }
 
 // The scene's name for the heading; the number of scenes if a file has several.
-std::string title(const Options& options, const Questions& questions) {
+std::string title(const CompareOptions& options, const ComparedQuestions& questions) {
   if (questions.scenes() > 1) return fmt::format("{} scenes", questions.scenes());
   const std::string name = options.scene.value_or(options.queries.value_or("square"));
   return options.radius ? fmt::format("{} (radius {})", name, *options.radius) : name;
 }
 
-int exit_status(const std::vector<Tally>& tallies, const Options& options, bool bad_input) {
+int exit_status(const std::vector<Tally>& tallies, const CompareOptions& options, bool bad_input) {
   for (const Tally& t : tallies)
     if (t.failed) return kFailed;
   if (bad_input) return kBadInput;
@@ -180,7 +113,7 @@ int exit_status(const std::vector<Tally>& tallies, const Options& options, bool 
 // What departs from the exact answers: to the file, and the first wrong ones of each engine for people.
 class Departures {
  public:
-  explicit Departures(const Options& options)
+  explicit Departures(const CompareOptions& options)
       : times_(options.times),
         is_json_(options.json),
         most_(static_cast<std::size_t>(options.failures)),
@@ -224,8 +157,8 @@ class Departures {
   std::map<std::string, std::string> text_;
 };
 
-void show(const Options& options, const Questions& questions, const std::vector<Tally>& tallies,
-          const Departures& departures) {
+void show(const CompareOptions& options, const ComparedQuestions& questions,
+          const std::vector<Tally>& tallies, const Departures& departures) {
   if (options.json) {
     print(json_of(title(options, questions), options.seed, tallies,
                   options.no_oracle ? std::nullopt : std::optional(options.judge)));
@@ -243,7 +176,7 @@ void show(const Options& options, const Questions& questions, const std::vector<
   }
 }
 
-void check(const Options& options, const std::vector<EngineInfo>& engines) {
+void check(const CompareOptions& options, const std::vector<EngineInfo>& engines) {
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
     throw InputError("--judge: nobody is judged with --no-oracle");
@@ -253,20 +186,21 @@ void check(const Options& options, const std::vector<EngineInfo>& engines) {
     throw InputError("--answers needs --queries: the queries that were answered");
 }
 
-std::vector<Compared> all_compared(const Options& options, const std::vector<EngineInfo>& engines) {
+std::vector<Compared> all_compared(const CompareOptions& options, const std::vector<EngineInfo>& engines,
+                                   const ComparedQuestions& questions) {
   const AnswererOptions answerer{
       {}, options.timeout.value_or(AnswererOptions::kDefaultTimeout), terminal(), options.strict};
   std::vector<Compared> all;
   for (const EngineInfo& engine : engines) all.push_back({engine.name, engine.answerer(answerer), engine});
   for (const std::string& argument : options.answers)
-    all.push_back(logged_answers(argument, unknown_keys(options)));
+    all.push_back(logged_answers(argument, questions, options.unknown_keys()));
   for (Compared& one : all) one.tally.name = one.name;
   return all;
 }
 
 // Asks part after part, so that what is held in memory does not grow with the queries. Returns the first of
 // them, for the race.
-std::vector<Question> examine_all(const Options& options, Questions& questions,
+std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestions& questions,
                                   std::vector<Compared>& compared, Departures& departures) {
   constexpr std::size_t kTogether = 10'000;
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
@@ -287,7 +221,7 @@ std::vector<Question> examine_all(const Options& options, Questions& questions,
 }
 
 // The speeds of the engines that did not break.
-void race_all(const Options& options, const std::vector<Question>& questions,
+void race_all(const CompareOptions& options, const std::vector<Question>& questions,
               std::vector<Compared>& compared) {
   RaceOptions race_options;
   std::vector<EngineInfo> engines;
@@ -307,13 +241,13 @@ void race_all(const Options& options, const std::vector<Question>& questions,
   }
 }
 
-int act(const Options& options) {
+int act(const CompareOptions& options) {
   std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty() && options.answers.empty()) engines = engines_named({"classical", "published"});
   check(options, engines);
-  std::vector<Compared> compared = all_compared(options, engines);
   Departures departures(options);
-  Questions questions(options, departures.file());
+  ComparedQuestions questions(options, departures.file());
+  std::vector<Compared> compared = all_compared(options, engines, questions);
   const std::vector<Question> first = examine_all(options, questions, compared, departures);
   race_all(options, first, compared);
   bool bad_input = questions.had_bad_input();
@@ -332,7 +266,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command compare_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   return {
       "compare",
       "Engines, and answers that other programs logged, against the exact "
@@ -342,11 +276,15 @@ Command compare_command() {
            names_for_help() +
                "; several with commas between them, or once each (default: classical,published)"},
           {"--answers", &options->answers, "NAME=FILE",
-           "judge an answer stream that some program wrote, as an engine NAME"},
+           "judge answers that some program wrote, as an engine NAME: a stream, or columns (.npy, .csv) if "
+           "the "
+           "queries are"},
           {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue (default: square)"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
           {"--queries", &options->queries, "FILE",
-           "query stream (NDJSON) instead of drawn queries; - is standard input", kPlain, "--count"},
+           "queries instead of drawn ones: a stream (NDJSON), - is standard input, or columns (.npy, .csv; "
+           "docs/formats.md), which need --scene",
+           kPlain, "--count"},
           {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
            "--queries"},
           {"--seed", Whole{&options->seed}, "N", "of the drawn queries"},

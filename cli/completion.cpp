@@ -65,14 +65,14 @@ Values values_of(const Option& option) {
 }
 
 // The line as far as it has been typed: whose it is, and what its last word belongs to.
-struct Place {
+struct Cursor {
   const Command* command;
   const Option* option = nullptr;  // the last word is its value
   std::size_t arguments = 0;       // before the last word
   bool only_arguments = false;     // after --
 };
 
-void pass(Place& place, const std::string& word) {
+void pass(Cursor& place, const std::string& word) {
   if (place.option) {
     if (word != "=") place.option = nullptr;  // bash makes three words of --engine=classical
   } else if (word == "--") {
@@ -96,7 +96,7 @@ Values options_of(const Command& command) {
 }
 
 // A subcommand, or what the next argument may be; more arguments than there are belong to the last.
-Values arguments_of(const Place& place) {
+Values arguments_of(const Cursor& place) {
   Values values;
   if (place.arguments == 0)
     for (const Command& command : place.command->commands)
@@ -112,7 +112,7 @@ Values arguments_of(const Place& place) {
 }
 
 // What of the last word stays as it is: --engine= of an option with its value, classical, of a list.
-std::string kept_part(const std::string& word, const Place& place, const Option* joined) {
+std::string kept_part(const std::string& word, const Cursor& place, const Option* joined) {
   const std::size_t equals = joined ? word.find('=') + 1 : 0;
   const Option* option = joined ? joined : place.option;
   const bool is_list = option && option->takes_many();
@@ -123,7 +123,7 @@ std::string kept_part(const std::string& word, const Place& place, const Option*
 }  // namespace
 
 std::string completions(const Command& program, const std::vector<std::string>& words) {
-  Place place{&program};
+  Cursor place{&program};
   for (std::size_t i = 0; i + 1 < words.size(); ++i) pass(place, words[i]);
   std::string last = words.empty() ? "" : words.back();
   if (place.option && last == "=") last.clear();

@@ -5,26 +5,46 @@
 namespace lorentz::cli {
 
 LoggedAnswers::LoggedAnswers(const std::string& path, UnknownKeys unknown)
-    : lines_(path), keys_(path, unknown) {
-  reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
+    : lines_(std::make_unique<Lines>(path, unknown)), name_(lines_->lines.name()) {
+  lines_->reader.on_unknown_key([this](const std::string& key) { lines_->keys(key); });
 }
+
+LoggedAnswers::LoggedAnswers(std::unique_ptr<AnswerReader> columns)
+    : columns_(std::move(columns)), name_(columns_->name()) {}
 
 void LoggedAnswers::complain(std::size_t line, const std::string& what) {
   bad_input_ = true;
-  say("{}:{}: {}", lines_.name(), line, what);
+  say("{}:{}: {}", name_, line, what);
 }
 
 // The next good answer that has an id.
 bool LoggedAnswers::read(Id& id, Logged& logged) {
-  for (LineReader::Line line; lines_.next(line);) {
-    keys_.line = line.number;
+  while (columns_ ? read_row(id, logged) : read_line(id, logged)) {
+    is_empty_ = false;
+    if (id == "null") continue;
+    if (ids_.insert(id).second) return true;
+    complain(logged.line, "the id " + id + " came before; an answer stream has one answer a query");
+  }
+  return false;
+}
+
+// Behind a bad row there is none.
+bool LoggedAnswers::read_row(Id& id, Logged& logged) {
+  try {
+    return !bad_input_ && columns_->next(logged.answer, id);
+  } catch (const InputError& error) {
+    bad_input_ = true;
+    is_empty_ = false;
+    say("{}", error.what());
+    return false;
+  }
+}
+
+bool LoggedAnswers::read_line(Id& id, Logged& logged) {
+  for (LineReader::Line line; lines_->lines.next(line);) {
+    lines_->keys.line = logged.line = line.number;
     try {
-      if (!reader_.read_answer_line(line, id, logged.answer, logged.components)) continue;
-      is_empty_ = false;
-      logged.line = line.number;
-      if (id == "null") continue;
-      if (ids_.insert(id).second) return true;
-      complain(line.number, "the id " + id + " came before; an answer stream has one answer a query");
+      if (lines_->reader.read_answer_line(line, id, logged.answer, logged.components)) return true;
     } catch (const InputError& error) {
       is_empty_ = false;
       complain(line.number, error.what());
@@ -63,16 +83,15 @@ void LoggedAnswers::ask(const Id& id, const Query&) {
 void LoggedAnswers::finish() {
   Id id;
   for (Logged logged; read(id, logged);) continue;
-  const std::string& file = lines_.name();
   if (is_empty_) {
     bad_input_ = true;
-    say("{}: is empty: no answer in it", file);
+    say("{}: is empty: no answer in it", name_);
   }
   if (ids_.size() > matched_)
-    say("{}: {} answers have an id that no query has", file, ids_.size() - matched_);
+    say("{}: {} answers have an id that no query has", name_, ids_.size() - matched_);
   if (matched_ > 0 || ids_.empty()) return;
   bad_input_ = true;
-  say("{}: no answer matches any query; is it the right file?", file);
+  say("{}: no answer matches any query; is it the right file?", name_);
 }
 
 }  // namespace lorentz::cli

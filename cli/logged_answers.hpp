@@ -1,11 +1,13 @@
 // Answers that some program wrote to a file, as an answerer.
 #pragma once
 
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "cli/unknown_keys.hpp"
 #include "compare/answerer.hpp"
+#include "src/exchange/columns.hpp"
 
 namespace lorentz::cli {
 
@@ -14,8 +16,9 @@ namespace lorentz::cli {
 /// complained of; answers without an id (to lines that were no queries) are passed over.
 class LoggedAnswers final : public compare::Answerer {
  public:
-  /// Throws FileError.
+  /// A stream in JSON; or columns. Throws FileError, and InputError for columns that are not of answers.
   LoggedAnswers(const std::string& path, UnknownKeys unknown);
+  explicit LoggedAnswers(std::unique_ptr<AnswerReader> columns);
 
   void set_scene(const Scene& scene) override { dimension_ = scene.dimension; }
   void ask(const Id& id, const Query& query) override;
@@ -32,12 +35,21 @@ class LoggedAnswers final : public compare::Answerer {
   };
 
   bool read(Id& id, Logged& logged);
+  bool read_row(Id& id, Logged& logged);
+  bool read_line(Id& id, Logged& logged);
   bool find(const Id& id, Logged& logged);
   void complain(std::size_t line, const std::string& what);
 
-  LineReader lines_;
-  ExchangeReader reader_;
-  KeyCheck keys_;
+  struct Lines {
+    LineReader lines;
+    ExchangeReader reader;
+    KeyCheck keys;
+    Lines(const std::string& path, UnknownKeys unknown) : lines(path), keys(path, unknown) {}
+  };
+
+  std::unique_ptr<Lines> lines_;           // one of these
+  std::unique_ptr<AnswerReader> columns_;  //
+  std::string name_;
   std::unordered_map<Id, Logged> early_;
   std::unordered_set<Id> ids_;  // of all that were read
   std::size_t matched_ = 0;

@@ -92,7 +92,7 @@ EngineInfo single(std::string name, const Traits& traits, std::function<FirstHit
 }
 
 EngineInfo in_bulk(std::string name, Traits traits, std::function<FirstHit(const Scene&)> first_hit) {
-  traits.in_bulk = traits.uses_reduction = true;
+  traits.in_bulk = true;
   EngineInfo engine{std::move(name), traits, EngineInfo::Kind::own, std::move(first_hit), {}};
   engine.answerer = [certified = traits.is_exact](const AnswererOptions& options) {
     return std::make_unique<BatchAnswerer>(certified, options);
@@ -100,33 +100,33 @@ EngineInfo in_bulk(std::string name, Traits traits, std::function<FirstHit(const
   return engine;
 }
 
-// An engine of the fast library, and a precision, by name.
-EngineInfo fast(std::string name, const Traits& traits = {}) {
+// An engine of the fast library.
+EngineInfo fast(const std::string& name, const Traits& traits = {}) {
   return single(name, traits,
                 [name](const Scene& scene) { return first_hits_of(make_engine(name, scene), scene); });
 }
-EngineInfo precision(const std::string& name) {
-  return single(name, {},
-                [name](const Scene& scene) { return first_hits_of(make_precision(name, scene), scene); });
+
+// Those of the fast library have their table in src/engines/make_engine.cpp.
+std::vector<EngineInfo> table() {
+  const Traits of_reduction{.leaves_undecided = true, .uses_reduction = true};
+  std::vector<EngineInfo> all;
+  for (const std::string& name : engine_names())
+    all.push_back(fast(name, name == "reduction" ? of_reduction : Traits()));
+  all.push_back(single("certified", {.is_exact = true, .uses_reduction = true}, ask_certified));
+  all.push_back(in_bulk("batch", of_reduction, fast("reduction").first_hit));
+  all.push_back(in_bulk("certified-batch", {.is_exact = true, .uses_reduction = true}, ask_certified));
+  all.push_back(single("oracle", {.is_exact = true, .knows_digits = true}, ask_oracle));
+  all.push_back(single("walk", {.is_exact = true}, ask_walk));
+  for (const std::string& name : precision_names())
+    all.push_back(single(
+        name, {}, [name](const Scene& scene) { return first_hits_of(make_precision(name, scene), scene); }));
+  return all;
 }
 
 }  // namespace
 
 const std::vector<EngineInfo>& own_engines() {
-  static const std::vector<EngineInfo> all{
-      fast("classical"),
-      fast("published"),
-      fast("reduction", {.leaves_undecided = true, .uses_reduction = true}),
-      single("certified", {.is_exact = true, .uses_reduction = true}, ask_certified),
-      in_bulk("batch", {.leaves_undecided = true}, fast("reduction").first_hit),
-      in_bulk("certified-batch", {.is_exact = true}, ask_certified),
-      single("oracle", {.is_exact = true, .knows_digits = true}, ask_oracle),
-      single("walk", {.is_exact = true}, ask_walk),
-      precision("published-float"),
-      precision("published-dd"),
-      precision("published-128"),
-      precision("published-256"),
-  };
+  static const std::vector<EngineInfo> all = table();
   return all;
 }
 

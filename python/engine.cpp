@@ -121,10 +121,10 @@ void QueryArrays::copy(std::size_t first, std::size_t most, QueryRows& rows) con
 }
 
 PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int threads)
-    : name_(checked(name, threads)),
+    : info_(checked(name, threads)),
       dimension_(scene.dimension()),
-      together_(rows_together(name_, threads)),
-      engine_(name_, scene.scene(), max_time, threads) {}
+      together_(rows_together(info_, threads)),
+      engine_(info_, scene.scene(), max_time, threads) {}
 
 std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse,
                                                 std::shared_ptr<AnswerRows> out) {

@@ -47,12 +47,12 @@ class PyEngine {
   std::shared_ptr<AnswerRows> first_hit(const QueryArrays& queries, bool refuse,
                                         std::shared_ptr<AnswerRows> out);
 
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return info_.name; }
 
  private:
   void answer(const QueryArrays& queries, bool refuse, AnswerRows& answers);
 
-  const std::string name_;
+  const compare::EngineInfo info_;
   const int dimension_;
   const std::size_t together_;  // rows
   std::mutex in_use_;           // one call at a time: the engine has room for one part of the rows

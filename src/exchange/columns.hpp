@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/exchange.hpp>
 #include <lorentz/query.hpp>
 
 namespace lorentz {
@@ -111,6 +112,17 @@ class ColumnReader {
 
  protected:
   std::function<void()> before_waiting_ = [] {};
+};
+
+/// Reads answers in columns, one after the other.
+class AnswerReader {
+ public:
+  virtual ~AnswerReader() = default;
+
+  /// False at the end. `id` becomes the row's, a text; without ids it is the number of the row, from 0. Throws
+  /// InputError, with the place, for a row that is not an answer, and FileError.
+  virtual bool next(Answer& answer, Id& id) = 0;
+  virtual const std::string& name() const = 0;
 };
 
 /// Told of each column that queries do not have, and where it stands. What it throws ends the reading.

@@ -2,10 +2,7 @@
 // and the program.
 #pragma once
 
-#include <deque>
-
-#include <lorentz/line_reader.hpp>
-#include "src/exchange/columns.hpp"
+#include "src/exchange/csv_table.hpp"
 
 namespace lorentz {
 
@@ -17,11 +14,11 @@ class CsvQueryReader final : public ColumnReader {
   CsvQueryReader(const std::string& path, int dimension, const OnUnknownColumn& on_unknown_column);
 
   bool next(QueryRows& rows, std::size_t most) override;
-  const std::string& name() const override { return lines_.name(); }
-  bool has_ids() const { return id_ != kNone; }
+  const std::string& name() const override { return table_.lines().name(); }
+  bool has_ids() const { return id_ != CsvTable::kNone; }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kNone = CsvTable::kNone;
   /// What a line says, before it is known to be good.
   struct Row {
     std::array<double, 3> x{}, v{};
@@ -30,27 +27,36 @@ class CsvQueryReader final : public ColumnReader {
     std::array<std::int64_t, 3> from_cell{};
   };
 
-  std::vector<std::string> read_names();
-  std::size_t take(const std::string& column);
-  std::size_t need(const std::string& column, const char* why);
-  void split(std::string_view text);
-  std::size_t split_quoted(std::string_view text, std::size_t begin);
-  void read_row(const LineReader::Line& line, QueryRows& rows);
-  Row row_of(const LineReader::Line& line);
-  double number(std::size_t column) const;
-  std::int64_t integer(std::size_t column) const;
+  void understand(const CsvTable& table);
+  void read_row(QueryRows& rows);
+  Row row_of() const;
   void read_from(Row& row) const;
   void push_back(const Row& row, QueryRows& rows) const;
-  [[noreturn]] void refuse(std::size_t column, const char* why) const;
 
-  LineReader lines_;
   const int dimension_;
-  std::vector<std::string> names_;  // of the columns
   std::array<std::size_t, 3> x_{}, v_{}, from_cell_{};
   std::size_t max_time_ = kNone, from_lattice_ = kNone, from_atom_ = kNone, id_ = kNone;
+  CsvTable table_;
+};
 
-  std::vector<std::string_view> fields_;  // of the line that is read, without spaces and quotes
-  std::deque<std::string> unquoted_;      // those that are not, as they are, a part of it
+/// Reads answers: the columns that append_csv_answers writes, in any order.
+class CsvAnswerReader final : public AnswerReader {
+ public:
+  /// As CsvQueryReader; columns that are not known mean nothing.
+  CsvAnswerReader(const std::string& path, int dimension);
+
+  bool next(Answer& answer, Id& id) override;
+  const std::string& name() const override { return table_.lines().name(); }
+
+ private:
+  void understand(const CsvTable& table);
+  Answer answer_of() const;
+
+  const int dimension_;
+  std::size_t outcome_ = 0, lattice_ = 0, atom_ = 0, time_ = 0, id_ = CsvTable::kNone;
+  std::array<std::size_t, 3> cell_{};
+  std::uint64_t done_ = 0;
+  CsvTable table_;
 };
 
 /// All columns that queries can have.

@@ -61,6 +61,29 @@ class NpyQueryReader final : public ColumnReader {
   std::vector<char> all_;               // of columns in a pipe
 };
 
+/// Reads answers: an array of fields outcome, lattice, .., as append_npy_answers writes them, in any order and of
+/// any types that hold them; other fields mean nothing.
+class NpyAnswerReader final : public AnswerReader {
+ public:
+  /// As NpyQueryReader.
+  NpyAnswerReader(const std::string& path, int dimension);
+
+  bool next(Answer& answer, Id& id) override;
+  const std::string& name() const override { return file_.name(); }
+
+ private:
+  const NpyField& field(const char* name, std::size_t numbers) const;
+  std::int64_t integer(const NpyField& field, std::size_t component = 0) const;
+  [[noreturn]] void refuse(const std::string& what) const;
+
+  InputFile file_;
+  const NpyHeader header_;
+  const int dimension_;
+  NpyField outcome_, lattice_, atom_, cell_, time_;
+  std::uint64_t done_ = 0;
+  std::vector<char> row_;
+};
+
 /// The header of an array of so many queries without limits: of numbers, or of fields if they leave
 /// obstacles.
 std::string npy_query_header(std::uint64_t count, int dimension, bool with_from);

@@ -2,6 +2,9 @@
 #include "tests/support/command_line.hpp"
 
 #include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/support/npy.hpp"
 
 using namespace lorentz::test;
 
@@ -328,4 +331,97 @@ TEST_CASE("The heading counts the scenes of a file, if there are several", "[cli
                             "\n";
   CHECK(heading(kScene + kGood) == folder.file("q") + ": 1 given queries");
   CHECK(heading(kScene + kGood + other + kGood) == "2 scenes: 2 given queries");
+}
+
+namespace {
+
+// Queries in the square lattice as columns of a format, and an engine's answers to them.
+struct Columns {
+  std::string queries, answers;
+  Columns(const Folder& folder, const std::string& format, std::size_t count) {
+    std::mt19937_64 random(7);
+    std::vector<std::vector<double>> rows;
+    std::string csv = "id,x1,x2,v1,v2\n";
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<double> row;
+      for (int k = 0; k < 4; ++k)
+        row.push_back(static_cast<double>(random() >> 11) * 0x1p-53 - 0.5 * (k > 1));
+      csv += "\"q " + std::to_string(i) + '"';
+      for (const double number : row) csv += ',' + std::to_string(number);
+      csv += '\n';
+      rows.push_back(row);
+    }
+    queries = folder.write("q." + format, format == "npy" ? npy_rows(rows) : csv);
+    answers =
+        folder.write("a." + format, folder
+                                        .lorentz("first-hit --scene square --radius 0.1 --engine oracle "
+                                                 "--format " +
+                                                 format + " " + queries)
+                                        .out);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("compare: answers in columns are matched to queries in columns, in whatever part they are read",
+          "[cli][compare_command]") {
+  for (const std::string format : {"npy", "csv"}) {
+    INFO(format);
+    const Folder folder;
+    const Columns columns(folder, format, 10'003);  // the last of them are a part of their own
+    const std::string command =
+        "compare --json --scene square --radius 0.1 --queries " + columns.queries + " --answers gpu=";
+    const Run right = folder.lorentz(command + columns.answers + " --engine oracle");
+    CHECK(right.status == 0);
+    const std::string all = R"("queries":10003,"agree":10003,"ill_posed":0,"wrong":0,)";
+    CHECK(contains(right.out, R"({"engine":"oracle",)" + all));
+    CHECK(contains(right.out, R"({"engine":"gpu",)" + all));
+    // One obstacle is another one, in the first part and in the last.
+    std::string text = folder.read("a." + format);
+    const std::size_t row = 3 + 4 + 4 + 2 * 8 + 8;
+    for (const std::size_t from_end : {std::size_t{10'002}, std::size_t{1}}) {
+      std::size_t at = text.size() - from_end * row;  // lattice, behind three bytes
+      if (format == "csv") at = text.find("hit,", text.find("q " + std::to_string(10'003 - from_end)));
+      text[at + (format == "csv" ? 4 : 7)] = format == "csv" ? '3' : '\3';
+    }
+    const Run wrong = folder.lorentz(command + folder.write("w." + format, text));
+    INFO(wrong.out << wrong.err);
+    CHECK(wrong.status == 1);
+    CHECK(contains(wrong.out, R"("wrong":2,)"));
+  }
+}
+
+TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][compare_command]") {
+  const Folder folder;
+  const Columns npy(folder, "npy", 5), csv(folder, "csv", 5);
+  const auto run = [&](const std::string& queries, const std::string& answers, const std::string& more = "") {
+    return folder.lorentz("compare --scene square --radius 0.1 --queries " + queries +
+                          (answers.empty() ? "" : " --answers mine=" + answers) + " " + more);
+  };
+  const auto refuses = [](const Run& run, int status, const std::string& why) {
+    INFO(run.out << run.err);
+    CHECK(run.status == status);
+    CHECK(contains(run.err, why));
+  };
+  refuses(folder.lorentz("compare --queries " + npy.queries), 2, "columns hold no scene; --scene says it");
+  refuses(run(folder.write("q", kScene + kGood), npy.answers), 2, "--queries needs columns, too");
+  refuses(run(npy.queries, npy.queries), 2, "has no field outcome");
+  refuses(run(csv.queries, npy.answers), 2, "no answer matches any query");
+  std::string cut = folder.read("a.npy");
+  cut.resize(cut.size() - 40);
+  refuses(run(npy.queries, folder.write("cut.npy", cut)), 2, "2 of 5 rows are missing");
+  std::string odd = folder.read("a.npy");
+  odd[odd.size() - 35] = 9;
+  refuses(run(npy.queries, folder.write("odd.npy", odd)), 2, "row 4: is no answer");
+  const std::string names = "outcome,lattice,atom,cell1,cell2,time,id\n";
+  refuses(run(csv.queries, folder.write("o.csv", names + "struck,0,0,1,0,2,q 0\n")), 2,
+          "\"struck\" is no outcome");
+  refuses(run(csv.queries, folder.write("t.csv", names + "hit,0,0,1,0,soon,q 0\n")), 2, "column time");
+  refuses(run(csv.queries, folder.write("n.csv", "outcome,lattice\n")), 2, "there is no column atom");
+  refuses(run(folder.write("x.csv", "x1,x2,v1,v2\n0.5,0,1,0\n1,,2,3\n0.5,0,0,0\n"), ""), 2, "row 1: ");
+  refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,3\n"), ""), 2, "compared without");
+  // A cell beyond 64 bits, a time beyond binary64, and rows that say little.
+  const std::string far = "hit,0,0,100000000000000000000,0,inf,q 0\nnever,,,,,,q 1\nundecided,,,,,,q 2\n";
+  const Run said = run(csv.queries, folder.write("f.csv", names + far), "--json");
+  CHECK(contains(said.out, R"("undecided":1,"unsupported":0,"error":0,"missing":2,)"));
 }

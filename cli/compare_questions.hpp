@@ -1,0 +1,73 @@
+// What `lorentz compare` asks: drawn, or read from a stream or from columns.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "cli/disagreement_file.hpp"
+#include "cli/query_stream.hpp"
+#include "compare/question.hpp"
+#include "compare/sampling.hpp"
+#include "src/exchange/columns.hpp"
+
+namespace lorentz::cli {
+
+struct CompareOptions {
+  std::vector<std::string> engines, answers;
+  std::optional<std::string> scene, queries, disagreements;
+  std::optional<double> radius, ulps, timeout;
+  std::uint64_t count = 10'000, seed = compare::kDefaultSeed, failures = 3;
+  std::string judge = "oracle";
+  bool json = false, strict = false, times = false, no_oracle = false;
+
+  UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
+};
+
+/// Is it the name of a file of columns?
+inline bool is_columns(const std::string& path) {
+  return path.ends_with(".npy") || path.ends_with(".csv");
+}
+
+/// The questions that were asked for, part by part, without answers.
+class ComparedQuestions {
+ public:
+  /// Throws InputError and FileError. The scenes begin the file of disagreements.
+  ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements);
+
+  /// Up to so many more; none: that was all.
+  std::vector<compare::Question> next(std::size_t most);
+
+  bool had_bad_input() const { return bad_rows_ > 0 || bad_ids_ || (stream_ && stream_->had_bad_input()); }
+  std::size_t count() const { return count_; }
+  std::size_t scenes() const { return scenes_; }  ///< with questions
+
+  /// Rows of columns have numbers, by which rows of answers are matched.
+  bool are_columns() const { return columns_ != nullptr; }
+  int dimension() const { return place_ ? place_->scene().dimension : 0; }
+
+ private:
+  using Questions = std::vector<compare::Question>;
+
+  void enter(const Scene& scene);
+  void open_columns(const std::string& path);
+  Questions draw(std::size_t most);
+  Questions read(std::size_t most);
+  Questions read_columns(std::size_t most);
+  void take_rows(const QueryRows& rows, Questions& questions);
+  void add(Questions& questions, const Query& query, const Id& id);
+  void complain(const Id& id, const std::string& why);
+
+  const CompareOptions& options_;
+  DisagreementFile& disagreements_;
+  std::optional<QueryStream> stream_;      // or
+  std::unique_ptr<ColumnReader> columns_;  // or drawn
+  std::shared_ptr<compare::Place> place_;
+  bool is_new_ = false, bad_ids_ = false;
+  std::size_t rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
+  std::unordered_set<Id> ids_;
+};
+
+}  // namespace lorentz::cli

@@ -1,0 +1,72 @@
+#include <lorentz/exchange.hpp>
+#include "src/exchange/columns_csv.hpp"
+
+namespace lorentz {
+namespace {
+
+std::optional<Outcome> outcome_named(std::string_view name) {
+  for (const Outcome outcome :
+       {Outcome::hit, Outcome::never, Outcome::inside, Outcome::later, Outcome::undecided, Outcome::error})
+    if (name_of(outcome) == name) return outcome;
+  return std::nullopt;
+}
+
+std::vector<std::string> columns(int dimension) {
+  std::vector<std::string> names{"id", "outcome", "lattice", "atom", "time"};
+  for (int k = 1; k <= dimension; ++k) names.push_back("cell" + std::to_string(k));
+  return names;
+}
+
+}  // namespace
+
+CsvAnswerReader::CsvAnswerReader(const std::string& path, int dimension)
+    : dimension_(dimension),
+      table_(
+          path, columns(dimension), [this](const CsvTable& table) { understand(table); },
+          [](const std::string&, const std::string&) {}) {}
+
+void CsvAnswerReader::understand(const CsvTable& table) {
+  constexpr const char* kNeeded = "answers need it";
+  id_ = table.take("id"), outcome_ = table.need("outcome", kNeeded);
+  lattice_ = table.need("lattice", kNeeded), atom_ = table.need("atom", kNeeded);
+  for (int k = 0; k < dimension_; ++k)
+    cell_[static_cast<std::size_t>(k)] = table.need("cell" + std::to_string(k + 1), kNeeded);
+  time_ = table.need("time", kNeeded);
+}
+
+Answer CsvAnswerReader::answer_of() const {
+  Answer answer;
+  const auto outcome = outcome_named(table_.field(outcome_));
+  if (!outcome) table_.refuse(outcome_, "is no outcome");
+  answer.outcome = *outcome;
+  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return answer;
+  const auto index = [&](std::size_t column) {
+    const std::int64_t value = table_.integer(column);
+    if (value < 0 || value > 1'000'000'000) table_.refuse(column, "is no number of a lattice or an atom");
+    return static_cast<int>(value);
+  };
+  answer.obstacle.lattice = index(lattice_), answer.obstacle.atom = index(atom_);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
+    auto coordinate = Integer::from_decimal(table_.field(cell_[k]));
+    answer.obstacle.cell[k] = coordinate ? std::move(*coordinate) : Integer(table_.integer(cell_[k]));
+  }
+  const std::string_view time = table_.field(time_);
+  if (answer.outcome == Outcome::hit && !time.empty())
+    answer.time = time == "inf" ? std::numeric_limits<double>::infinity() : table_.number(time_);
+  return answer;
+}
+
+bool CsvAnswerReader::next(Answer& answer, Id& id) {
+  if (!table_.next()) return false;
+  const std::uint64_t row = done_++;
+  try {
+    table_.split();
+    answer = answer_of();
+  } catch (const InputError& error) {
+    throw InputError(name() + ":" + std::to_string(table_.line()) + ": " + error.what());
+  }
+  id = id_ == CsvTable::kNone ? std::to_string(row) : json_quoted(table_.field(id_));
+  return true;
+}
+
+}  // namespace lorentz
