@@ -62,9 +62,9 @@ std::string json_of(const std::string& scene, std::uint64_t seed, const std::vec
 // Who is compared: an engine, or answers in a file.
 struct Compared {
   std::string name;
-  std::unique_ptr<Answerer> answerer;
-  std::optional<EngineInfo> engine = {};  // or
-  LoggedAnswers* logged = nullptr;        // which the answerer is
+  std::vector<std::unique_ptr<Answerer>> answerers;  // one a thread
+  std::optional<EngineInfo> engine = {};             // or
+  LoggedAnswers* logged = nullptr;                   // which the answerer is
   Tally tally = {};
 };
 
@@ -89,7 +89,9 @@ Compared logged_answers(const std::string& argument, const ComparedQuestions& qu
     throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
   auto logged = logged_in(argument.substr(equals + 1), questions, unknown);
   LoggedAnswers* const raw = logged.get();
-  return {argument.substr(0, equals), std::move(logged), {}, raw};
+  Compared one{argument.substr(0, equals), {}, {}, raw};
+  one.answerers.push_back(std::move(logged));
+  return one;
 }
 
 // The scene's name for the heading; the number of scenes if a file has several.
@@ -191,7 +193,11 @@ std::vector<Compared> all_compared(const CompareOptions& options, const std::vec
   const AnswererOptions answerer{
       {}, options.timeout.value_or(AnswererOptions::kDefaultTimeout), terminal(), options.strict};
   std::vector<Compared> all;
-  for (const EngineInfo& engine : engines) all.push_back({engine.name, engine.answerer(answerer), engine});
+  for (const EngineInfo& engine : engines) {
+    Compared& one = all.emplace_back(Compared{engine.name, {}, engine});
+    for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
+      one.answerers.push_back(engine.answerer(answerer));
+  }
   for (const std::string& argument : options.answers)
     all.push_back(logged_answers(argument, questions, options.unknown_keys()));
   for (Compared& one : all) one.tally.name = one.name;
@@ -207,9 +213,9 @@ std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestio
   std::vector<Question> first;
   for (std::vector<Question> part; !(part = questions.next(kTogether)).empty();) {
     if (!options.no_oracle) {
-      answer_exactly(part, truth_named(options.judge, {}), terminal());
+      answer_exactly(part, truth_named(options.judge, {}), terminal(), static_cast<int>(options.jobs));
       for (Compared& one : compared)
-        examine(all_of(part), *one.answerer, ulps, [&](const Judged& judged) {
+        examine(part, one.answerers, ulps, [&](const Judged& judged) {
           one.tally.count(judged.judgement);
           departures.add(judged, one.name);
         });
@@ -227,9 +233,9 @@ void race_all(const CompareOptions& options, const std::vector<Question>& questi
   std::vector<EngineInfo> engines;
   std::vector<Tally*> tallies;
   for (Compared& one : compared)
-    if (one.engine && !one.answerer->failed()) {
+    if (one.engine && !one.answerers[0]->failed()) {
       engines.push_back(*one.engine), tallies.push_back(&one.tally);
-      race_options.running.push_back(one.answerer.get());
+      race_options.running.push_back(one.answerers[0].get());
     }
   race_options.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   race_options.listener = terminal();
@@ -252,8 +258,8 @@ int act(const CompareOptions& options) {
   race_all(options, first, compared);
   bool bad_input = questions.had_bad_input();
   for (Compared& one : compared) {
-    one.answerer->finish();
-    one.tally.failed = one.answerer->failed();
+    for (const auto& answerer : one.answerers) answerer->finish();
+    one.tally.failed = one.answerers[0]->failed();
     bad_input |= one.logged && one.logged->had_bad_input();
   }
   departures.file().close();
@@ -285,6 +291,10 @@ Command compare_command() {
            "queries instead of drawn ones: a stream (NDJSON), - is standard input, or columns (.npy, .csv; "
            "docs/formats.md), which need --scene",
            kPlain, "--count"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+           "threads, of the exact answers and of engines of this program; the same results, and times are "
+           "taken on "
+           "one"},
           {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
            "--queries"},
           {"--seed", Whole{&options->seed}, "N", "of the drawn queries"},

@@ -19,7 +19,7 @@ struct CompareOptions {
   std::vector<std::string> engines, answers;
   std::optional<std::string> scene, queries, disagreements;
   std::optional<double> radius, ulps, timeout;
-  std::uint64_t count = 10'000, seed = compare::kDefaultSeed, failures = 3;
+  std::uint64_t jobs = 1, count = 10'000, seed = compare::kDefaultSeed, failures = 3;
   std::string judge = "oracle";
   bool json = false, strict = false, times = false, no_oracle = false;
 

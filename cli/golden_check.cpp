@@ -31,7 +31,7 @@ struct Options {
   std::optional<std::string> id;
   std::optional<double> ulps, timeout;
   std::optional<std::uint64_t> first;
-  std::uint64_t failures = 10;
+  std::uint64_t failures = 10, jobs = 1;
   bool strict = false, times = false, json = false, markdown = false;
 };
 
@@ -71,18 +71,17 @@ Source records_of(golden::Reader& reader, const std::optional<std::string>& id, 
 // Asks an engine the questions of sets, and keeps what came of each.
 class Examination {
  public:
-  Examination(const EngineInfo& engine, double ulps, bool times, bool strict, double timeout,
-              std::size_t most_failures)
-      : engine_(engine.name),
-        ulps_(ulps),
-        times_(times),
-        most_failures_(most_failures),
-        answerer_(engine.answerer({{}, timeout, terminal(), strict})) {}
+  Examination(const EngineInfo& engine, double ulps, bool times, const AnswererOptions& options,
+              std::uint64_t jobs, std::size_t most_failures)
+      : engine_(engine.name), ulps_(ulps), times_(times), most_failures_(most_failures) {
+    for (std::uint64_t job = 0; job < (engine.is_own() ? jobs : 1); ++job)
+      answerers_.push_back(engine.answerer(options));
+  }
 
   /// A program that was given up may do another set; not if it never answered anything.
   bool is_worth_asking() {
-    answerer_->try_again();
-    return !answerer_->is_hopeless();
+    answerers_[0]->try_again();
+    return !answerers_[0]->is_hopeless();
   }
 
   SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
@@ -92,16 +91,21 @@ class Examination {
     tally.description = reader.header().description;
     tally.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
-    examine(records_of(reader, id, first, progress), *answerer_, ulps_,
-            [&](const Judged& judged) { take(judged, path, tally); });
-    tally.failed = answerer_->failed();
+    const Source records = records_of(reader, id, first, progress);
+    for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
+      examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
+    tally.failed = answerers_[0]->failed();
     return tally;
   }
 
-  void finish() { answerer_->finish(); }
+  void finish() {
+    for (const auto& answerer : answerers_) answerer->finish();
+  }
   const std::vector<Failure>& failures() const { return failures_; }
 
  private:
+  static constexpr std::size_t kTogether = 4096;
+
   void take(const Judged& judged, const std::string& set, SetTally& tally) {
     const auto& [question, given, origin, judgement] = judged;
     if (origin == Answerer::Origin::not_asked) {
@@ -125,7 +129,7 @@ class Examination {
   const double ulps_;
   const bool times_;
   const std::size_t most_failures_;
-  std::unique_ptr<Answerer> answerer_;
+  std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
   std::vector<Failure> failures_;
 };
 
@@ -308,7 +312,8 @@ int act(const Options& options) {
   std::string pages;
   for (const EngineInfo& info : engines) {
     const std::string& engine = info.name;
-    Examination examination(info, ulps, options.times, options.strict, timeout, most);
+    Examination examination(info, ulps, options.times, {{}, timeout, terminal(), options.strict},
+                            options.jobs, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
       if (!examination.is_worth_asking()) {
@@ -355,6 +360,8 @@ Command golden_check_command() {
               {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},
               {"--failures", Whole{&options->failures, 0, 1'000'000}, "N",
                "list at most N failures of each engine"},
+              {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+               "threads, of engines of this program: the same results"},
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
               {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <deque>
+#include <future>
 #include <limits>
+#include <mutex>
 
 namespace lorentz::compare {
 namespace {
@@ -55,16 +57,51 @@ void examine(const Source& source, Answerer& answerer, double ulps, const Sink& 
 
 namespace {
 
+// Calls act(begin, end) for as many stretches of [0, count) as there are jobs, each in a thread.
+template <class Act>
+void in_stretches(std::size_t count, std::size_t jobs, const Act& act) {
+  const auto bound = [&](std::size_t job) { return job * count / jobs; };
+  std::vector<std::future<void>> others;
+  for (std::size_t job = 1; job < jobs; ++job)
+    others.push_back(std::async(std::launch::async, [&, job] { act(job, bound(job), bound(job + 1)); }));
+  act(0, bound(0), bound(1));
+  for (std::future<void>& other : others) other.get();
+}
+
+}  // namespace
+
+void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
+             double ulps, const Sink& sink) {
+  if (answerers.size() == 1) return examine(all_of(questions), *answerers[0], ulps, sink);
+  for (const Question& question : questions) question.place->judge();  // it is made by whoever asks first
+  struct Came {
+    Answer given;
+    Answerer::Origin origin{};
+    Judgement judgement;
+  };
+  std::vector<Came> came(questions.size());
+  in_stretches(questions.size(), answerers.size(), [&](std::size_t job, std::size_t begin, std::size_t end) {
+    std::size_t next = begin;
+    examine(all_of(questions.subspan(begin, end - begin)), *answerers[job], ulps, [&](const Judged& judged) {
+      came[next++] = {judged.given, judged.origin, judged.judgement};
+    });
+  });
+  for (std::size_t i = 0; i < questions.size(); ++i)
+    sink({questions[i], came[i].given, came[i].origin, came[i].judgement});
+}
+
+namespace {
+
 constexpr const char* kExactAnswers = "exact answers";
 
 // Place by place: that of a batch is prepared once.
-void ask_certified(std::span<Question> questions, const Listener& listener) {
+void ask_certified(std::span<Question> questions, const Listener& listener, int jobs) {
   std::vector<Question*> order;
   for (Question& question : questions) order.push_back(&question);
   std::stable_sort(order.begin(), order.end(),
                    [](const Question* a, const Question* b) { return a->place < b->place; });
   std::size_t told = 0;
-  const auto certified = engine_named("certified-batch").answerer({});
+  const auto certified = engine_named("certified-batch").answerer({.jobs = jobs});
   certified->on_answer([&](Answer& answer) {
     order[told++]->exact = std::move(answer);
     report(listener, kExactAnswers, told, order.size());
@@ -79,13 +116,19 @@ void ask_certified(std::span<Question> questions, const Listener& listener) {
 
 }  // namespace
 
-void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener) {
-  if (truth == Truth::certified) return ask_certified(questions, listener);
+void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener, int jobs) {
+  if (truth == Truth::certified) return ask_certified(questions, listener, jobs);
+  for (const Question& question : questions) question.place->oracle();  // as the judge above
+  std::mutex mutex;
   std::size_t done = 0;
-  for (Question& question : questions) {
-    question.exact = question.place->oracle().first_hit(question.query);
-    report(listener, kExactAnswers, ++done, questions.size());
-  }
+  in_stretches(questions.size(), static_cast<std::size_t>(jobs),
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (Question& question : questions.subspan(begin, end - begin)) {
+                   question.exact = question.place->oracle().first_hit(question.query);
+                   const std::lock_guard lock(mutex);
+                   report(listener, kExactAnswers, ++done, questions.size());
+                 }
+               });
 }
 
 }  // namespace lorentz::compare

@@ -28,7 +28,12 @@ using Sink = std::function<void(const Judged&)>;
 /// questions, with the tolerance `ulps`.
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink);
 
-/// Gives the questions their exact answers.
-void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener = {});
+/// The same in a thread for each of the answerers, which get a stretch of the questions each. The sink is called in
+/// the order of the questions, by this thread.
+void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
+             double ulps, const Sink& sink);
+
+/// Gives the questions their exact answers, with so many threads.
+void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener = {}, int jobs = 1);
 
 }  // namespace lorentz::compare

@@ -87,6 +87,17 @@ inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
 /// The next question, or nothing: that was all.
 using Source = std::function<std::optional<Question>()>;
 
+/// The next questions, up to so many.
+inline std::vector<Question> some_of(const Source& source, std::size_t most) {
+  std::vector<Question> questions;
+  while (questions.size() < most) {
+    std::optional<Question> next = source();
+    if (!next) break;
+    questions.push_back(std::move(*next));
+  }
+  return questions;
+}
+
 /// A source of questions that are there already, and outlast it.
 inline Source all_of(std::span<const Question> questions) {
   return [questions, next = std::size_t{0}]() mutable -> std::optional<Question> {

@@ -35,16 +35,16 @@ const char* name_of(Verdict verdict) {
 class PyOracle {
  public:
   explicit PyOracle(const PyScene& scene)
-      : setting_(std::make_shared<judge::Setting>(scene.scene())), scene_(setting_->scene()) {}
+      : place_(std::make_shared<compare::Place>(scene.scene())), scene_(place_->scene()) {}
 
   std::string first_hit(const std::string& query, int digits, bool detail,
                         std::optional<double> max_time) const {
-    return answer_text(setting_->oracle().first_hit(read_query(query, scene_), {digits, detail, max_time}),
+    return answer_text(place_->oracle().first_hit(read_query(query, scene_), {digits, detail, max_time}),
                        scene_.dimension);
   }
 
   bool is_free(const std::string& query) const {
-    return setting_->oracle().is_free(read_query(query, scene_).x);
+    return place_->oracle().is_free(read_query(query, scene_).x);
   }
 
   py::dict margin(const std::string& text) const {
@@ -52,8 +52,8 @@ class PyOracle {
     py::dict dict;
     dict["condition"] = py::none();
     dict["margin"] = py::none();
-    if (exact.outcome == Outcome::hit) dict["condition"] = setting_->margins().condition(query, exact);
-    const auto hardest = setting_->margins().hardest_decision(query, exact);
+    if (exact.outcome == Outcome::hit) dict["condition"] = place_->margins().condition(query, exact);
+    const auto hardest = place_->margins().hardest_decision(query, exact);
     if (!hardest) return dict;
     dict["margin"] = hardest->margin;
     if (hardest->margin >= oracle::kLargestMargin) return dict;
@@ -67,7 +67,7 @@ class PyOracle {
     const auto [query, exact] = question(text);
     py::list list;
     if (exact.outcome != Outcome::hit) return list;
-    for (const oracle::PassedObstacle& p : setting_->margins().passed(query, exact, most))
+    for (const oracle::PassedObstacle& p : place_->margins().passed(query, exact, most))
       list.append(py::dict(py::arg("obstacle") = obstacle_tuple(p.obstacle), py::arg("time") = p.time,
                            py::arg("gap") = p.gap, py::arg("margin") = p.margin));
     return list;
@@ -76,8 +76,8 @@ class PyOracle {
   py::dict judge(const std::string& text, const std::string& given_text, double ulps) const {
     const auto [query, exact] = question(text);
     const Answer given = read_answer(given_text, scene_.dimension);
-    const oracle::Judgement judgement = setting_->judge().judge(query, exact, given, ulps);
-    const auto diagnosis = judge::diagnosis_of({setting_, query, exact, {}, {}}, given, judgement);
+    const oracle::Judgement judgement = place_->judge().judge(query, exact, given, ulps);
+    const auto diagnosis = judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
     py::dict dict;
     dict["verdict"] = name_of(judgement.verdict);
     dict["wrong_time"] = judgement.wrong_time;
@@ -118,7 +118,7 @@ class PyOracle {
 
   std::pair<Query, Answer> question(const std::string& text) const {
     Query query = read_query(text, scene_);
-    Answer exact = setting_->oracle().first_hit(query);
+    Answer exact = place_->oracle().first_hit(query);
     return {std::move(query), std::move(exact)};
   }
 
@@ -126,7 +126,7 @@ class PyOracle {
     return py::make_tuple(obstacle.lattice, obstacle.atom, to_python(obstacle.cell, scene_.dimension));
   }
 
-  std::shared_ptr<judge::Setting> setting_;
+  std::shared_ptr<compare::Place> place_;
   const Scene& scene_;
   mutable std::optional<oracle::Prover> prover_;
   mutable std::optional<oracle::CertificateCheck> check_;

@@ -425,3 +425,21 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   const Run said = run(csv.queries, folder.write("f.csv", names + far), "--json");
   CHECK(contains(said.out, R"("undecided":1,"unsupported":0,"error":0,"missing":2,)"));
 }
+
+TEST_CASE("compare and golden check say the same with threads as without", "[cli][compare_command]") {
+  const Folder folder;
+  const auto said = [&](const std::string& command, const char* end) {
+    const Run run = folder.lorentz(command);
+    return run.out.substr(0, run.out.find(end)) + folder.read("d");
+  };
+  for (const std::string command :
+       {"compare --seed 3 --count 12000 --radius 0.01 --engine certified,published --times",
+        "golden check ties never --engine certified"}) {
+    INFO(command);
+    const std::string more =
+        command.starts_with("compare") ? " --json --disagreements " + folder.file("d") : "";
+    const char* const end = command.starts_with("compare") ? "\"ns_per_query\"" : "no such text";
+    CHECK(said(command + more, end) == said(command + more + " --jobs 3", end));
+  }
+  CHECK(folder.lorentz("compare --jobs 0").status == 2);
+}

@@ -176,3 +176,34 @@ TEST_CASE("Of each engine as many questions are raced as it is to be asked, in e
   for (const compare::Speed& speed : compare::race(questions, engines, options))
     CHECK((speed.ns_per_query == 0 && !speed.failed));
 }
+
+TEST_CASE("Threads come to what one comes to, in the order of the questions", "[compare][examine]") {
+  std::vector<Question> questions;
+  for (const int dimension : {2, 3}) {
+    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.1));
+    const auto queries =
+        compare::hard_queries(compare::Difficulty::grazing, place->scene(), place->oracle(), 4712, 150);
+    for (Question& question : compare::questions_of(place, queries)) questions.push_back(std::move(question));
+  }
+  std::vector<Question> alone = questions;
+  compare::answer_exactly(alone, compare::Truth::oracle);
+  const compare::EngineInfo engine = compare::engine_named("published");
+  const auto run = [&](std::size_t jobs) {
+    std::vector<std::unique_ptr<compare::Answerer>> answerers;
+    for (std::size_t job = 0; job < jobs; ++job) answerers.push_back(engine.answerer({}));
+    std::string text;
+    compare::examine(alone, answerers, 4, [&](const compare::Judged& judged) {
+      append_answer_line(text, judged.question.id, judged.given, 3);
+      text += std::to_string(static_cast<int>(judged.judgement.verdict));
+    });
+    return text;
+  };
+  const std::string one = run(1);
+  for (const int jobs : {2, 3, 64, 301}) {
+    INFO(jobs);
+    std::vector<Question> together = questions;
+    compare::answer_exactly(together, compare::Truth::oracle, {}, jobs);
+    for (std::size_t i = 0; i < questions.size(); ++i) CHECK(test::same(alone[i].exact, together[i].exact));
+    CHECK(run(static_cast<std::size_t>(jobs)) == one);
+  }
+}
