@@ -44,7 +44,7 @@ namespace {
 
 using AllSums = std::vector<std::optional<Sums>>;
 
-AllSums kept_in(const Kept& kept, const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
+AllSums kept_in(const KeptGroups& kept, const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
   AllSums all(kGroups);
   kept.each([&](const std::string& text) {
     std::uint64_t group = 0;

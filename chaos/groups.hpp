@@ -27,7 +27,7 @@ std::string text_of(std::uint64_t group, const Sums& sums);
 Sums sums_in(std::string_view text, std::uint64_t& group);
 
 /// Groups that are kept from one run to the next, as text_of() writes them.
-struct Kept {
+struct KeptGroups {
   std::function<void(const std::function<void(const std::string&)>& read)>
       each;                                     ///< reads all that are there
   std::function<void(const std::string&)> add;  ///< one thread at a time
@@ -38,7 +38,7 @@ struct Work {
   unsigned jobs = 1;
   const std::atomic<bool>* stop = nullptr;              ///< stop when this becomes true
   std::function<void(std::uint64_t)> on_progress = {};  ///< so many groups are done; one thread at a time
-  std::optional<Kept> kept = {};
+  std::optional<KeptGroups> kept = {};
 
   bool is_stopped() const { return stop && *stop; }
 };

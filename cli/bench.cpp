@@ -23,7 +23,7 @@ using namespace compare;
 
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> engines{"classical", "published", "reduction", "certified", "oracle"};
   std::vector<std::string> scenes{"square", "cubic"};
   std::vector<std::string> radii;  // none: radii_of
@@ -35,7 +35,7 @@ struct Options {
 };
 
 // The radii to run a scene at: those asked for, or some; a scene with semiaxes at its own size.
-std::vector<std::optional<std::string>> radii_of(const Options& options, const std::string& scene_name) {
+std::vector<std::optional<std::string>> radii_of(const BenchOptions& options, const std::string& scene_name) {
   if (!options.radii.empty()) return {options.radii.begin(), options.radii.end()};
   for (const Lattice& lattice : read_scene(scene_name, {}).lattices)
     for (const Atom& atom : lattice.atoms)
@@ -50,7 +50,7 @@ Difficulty difficulty_named(const std::string& name) {
                    " is none; there are drawn, near-rational, grazing");
 }
 
-std::vector<BenchGroup> groups_of(const Options& options) {
+std::vector<BenchGroup> groups_of(const BenchOptions& options) {
   std::vector<BenchGroup> groups;
   for (const std::string& scene : options.scenes)
     for (const auto& radius : radii_of(options, scene))
@@ -66,7 +66,7 @@ store::Plan words_of(const report::Manifest& manifest) {
       {"machine", manifest.machine}, {"instructions", manifest.instructions}, {"system", manifest.system}};
 }
 
-BenchPlan plan_of(const Options& options) {
+BenchPlan plan_of(const BenchOptions& options) {
   BenchPlan plan;
   plan.engines = engines_named(options.engines);
   plan.seed = options.seed;
@@ -75,7 +75,7 @@ BenchPlan plan_of(const Options& options) {
   return plan;
 }
 
-int act(const Options& options) {
+int act(const BenchOptions& options) {
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());
@@ -107,7 +107,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command bench_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   return {"bench",
           "Speed against error: engines by scenes by radii by difficulty.",
           {

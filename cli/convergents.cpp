@@ -10,13 +10,13 @@
 namespace lorentz::cli {
 namespace {
 
-struct Options {
+struct ConvergentsOptions {
   std::string slope, run = "1";
   std::uint64_t limit = 10'000;
   bool json = false;
 };
 
-int act(const Options& options) {
+int act(const ConvergentsOptions& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
   const auto convergents = oracle::convergents(rise, run, options.limit);
@@ -47,7 +47,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command convergents_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvergentsOptions>();
   return {
       "convergents",
       "Exact continued fraction of a slope: partial quotients, convergents p/q, signed remainders q m - p.",

@@ -52,9 +52,9 @@ std::vector<Question> drawn(int dimension, double radius, std::size_t count) {
                       draw_queries(scene, oracle::Oracle(scene), kDefaultSeed, count, terminal()));
 }
 
-class Report {
+class DemoReport {
  public:
-  explicit Report(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
+  explicit DemoReport(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
 
   void add(const std::string& what, std::vector<Question> questions) {
     disagreements_.begin(questions[0].place->scene());
@@ -114,7 +114,7 @@ int act(const std::optional<std::string>& disagreements) {
       "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
       "{}).\n\n",
       kDefaultSeed));
-  Report report(disagreements);
+  DemoReport report(disagreements);
   report.add("the paper's example, r = 0.1", paper_example());
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
     report.add(fmt::format("2D, drawn, r = {}", r), drawn(2, r, 5000));

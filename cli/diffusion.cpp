@@ -23,7 +23,7 @@ using chaos::Displacement;
 using chaos::Estimate;
 using flights::Ensemble;
 
-struct Options : ChaosOptions {
+struct DiffusionOptions : ChaosOptions {
   std::uint64_t count = 100'000;
   std::string from = "uniform";
   std::optional<double> time;
@@ -31,7 +31,7 @@ struct Options : ChaosOptions {
 };
 
 // What was found, with all that stands beside it.
-struct Report {
+struct DiffusionReport {
   std::string scene;
   DiffusionPlan plan;
   Diffusion found;
@@ -55,7 +55,7 @@ struct Report {
 };
 
 // D, if there is one: with open corridors it is but a number at the time T.
-std::string Report::lines_of_coefficient() const {
+std::string DiffusionReport::lines_of_coefficient() const {
   const std::string estimate =
       fmt::format("{:.6g} +- {:.1e}", found.coefficient.value, found.coefficient.error);
   constexpr const char* kWhat = "(MSD(T) - MSD(T/2)) / (d T)";
@@ -72,14 +72,14 @@ std::string Report::lines_of_coefficient() const {
   return text + "(heavy tails: these errors are too small)\n";
 }
 
-std::string Report::lines_of_theory() const {
+std::string DiffusionReport::lines_of_theory() const {
   if (!random_walk) return "";
   return fmt::format(
       "theory, gaps -> 0 (Machta and Zwanzig): D = {:.6g}{}\n", *random_walk,
       has_corridors() ? "" : fmt::format("; here {:.4f} of it", found.coefficient.value / *random_walk));
 }
 
-std::string Report::table() const {
+std::string DiffusionReport::table() const {
   std::string text = fmt::format("scene {}, {} starts, seed {}\n{} particles until t = {:g}, {} collisions",
                                  name_with_radius(scene, plan.scene), is_uniform() ? "uniform" : "surface",
                                  plan.seed, found.particles, plan.time, found.collisions);
@@ -101,7 +101,7 @@ std::string Report::table() const {
   return text + table.text() + '\n' + lines_of_coefficient() + lines_of_theory();
 }
 
-std::string Report::csv() const {
+std::string DiffusionReport::csv() const {
   std::string text = "t,msd,msd_error,msd_by_velocities,msd_by_velocities_error\n";
   for (const Displacement& at : found.displacements)
     text += fmt::format("{},{},{},{},{}\n", at.time, at.square.value, at.square.error,
@@ -110,7 +110,7 @@ std::string Report::csv() const {
   return text;
 }
 
-std::string Report::json() const {
+std::string DiffusionReport::json() const {
   using json::finite;
   const auto if_uniform = [&](double x) { return is_uniform() ? finite(x) : std::nullopt; };
   const auto if_bounded = [&](double x) { return has_corridors() ? std::nullopt : finite(x); };
@@ -138,8 +138,8 @@ Ensemble ensemble_of(const std::string& name) {
                                json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
 }
 
-int act(const Options& options) {
-  Report report;
+int act(const DiffusionOptions& options) {
+  DiffusionReport report;
   report.scene = options.scene;
   report.plan = {scene_of(options), ensemble_of(options.from), options.seed, options.count,
                  options.time.value_or(100)};
@@ -168,7 +168,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command diffusion_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffusionOptions>();
   return {
       "diffusion", "Mean squared displacements of many particles, and theory beside them.",
       joined(chaos_rows(*options),

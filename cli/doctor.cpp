@@ -18,13 +18,13 @@ namespace {
 using fitness::Finding;
 using fitness::Use;
 
-struct Options {
+struct DoctorOptions {
   bool json = false;
   std::string rounding;
 };
 
 /// What was seen, and what it means.
-struct Diagnosis {
+struct MachineReport {
   report::Manifest manifest;
   std::vector<std::string> instruction_sets, libraries;
   std::vector<Finding> findings;
@@ -40,8 +40,8 @@ void set_rounding(const std::string& mode) {
   std::fesetround(mode == "upward" ? FE_UPWARD : mode == "downward" ? FE_DOWNWARD : FE_TOWARDZERO);
 }
 
-Diagnosis diagnose() {
-  Diagnosis diagnosis{
+MachineReport diagnose() {
+  MachineReport diagnosis{
       report::manifest_of(0, command_line()), Batch::instruction_sets(), library_versions(), {}, {}};
   diagnosis.findings = fitness::examine_arithmetic();
   for (Finding& finding : fitness::examine_answers()) diagnosis.findings.push_back(std::move(finding));
@@ -55,7 +55,7 @@ std::vector<std::string> names(const std::vector<Use>& uses) {
   return names;
 }
 
-std::vector<Use> fit_uses(const Diagnosis& diagnosis) {
+std::vector<Use> fit_uses(const MachineReport& diagnosis) {
   std::vector<Use> uses;
   for (const Use use : fitness::kUses)
     if (std::find(diagnosis.unfit.begin(), diagnosis.unfit.end(), use) == diagnosis.unfit.end())
@@ -63,7 +63,7 @@ std::vector<Use> fit_uses(const Diagnosis& diagnosis) {
   return uses;
 }
 
-std::string verdict(const Diagnosis& diagnosis) {
+std::string verdict(const MachineReport& diagnosis) {
   if (diagnosis.fit()) return "Fit: answers here are what they are everywhere.\n";
   const std::vector<Use> fit = fit_uses(diagnosis);
   return fmt::format("NOT FIT for {}.\n{}docs/doctor.md says what each finding means, and what helps.\n",
@@ -71,7 +71,7 @@ std::string verdict(const Diagnosis& diagnosis) {
                      fit.empty() ? "" : fmt::format("Fit for {}.\n", fmt::join(names(fit), "; ")));
 }
 
-std::string text_of(const Diagnosis& diagnosis) {
+std::string text_of(const MachineReport& diagnosis) {
   const bool lanes = diagnosis.instruction_sets.front() != "none";
   std::string text = fmt::format(
       "lorentz {} ({})\n  compiled by    {}\n  options        {}\n  machine        {}\n  vectors        {}\n "
@@ -87,7 +87,7 @@ std::string text_of(const Diagnosis& diagnosis) {
   return text + verdict(diagnosis);
 }
 
-std::string json_of(const Diagnosis& diagnosis) {
+std::string json_of(const MachineReport& diagnosis) {
   return json::line_of([&](json::Members& object) {
     object.add("fit", diagnosis.fit(), "fit_for", names(fit_uses(diagnosis)), "not_fit_for",
                names(diagnosis.unfit), "version", diagnosis.manifest.version, "compiler",
@@ -101,9 +101,9 @@ std::string json_of(const Diagnosis& diagnosis) {
   });
 }
 
-int act(const Options& options) {
+int act(const DoctorOptions& options) {
   if (!options.rounding.empty()) set_rounding(options.rounding);
-  const Diagnosis diagnosis = diagnose();
+  const MachineReport diagnosis = diagnose();
   std::fesetround(FE_TONEAREST);
   print(options.json ? json_of(diagnosis) : text_of(diagnosis));
   return diagnosis.fit() ? kDone : kDisagreement;
@@ -112,7 +112,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command doctor_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   return {"doctor",
           "Is this machine fit? Looks at its arithmetic and at this build, and computes known "
           "answers again with every engine and both oracles.",

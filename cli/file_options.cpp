@@ -17,7 +17,7 @@ constexpr const char* kStandardInput = "/dev/stdin";
 constexpr const char* kStandardOutput = "/dev/stdout";
 
 // A file, and what names it.
-struct Named {
+struct NamedFile {
   std::string by, path;
   bool is_output;
 };
@@ -41,13 +41,13 @@ std::vector<std::string> values_of(const Option& option) {
 }
 
 // What stands beside a store while it is written.
-void add_companions(const std::string& store, std::vector<Named>& files) {
+void add_companions(const std::string& store, std::vector<NamedFile>& files) {
   for (const char* end : {".lock", "-wal", "-shm", "-journal"})
     files.push_back({"the store " + store, store + end, false});
 }
 
-std::vector<Named> files_of(const Command& command) {
-  std::vector<Named> files{{"standard output", kStandardOutput, true}};
+std::vector<NamedFile> files_of(const Command& command) {
+  std::vector<NamedFile> files{{"standard output", kStandardOutput, true}};
   for (const Option& option : command.options) {
     const std::string name = option.name();
     const bool makes_set = option.type == "SET" && !option.is_argument();  // the name is of a recipe
@@ -77,9 +77,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }  // namespace
 
 void check_files(const Command& command) {
-  const std::vector<Named> files = files_of(command);
-  for (const Named& output : files)
-    for (const Named& other : files) {
+  const std::vector<NamedFile> files = files_of(command);
+  for (const NamedFile& output : files)
+    for (const NamedFile& other : files) {
       if (!output.is_output || &other == &output || !is_same_file(output.path, other.path)) continue;
       if (!other.is_output)
         throw InputError(fmt::format("{}: {} is what {} reads, and would be lost; name another file",

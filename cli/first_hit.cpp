@@ -20,7 +20,7 @@ using namespace compare;
 
 namespace {
 
-struct Options {
+struct FirstHitOptions {
   std::string queries = "-", engine = "oracle", format = "ndjson";
   std::optional<std::string> scene;
   std::optional<double> radius, max_time, timeout;
@@ -58,7 +58,7 @@ class AnswerOrder {
   std::size_t waiting() const { return others_.size(); }
 
  private:
-  struct Line {
+  struct WaitingLine {
     Id id;
     int dimension = 0;
     std::string message;  // of a bad line
@@ -74,14 +74,14 @@ class AnswerOrder {
   }
 
   std::string& out_;
-  Line first_;
-  bool waits_ = false;       // first_, for its answer
-  std::deque<Line> others_;  // behind it
+  WaitingLine first_;
+  bool waits_ = false;              // first_, for its answer
+  std::deque<WaitingLine> others_;  // behind it
 };
 
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query would not be bounded otherwise
 
-oracle::Request request_of(const Options& options, const EngineInfo& engine) {
+oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& engine) {
   oracle::Request request;
   if (options.digits) {
     if (!engine.traits.knows_digits)
@@ -93,7 +93,7 @@ oracle::Request request_of(const Options& options, const EngineInfo& engine) {
   return request;
 }
 
-int jobs_of(const Options& options, const EngineInfo& engine) {
+int jobs_of(const FirstHitOptions& options, const EngineInfo& engine) {
   if (!options.jobs) return 1;
   const auto jobs = static_cast<int>(*options.jobs);
   if (!engine.traits.in_bulk)
@@ -101,7 +101,7 @@ int jobs_of(const Options& options, const EngineInfo& engine) {
   return jobs;
 }
 
-int act_on_columns(const Options& options, ColumnOrder::Format format) {
+int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
   const EngineInfo engine = engine_named(options.engine);
   const std::string option = "--format " + options.format;
   if (engine.is_command())
@@ -118,7 +118,7 @@ int act_on_columns(const Options& options, ColumnOrder::Format format) {
   return answer_columns(order);
 }
 
-int act_on_lines(const Options& options) {
+int act_on_lines(const FirstHitOptions& options) {
   const EngineInfo engine = engine_named(options.engine);
   AnswererOptions answerer_options{request_of(options, engine)};
   answerer_options.listener = terminal();
@@ -164,7 +164,7 @@ int act_on_lines(const Options& options) {
   return stream.had_bad_input() ? kBadInput : kDone;
 }
 
-int act(const Options& options) {
+int act(const FirstHitOptions& options) {
   if (options.format == "csv") return act_on_columns(options, ColumnOrder::Format::csv);
   if (options.format == "npy") return act_on_columns(options, ColumnOrder::Format::npy);
   if (options.format == "ndjson") return act_on_lines(options);
@@ -176,7 +176,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command first_hit_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FirstHitOptions>();
   return {"first-hit",
           "Which obstacle is hit first? Queries to answers, line by line.",
           {

@@ -28,7 +28,7 @@ using flights::Plan;
 constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
-struct Options {
+struct FlightsOptions {
   std::string scene = "square", engine = "batch", from = "uniform", shard = "0/1";
   std::uint64_t count = 1'000'000, seed = compare::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
   std::optional<double> seconds;
@@ -44,7 +44,7 @@ flights::Ensemble ensemble_of(const std::string& name) {
                                json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
 }
 
-Plan plan_of(const Options& options, std::optional<double> radius) {
+Plan plan_of(const FlightsOptions& options, std::optional<double> radius) {
   Plan plan;
   plan.scene = load_scene(options.scene, radius);
   if (!compare::engine_named(options.engine).is_own())
@@ -60,25 +60,26 @@ Plan plan_of(const Options& options, std::optional<double> radius) {
 }
 
 // What is flown one after the other: a radius after the other, or the scene as it is.
-struct Task {
+struct FlightsTask {
   std::optional<double> radius;  // of several
   Plan plan;
 };
 
-std::vector<Task> tasks_of(const Options& options) {
-  std::vector<Task> tasks;
+std::vector<FlightsTask> tasks_of(const FlightsOptions& options) {
+  std::vector<FlightsTask> tasks;
   for (const std::string& radius : options.radii) {
     const std::optional<double> value = positive_number(radius, "--radius");
     tasks.push_back({value, plan_of(options, value)});
   }
   if (tasks.empty()) tasks.push_back({{}, plan_of(options, {})});
   if (tasks.size() == 1) tasks[0].radius.reset();
-  if (tasks.size() > 1 && (options.store || !options.parts.empty() || options.shard != Options().shard))
+  if (tasks.size() > 1 &&
+      (options.store || !options.parts.empty() || options.shard != FlightsOptions().shard))
     throw InputError("--store, --add and --shard: counts are kept of one radius; run several one by one");
   return tasks;
 }
 
-flights::Bounds bounds_of(const Options& options) {
+flights::Bounds bounds_of(const FlightsOptions& options) {
   flights::Bounds bounds;
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
@@ -103,7 +104,7 @@ struct Begun {
   Account account;
   PieceStore store;
 
-  Begun(const Options& options, const Plan& plan)
+  Begun(const FlightsOptions& options, const Plan& plan)
       : account(Account::begun(plan)), store(options.store, "flights", plan.words()) {
     store.each(reader(plan));
     if (store) say_how_far(*options.store, plan);
@@ -168,7 +169,7 @@ void fly_share(const Plan& plan, flights::Bounds bounds, flights::Ranks& ranks) 
   ranks.report(own, true);
 }
 
-FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options& options,
+FlightsReport fly(const FlightsTask& task, const flights::Bounds& bounds, const FlightsOptions& options,
                   flights::Ranks* ranks) {
   const Plan& plan = task.plan;
   Begun begun(options, plan);
@@ -189,7 +190,7 @@ FlightsReport fly(const Task& task, const flights::Bounds& bounds, const Options
 // The files that are made of all radii.
 class Files {
  public:
-  explicit Files(const Options& options)
+  explicit Files(const FlightsOptions& options)
       : csv_(options.csv), svg_(options.svg), density_svg_(options.density_svg), html_(options.html) {}
   void write(const std::vector<FlightsReport>& reports) {
     csv_.write([&] { return csv_of(reports); });
@@ -203,11 +204,11 @@ class Files {
 };
 
 // Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
-int fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const Options& options,
-            flights::Ranks* ranks) {
+int fly_all(const std::vector<FlightsTask>& tasks, const flights::Bounds& bounds,
+            const FlightsOptions& options, flights::Ranks* ranks) {
   Files files(options);
   std::vector<FlightsReport> reports;
-  for (const Task& task : tasks) {
+  for (const FlightsTask& task : tasks) {
     FlightsReport report = fly(task, bounds, options, ranks);
     if (Interrupt::came() && report.account.done.size() == 0) continue;
     print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
@@ -220,9 +221,9 @@ int fly_all(const std::vector<Task>& tasks, const flights::Bounds& bounds, const
   return kFailed;
 }
 
-int act(const Options& options) {
+int act(const FlightsOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
-  const std::vector<Task> tasks = tasks_of(options);
+  const std::vector<FlightsTask> tasks = tasks_of(options);
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
@@ -232,7 +233,7 @@ int act(const Options& options) {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
     if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
-    for (const Task& task : tasks) fly_share(task.plan, bounds, *ranks);
+    for (const FlightsTask& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
   } catch (const std::exception& error) {  // nobody waits for a process that is gone
     say("{}", error.what());
@@ -243,7 +244,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command flights_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FlightsOptions>();
   return {
       "flights",
       "Very many free flights from drawn starts: their statistics, and theory beside them.",

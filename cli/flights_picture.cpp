@@ -49,12 +49,12 @@ constexpr std::uint64_t kFewest = 10;  // flights behind a point
 constexpr double kNearlyAllShown = 0.995;
 
 // From where on paths end at all, to where too few go on.
-struct Span {
+struct PathSpan {
   std::size_t first = 0, last = 0;
 };
 
-Span span_of(const FlightsFindings& found) {
-  Span span;
+PathSpan span_of(const FlightsFindings& found) {
+  PathSpan span;
   while (span.first + 1 < found.edges.size() &&
          found.beyond[span.first] > kNearlyAllShown * static_cast<double>(found.total))
     ++span.first;
@@ -63,7 +63,7 @@ Span span_of(const FlightsFindings& found) {
   return span;
 }
 
-PlotCurve survival_curve(const std::string& name, const FlightsFindings& found, const Span& span,
+PlotCurve survival_curve(const std::string& name, const FlightsFindings& found, const PathSpan& span,
                          const std::function<double(double)>& survival) {
   PlotCurve curve;
   curve.name = name;
@@ -73,7 +73,7 @@ PlotCurve survival_curve(const std::string& name, const FlightsFindings& found, 
 }
 
 // The power, from where it is below one half.
-PlotCurve tail_curve(const flights::Tail& tail, const FlightsFindings& found, Span span) {
+PlotCurve tail_curve(const flights::Tail& tail, const FlightsFindings& found, PathSpan span) {
   const double power = *tail.exponent - 1;
   const auto survival = [&](double t) { return *tail.constant * std::pow(t, -power); };
   while (span.first < span.last && survival(found.edges[span.first]) > 0.5) ++span.first;
@@ -84,7 +84,7 @@ PlotCurve tail_curve(const flights::Tail& tail, const FlightsFindings& found, Sp
 
 void add_survival(FreePathPlot& plot, const FlightsReport& report) {
   const FlightsFindings found(report);
-  const Span span = span_of(found);
+  const PathSpan span = span_of(found);
   pictures::PlotSeries series{series_name(report), {}};
   const auto n = static_cast<double>(found.total);
   for (std::size_t i = span.first; i <= span.last; i += Bins::kAnOctave / kPointsAnOctave) {

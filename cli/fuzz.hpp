@@ -41,7 +41,7 @@ void say_left_out(const std::string& message);
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);
 
 /// The findings of one cause: how many, of which targets, and the simplest of them.
-struct Cause {
+struct FindingCause {
   std::string name;
   std::size_t findings = 0;
   std::vector<std::string> targets;
@@ -49,9 +49,9 @@ struct Cause {
 };
 
 /// By cause: what is wrong first (fuzz::rank_of), then in the order of their names.
-std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings);
+std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings);
 
-std::string table_of(const std::vector<Cause>& causes);
+std::string table_of(const std::vector<FindingCause>& causes);
 
 /// A case in lines, with what is said of it.
 std::string text_of(const fuzz::CaseText& text);

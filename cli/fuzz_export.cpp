@@ -16,35 +16,35 @@ namespace {
 using fuzz::Store;
 using fuzz::Stored;
 
-struct Options {
+struct ExportOptions {
   std::string store;
   bool all = false, queries = false;
 };
 
 // A shrunk case and what it is an example of.
-struct Example {
+struct ExportedCase {
   const Stored* stored;
   fuzz::ReadCase shrunk;
 };
 
 // The simplest finding of each cause, or all; those of one scene together.
-std::vector<Example> examples_in(const std::vector<Stored>& findings, bool all) {
+std::vector<ExportedCase> examples_in(const std::vector<Stored>& findings, bool all) {
   std::vector<const Stored*> chosen;
   if (all)
     for (const Stored& one : findings) chosen.push_back(&one);
   else
-    for (const Cause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
+    for (const FindingCause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
   std::stable_sort(chosen.begin(), chosen.end(), [](const Stored* a, const Stored* b) {
     return a->finding.shrunk.scene < b->finding.shrunk.scene;
   });
-  std::vector<Example> examples;
+  std::vector<ExportedCase> examples;
   for (const Stored* one : chosen) examples.push_back({one, fuzz::case_in(one->finding.shrunk)});
   return examples;
 }
 
-void print_queries(const std::vector<Example>& examples) {
+void print_queries(const std::vector<ExportedCase>& examples) {
   std::string scene;
-  for (const Example& one : examples) {
+  for (const ExportedCase& one : examples) {
     const fuzz::CaseText& text = one.stored->finding.shrunk;
     if (text.scene != scene) print(text.scene + '\n');
     scene = text.scene;
@@ -80,13 +80,14 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
 }
 
 // Findings that shrank to the same question are one record.
-void print_golden_set(const std::vector<Example>& examples, const std::vector<fuzz::Campaign>& campaigns) {
+void print_golden_set(const std::vector<ExportedCase>& examples,
+                      const std::vector<fuzz::Campaign>& campaigns) {
   golden::Header header = header_of(campaigns);
   std::string lines, scene_line;
   std::set<std::string> ids;
   std::map<std::string, std::string> tags;
   std::optional<golden::Maker> maker;
-  for (const Example& one : examples) {
+  for (const ExportedCase& one : examples) {
     const fuzz::Finding& finding = one.stored->finding;
     if (finding.shrunk.scene != scene_line) maker.emplace(one.shrunk.scene);
     const Scene& scene = one.shrunk.scene;
@@ -115,10 +116,10 @@ void print_golden_set(const std::vector<Example>& examples, const std::vector<fu
   print(first + lines);
 }
 
-int act(const Options& options) {
+int act(const ExportOptions& options) {
   const Store store(options.store, Store::Access::read, say_left_out);
   const std::vector<Stored> findings = store.findings();
-  const std::vector<Example> examples = examples_in(findings, options.all);
+  const std::vector<ExportedCase> examples = examples_in(findings, options.all);
   if (options.queries)
     print_queries(examples);
   else
@@ -129,7 +130,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command fuzz_export_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   return {"export",
           "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.",
           {

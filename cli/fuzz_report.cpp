@@ -114,7 +114,7 @@ std::string FuzzReport::text() const {
   out += table_of(causes_of(findings));
   if (is_stored) return out;
   out += "\nthe simplest finding of each cause (--store FILE keeps all):\n";
-  for (const Cause& cause : causes_of(findings))
+  for (const FindingCause& cause : causes_of(findings))
     out += fmt::format("\n{}: {}\n{}", cause.simplest->label(), cause.name,
                        text_of(cause.simplest->finding.shrunk));
   return out;
@@ -148,7 +148,7 @@ void FuzzReport::add_targets(json::Members& object) const {
 }
 
 std::string FuzzReport::json() const {
-  const auto cause = [](json::Members& one, const Cause& its) {
+  const auto cause = [](json::Members& one, const FindingCause& its) {
     one.add("cause", its.name, "findings", its.findings, "simplest", its.simplest->label(), "bits",
             its.simplest->finding.bits);
   };
@@ -159,28 +159,28 @@ std::string FuzzReport::json() const {
   });
 }
 
-std::vector<Cause> causes_of(const std::vector<fuzz::Stored>& findings) {
-  std::map<std::string, Cause> causes;
+std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings) {
+  std::map<std::string, FindingCause> causes;
   for (const fuzz::Stored& one : findings) {
-    Cause& cause = causes[one.finding.cause];
+    FindingCause& cause = causes[one.finding.cause];
     cause.name = one.finding.cause;
     ++cause.findings;
     if (std::find(cause.targets.begin(), cause.targets.end(), one.finding.target) == cause.targets.end())
       cause.targets.push_back(one.finding.target);
     if (!cause.simplest || one.finding.complexity < cause.simplest->finding.complexity) cause.simplest = &one;
   }
-  std::vector<Cause> all;
+  std::vector<FindingCause> all;
   for (auto& [name, cause] : causes) all.push_back(std::move(cause));
-  std::stable_sort(all.begin(), all.end(), [](const Cause& a, const Cause& b) {
+  std::stable_sort(all.begin(), all.end(), [](const FindingCause& a, const FindingCause& b) {
     return fuzz::rank_of(a.simplest->finding.kind) < fuzz::rank_of(b.simplest->finding.kind);
   });
   return all;
 }
 
-std::string table_of(const std::vector<Cause>& causes) {
+std::string table_of(const std::vector<FindingCause>& causes) {
   Table table({"simplest finding", "bits", "kept", "targets", "cause"});
   table.with_prose();
-  for (const Cause& cause : causes)
+  for (const FindingCause& cause : causes)
     table.add({cause.simplest->label(), std::to_string(cause.simplest->finding.bits),
                std::to_string(cause.findings), std::to_string(cause.targets.size()), cause.name});
   return table.text();

@@ -19,7 +19,7 @@ namespace {
 using fuzz::Store;
 using fuzz::Stored;
 
-struct Options {
+struct StoreOptions {
   std::string store, id;
   bool json = false, all = false;
   CaseFiles files;
@@ -61,7 +61,7 @@ std::string json_of_list(const Store& store, const std::vector<Stored>& findings
   });
 }
 
-int list(const Options& options) {
+int list(const StoreOptions& options) {
   const Store store(options.store, Store::Access::read, say_left_out);
   std::vector<Stored> findings = store.findings();
   std::stable_sort(findings.begin(), findings.end(), [](const Stored& a, const Stored& b) {
@@ -126,7 +126,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   return report;
 }
 
-int show(const Options& options) {
+int show(const StoreOptions& options) {
   const Store store(options.store, Store::Access::read, say_left_out);
   for (const Stored& one : store.findings()) {
     if (one.label() != options.id) continue;
@@ -162,14 +162,14 @@ int merge_stores(const MergeOptions& options) {
   return kDone;
 }
 
-Option store_row(Options& options) {
+Option store_row(StoreOptions& options) {
   return {"--store", &options.store, "FILE", "the store", kRequired};
 }
 
 }  // namespace
 
 Command fuzz_list_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StoreOptions>();
   return {"list",
           "What a store holds: campaigns, with the counters of their targets, and findings by cause.",
           {store_row(*options),
@@ -180,7 +180,7 @@ Command fuzz_list_command() {
 }
 
 Command fuzz_show_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StoreOptions>();
   return {"show", "One finding: shrunk, and as it was found.",
           joined({store_row(*options),
                   {"ID", &options->id, "TEXT", "CAMPAIGN/TARGET/INDEX, as in the list", kRequired},

@@ -26,7 +26,7 @@ using namespace compare;
 
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> engines, sets;
   std::optional<std::string> id;
   std::optional<double> ulps, timeout;
@@ -69,9 +69,9 @@ Source records_of(golden::Reader& reader, const std::optional<std::string>& id, 
 }
 
 // Asks an engine the questions of sets, and keeps what came of each.
-class Examination {
+class EngineCheck {
  public:
-  Examination(const EngineInfo& engine, double ulps, bool times, const AnswererOptions& options,
+  EngineCheck(const EngineInfo& engine, double ulps, bool times, const AnswererOptions& options,
               std::uint64_t jobs, std::size_t most_failures)
       : engine_(engine.name), ulps_(ulps), times_(times), most_failures_(most_failures) {
     for (std::uint64_t job = 0; job < (engine.is_own() ? jobs : 1); ++job)
@@ -297,7 +297,7 @@ int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
   return status;
 }
 
-int act(const Options& options) {
+int act(const CheckOptions& options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
@@ -312,7 +312,7 @@ int act(const Options& options) {
   std::string pages;
   for (const EngineInfo& info : engines) {
     const std::string& engine = info.name;
-    Examination examination(info, ulps, options.times, {{}, timeout, terminal(), options.strict},
+    EngineCheck examination(info, ulps, options.times, {{}, timeout, terminal(), options.strict},
                             options.jobs, most);
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
@@ -345,7 +345,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command golden_check_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   return {"check",
           "Checks an engine against sets: a table by set and tag, the first failures.",
           {

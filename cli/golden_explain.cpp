@@ -14,7 +14,7 @@
 namespace lorentz::cli {
 namespace {
 
-struct Options {
+struct ExplainOptions {
   std::string id;
   std::uint64_t most = 12;
   std::vector<std::string> sets;
@@ -86,7 +86,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
   return report;
 }
 
-int act(const Options& options) {
+int act(const ExplainOptions& options) {
   const auto most = static_cast<std::size_t>(options.most);
   std::set<std::string> ids;
   std::string place;  // the set of the first
@@ -118,7 +118,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command golden_explain_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainOptions>();
   return {"explain",
           "One record in full: the line, the obstacles passed and by how much, the decision that is hard.",
           joined(

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MakeOptions {
   std::optional<std::string> set, folder;
   std::optional<std::uint64_t> count;
   std::string output = "-";
@@ -85,7 +85,7 @@ int make_all(golden::Order order, const std::string& folder) {
   return kDone;
 }
 
-int make_one(golden::Order order, const Options& options) {
+int make_one(golden::Order order, const MakeOptions& options) {
   order.set = &set_named(*options.set);
   order.count = options.count.value_or(order.set->committed);
   if (order.count > order.set->most) {
@@ -107,7 +107,7 @@ int make_one(golden::Order order, const Options& options) {
   return kDone;
 }
 
-int act(const Options& options) {
+int act(const MakeOptions& options) {
   golden::Order order;
   order.seed = options.seed;
   order.jobs = options.jobs;
@@ -121,7 +121,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command golden_make_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MakeOptions>();
   return {
       "make",
       "Produces a set: the same, bit for bit, whatever --jobs.",

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostComplaints = 20;
 
-struct Findings {
+struct VerifyFindings {
   std::size_t records = 0, flaws = 0;
 };
 
@@ -31,10 +31,10 @@ std::optional<std::string> flaw_in_set(const golden::Header& header, const golde
   return std::nullopt;
 }
 
-Findings verify(const std::string& path, bool walk) {
+VerifyFindings verify(const std::string& path, bool walk) {
   golden::Reader reader(path);
   Progress progress(path.c_str(), reader.header().count);
-  Findings findings;
+  VerifyFindings findings;
   std::set<std::string> ids;
   std::optional<golden::Maker> maker;
   std::size_t scene = 0;
@@ -59,7 +59,7 @@ int act(const std::vector<std::string>& names, bool walk) {
   std::size_t flaws = 0;
   bool bad = false;
   for (const std::string& path : find_sets(names)) {
-    Findings findings;
+    VerifyFindings findings;
     try {
       findings = verify(path, walk);
     } catch (const InputError& error) {  // the other sets may be right

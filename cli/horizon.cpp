@@ -41,7 +41,7 @@ std::string verdict_of(const oracle::Horizon& h, bool limited) {
 
 namespace {
 
-struct Options {
+struct HorizonOptions {
   std::optional<std::string> name, scene;
   std::optional<double> radius, min_width;
   std::uint64_t limit = 20;
@@ -199,7 +199,7 @@ std::string json_of(const oracle::Horizon& h, const std::string& scene, bool lim
 
 namespace {
 
-int act(const Options& options) {
+int act(const HorizonOptions& options) {
   if (options.name && options.scene)
     throw InputError("--scene: the scene is given twice, as " + *options.name + " and " + *options.scene);
   if (!options.name && !options.scene)
@@ -221,7 +221,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command horizon_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<HorizonOptions>();
   return {"horizon",
           "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
           "channels (3D).",

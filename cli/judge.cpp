@@ -16,7 +16,7 @@ namespace lorentz::cli {
 
 namespace {
 
-struct Options {
+struct JudgeOptions {
   std::string engine;
   std::uint64_t seed = compare::kDefaultSeed, jobs = 1;
   std::optional<double> ulps, timeout, seconds;
@@ -24,7 +24,7 @@ struct Options {
   bool quick = false, json = false, times = false, strict = false;
 };
 
-int exit_status(const JudgeReport& report, const Options& options) {
+int exit_status(const JudgeReport& report, const JudgeOptions& options) {
   const compare::Tally t = report.total();
   if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   if (t.wrong + t.error > 0 || (options.times && t.wrong_time > 0) ||
@@ -46,12 +46,12 @@ std::function<void(const std::string&)> clock_of(double seconds) {
 }
 
 // The options as a shell takes them; not where the report goes.
-std::string command_of(const Options& o) {
+std::string command_of(const JudgeOptions& o) {
   std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
   if (o.quick) command += " --quick";
   if (o.seconds) command += fmt::format(" --time {}", *o.seconds);
-  if (o.seed != Options{}.seed) command += fmt::format(" --seed {}", o.seed);
-  if (o.jobs != Options{}.jobs) command += fmt::format(" --jobs {}", o.jobs);
+  if (o.seed != JudgeOptions{}.seed) command += fmt::format(" --seed {}", o.seed);
+  if (o.jobs != JudgeOptions{}.jobs) command += fmt::format(" --jobs {}", o.jobs);
   if (o.ulps) command += fmt::format(" --ulps {}", *o.ulps);
   if (o.timeout) command += fmt::format(" --timeout {}", *o.timeout);
   if (o.times) command += " --times";
@@ -59,7 +59,7 @@ std::string command_of(const Options& o) {
   return command;
 }
 
-JudgeOrder order_of(const Options& options) {
+JudgeOrder order_of(const JudgeOptions& options) {
   JudgeOrder order;
   order.engine = compare::engine_named(options.engine);
   order.command = command_of(options);
@@ -75,7 +75,7 @@ JudgeOrder order_of(const Options& options) {
   return order;
 }
 
-int act(const Options& options) {
+int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
@@ -93,7 +93,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command judge_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<JudgeOptions>();
   return {
       "judge",
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",

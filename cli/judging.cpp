@@ -25,17 +25,17 @@ using judge::NamedPlace;
 namespace {
 
 // How long each part takes at the most, in seconds, and how many flights are drawn.
-struct Plan {
+struct TimePlan {
   double drawn, hard, paths, golden, campaign, speed, simplest;
   std::size_t count;
   double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
   /// The same in another time.
-  Plan lasting(double other) const {
+  TimePlan lasting(double other) const {
     const double k = other / seconds();
     return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
   }
 };
-constexpr Plan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
+constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
 
 // The catalogue's scenes that are flown in, and their radii; without any at their own size.
 struct Scenery {
@@ -94,7 +94,7 @@ class Shares {
 };
 
 // Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
-std::vector<NamedPlace> fly_drawn(Examination& examination, const Plan& plan, std::uint64_t seed) {
+std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan, std::uint64_t seed) {
   std::vector<NamedPlace> all;
   Shares drawn(plan.drawn, kSceneries.size());
   for (const Scenery& scenery : kSceneries) {
@@ -245,7 +245,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
 
 // Without an order: much more than any answer should take here, and little of the time there is. A program's
 // first answer may take as long as elsewhere.
-Terms terms_of(const JudgeOrder& order, const Plan& plan, const std::atomic<bool>& stop) {
+Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
   constexpr double kShortest = 2, kPart = 0.1;
   Terms terms{order.engine, order.ulps, {}, stop};
   const double most = compare::AnswererOptions::kDefaultTimeout;
@@ -256,8 +256,8 @@ Terms terms_of(const JudgeOrder& order, const Plan& plan, const std::atomic<bool
 }
 
 // All that it is asked in turn; returns where.
-std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const Plan& plan, unsigned jobs,
-                                JudgeReport& report) {
+std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const TimePlan& plan,
+                                unsigned jobs, JudgeReport& report) {
   const Countdown all(plan.seconds());
   std::vector<NamedPlace> places = fly_drawn(examination, plan, report.seed);
   report.flown = fly_free_paths(examination, report.seed, plan.paths);
@@ -275,8 +275,8 @@ std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, co
   return places;
 }
 
-Plan plan_of(const JudgeOrder& order) {
-  const Plan& plan = order.quick ? kQuick : kWhole;
+TimePlan plan_of(const JudgeOrder& order) {
+  const TimePlan& plan = order.quick ? kQuick : kWhole;
   return order.time ? plan.lasting(*order.time) : plan;
 }
 
@@ -287,7 +287,7 @@ double JudgeOrder::seconds() const {
 }
 
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
-  const Plan plan = plan_of(order);
+  const TimePlan plan = plan_of(order);
   const Terms terms = terms_of(order, plan, stop);
   JudgeReport report;
   report.engine = order.engine;

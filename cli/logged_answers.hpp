@@ -40,14 +40,14 @@ class LoggedAnswers final : public compare::Answerer {
   bool find(const Id& id, Logged& logged);
   void complain(std::size_t line, const std::string& what);
 
-  struct Lines {
+  struct AnswerStream {
     LineReader lines;
     ExchangeReader reader;
     KeyCheck keys;
-    Lines(const std::string& path, UnknownKeys unknown) : lines(path), keys(path, unknown) {}
+    AnswerStream(const std::string& path, UnknownKeys unknown) : lines(path), keys(path, unknown) {}
   };
 
-  std::unique_ptr<Lines> lines_;           // one of these
+  std::unique_ptr<AnswerStream> lines_;    // one of these
   std::unique_ptr<AnswerReader> columns_;  //
   std::string name_;
   std::unordered_map<Id, Logged> early_;

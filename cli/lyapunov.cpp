@@ -18,13 +18,13 @@ using chaos::Estimate;
 using chaos::Lyapunov;
 using chaos::LyapunovPlan;
 
-struct Options : ChaosOptions {
+struct LyapunovOptions : ChaosOptions {
   std::uint64_t collisions = 1'000'000;
   bool spectrum = false;
 };
 
 // What was found, with all that stands beside it.
-struct Report {
+struct LyapunovReport {
   std::string scene;
   LyapunovPlan plan;
   Lyapunov found;
@@ -47,7 +47,7 @@ std::string plus_minus(const Estimate& estimate) {
   return fmt::format("{:.7g} +- {:.2g}", estimate.value, estimate.error);
 }
 
-std::string Report::table() const {
+std::string LyapunovReport::table() const {
   std::string text =
       fmt::format("scene {}, seed {}\n{} collisions of {} particles", name_with_radius(scene, plan.scene),
                   plan.seed, found.collisions, chaos::kGroups * chaos::kParticles);
@@ -71,7 +71,7 @@ std::string Report::table() const {
                              : fmt::format("the exact one is {}\n", exact.how));
 }
 
-std::string Report::json() const {
+std::string LyapunovReport::json() const {
   using json::finite;
   return json::line_of([&](json::Members& report) {
     report.add("scene", scene, "seed", plan.seed, "collisions", found.collisions, "particles",
@@ -88,8 +88,8 @@ std::string Report::json() const {
   });
 }
 
-int act(const Options& options) {
-  Report report;
+int act(const LyapunovOptions& options) {
+  LyapunovReport report;
   report.scene = options.scene;
   report.plan = {scene_of(options), options.seed, options.collisions, options.spectrum};
   const Scene& scene = report.plan.scene;
@@ -113,7 +113,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command lyapunov_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LyapunovOptions>();
   return {"lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.",
           joined(chaos_rows(*options),
                  {

@@ -42,7 +42,7 @@ std::string prose_of(const std::string& text) {
 }
 
 // A command, and those that it is one of, the program first.
-struct Page {
+struct ManualPage {
   const Command& command;
   std::vector<const Command*> above;
 
@@ -54,14 +54,14 @@ struct Page {
   // What it is called: lorentz-scene-draw.
   std::string name() const { return joined("-"); }
 
-  Page of(const Command& one) const {
-    Page page{one, above};
+  ManualPage of(const Command& one) const {
+    ManualPage page{one, above};
     page.above.push_back(&command);
     return page;
   }
 };
 
-std::string synopsis_of(const Page& page) {
+std::string synopsis_of(const ManualPage& page) {
   std::string out = fmt::format(".SH SYNOPSIS\n.B {}\n[\\fIOPTIONS\\fR]\n", escaped(page.joined(" ")));
   for (const Option& option : page.command.options) {
     if (!option.is_argument()) continue;
@@ -104,7 +104,7 @@ std::string section_of_options(const Command& command, const char* heading, bool
   return entries.empty() ? "" : fmt::format(".SH {}\n{}", heading, entries);
 }
 
-std::string section_of_subcommands(const Page& page) {
+std::string section_of_subcommands(const ManualPage& page) {
   std::string entries;
   for (const Command& command : page.command.commands)
     entries += fmt::format(".TP\n\\fB{}\\fR(1)\n{}", escaped(page.of(command).name()),
@@ -144,9 +144,9 @@ std::string section_of_files() {
 }
 
 // The page above, the pages beside it.
-std::string section_of_others(const Page& page) {
+std::string section_of_others(const ManualPage& page) {
   if (page.above.empty()) return "";
-  Page above{*page.above.back(), page.above};
+  ManualPage above{*page.above.back(), page.above};
   above.above.pop_back();
   std::string out = fmt::format(".SH SEE ALSO\n.BR {} (1)", escaped(above.name()));
   for (const Command& other : above.command.commands)
@@ -160,7 +160,7 @@ std::string date() {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(time));
 }
 
-std::string page_of(const Page& page) {
+std::string page_of(const ManualPage& page) {
   const Command& command = page.command;
   const std::string& description = command.description;
   const bool is_sentence = description.ends_with('.');
@@ -183,7 +183,7 @@ std::string page_of(const Page& page) {
   return out + section_of_others(page);
 }
 
-void write_pages(const Page& page, const std::filesystem::path& folder) {
+void write_pages(const ManualPage& page, const std::filesystem::path& folder) {
   WholeFile file((folder / (page.name() + ".1")).string());
   file.write(page_of(page));
   file.commit();

@@ -21,14 +21,14 @@ using flights::Kind;
 
 namespace {
 
-struct Options {
+struct SampleOptions {
   std::string scene = "square", kind = "uniform", format = "ndjson";
   std::uint64_t count = 1000, seed = compare::kDefaultSeed;
   std::optional<double> radius;
   bool strict = false;
 };
 
-enum class Format { ndjson, csv, npy };
+enum class SampleFormat { ndjson, csv, npy };
 
 // Which of the names it is.
 std::size_t choice(const std::string& given, const char* option, const std::vector<std::string>& names) {
@@ -40,23 +40,23 @@ std::size_t choice(const std::string& given, const char* option, const std::vect
 }
 
 // What was asked for, understood.
-struct Order {
+struct SampleOrder {
   Scene scene;
   Kind kind;
-  Format format;
+  SampleFormat format;
   std::uint64_t count, seed;
 
   bool leaves_obstacles() const { return kind == Kind::surface; }
 };
 
-Order order_of(const Options& options) {
+SampleOrder order_of(const SampleOptions& options) {
   const auto kind = static_cast<Kind>(choice(options.kind, "--kind", flights::kind_names()));
-  const auto format = static_cast<Format>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
+  const auto format = static_cast<SampleFormat>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   return {load_scene(options.scene, options.radius, unknown), kind, format, options.count, options.seed};
 }
 
-void append(QueryRows& rows, const Query& query, const Order& order) {
+void append(QueryRows& rows, const Query& query, const SampleOrder& order) {
   ++rows.count;
   for (int k = 0; k < order.scene.dimension; ++k) {
     rows.x[k].push_back(query.x[k]);
@@ -68,35 +68,35 @@ void append(QueryRows& rows, const Query& query, const Order& order) {
   for (int k = 0; k < order.scene.dimension; ++k) rows.from_cell[k].push_back(query.from->cell[k].int64());
 }
 
-void append_front(std::string& out, const Order& order) {
+void append_front(std::string& out, const SampleOrder& order) {
   const int d = order.scene.dimension;
   switch (order.format) {
-    case Format::ndjson:
+    case SampleFormat::ndjson:
       return append_scene_line(out, order.scene);
-    case Format::csv:
+    case SampleFormat::csv:
       return append_csv_query_names(out, d, order.leaves_obstacles());
-    case Format::npy:
+    case SampleFormat::npy:
       out += npy_query_header(order.count, d, order.leaves_obstacles());
   }
 }
 
-void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, const Order& order) {
+void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, const SampleOrder& order) {
   const int d = order.scene.dimension;
   switch (order.format) {
-    case Format::ndjson:
+    case SampleFormat::ndjson:
       for (std::size_t i = 0; i < rows.count; ++i)
         append_query_line(out, std::to_string(first + i), rows.query(i, d), d);
       return;
-    case Format::csv:
+    case SampleFormat::csv:
       return append_csv_queries(out, rows, d);
-    case Format::npy:
+    case SampleFormat::npy:
       return append_npy_queries(out, rows, d);
   }
 }
 
-int act(const Options& options) {
+int act(const SampleOptions& options) {
   constexpr std::uint64_t kRowsTogether = 1024;
-  const Order order = order_of(options);
+  const SampleOrder order = order_of(options);
   const FreeStarts starts(order.scene, order.kind, order.seed);
   const compare::Listener listener = terminal();
   Output output;
@@ -121,7 +121,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command sample_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SampleOptions>();
   return {
       "sample",
       "Drawn starts of flights: a query stream for first-hit, or columns.",

@@ -19,7 +19,7 @@ namespace lorentz::cli {
 
 namespace {
 
-struct Options {
+struct SceneOptions {
   std::optional<std::string> scene;
   std::optional<double> radius;
   bool json = false, no_horizon = false;
@@ -43,7 +43,7 @@ std::size_t atoms_in(const Scene& scene) {
   return atoms;
 }
 
-int list(const Options& options) {
+int list(const SceneOptions& options) {
   Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
   table.with_prose();
   std::vector<std::string> json;
@@ -86,7 +86,7 @@ std::string horizon_verdict(const Scene& scene) {
 }
 
 // What is known of a scene.
-struct Findings {
+struct SceneFacts {
   oracle::Contacts contacts;
   std::optional<Filling> filling;  // nothing overlaps, and that is certain
   std::string no_filling;          // why it is not there
@@ -94,8 +94,8 @@ struct Findings {
 
 constexpr std::size_t kMostContacts = 1000, kContactsShown = 10;
 
-Findings findings_on(const Scene& scene) {
-  Findings findings;
+SceneFacts findings_on(const Scene& scene) {
+  SceneFacts findings;
   findings.contacts = oracle::contacts_in(scene, kMostContacts);
   for (const oracle::Contact& contact : findings.contacts.found)
     if (contact.overlap && findings.no_filling.empty())
@@ -166,8 +166,8 @@ std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
   return out;
 }
 
-void show_text(const std::string& name, const std::string& file, const Scene& scene, const Findings& findings,
-               bool with_horizon) {
+void show_text(const std::string& name, const std::string& file, const Scene& scene,
+               const SceneFacts& findings, bool with_horizon) {
   const int d = scene.dimension;
   std::string out = line("scene", name);
   if (const std::string what = description_in(file); !what.empty()) out += line("what it is", what);
@@ -198,8 +198,8 @@ void add_contact(json::Members& object, const oracle::Contact& contact, int dime
              contact.overlap ? "overlap" : "touch");
 }
 
-void show_json(const std::string& name, const std::string& file, const Scene& scene, const Findings& findings,
-               bool with_horizon) {
+void show_json(const std::string& name, const std::string& file, const Scene& scene,
+               const SceneFacts& findings, bool with_horizon) {
   std::vector<double> volumes;
   for (const Lattice& lattice : scene.lattices) volumes.push_back(cell_volume(lattice, scene.dimension));
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
@@ -222,16 +222,16 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
   }));
 }
 
-int show(const Options& options) {
+int show(const SceneOptions& options) {
   const Scene scene = read_scene(*options.scene, options.radius);
-  const Findings findings = findings_on(scene);
+  const SceneFacts findings = findings_on(scene);
   (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings,
                                          !options.no_horizon);
   return kDone;
 }
 
 Command scene_list_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneOptions>();
   return {"list",
           "The catalogue.",
           {{"--json", &options->json, "", "as one JSON object"}},
@@ -240,7 +240,7 @@ Command scene_list_command() {
 }
 
 Command scene_show_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneOptions>();
   return {"show",
           "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.",
           {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file", kRequired},

@@ -27,7 +27,7 @@ using namespace pictures;
 
 namespace {
 
-struct Options {
+struct SceneDrawOptions {
   std::optional<std::string> scene, queries, window, title;
   std::optional<double> radius;
   std::optional<std::uint64_t> channels;
@@ -103,7 +103,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-std::optional<std::array<double, 4>> window_of(const Options& options) {
+std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) {
   if (!options.window) return std::nullopt;
   const std::vector<std::string> parts = split(*options.window, ',');
   std::array<double, 4> window{};
@@ -122,7 +122,7 @@ std::optional<std::array<double, 4>> window_of(const Options& options) {
 }
 
 // W, or WxH.
-void read_size(const Options& options, DrawOptions& drawing) {
+void read_size(const SceneDrawOptions& options, DrawOptions& drawing) {
   const std::vector<std::string> parts = split(options.size, 'x');
   if (parts.size() > 2) throw InputError(fmt::format("--size: {} is no W or WxH", json_quoted(options.size)));
   drawing.width = static_cast<double>(whole_number(parts[0], "--size", 200, 20'000));
@@ -165,14 +165,14 @@ std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
   return ways;
 }
 
-std::string title_of(const Options& options) {
+std::string title_of(const SceneDrawOptions& options) {
   if (options.title) return *options.title;
   std::string title = options.scene.value_or(options.queries.value_or(""));
   if (options.radius) title += fmt::format(" --radius {}", *options.radius);
   return title;
 }
 
-int draw(const Options& options) {
+int draw(const SceneDrawOptions& options) {
   if (!options.scene && !options.queries)
     throw InputError("which scene? give a name of the catalogue, a file, or --queries with a scene in it");
   if (options.radius && !options.scene)
@@ -214,7 +214,7 @@ int draw(const Options& options) {
 }  // namespace
 
 Command scene_draw_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneDrawOptions>();
   return {
       "draw",
       "A picture (SVG), with flights if queries are given.",

@@ -29,7 +29,7 @@ namespace {
 using oracle::CertifiedCollision;
 using oracle::Itinerary;
 
-struct Options {
+struct SurvivalOptions {
   std::string scene = "square", engine = "reduction";
   std::uint64_t count = 100, collisions = 500, seed = compare::kDefaultSeed;
   std::vector<std::string> bits{"53,106,128,256"};
@@ -216,14 +216,14 @@ void follow(const RationalScene& scene, const Start& start, Survival& survival) 
     survival.arithmetics[i].right.push_back(runners[i].right());
 }
 
-std::vector<Arithmetic> arithmetics_of(const Options& options) {
+std::vector<Arithmetic> arithmetics_of(const SurvivalOptions& options) {
   std::vector<Arithmetic> all;
   for (const std::string& name : compare::names_in(options.bits))
     all.push_back({static_cast<long>(whole_number(name, "--bits", 24, 100'000))});
   return all;
 }
 
-int act(const Options& options) {
+int act(const SurvivalOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
   const compare::EngineInfo engine = compare::engine_named(options.engine);
   if (!engine.is_own())
@@ -258,7 +258,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command survival_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SurvivalOptions>();
   return {"survival",
           "How many collisions of a trajectory are right, in binary64 and in more bits.",
           {

@@ -28,7 +28,7 @@ using oracle::JourneyEnd;
 
 constexpr std::uint64_t kMostBits = 1u << 26;
 
-struct Options {
+struct TrajectoryOptions {
   std::string starts = "-", precision = "binary64";
   std::optional<std::string> scene, radius, time, engine, csv, svg;
   std::optional<std::uint64_t> collisions, digits, bits, most_bits;
@@ -43,7 +43,7 @@ Rational positive_rational(const std::string& text, const char* option) {
   return *number;
 }
 
-Journey journey_of(const Options& options) {
+Journey journey_of(const TrajectoryOptions& options) {
   Journey journey;
   if (!options.collisions && !options.time)
     throw InputError("needs --collisions N or --time T: how far to follow each start");
@@ -57,7 +57,7 @@ Journey journey_of(const Options& options) {
   return journey;
 }
 
-Precision precision_of(const Options& options) {
+Precision precision_of(const TrajectoryOptions& options) {
   if (options.precision == "binary64") return Precision::binary64;
   if (options.precision == "double-double") return Precision::double_double;
   throw InputError(fmt::format("--precision: {} is none{}; there are binary64, double-double",
@@ -65,7 +65,7 @@ Precision precision_of(const Options& options) {
                                compare::did_you_mean(options.precision, {"binary64", "double-double"})));
 }
 
-std::optional<RationalScene> scene_of(const Options& options) {
+std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
   if (!options.scene) {
     if (options.radius)
       throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
@@ -104,9 +104,9 @@ std::string in_table(const Id& id) {
 }
 
 // What comes of one start: lines on stdout, rows of a table, a path for the picture.
-class Report {
+class StartReport {
  public:
-  Report(Output& out, const Options& options) : out_(out), options_(options) {
+  StartReport(Output& out, const TrajectoryOptions& options) : out_(out), options_(options) {
     if (options.csv) csv_ = std::make_unique<WholeFile>(*options.csv);
   }
 
@@ -160,7 +160,7 @@ class Report {
 
  private:
   Output& out_;
-  const Options& options_;
+  const TrajectoryOptions& options_;
   std::unique_ptr<WholeFile> csv_;
   Id id_;
   int dimension_ = 0, columns_ = 0;
@@ -202,17 +202,17 @@ class Picture {
   pictures::PathDrawing drawing_;
 };
 
-struct Run {
-  const Options& options;
+struct TrajectoryRun {
+  const TrajectoryOptions& options;
   std::optional<compare::EngineInfo> engine;
   const Journey& journey;
   Precision precision;
-  Report& report;
+  StartReport& report;
   std::optional<Picture> picture;
   bool drawn = false, failed = false;
 };
 
-void follow(Run& run, const Id& id, const RationalScene& scene, const Start& start) {
+void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
   if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start);
   Picture* picture = nullptr;
@@ -245,7 +245,7 @@ void follow(Run& run, const Id& id, const RationalScene& scene, const Start& sta
   }
 }
 
-int act(const Options& options) {
+int act(const TrajectoryOptions& options) {
   std::optional<compare::EngineInfo> engine;
   if (options.engine) engine = compare::engine_named(*options.engine);
   const Journey journey = journey_of(options);
@@ -253,9 +253,9 @@ int act(const Options& options) {
   StartStream stream(options.starts, scene_of(options),
                      options.strict ? UnknownKeys::errors : UnknownKeys::warned);
   Output output;
-  Report report(output, options);
+  StartReport report(output, options);
   RequestedFile svg(options.svg);
-  Run run{options, std::move(engine), journey, precision, report, {}};
+  TrajectoryRun run{options, std::move(engine), journey, precision, report, {}};
   const Interrupt interrupt;
   bool refused = false;
   for (StartItem item; !Interrupt::came() && stream.next(item);) {
@@ -287,7 +287,7 @@ int act(const Options& options) {
 }  // namespace
 
 Command trajectory_command() {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrajectoryOptions>();
   return {
       "trajectory",
       "Certified itineraries: which obstacles are hit one after another, proven.",

@@ -12,7 +12,7 @@ namespace {
 
 namespace mpi = boost::mpi;
 
-enum Message { kSoFar = 1, kLast };
+enum FlightsMessage { kSoFar = 1, kLast };
 
 // A wait inside MPI keeps a processor busy.
 constexpr std::chrono::milliseconds kLook{2};

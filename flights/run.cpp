@@ -17,9 +17,9 @@ constexpr std::chrono::milliseconds kBetweenNews{200};
 
 // The blocks, handed out in order; and what came of them. The account is the caller's, and only touched under
 // the lock.
-class Ledger {
+class BlockLedger {
  public:
-  Ledger(const Plan& plan, const Bounds& bounds, Account& account)
+  BlockLedger(const Plan& plan, const Bounds& bounds, Account& account)
       : plan_(plan), bounds_(bounds), account_(account), next_(bounds.shard) {
     if (bounds.seconds > 0)
       end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -80,7 +80,7 @@ class Ledger {
   std::condition_variable left_;
 };
 
-void work(const Plan& plan, const ColumnFlyer& engine, Ledger& ledger) {
+void work(const Plan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
   try {
     Flyer flyer(plan, engine);
     for (std::uint64_t block; ledger.take(block);) {
@@ -99,7 +99,7 @@ void work(const Plan& plan, const ColumnFlyer& engine, Ledger& ledger) {
 
 void run(const Plan& plan, const Bounds& bounds, Account& account, const OnProgress& on_progress) {
   const ColumnFlyer engine(plan.engine, plan.scene);
-  Ledger ledger(plan, bounds, account);
+  BlockLedger ledger(plan, bounds, account);
   std::vector<std::jthread> threads;
   for (unsigned job = 0; job < bounds.jobs; ++job) threads.emplace_back([&] { work(plan, engine, ledger); });
   ledger.watch(bounds.jobs, on_progress);

@@ -111,7 +111,7 @@ class BatchQueue {
 };
 
 // How far a production is. What a resumed one needs to go on as if nothing had happened.
-struct State {
+struct ProductionState {
   std::uint64_t next_batch = 0;
   RecordCounts counts;
   std::string scene_line;  // the last one written
@@ -144,8 +144,8 @@ void count(RecordCounts& counts, const MadeRecord& made) {
 }
 
 // Makes what is missing; `write` gets the text of one batch at a time, and `state` says what is made with it.
-void produce_rest(const Order& order, State& state, const std::function<void(std::string_view)>& write,
-                  const OnProgress& progress) {
+void produce_rest(const Order& order, ProductionState& state,
+                  const std::function<void(std::string_view)>& write, const OnProgress& progress) {
   BatchQueue queue(order, state.next_batch);
   while (state.counts.records < order.count) {
     std::string text;
@@ -187,8 +187,8 @@ class PartFile {
   PartFile& operator=(const PartFile&) = delete;
 
   // Goes on with what is there if it is of the same order, else begins anew.
-  State open() {
-    State state;
+  ProductionState open() {
+    ProductionState state;
     std::error_code error;
     const auto there = std::filesystem::symlink_status(path_, error);
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
@@ -204,7 +204,7 @@ class PartFile {
     return state;
   }
 
-  void write(std::string_view text, const State& state) {
+  void write(std::string_view text, const ProductionState& state) {
     if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
       fail(part_);
     bytes_ += text.size();
@@ -231,7 +231,7 @@ class PartFile {
   }
 
  private:
-  bool read_note(State& state) {
+  bool read_note(ProductionState& state) {
     std::ifstream note(note_);
     RecordCounts& a = state.counts;
     std::string end;
@@ -247,7 +247,7 @@ class PartFile {
   }
 
   // The ids and the last scene of the part that the note speaks of.
-  bool read_part(State& state) const {
+  bool read_part(ProductionState& state) const {
     std::error_code error;
     if (const auto size = std::filesystem::file_size(part_, error); error || size < bytes_) return false;
     std::ifstream part(part_);
@@ -287,14 +287,14 @@ RecordCounts produce(const Order& order, const std::function<void(std::string_vi
   std::string header;
   append_header_line(header, header_of(order));
   write(header);
-  State state;
+  ProductionState state;
   produce_rest(order, state, write, progress);
   return state.counts;
 }
 
 RecordCounts produce_file(const Order& order, const std::string& path, const OnProgress& progress) {
   PartFile part(order, path);
-  State state = part.open();
+  ProductionState state = part.open();
   produce_rest(
       order, state, [&](std::string_view text) { part.write(text, state); }, progress);
   part.finish();

@@ -115,9 +115,9 @@ class NoSubject final : public fuzz::Subject {
   void change_scene(const Scene&) override {}
 };
 
-class Campaign {
+class CampaignQuestions {
  public:
-  Campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts)
+  CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts)
       : seed_(seed), scope_(scope), stride_(parts * cases::kCasesPerScene) {
     for (const cases::Target& target : cases::targets())
       if (scope_.meets(target, seed_)) tracks_.push_back({&target, part * cases::kCasesPerScene});
@@ -135,7 +135,7 @@ class Campaign {
   static constexpr std::size_t kTries = 10'000;  // scenes in a row that the scope leaves out
 
   // A target, how far it is, and what it took: all get equal times, for some take a hundred times as long.
-  struct Track {
+  struct TargetTrack {
     const cases::Target* target;
     std::uint64_t next = 0;
     double seconds = 0;
@@ -143,9 +143,10 @@ class Campaign {
 
   void make() {
     if (tracks_.empty()) return;
-    Track& track = *std::min_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) {
-      return std::tie(a.seconds, a.next) < std::tie(b.seconds, b.next);
-    });
+    TargetTrack& track =
+        *std::min_element(tracks_.begin(), tracks_.end(), [](const TargetTrack& a, const TargetTrack& b) {
+          return std::tie(a.seconds, a.next) < std::tie(b.seconds, b.next);
+        });
     const auto start = std::chrono::steady_clock::now();
     make(*track.target, track.next);
     track.next += stride_;
@@ -181,7 +182,7 @@ class Campaign {
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
   const std::uint64_t stride_;  // from one scene to the next
-  std::vector<Track> tracks_;
+  std::vector<TargetTrack> tracks_;
   std::deque<Question> questions_;
 };
 
@@ -208,7 +209,7 @@ Source golden_set(const std::string& path) {
 }
 
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts) {
-  return source_of<Campaign>(seed, scope, part, parts);
+  return source_of<CampaignQuestions>(seed, scope, part, parts);
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

@@ -19,7 +19,7 @@ constexpr std::size_t kMostNeighbours = 400;  // drawn in a stretch
 constexpr double kSmallest = 2;               // pixels: radius of an obstacle
 
 // A part of the line, in lengths from its anchor, and on paper.
-struct Stretch {
+struct LineStretch {
   PlaceOnLine anchor;
   double low = 0, high = 0, left = 0;
 };
@@ -39,18 +39,18 @@ class FlightDrawing {
     return case_.surroundings.way(case_.query, from, to);
   }
   std::optional<Point> on_line(const PlaceOnLine& place) const;
-  Point on_paper_of(const Stretch& stretch, const Vec& place) const {
+  Point on_paper_of(const LineStretch& stretch, const Vec& place) const {
     return {stretch.left + (dot(place, axes_.along) - stretch.low) * result_.scale,
             panel_.middle() - dot(place, axes_.across) * result_.scale};
   }
-  void add_stretch(const Stretch& stretch);
-  void add_neighbours(const Stretch& stretch);
-  bool add_neighbour(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
+  void add_stretch(const LineStretch& stretch);
+  void add_neighbours(const LineStretch& stretch);
+  bool add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
   double largest_radius() const;
-  void add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre);
+  void add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
   void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint,
                    bool is_dot);
-  void add_line(const Stretch& stretch, const Answer& answer, const std::string& style, Ink ink);
+  void add_line(const LineStretch& stretch, const Answer& answer, const std::string& style, Ink ink);
   void add_breaks();
   void add_compass();
   void add_ends();
@@ -60,7 +60,7 @@ class FlightDrawing {
   const Panel panel_;
   const Axes axes_;
   const double cell_;
-  std::vector<Stretch> stretches_;
+  std::vector<LineStretch> stretches_;
   FlightPanel result_;
   bool enlarged_ = false, incomplete_ = false, leaves_ = false;
 };
@@ -98,11 +98,11 @@ void FlightDrawing::widen() {
   const double n = static_cast<double>(stretches_.size());
   const double room = panel_.width - kBreak * (n - 1);
   double total = 0;
-  for (const Stretch& stretch : stretches_) total += stretch.high - stretch.low;
+  for (const LineStretch& stretch : stretches_) total += stretch.high - stretch.low;
   result_.scale = std::min(room / total, panel_.height / (1.5 * cell_));
   const double more = (room / result_.scale - total) / (2 * n);
   double left = panel_.left;
-  for (Stretch& stretch : stretches_) {
+  for (LineStretch& stretch : stretches_) {
     stretch.low -= more;
     stretch.high += more;
     stretch.left = left;
@@ -111,7 +111,7 @@ void FlightDrawing::widen() {
 }
 
 std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
-  for (const Stretch& stretch : stretches_) {
+  for (const LineStretch& stretch : stretches_) {
     const double at = way(stretch.anchor, place);
     if (at >= stretch.low && at <= stretch.high)
       return Point{stretch.left + (at - stretch.low) * result_.scale, panel_.middle()};
@@ -134,7 +134,7 @@ void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::str
 
 // The obstacles beside the flight, faint: looked for in balls along it, each of which takes those beside its
 // own piece of the line. What begins before a stretch reaches into it.
-void FlightDrawing::add_neighbours(const Stretch& stretch) {
+void FlightDrawing::add_neighbours(const LineStretch& stretch) {
   const double margin = std::min(largest_radius(), cell_);
   const double half_height = panel_.height / 2 / result_.scale + margin;
   const double low = stretch.low - margin, high = stretch.high + margin;
@@ -161,7 +161,7 @@ void FlightDrawing::add_neighbours(const Stretch& stretch) {
 }
 
 // In space only if the plane of the drawing cuts it, or as a shadow if it is near that. Whether it was drawn.
-bool FlightDrawing::add_neighbour(const Stretch& stretch, const ObstacleId& id, const Vec& centre) {
+bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   const Atom& atom = case_.atom_of(id);
   const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
@@ -195,7 +195,7 @@ double FlightDrawing::largest_radius() const {
 }
 
 // One that an answer names, or that is in question.
-void FlightDrawing::add_obstacle(const Stretch& stretch, const ObstacleId& id, const Vec& centre) {
+void FlightDrawing::add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
   const Ink ink = *ink_of(case_, id);
@@ -211,7 +211,7 @@ void FlightDrawing::add_obstacle(const Stretch& stretch, const ObstacleId& id, c
     add_ellipse(at, *section, filled, hint, is_dot);
 }
 
-void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const std::string& style,
+void FlightDrawing::add_line(const LineStretch& stretch, const Answer& answer, const std::string& style,
                              Ink ink) {
   if (answer.outcome != Outcome::hit && answer.outcome != Outcome::never) return;
   const auto end = case_.end_of(answer);
@@ -228,7 +228,7 @@ void FlightDrawing::add_line(const Stretch& stretch, const Answer& answer, const
                  paint(ink));
 }
 
-void FlightDrawing::add_stretch(const Stretch& stretch) {
+void FlightDrawing::add_stretch(const LineStretch& stretch) {
   const Panel window{stretch.left, panel_.top, (stretch.high - stretch.low) * result_.scale, panel_.height};
   open_clip(svg_, window);
   add_neighbours(stretch);
@@ -242,7 +242,7 @@ void FlightDrawing::add_stretch(const Stretch& stretch) {
 // A zigzag between stretches, with the number of cells left out.
 void FlightDrawing::add_breaks() {
   for (std::size_t i = 1; i < stretches_.size(); ++i) {
-    const Stretch &before = stretches_[i - 1], &after = stretches_[i];
+    const LineStretch &before = stretches_[i - 1], &after = stretches_[i];
     const double cells = (way(before.anchor, after.anchor) + after.low - before.high) / cell_;
     const double x = after.left - kBreak / 2, y = panel_.middle();
     open_hint(svg_, fmt::format("{:.6g} cells of the flight are left out", cells));
@@ -301,7 +301,7 @@ void FlightDrawing::add_ends() {
 
 FlightPanel FlightDrawing::draw() {
   lay_out();
-  for (const Stretch& stretch : stretches_) add_stretch(stretch);
+  for (const LineStretch& stretch : stretches_) add_stretch(stretch);
   add_breaks();
   add_ends();
   add_compass();

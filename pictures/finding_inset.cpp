@@ -20,14 +20,14 @@ constexpr double kNatural = 45;   // pixels per radius where there is no distanc
 constexpr double kBeyond = 4000;  // pixels: outside of any inset
 
 // The surface of an obstacle in the plane of the inset, seen from a point of it.
-struct Surface {
+struct InsetSurface {
   Vec right{}, up{};  // images of the inset's axes in the coordinates in which it is the unit ball
   Vec y0{};           // the point, there: of length 1
 };
 
 // The curve around the point in pixels, x to the right and y up: |y0 + (x right + y up) / scale| = 1, as seen
 // along its tangent. Where it is nearly straight, the part within kBeyond.
-std::vector<Point> curve_of(const Surface& surface, double scale) {
+std::vector<Point> curve_of(const InsetSurface& surface, double scale) {
   Point normal{dot(surface.right, surface.y0), dot(surface.up, surface.y0)};  // outwards
   const double size = std::hypot(normal.x, normal.y);
   if (!(size > 0)) return {};
@@ -68,7 +68,7 @@ class Inset {
   void draw_line();
   void draw_start();
   void draw_entries();
-  void add_surface(const ObstacleId& id, const Surface& surface, double x, double y);
+  void add_surface(const ObstacleId& id, const InsetSurface& surface, double x, double y);
   void add_way(double from, double to, Ink ink, double width, const char* more);
   void add_distance(Point from, Point to, Point label, const char* anchor);
   void add_scale_bar();
@@ -123,7 +123,7 @@ bool Inset::reaches(const Answer& answer) const {
          case_.surroundings.way(case_.query, PlaceOnLine::at(case_.obstacle), *end) >= 0;
 }
 
-void Inset::add_surface(const ObstacleId& id, const Surface& surface, double x, double y) {
+void Inset::add_surface(const ObstacleId& id, const InsetSurface& surface, double x, double y) {
   std::vector<Point> points = curve_of(surface, scale_);
   if (points.empty()) return;
   for (Point& p : points) p = paper(p.x + x, p.y + y);

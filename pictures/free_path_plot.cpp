@@ -33,7 +33,7 @@ double round_step(double least) {
 }
 
 // What is on one axis: powers of ten; or, linear, from 0 on.
-struct Range {
+struct AxisRange {
   AxisScale axes = AxisScale::logarithmic;
   double low = std::numeric_limits<double>::infinity(), high = 0;
 
@@ -71,7 +71,7 @@ struct Range {
 };
 
 struct Frame {
-  Range t, value;
+  AxisRange t, value;
   double left, right, top, bottom;  // in pixels
 
   Point operator()(double x, double y) const {
@@ -147,7 +147,7 @@ double apart(bool along_t) {
 
 // Decades; within them 2 and 5 too, if there is room for them.
 void add_decades(Svg& svg, const Frame& frame, bool along_t, double pixels) {
-  const Range& range = along_t ? frame.t : frame.value;
+  const AxisRange& range = along_t ? frame.t : frame.value;
   const double decade = pixels / range.decades();
   const int every = static_cast<int>(std::ceil(apart(along_t) / decade));
   const auto first = static_cast<int>(std::floor(std::log10(range.low))),
@@ -168,7 +168,7 @@ void add_decades(Svg& svg, const Frame& frame, bool along_t, double pixels) {
 
 // Round numbers, evenly.
 void add_steps(Svg& svg, const Frame& frame, bool along_t, double pixels) {
-  const Range& range = along_t ? frame.t : frame.value;
+  const AxisRange& range = along_t ? frame.t : frame.value;
   const double step = round_step(range.high * apart(along_t) / pixels);
   for (int i = 0; i * step <= range.high * (1 + 1e-9); ++i)
     add_tick(svg, frame, along_t, {i * step, 9, kGrid, fmt::format("{:.4g}", i * step)});

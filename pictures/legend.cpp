@@ -18,9 +18,9 @@ std::string name_of(const Scene& scene, const Placed& obstacle) {
 namespace {
 
 // Entries side by side in columns, row by row.
-class Columns {
+class LegendColumns {
  public:
-  Columns(double top, double space, std::size_t longest_label)
+  LegendColumns(double top, double space, std::size_t longest_label)
       : top_(top),
         space_(space),
         columns_(std::max<std::size_t>(
@@ -43,7 +43,7 @@ void add_label(Svg& svg, Point at, const std::string& words) {
   svg.text({at.x + 16, at.y + 4.5}, words);
 }
 
-void add_flight_entries(Svg& svg, Columns& columns, const Legend& legend) {
+void add_flight_entries(Svg& svg, LegendColumns& columns, const Legend& legend) {
   if (legend.hits) {
     const Point at = columns.next();
     svg.polyline({{at.x - 8, at.y}, {at.x + 6, at.y}},
@@ -63,7 +63,8 @@ void add_flight_entries(Svg& svg, Columns& columns, const Legend& legend) {
   }
 }
 
-void add_way_entries(Svg& svg, Columns& columns, const Legend& legend, const std::vector<FreeWay>& ways) {
+void add_way_entries(Svg& svg, LegendColumns& columns, const Legend& legend,
+                     const std::vector<FreeWay>& ways) {
   for (const std::size_t number : legend.ways) {
     const Point at = columns.next();
     svg.polygon({{at.x - 8, at.y - 6}, {at.x + 8, at.y - 6}, {at.x + 8, at.y + 6}, {at.x - 8, at.y + 6}},
@@ -85,7 +86,7 @@ std::size_t longest_label(const Scene& scene, const DrawOptions& options, const 
 double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
                   double top) {
   constexpr std::size_t kMostEntries = 12;
-  Columns columns(top, options.width - 2 * kMargin, longest_label(scene, options, legend));
+  LegendColumns columns(top, options.width - 2 * kMargin, longest_label(scene, options, legend));
   std::size_t atoms = 0;
   for (const auto& [lattice, atom] : legend.atoms) {
     if (++atoms > kMostEntries) continue;

@@ -9,7 +9,7 @@ namespace lorentz::pictures {
 namespace {
 
 // The plane on paper: y upwards.
-struct Window {
+struct PaperWindow {
   Box box;
   double scale = 1;  // pixels per unit of length
   double left = kMargin, top = 0;
@@ -73,7 +73,7 @@ Box box_for(const Scene& scene, const Vec& corner, const std::vector<Line>& line
 }
 
 // The first lattice's cells, faint, unless there are too many to tell apart.
-void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& corner) {
+void add_grid(Svg& svg, const Scene& scene, const PaperWindow& window, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
   const auto rows = dual_of(u, 2);
   const double reach =
@@ -93,7 +93,7 @@ void add_grid(Svg& svg, const Scene& scene, const Window& window, const Vec& cor
   }
 }
 
-void add_disc(Svg& svg, const Scene& scene, const Window& window, const Placed& obstacle, bool hit,
+void add_disc(Svg& svg, const Scene& scene, const PaperWindow& window, const Placed& obstacle, bool hit,
               bool& enlarged) {
   constexpr double kSmallest = 2;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
@@ -129,7 +129,7 @@ bool part_in(const Box& box, const Vec& from, const Vec& to, double& first, doub
 }
 
 // What of a flight is in the window: an arrow if it goes on beyond.
-void add_way(Svg& svg, const Window& window, const Line& line, Legend& legend) {
+void add_way(Svg& svg, const PaperWindow& window, const Line& line, Legend& legend) {
   const Box& box = window.box;
   Vec to = line.to;
   if (!line.ends) {  // to somewhere beyond
@@ -156,7 +156,7 @@ void add_way(Svg& svg, const Window& window, const Line& line, Legend& legend) {
 }
 
 // A corridor, with its translates if these come from one lattice: strips, one every area / |vector|.
-bool add_corridor(Svg& svg, const Scene& scene, const Window& window, const FreeWay& way,
+bool add_corridor(Svg& svg, const Scene& scene, const PaperWindow& window, const FreeWay& way,
                   const char* colour) {
   const double length = std::hypot(way.vector[0], way.vector[1]);
   const Vec along{way.vector[0] / length, way.vector[1] / length, 0}, across{-along[1], along[0], 0};
@@ -218,7 +218,7 @@ class Picture2D {
   Legend legend_;
   std::vector<Line> lines_;
   std::vector<Placed> obstacles_, hits_;
-  Window window_;
+  PaperWindow window_;
   Vec corner_{};
   bool enlarged_ = false;
 };

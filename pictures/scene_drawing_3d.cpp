@@ -30,7 +30,7 @@ struct Eye {
 };
 
 // An obstacle seen.
-struct Seen {
+struct SeenObstacle {
   Placed placed;
   bool hit;
   Vec view;            // its centre
@@ -56,7 +56,7 @@ class Picture3D {
   void choose_obstacles();
   void explain();
   void fit();
-  void add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets);
+  void add_contents(const std::vector<SeenObstacle>& obstacles, std::vector<Facet> facets);
   void add_cylinders();
   void add_cell();
   void add_flight(const Line& line);
@@ -65,7 +65,7 @@ class Picture3D {
             {scaled(cell_.vectors[0], cells_), scaled(cell_.vectors[1], cells_),
              scaled(cell_.vectors[2], cells_)}};
   }
-  void add_obstacle(const Seen& seen);
+  void add_obstacle(const SeenObstacle& seen);
   struct Pen {
     std::string colour;
     double width;
@@ -88,7 +88,7 @@ class Picture3D {
   Svg svg_;
   std::vector<Line> lines_;
   Vec corner_{};
-  std::vector<Seen> seen_;
+  std::vector<SeenObstacle> seen_;
   std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // of each atom's matrix, as rows
   Box box_;                                                // of the picture, seen from the eye
   double scale_ = 1, top_ = 0;
@@ -143,7 +143,8 @@ void Picture3D::choose_obstacles() {
   };
   for (const Placed& placed : obstacles) see(placed, false);
   for (const Placed& placed : hits) see(placed, true);
-  std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) { return a.view[2] < b.view[2]; });
+  std::sort(seen_.begin(), seen_.end(),
+            [](const SeenObstacle& a, const SeenObstacle& b) { return a.view[2] < b.view[2]; });
   for (const Lattice& lattice : scene_.lattices) {
     inverses_.emplace_back();
     for (const Atom& atom : lattice.atoms) inverses_.back().push_back(dual_of(semiaxes_of(atom, 3), 3));
@@ -152,7 +153,7 @@ void Picture3D::choose_obstacles() {
 
 // What the legend will have to say.
 void Picture3D::explain() {
-  for (const Seen& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
+  for (const SeenObstacle& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
   legend_.cell = cell_.primitive_cells > 1
                      ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
                  : scene_.lattices.size() > 1 ? "a cell of lattice 0"
@@ -182,7 +183,7 @@ Axis longer(const Axis& axis) {
 
 void Picture3D::fit() {
   box_.low = box_.high = eye_(corner_);
-  for (const Seen& seen : seen_) {
+  for (const SeenObstacle& seen : seen_) {
     const auto [rx, ry, angle] = seen.shape;
     const double half[] = {std::hypot(rx * std::cos(angle), ry * std::sin(angle)),
                            std::hypot(rx * std::sin(angle), ry * std::cos(angle))};
@@ -225,7 +226,7 @@ void Picture3D::fit() {
 bool Picture3D::is_hidden(const Vec& point) const {
   constexpr double kSlack = 1e-6;
   const Vec view = eye_(point);
-  for (const Seen& seen : seen_) {
+  for (const SeenObstacle& seen : seen_) {
     if (std::hypot(seen.view[0] - view[0], seen.view[1] - view[1]) > seen.shape.rx) continue;
     const auto& rows = inverses_[seen.placed.lattice][seen.placed.atom];
     const Vec arm = plus(point, -1, seen.placed.centre);
@@ -259,7 +260,7 @@ void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
   if (pen.arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, pen.colour, pen.width);
 }
 
-void Picture3D::add_obstacle(const Seen& seen) {
+void Picture3D::add_obstacle(const SeenObstacle& seen) {
   constexpr double kSmallest = 1.4;
   const std::size_t index = colour_index(scene_, seen.placed);
   EllipseShape shape{scale_ * seen.shape.rx, scale_ * seen.shape.ry, -seen.shape.angle};
@@ -283,17 +284,17 @@ std::string shades() {
 
 // No obstacle crosses a face of a free layer: those beyond it first, then the face, then those before it. The
 // other faces are cut in two by it.
-void Picture3D::add_contents(const std::vector<Seen>& obstacles, std::vector<Facet> facets) {
+void Picture3D::add_contents(const std::vector<SeenObstacle>& obstacles, std::vector<Facet> facets) {
   if (facets.empty()) {
-    for (const Seen& seen : obstacles) add_obstacle(seen);
+    for (const SeenObstacle& seen : obstacles) add_obstacle(seen);
     return;
   }
   const Facet face = facets.back();
   facets.pop_back();
   const int nearer = dot(face.normal, eye_.towards) > 0 ? 1 : -1;
   for (const int side : {-nearer, nearer}) {
-    std::vector<Seen> some;
-    for (const Seen& seen : obstacles)
+    std::vector<SeenObstacle> some;
+    for (const SeenObstacle& seen : obstacles)
       if ((side * (dot(face.normal, seen.placed.centre) - face.level) >= 0)) some.push_back(seen);
     std::vector<Facet> parts;
     for (const Facet& other : facets) {

@@ -15,7 +15,7 @@ namespace lorentz::python {
 namespace {
 
 // A run of the judge, which Ctrl-C in Python, or an exception that is none of the engine's, ends.
-struct Run {
+struct JudgeRun {
   std::atomic<bool> stop = false;
 
   void fail(std::exception_ptr failure) {
@@ -38,7 +38,7 @@ constexpr std::size_t kGathered = 8192;
 // lines of JSON. The interpreter's lock is held for each such call, and no longer.
 class FunctionAnswerer final : public compare::Answerer {
  public:
-  FunctionAnswerer(const py::function& ask, Run& run) : ask_(&ask), run_(run) {}
+  FunctionAnswerer(const py::function& ask, JudgeRun& run) : ask_(&ask), run_(run) {}
   ~FunctionAnswerer() override {
     const py::gil_scoped_acquire gil;
     scene_ = py::object();
@@ -117,14 +117,14 @@ class FunctionAnswerer final : public compare::Answerer {
   }
 
   const py::function* ask_;  // outlives this
-  Run& run_;
+  JudgeRun& run_;
   int dimension_ = 0;
   py::object scene_;
   std::vector<Query> queries_;
 };
 
 // Without the interpreter's lock, so that a function's answerers can take it in any thread.
-cli::JudgeReport report_of(const cli::JudgeOrder& order, Run& run) {
+cli::JudgeReport report_of(const cli::JudgeOrder& order, JudgeRun& run) {
   cli::JudgeReport report;
   {
     const py::gil_scoped_release release;
@@ -150,7 +150,7 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
   if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
   if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
-  Run run;
+  JudgeRun run;
   py::function ask;
   if (function.is_none()) {
     order.engine = compare::engine_named(engine);

@@ -214,15 +214,15 @@ py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> sha
 }
 
 // Of one number a collision (or particle, if `whole`), or of as many as there are dimensions.
-enum class Shape { particles, collisions, vectors };
+enum class ArrayShape { particles, collisions, vectors };
 
 template <class Number>
-auto array_of(std::vector<Number> Paths::*member, Shape shape) {
+auto array_of(std::vector<Number> Paths::*member, ArrayShape shape) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
     std::vector<std::size_t> lengths{paths.particles};
-    if (shape != Shape::particles) lengths.push_back(paths.collisions);
-    if (shape == Shape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
+    if (shape != ArrayShape::particles) lengths.push_back(paths.collisions);
+    if (shape == ArrayShape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
     return shown(paths.*member, lengths, self);
   };
 }
@@ -235,14 +235,14 @@ void bind_paths(py::module_& module) {
                                             "a copy. lorentz.trajectories says what they are.")
       .def("__len__", [](const Paths& paths) { return paths.particles; })
       .def_readonly("dimension", &Paths::dimension)
-      .def_property_readonly("count", array_of(&Paths::count, Shape::particles))
-      .def_property_readonly("stop_code", array_of(&Paths::stop, Shape::particles))
-      .def_property_readonly("time", array_of(&Paths::time, Shape::collisions))
-      .def_property_readonly("lattice", array_of(&Paths::lattice, Shape::collisions))
-      .def_property_readonly("atom", array_of(&Paths::atom, Shape::collisions))
-      .def_property_readonly("cell", array_of(&Paths::cell, Shape::vectors))
-      .def_property_readonly("place", array_of(&Paths::place, Shape::vectors))
-      .def_property_readonly("velocity", array_of(&Paths::velocity, Shape::vectors));
+      .def_property_readonly("count", array_of(&Paths::count, ArrayShape::particles))
+      .def_property_readonly("stop_code", array_of(&Paths::stop, ArrayShape::particles))
+      .def_property_readonly("time", array_of(&Paths::time, ArrayShape::collisions))
+      .def_property_readonly("lattice", array_of(&Paths::lattice, ArrayShape::collisions))
+      .def_property_readonly("atom", array_of(&Paths::atom, ArrayShape::collisions))
+      .def_property_readonly("cell", array_of(&Paths::cell, ArrayShape::vectors))
+      .def_property_readonly("place", array_of(&Paths::place, ArrayShape::vectors))
+      .def_property_readonly("velocity", array_of(&Paths::velocity, ArrayShape::vectors));
   module.def(
       "follow",
       [](const PyScene& scene, Numbers x, Numbers v, const py::object& from, std::size_t collisions,

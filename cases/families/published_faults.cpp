@@ -17,7 +17,7 @@
 namespace lorentz::cases {
 namespace {
 
-struct Example {
+struct FaultExample {
   int dimension;
   double radius;
   Vec x, v;
@@ -25,7 +25,7 @@ struct Example {
   const char* tag;
 };
 
-const Example kExamples[] = {
+const FaultExample kExamples[] = {
     {2, 0.2, {-9.0 / 205, 8.0 / 41}, {9, 5}, true, "skipped-disc"},
     {2, 0.05, {-7.0 / 500, 6.0 / 125}, {8, 7}, true, "skipped-disc"},
     {2, 0.2, {moved(-9.0 / 205, -1), moved(8.0 / 41, 1)}, {9, 5}, false, "skipped-disc"},
@@ -41,7 +41,7 @@ const Example kExamples[] = {
 constexpr std::uint64_t kExampleCount = sizeof kExamples / sizeof kExamples[0];
 
 Case example(std::uint64_t index) {
-  const Example& one = kExamples[index];
+  const FaultExample& one = kExamples[index];
   Case made{unit_scene(one.dimension, one.radius), {one.x, one.v, {}}, {"example", one.tag}};
   if (one.leaving) made.query.from = ObstacleId{};
   return made;

@@ -22,13 +22,13 @@ constexpr double kBottom[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
 
 // A line's shape against a ball: its direction, the unit direction of h, and how far out along h, in r |v|,
 // the hexagon reaches.
-struct Ray {
+struct HexagonRay {
   Vec v, h;
   double reach;
 };
 
-Ray drawn_ray(Random& random) {
-  Ray ray{};
+HexagonRay drawn_ray(Random& random) {
+  HexagonRay ray{};
   for (int tries = 0; tries < 50; ++tries) {
     ray.v = random.direction(3);
     ray.h = cross(ray.v, random.direction(3));
@@ -54,7 +54,7 @@ Case make_tricylinder(Source& source) {
     made.tags.push_back("other-cell");
     made.scene.lattices[0].vectors = {Vec{1, 0, 0}, Vec{0.25, 1, 0}, Vec{-0.125, 0.25, 1.125}};
   }
-  const Ray ray = drawn_ray(random);
+  const HexagonRay ray = drawn_ray(random);
   const std::uint64_t decade = random.below(7);
   const double margin =
       kBottom[decade] + (kTop[decade] - kBottom[decade]) * random.uniform() * random.uniform();

@@ -13,29 +13,29 @@ constexpr double kLeastCount = 25;
 constexpr std::size_t kLeastBinsOfTail = 4;
 
 // A merged bin: what either term has between its ends, for a coefficient of 1, and what was counted.
-struct Row {
+struct MergedBin {
   double leading, next, count;
 };
 
-class Rows {
+class MergedBins {
  public:
-  Rows(const SlowTail& tail, double total) : tail_(tail), total_(total) {}
+  MergedBins(const SlowTail& tail, double total) : tail_(tail), total_(total) {}
 
   // Up to `to` from where the bin before ended.
   void add(double from, double to, double count) {
     const auto term = [&](double power) {
       return total_ * (std::pow(from, -power) - (std::isfinite(to) ? std::pow(to, -power) : 0));
     };
-    const Row row{term(tail_.power), term(tail_.power + tail_.approach), count};
+    const MergedBin row{term(tail_.power), term(tail_.power + tail_.approach), count};
     if (rows_.empty() || rows_.back().count >= kLeastCount)
       rows_.push_back(row);
     else
       merge(row);
   }
   // The last may have too few.
-  std::vector<Row> all() {
+  std::vector<MergedBin> all() {
     if (rows_.size() > 1 && rows_.back().count < kLeastCount) {
-      const Row rest = rows_.back();
+      const MergedBin rest = rows_.back();
       rows_.pop_back();
       merge(rest);
     }
@@ -43,24 +43,24 @@ class Rows {
   }
 
  private:
-  void merge(const Row& row) {
-    Row& last = rows_.back();
+  void merge(const MergedBin& row) {
+    MergedBin& last = rows_.back();
     last = {last.leading + row.leading, last.next + row.next, last.count + row.count};
   }
 
   const SlowTail tail_;
   const double total_;
-  std::vector<Row> rows_;
+  std::vector<MergedBin> rows_;
 };
 
-struct Fit {
+struct TailFit {
   double leading = 0, next = 0, variance = 0;  // of `leading`
 };
 
 // One step: the variance of a count is what the fit before expects.
-Fit weighted_fit(const std::vector<Row>& rows, const std::optional<Fit>& before) {
+TailFit weighted_fit(const std::vector<MergedBin>& rows, const std::optional<TailFit>& before) {
   double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
-  for (const Row& row : rows) {
+  for (const MergedBin& row : rows) {
     const double expected =
         before ? before->leading * row.leading + before->next * row.next : std::max(row.count, 1.0);
     const double weight = 1 / std::max(expected, 1.0);
@@ -81,7 +81,7 @@ std::optional<TailConstant> tail_constant(std::span<const double> edges,
     throw std::invalid_argument("bins: one count more than edges is wanted");
   std::size_t first = 0;
   while (first < edges.size() && edges[first] < from) ++first;
-  Rows rows(tail, static_cast<double>(total));
+  MergedBins rows(tail, static_cast<double>(total));
   TailConstant result;
   for (std::size_t i = first; i < edges.size(); ++i) {
     const bool last = i + 1 == edges.size();
@@ -89,10 +89,10 @@ std::optional<TailConstant> tail_constant(std::span<const double> edges,
              static_cast<double>(counts[i + 1]));
     result.count += counts[i + 1];
   }
-  const std::vector<Row> all = rows.all();
+  const std::vector<MergedBin> all = rows.all();
   if (all.size() < kLeastBinsOfTail) return std::nullopt;
   constexpr int kSteps = 5;
-  std::optional<Fit> fit;
+  std::optional<TailFit> fit;
   for (int step = 0; step < kSteps; ++step) fit = weighted_fit(all, fit);
   result.value = fit->leading;
   result.error = std::sqrt(fit->variance);

@@ -44,16 +44,16 @@ int exponent_of_lowest_bit(double x) {
   return exponent - 53 + std::countr_zero(mantissa);
 }
 
-enum class Way { nearest, down, up };
+enum class ShrinkWay { nearest, down, up };
 
 /// x to so many significant bits.
-double rounded_to(double x, int bits, Way way) {
+double rounded_to(double x, int bits, ShrinkWay way) {
   if (x == 0 || !std::isfinite(x)) return x;
   const int lowest = std::ilogb(x) - bits + 1;
   const double scaled = std::ldexp(x, -lowest);
-  const double whole = way == Way::nearest ? std::nearbyint(scaled)
-                       : way == Way::down  ? std::floor(scaled)
-                                           : std::ceil(scaled);
+  const double whole = way == ShrinkWay::nearest ? std::nearbyint(scaled)
+                       : way == ShrinkWay::down  ? std::floor(scaled)
+                                                 : std::ceil(scaled);
   const double result = std::ldexp(whole, lowest);
   return std::isfinite(result) ? result : x;
 }
@@ -111,17 +111,17 @@ class Shrinker {
         const bool done = offer([&](Candidate& one) {
           Query& q = one.query;
           if (scene_too) {
-            for_each_number(one.scene, q, [&](double& x) { x = rounded_to(x, bits, Way::nearest); });
+            for_each_number(one.scene, q, [&](double& x) { x = rounded_to(x, bits, ShrinkWay::nearest); });
           } else {
-            for (double& x : q.x) x = rounded_to(x, bits, Way::nearest);
-            for (double& x : q.v) x = rounded_to(x, bits, Way::nearest);
+            for (double& x : q.x) x = rounded_to(x, bits, ShrinkWay::nearest);
+            for (double& x : q.v) x = rounded_to(x, bits, ShrinkWay::nearest);
           }
         });
         if (done) return;
       }
       if (offer([&](Candidate& one) {
             for (double& x : one.query.x) x = on_grid(x, bits);
-            for (double& x : one.query.v) x = rounded_to(x, bits, Way::nearest);
+            for (double& x : one.query.v) x = rounded_to(x, bits, ShrinkWay::nearest);
           }))
         return;
     }
@@ -290,7 +290,7 @@ class Shrinker {
     };
     if (set(0) || set(x < 0 ? -1 : 1) || set(std::fabs(x))) return;
     for (int bits = 1; bits < bits_of(x); bits += bits < 12 ? 1 : 6)
-      for (const Way way : {Way::nearest, Way::down, Way::up})
+      for (const ShrinkWay way : {ShrinkWay::nearest, ShrinkWay::down, ShrinkWay::up})
         if (set(rounded_to(x, bits, way))) return;
     if (std::fabs(x) > 1 && set(x / 2)) return;
     if (std::fabs(x) < 0.5) set(2 * x);

@@ -11,13 +11,13 @@ namespace lorentz::fuzz {
 
 /// Where a limit is, seen from the time t of the hit.
 struct LimitAt {
-  enum Place { none, time, below, above, half, twice, before, after };
+  enum Side { none, time, below, above, half, twice, before, after };
 
-  Place place = none;
+  Side place = none;
   int bits = 0;  ///< of `before` and `after`: at t (1 - 2^-bits), t (1 + 2^-bits)
 
   LimitAt() = default;
-  LimitAt(Place at, int at_bits = 0) : place(at), bits(at_bits) {}
+  LimitAt(Side at, int at_bits = 0) : place(at), bits(at_bits) {}
   friend bool operator==(const LimitAt&, const LimitAt&) = default;
 };
 

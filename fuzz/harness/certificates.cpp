@@ -18,11 +18,11 @@ namespace {
 constexpr long kMostWork = 20'000;
 
 // A decimal number however it is written: its digits without zeros at either end, and its power of ten.
-struct Digits {
+struct DecimalDigits {
   std::string digits;
   long exponent = 0;
 
-  explicit Digits(std::string_view text) {
+  explicit DecimalDigits(std::string_view text) {
     const std::string_view mantissa = text.substr(0, text.find('e'));
     if (mantissa.size() < text.size()) exponent = std::stol(std::string(text.substr(mantissa.size() + 1)));
     const auto point = mantissa.find('.');
@@ -35,7 +35,7 @@ struct Digits {
     if (digits.empty()) exponent = 0;
   }
   int written = 0;  ///< significant digits as they stand in the text
-  friend bool operator==(const Digits& a, const Digits& b) {
+  friend bool operator==(const DecimalDigits& a, const DecimalDigits& b) {
     return a.digits == b.digits && a.exponent == b.exponent;
   }
 };
@@ -43,7 +43,7 @@ struct Digits {
 void hold_against_oracle(const Scene& scene, const Query& query, const Answer& claim,
                          const std::string& text) {
   oracle::Request request;
-  const Digits claimed(claim.time_decimal);
+  const DecimalDigits claimed(claim.time_decimal);
   request.digits = claim.outcome == Outcome::hit ? claimed.written : 0;
   const Answer exact = oracle::Oracle(scene).first_hit(query, request);
   const auto same = [&](bool holds, const char* what) {
@@ -54,7 +54,7 @@ void hold_against_oracle(const Scene& scene, const Query& query, const Answer& c
   same(claim.obstacle == exact.obstacle, "the obstacle");
   if (exact.outcome != Outcome::hit) return;
   same(claim.time == exact.time, "the time");
-  if (request.digits > 0) same(claimed == Digits(exact.time_decimal), "the decimal time");
+  if (request.digits > 0) same(claimed == DecimalDigits(exact.time_decimal), "the decimal time");
 }
 
 /// The scene that holds, with its checker.

@@ -9,16 +9,16 @@ namespace lorentz::harness {
 namespace {
 
 // What a reader makes of a file, and as it is written again.
-struct Set {
+struct ReadSet {
   std::vector<golden::Record> records;
   std::string text;
 };
 
 // Nothing if it was refused, for this reason: as a whole, also if it is bad from some line on only.
-std::optional<Set> set_in(const BytesAsFile& file, std::string& reason) {
+std::optional<ReadSet> set_in(const BytesAsFile& file, std::string& reason) {
   try {
     golden::Reader reader(file.path());
-    Set set;
+    ReadSet set;
     append_header_line(set.text, reader.header());
     std::size_t scenes = 0;
     for (golden::ReadRecord read; reader.next(read);) {

@@ -13,10 +13,10 @@ struct Span {
 };
 
 /// Where numbers stand (also within strings), and what stands between commas: members, elements, lines.
-struct Parts {
+struct NumberParts {
   std::vector<Span> numbers, items;
 
-  explicit Parts(std::string_view text);
+  explicit NumberParts(std::string_view text);
 
  private:
   void add_item(std::size_t begin, std::size_t end) {
@@ -28,7 +28,7 @@ bool is_part_of_number(char c) {
   return std::string_view("+-.0123456789abcdefpx").find(c) != std::string_view::npos;
 }
 
-Parts::Parts(std::string_view text) {
+NumberParts::NumberParts(std::string_view text) {
   std::vector<std::size_t> open{0};  // where the items begin that have not ended yet
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -142,7 +142,7 @@ class Editor {
   }
 
   const std::string_view text_;
-  const Parts parts_;
+  const NumberParts parts_;
   std::minstd_rand& random_;
 };
 

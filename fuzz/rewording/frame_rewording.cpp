@@ -37,9 +37,9 @@ std::vector<int> drawn_order(Random& random, std::size_t count) {
 
 // ---- coordinates exchanged and reflected
 
-class Axes final : public RewordingStep {
+class FrameAxes final : public RewordingStep {
  public:
-  Axes(Random& random, int dimension) {
+  FrameAxes(Random& random, int dimension) {
     const std::vector<int> order = drawn_order(random, static_cast<std::size_t>(dimension));
     for (int i = 0; i < dimension; ++i) from_[i] = order[i], sign_[i] = random.one_in(2) ? -1 : 1;
   }
@@ -113,7 +113,7 @@ class Scaled final : public RewordingStep {
 };
 
 // The lowest and the highest bit of a scene's numbers.
-struct Range {
+struct BitRange {
   long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
   void see(double value) {
     if (value == 0) return;
@@ -125,8 +125,8 @@ struct Range {
   }
 };
 
-Range range_of(const Scene& scene) {
-  Range range;
+BitRange range_of(const Scene& scene) {
+  BitRange range;
   for (const Lattice& lattice : scene.lattices) {
     for (int i = 0; i < scene.dimension; ++i) range.see(lattice.vectors[i]);
     for (const Atom& atom : lattice.atoms) {
@@ -148,9 +148,9 @@ void scale_scene(Scene& scene, int exponent) {
 
 // ---- other names
 
-class Order final : public RewordingStep {
+class AxisOrder final : public RewordingStep {
  public:
-  Order(Random& random, const Scene& scene) : lattices_(drawn_order(random, scene.lattices.size())) {
+  AxisOrder(Random& random, const Scene& scene) : lattices_(drawn_order(random, scene.lattices.size())) {
     for (const Lattice& lattice : scene.lattices) atoms_.push_back(drawn_order(random, lattice.atoms.size()));
   }
   std::string words() const override { return "order"; }
@@ -218,7 +218,7 @@ std::vector<Vec> drawn_axes(Random& random, const std::vector<Vec>& axes) {
 }  // namespace
 
 std::unique_ptr<RewordingStep> draw_axes(Random& random, Scene& scene) {
-  auto step = std::make_unique<Axes>(random, scene.dimension);
+  auto step = std::make_unique<FrameAxes>(random, scene.dimension);
   if (!step->changes()) return nullptr;
   const auto turn = [&](Vec& a) { step->turn(a); };
   for_each_vector(scene, turn, turn);
@@ -238,7 +238,7 @@ std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
 }
 
 std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
-  const Range range = range_of(scene);
+  const BitRange range = range_of(scene);
   // least <= 0 <= most: the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
   long exponent = random.integer(least, most);
@@ -262,7 +262,7 @@ std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
 }
 
 std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
-  auto step = std::make_unique<Order>(random, scene);
+  auto step = std::make_unique<AxisOrder>(random, scene);
   if (!step->changes()) return nullptr;
   scene = step->applied(scene);
   return step;

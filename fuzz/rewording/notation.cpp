@@ -14,7 +14,7 @@ using namespace cases;
 
 namespace {
 
-enum class Digits { shortest, general, fixed, scientific, hexadecimal, mixed };
+enum class DigitsOfNumber { shortest, general, fixed, scientific, hexadecimal, mixed };
 constexpr const char* kNames[] = {"shortest", "%.17g", "%.20f", "%.40e", "hexadecimal", "of all kinds"};
 
 std::string printed(const char* format, double value) {
@@ -31,11 +31,11 @@ bool means(const std::string& text, double value) {
 }
 
 // JSON with the freedoms that it leaves.
-class Writer {
+class FreeJsonWriter {
  public:
-  explicit Writer(Random& random)
+  explicit FreeJsonWriter(Random& random)
       : random_(random),
-        digits_(static_cast<Digits>(random.below(6))),
+        digits_(static_cast<DigitsOfNumber>(random.below(6))),
         blanks_(random.one_in(2)),
         shuffles_(random.one_in(2)),
         escapes_(random.one_in(4)) {}
@@ -105,12 +105,13 @@ class Writer {
   }
 
   std::string text_of(double value) {
-    const Digits digits = digits_ == Digits::mixed ? static_cast<Digits>(random_.below(5)) : digits_;
+    const DigitsOfNumber digits =
+        digits_ == DigitsOfNumber::mixed ? static_cast<DigitsOfNumber>(random_.below(5)) : digits_;
     std::string text;
-    if (digits == Digits::shortest) append_number(text, value);
-    if (digits == Digits::general) text = printed("%.17g", value);
-    if (digits == Digits::fixed) text = printed("%.20f", value);
-    if (digits == Digits::hexadecimal) return printed("\"%a\"", value);
+    if (digits == DigitsOfNumber::shortest) append_number(text, value);
+    if (digits == DigitsOfNumber::general) text = printed("%.17g", value);
+    if (digits == DigitsOfNumber::fixed) text = printed("%.20f", value);
+    if (digits == DigitsOfNumber::hexadecimal) return printed("\"%a\"", value);
     return means(text, value) ? text : printed("%.40e", value);
   }
 
@@ -135,7 +136,7 @@ class Writer {
   }
 
   Random& random_;
-  Digits digits_;
+  DigitsOfNumber digits_;
   bool blanks_, shuffles_, escapes_;
 };
 
@@ -151,7 +152,7 @@ StreamItem read_here(const std::string& line, const Scene* scene) {
 
 std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
                                      const ReadLine& reader) {
-  Writer writer(random);
+  FreeJsonWriter writer(random);
   const std::string scene_line = writer.scene_line(scene),
                     query_line = writer.query_line(query, scene.dimension);
   const auto read = [&](const std::string& line, const Scene* known) {

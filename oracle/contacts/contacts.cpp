@@ -16,7 +16,7 @@ namespace {
 
 // An atom's obstacle, all lengths times one power of two.
 template <std::size_t D>
-struct Body {
+struct ContactBody {
   int lattice, atom;
   ZVec<D> position;
   bool ball;      // however it is written
@@ -46,7 +46,7 @@ Z reach_of(const Form<D>& shape) {
 template <std::size_t D>
 struct ExactLatticeBodies {
   Basis<D> reduced;
-  std::vector<Body<D>> bodies;
+  std::vector<ContactBody<D>> bodies;
 };
 
 template <std::size_t D>
@@ -63,7 +63,7 @@ std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
     reduce(result[l].reduced, EuclideanForm<D>{});
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const Atom& atom = lattice.atoms[a];
-      Body<D> body{
+      ContactBody<D> body{
           static_cast<int>(l), static_cast<int>(a), {}, false, {}, atom_shape<D>(atom, common.get())};
       for (std::size_t k = 0; k < D; ++k) body.position[k] = scaled(atom.position[k], common.get());
       const std::optional<Z> radius = ball_radius<D>(body.shape);
@@ -95,9 +95,9 @@ Basis<D> sum_of(const Basis<D>& first, const Basis<D>& second) {
 }
 
 // What a search may still look at.
-class Budget {
+class PairBudget {
  public:
-  explicit Budget(long steps) : steps_(steps) {}
+  explicit PairBudget(long steps) : steps_(steps) {}
   bool spend(long steps = 1) { return (steps_ -= steps) >= 0; }
   bool spent() const { return steps_ < 0; }
 
@@ -133,7 +133,7 @@ class FormLattice {
   // returns true, or the budget is spent. The outermost vector first: its multiples are those that leave the
   // point's part perpendicular to the vectors before it short enough.
   template <class Visit>
-  bool visit_near(const LatticePoint<D>& offset, const Z& bound, Budget& budget, Visit visit) const {
+  bool visit_near(const LatticePoint<D>& offset, const Z& bound, PairBudget& budget, Visit visit) const {
     return visit_level(D, offset, bound, budget, visit);
   }
 
@@ -149,7 +149,7 @@ class FormLattice {
   }
 
   template <class Visit>
-  bool visit_level(std::size_t level, const LatticePoint<D>& point, const Z& bound, Budget& budget,
+  bool visit_level(std::size_t level, const LatticePoint<D>& point, const Z& bound, PairBudget& budget,
                    Visit& visit) const {
     const Z length2 = form_(point, point);
     if (level == 0) return visit(point, length2);
@@ -196,7 +196,7 @@ struct Nearness {
 // Balls: |c| <= r1 + r2. Else F(1/2) <= 1 (ellipsoid_pair.cpp): c.(S1 + S2)^-1 c <= 2, which for S1 = S2 is
 // all of it.
 template <std::size_t D>
-Nearness<D> nearness_of(const Body<D>& a, const Body<D>& b) {
+Nearness<D> nearness_of(const ContactBody<D>& a, const ContactBody<D>& b) {
   if (a.ball && b.ball) return {identity<D>(), (a.reach + b.reach) * (a.reach + b.reach), true};
   Form<D> sum = a.shape;
   for (std::size_t i = 0; i < D; ++i)
@@ -228,14 +228,14 @@ class ContactSearch {
 
   void within(std::size_t l);
   void between(std::size_t l, std::size_t m);
-  void check_pair(const Body<D>& a, const Body<D>& b);
+  void check_pair(const ContactBody<D>& a, const ContactBody<D>& b);
   const FormLattice<D>& lattice_in(const Form<D>& q);
-  Relation relation(const Nearness<D>& near, const Body<D>& a, const Body<D>& b, const LatticePoint<D>& c,
-                    const Z& length2);
+  Relation relation(const Nearness<D>& near, const ContactBody<D>& a, const ContactBody<D>& b,
+                    const LatticePoint<D>& c, const Z& length2);
 
   std::vector<ExactLatticeBodies<D>> lattices_;
   std::size_t limit_;
-  Budget budget_;
+  PairBudget budget_;
   Contacts contacts_;
   Basis<D> differences_;                     // of the lattices looked at
   std::map<Form<D>, FormLattice<D>> forms_;  // the same, in the forms that came up
@@ -251,7 +251,7 @@ const FormLattice<D>& ContactSearch<D>::lattice_in(const Form<D>& q) {
 }
 
 template <std::size_t D>
-Relation ContactSearch<D>::relation(const Nearness<D>& near, const Body<D>& a, const Body<D>& b,
+Relation ContactSearch<D>::relation(const Nearness<D>& near, const ContactBody<D>& a, const ContactBody<D>& b,
                                     const LatticePoint<D>& c, const Z& length2) {
   constexpr long kPolynomialCost = 5;  // in pairs of balls, about
   if (near.sufficient) return length2 < near.bound ? Relation::overlap : Relation::touch;
@@ -260,7 +260,7 @@ Relation ContactSearch<D>::relation(const Nearness<D>& near, const Body<D>& a, c
 }
 
 template <std::size_t D>
-void ContactSearch<D>::check_pair(const Body<D>& a, const Body<D>& b) {
+void ContactSearch<D>::check_pair(const ContactBody<D>& a, const ContactBody<D>& b) {
   if (!budget_.spend()) return;
   const bool itself = &a == &b, one_lattice = a.lattice == b.lattice;
   LatticePoint<D> offset;
@@ -299,9 +299,9 @@ ZVec<3> dual(const Basis<3>& b, std::size_t i) {
 template <std::size_t D>
 class Boxes {
  public:
-  Boxes(const Basis<D>& basis, const std::vector<Body<D>>& bodies) {
+  Boxes(const Basis<D>& basis, const std::vector<ContactBody<D>>& bodies) {
     Z reach = 0;
-    for (const Body<D>& body : bodies) reach = std::max(reach, body.reach);
+    for (const ContactBody<D>& body : bodies) reach = std::max(reach, body.reach);
     const Z det = determinant<D>(basis), size = abs(det);
     const auto most = static_cast<long>(std::ceil(std::pow(static_cast<double>(bodies.size()), 1.0 / D)));
     std::array<ZVec<D>, D> across;
@@ -364,8 +364,8 @@ template <std::size_t D>
 void ContactSearch<D>::between(std::size_t l, std::size_t m) {
   differences_ = sum_of<D>(lattices_[l].reduced, lattices_[m].reduced);
   forms_.clear();
-  for (const Body<D>& a : lattices_[l].bodies)
-    for (const Body<D>& b : lattices_[m].bodies) {
+  for (const ContactBody<D>& a : lattices_[l].bodies)
+    for (const ContactBody<D>& b : lattices_[m].bodies) {
       if (done()) return;
       check_pair(a, b);
     }

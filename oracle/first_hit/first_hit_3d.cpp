@@ -47,16 +47,16 @@ class Solver {
   };
 
   // The planes of b1 and b2, and these two in coordinates of the plane.
-  struct Family {
+  struct PlaneFamily {
     Planes planes;
     std::array<PlanePoint, 2> pair;
-    Family(const Search<3>& search, const WindowBasis& basis)
+    PlaneFamily(const Search<3>& search, const WindowBasis& basis)
         : planes(search.velocity, search.rho2, basis[0], basis[1], basis[2]),
           pair{planes.in_plane(basis[0]), planes.in_plane(basis[1])} {}
   };
 
-  bool solve_plane(const Family& family, const Z& k3, Z low, Z high);
-  Section section_of(const Family& family, const Z& k3, const Z& low, const Z& high) const;
+  bool solve_plane(const PlaneFamily& family, const Z& k3, Z low, Z high);
+  Section section_of(const PlaneFamily& family, const Z& k3, const Z& low, const Z& high) const;
   void solve_rows(const Section& section);
   void solve_many_rows(const Planes& planes, const Section& section);
   Z jump_beyond(const Planes& planes, const Z& high) const;
@@ -69,7 +69,8 @@ class Solver {
   const Z rho_above_;  // rho rounded up
 };
 
-Solver::Section Solver::section_of(const Family& family, const Z& k3, const Z& low, const Z& high) const {
+Solver::Section Solver::section_of(const PlaneFamily& family, const Z& k3, const Z& low,
+                                   const Z& high) const {
   const Planes& planes = family.planes;
   const PlaneSection extent = planes.section(search_.view.offset, k3, low, high);
   Section section;
@@ -164,7 +165,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
 }
 
 // Returns true if the plane holds no more than what was found, at any s.
-bool Solver::solve_plane(const Family& family, const Z& k3, Z low, Z high) {
+bool Solver::solve_plane(const PlaneFamily& family, const Z& k3, Z low, Z high) {
   const Planes& planes = family.planes;
   const Z shortest = 2 * rho_above_;
   Z length = high - low;
@@ -204,7 +205,7 @@ void Solver::run() {
   const Velocity<3>& velocity = search_.velocity;
   const View<3>& view = search_.view;
   WindowBasis basis(velocity, view.basis);
-  std::optional<Family> family;
+  std::optional<PlaneFamily> family;
   // A window of about one free path, volume / (pi r^2).
   long j = std::max(0L, view.volume_bits - 3 * bit_length(view.radius) - 1);
   Z low = 1;

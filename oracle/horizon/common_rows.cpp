@@ -22,7 +22,7 @@ struct Product {
   Z determinant() const { return minor_of(x[0], x[1], x[2], x[3]); }
 };
 
-struct Form {
+struct LatticeForm {
   ZVec<4> weights;
 
   Z operator()(const Product& a, const Product& b) const {
@@ -104,7 +104,7 @@ std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, 
     largest = std::max(largest, most[i]);
   }
   // Lengths in which the box is nearly a cube, and the square of its half diagonal.
-  Form form;
+  LatticeForm form;
   Z bound2 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Z weight = ceil_div(16 * largest, most[i]);

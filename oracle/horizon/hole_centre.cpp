@@ -16,12 +16,12 @@ double quotient(const Z& a, const Z& b) {
 
 // Orthogonal axes of the plane. Lengths in units of the largest disc's radius; vectors of the plane as
 // integers, times 2^bits.
-struct Frame {
+struct HoleFrame {
   unsigned long bits;
   std::array<ZVec<3>, 2> axes;
   std::array<Z, 2> units;  ///< |axis| times the unit, times 2^bits
 
-  Frame(const Shadow& shadow, unsigned long fine_bits) : bits(fine_bits) {
+  HoleFrame(const Shadow& shadow, unsigned long fine_bits) : bits(fine_bits) {
     axes = {shadow.basis[0].p, cross(shadow.along, shadow.basis[0].p)};
     const Z r = shadow.discs[0].radius;
     for (int i : {0, 1})
@@ -56,9 +56,9 @@ struct Frame {
 
 // The discs around the start of a climb, times 2^bits; centres relative to the disc that the start is
 // relative to.
-struct Surroundings {
+struct HoleSurroundings {
   const Shadow& shadow;
-  Frame frame;
+  HoleFrame frame;
   std::vector<Disc> discs;
   std::vector<std::array<double, 3>> flat;  ///< x, y, radius of each
 
@@ -66,23 +66,23 @@ struct Surroundings {
   void sort_by_distance(double x, double y, double most = std::numeric_limits<double>::infinity());
 };
 
-void Surroundings::sort_by_distance(double x, double y, double most) {
-  struct Seen {
+void HoleSurroundings::sort_by_distance(double x, double y, double most) {
+  struct SeenDisc {
     double far;
     Disc disc;
     std::array<double, 3> flat;
   };
-  std::vector<Seen> seen;
+  std::vector<SeenDisc> seen;
   for (Disc& disc : discs) {
     const auto [disc_x, disc_y] = frame.coordinates(disc.centre);
     const double radius = quotient(disc.radius, shadow.discs[0].radius);
     const double far = std::hypot(disc_x - x, disc_y - y) - radius;
     if (far <= most) seen.push_back({far, std::move(disc), {disc_x, disc_y, radius}});
   }
-  std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.far < b.far; });
+  std::sort(seen.begin(), seen.end(), [](const SeenDisc& a, const SeenDisc& b) { return a.far < b.far; });
   discs.clear();
   flat.clear();
-  for (Seen& one : seen) {
+  for (SeenDisc& one : seen) {
     discs.push_back(std::move(one.disc));
     flat.push_back(one.flat);
   }
@@ -91,7 +91,7 @@ void Surroundings::sort_by_distance(double x, double y, double most) {
 // A place in the plane in binary64: quick, and near the discs' edges too coarse.
 class RoughPlace {
  public:
-  RoughPlace(const Surroundings& around, double x, double y) : around_(&around), x_(x), y_(y) {
+  RoughPlace(const HoleSurroundings& around, double x, double y) : around_(&around), x_(x), y_(y) {
     for (const auto& [disc_x, disc_y, radius] : around.flat) {
       const double dx = x - disc_x, dy = y - disc_y, length = std::sqrt(dx * dx + dy * dy);
       walls_.push_back({dx / length, dy / length, length - radius});
@@ -103,7 +103,7 @@ class RoughPlace {
   double y() const { return y_; }
 
  private:
-  const Surroundings* around_;
+  const HoleSurroundings* around_;
   double x_, y_;
   std::vector<Wall> walls_;
 };
@@ -111,8 +111,8 @@ class RoughPlace {
 // A place as integers: its distances from the discs' edges are right however small they are.
 class ExactPlace {
  public:
-  ExactPlace(const Surroundings& around, ZVec<3> place) : around_(&around), place_(std::move(place)) {
-    const Frame& frame = around.frame;
+  ExactPlace(const HoleSurroundings& around, ZVec<3> place) : around_(&around), place_(std::move(place)) {
+    const HoleFrame& frame = around.frame;
     const Z unit = shifted_left(around.shadow.discs[0].radius * around.shadow.along2, frame.bits + kMore);
     for (const Disc& disc : around.discs) {
       const auto [x, y] = frame.coordinates(minus(place_, disc.centre));
@@ -151,7 +151,7 @@ class ExactPlace {
             shifted_left(shadow.along2, bits), 0};
   }
 
-  const Surroundings* around_;
+  const HoleSurroundings* around_;
   ZVec<3> place_;
   std::vector<Wall> walls_;
   Z least_;
@@ -166,7 +166,7 @@ double clearance_at(const Place& place) {
 }
 
 // The clearance at a place if it is above `floor`, else something not above it.
-double rough_clearance(const Surroundings& around, double x, double y, double floor) {
+double rough_clearance(const HoleSurroundings& around, double x, double y, double floor) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [disc_x, disc_y, radius] : around.flat) {
     const double dx = x - disc_x, dy = y - disc_y;
@@ -178,7 +178,7 @@ double rough_clearance(const Surroundings& around, double x, double y, double fl
 
 // Hops to where there is more room, in ever smaller steps and over discs too: a hole may be wide far from the
 // start, or another one be wider.
-Step hop(const Surroundings& around, const Step& start, double limit) {
+Step hop(const HoleSurroundings& around, const Step& start, double limit) {
   constexpr int kWays = 24;
   Step place = start;
   double best = 0;
@@ -225,8 +225,8 @@ Place climb(Place place, double limit) {
 }
 
 // Nearest first.
-Surroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const Z& reach) {
-  Surroundings result{shadow, Frame(shadow, hole.bits), {}, {}};
+HoleSurroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const Z& reach) {
+  HoleSurroundings result{shadow, HoleFrame(shadow, hole.bits), {}, {}};
   ZVec<3> whole, point;
   for (std::size_t k = 0; k < 3; ++k) {
     whole[k] = hole.offset[k] >> hole.bits;
@@ -242,7 +242,7 @@ Surroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const 
 }
 
 // Back from X = x cross g: the projection is (g cross X) / g^2.
-Vec offset_of(const Frame& frame, double x, double y) {
+Vec offset_of(const HoleFrame& frame, double x, double y) {
   const auto first = frame.direction(0), second = frame.direction(1);
   Vec offset;
   for (int k = 0; k < 3; ++k) offset[k] = x * second[k] - y * first[k];
@@ -252,7 +252,7 @@ Vec offset_of(const Frame& frame, double x, double y) {
 // Of one disc and its translates the point is the one furthest from all centres already, and its distance
 // from them the circumradius of 0, b1, b2: |b1| |b2| |b1 - b2| / (4 area |g|).
 HoleCentre centre_of_largest(const Shadow& shadow, const HolePoint& hole) {
-  const Frame frame(shadow, hole.bits);
+  const HoleFrame frame(shadow, hole.bits);
   const auto [x, y] = frame.coordinates(hole.offset);
   const ZVec<3>&b1 = shadow.basis[0].p, b2 = shadow.basis[1].p;
   const Z g11 = dot(b1, b1), g12 = dot(b1, b2), g22 = dot(b2, b2), g33 = g11 + g22 - 2 * abs(g12);
@@ -269,7 +269,7 @@ HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
           b22 = dot(shadow.basis[1].p, shadow.basis[1].p);
   const Z reach = 2 * ceil_sqrt(ceil_div(2 * (b11 + b22), shadow.along2)) + 2 * r;
   const double limit = quotient(reach, r) / 3;
-  Surroundings around = surroundings_of(shadow, hole, reach);
+  HoleSurroundings around = surroundings_of(shadow, hole, reach);
   const auto [x, y] = around.frame.coordinates(hole.offset);
   const Step hopped = hop(around, {x, y}, limit);
   const RoughPlace rough = climb(RoughPlace(around, hopped.x, hopped.y), limit);

@@ -88,19 +88,19 @@ Ball::Exact Ball::exact_middle() const {
 
 Ball Ball::lower() const {
   Ball result;
-  arb_get_lbound_arf(arb_midref(result.value_), value_, Precision::now());
+  arb_get_lbound_arf(arb_midref(result.value_), value_, WorkingPrecision::now());
   return result;
 }
 
 Ball Ball::upper() const {
   Ball result;
-  arb_get_ubound_arf(arb_midref(result.value_), value_, Precision::now());
+  arb_get_ubound_arf(arb_midref(result.value_), value_, WorkingPrecision::now());
   return result;
 }
 
 std::optional<std::string> certain_decimal(const Ball& a, int digits) {
   constexpr double kBitsADigit = 3.33;
-  const Ball::Precision enough(static_cast<long>(kBitsADigit * digits) + 64);
+  const Ball::WorkingPrecision enough(static_cast<long>(kBitsADigit * digits) + 64);
   if (!a.is_finite()) return std::nullopt;
   if (!a.is_positive() && !a.is_negative()) {
     if (a.is_exact()) return "0";

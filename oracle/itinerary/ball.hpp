@@ -62,11 +62,11 @@ class Bound {
 class Ball {
  public:
   /// Sets the precision of all operations of this thread, in bits, while it lives.
-  class Precision {
+  class WorkingPrecision {
    public:
-    explicit Precision(long bits) : before_(bits_) { bits_ = bits; }
-    ~Precision() { bits_ = before_; }
-    Precision(const Precision&) = delete;
+    explicit WorkingPrecision(long bits) : before_(bits_) { bits_ = bits; }
+    ~WorkingPrecision() { bits_ = before_; }
+    WorkingPrecision(const WorkingPrecision&) = delete;
     static long now() { return bits_; }
 
    private:
@@ -101,22 +101,22 @@ class Ball {
 
   friend Ball operator+(const Ball& a, const Ball& b) {
     Ball c;
-    arb_add(c.value_, a.value_, b.value_, Precision::now());
+    arb_add(c.value_, a.value_, b.value_, WorkingPrecision::now());
     return c;
   }
   friend Ball operator-(const Ball& a, const Ball& b) {
     Ball c;
-    arb_sub(c.value_, a.value_, b.value_, Precision::now());
+    arb_sub(c.value_, a.value_, b.value_, WorkingPrecision::now());
     return c;
   }
   friend Ball operator*(const Ball& a, const Ball& b) {
     Ball c;
-    arb_mul(c.value_, a.value_, b.value_, Precision::now());
+    arb_mul(c.value_, a.value_, b.value_, WorkingPrecision::now());
     return c;
   }
   friend Ball operator/(const Ball& a, const Ball& b) {
     Ball c;
-    arb_div(c.value_, a.value_, b.value_, Precision::now());
+    arb_div(c.value_, a.value_, b.value_, WorkingPrecision::now());
     return c;
   }
   friend Ball operator-(const Ball& a) {
@@ -126,12 +126,12 @@ class Ball {
   }
   friend Ball square(const Ball& a) {
     Ball c;
-    arb_sqr(c.value_, a.value_, Precision::now());
+    arb_sqr(c.value_, a.value_, WorkingPrecision::now());
     return c;
   }
   friend Ball sqrt(const Ball& a) {
     Ball c;
-    arb_sqrt(c.value_, a.value_, Precision::now());
+    arb_sqrt(c.value_, a.value_, WorkingPrecision::now());
     return c;
   }
   /// a 2^exponent
@@ -141,11 +141,11 @@ class Ball {
     return c;
   }
   Ball& operator+=(const Ball& b) {
-    arb_add(value_, value_, b.value_, Precision::now());
+    arb_add(value_, value_, b.value_, WorkingPrecision::now());
     return *this;
   }
   Ball& add_product(const Ball& a, const Ball& b) {
-    arb_addmul(value_, a.value_, b.value_, Precision::now());
+    arb_addmul(value_, a.value_, b.value_, WorkingPrecision::now());
     return *this;
   }
 

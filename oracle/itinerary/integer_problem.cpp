@@ -85,7 +85,7 @@ BallVec<2> turned(const Rational& degrees) {
   fmpz_set_mpz(fmpq_denref(half_turns), Z(180 * ratio.denominator).view());
   fmpq_canonicalise(half_turns);
   BallVec<2> direction;
-  arb_sin_cos_pi_fmpq(direction[1].raw(), direction[0].raw(), half_turns, Ball::Precision::now());
+  arb_sin_cos_pi_fmpq(direction[1].raw(), direction[0].raw(), half_turns, Ball::WorkingPrecision::now());
   fmpq_clear(half_turns);
   return direction;
 }
@@ -104,7 +104,7 @@ namespace {
 // Rounded twice if there is a root, which hardly ever shows.
 double nearest_surd(const Surd& number) {
   if (!number.root) return oracle::nearest(number.shift);
-  const Ball::Precision precision(256);
+  const Ball::WorkingPrecision precision(256);
   return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))).nearest();
 }
 
@@ -131,7 +131,7 @@ Query nearest(const Start& start) {
   Query query{nearest_vec(start.x), {}, start.from};
   for (std::size_t i = 0; i < 3; ++i) query.v[i] = nearest_surd(start.v[i]);
   if (start.degrees) {
-    const Ball::Precision precision(256);
+    const Ball::WorkingPrecision precision(256);
     const BallVec<2> direction = turned(*start.degrees);
     query.v = {direction[0].nearest(), direction[1].nearest(), 0};
   }

@@ -24,7 +24,7 @@ Bound largest_size(const BallVec<D>& a) {
 
 template <std::size_t D>
 Passage<D>::Passage(Route<D>& route, long bits) : route_(route), bits_(bits), from_(route.start.from) {
-  const Ball::Precision precision(bits);
+  const Ball::WorkingPrecision precision(bits);
   const BallVec<D> v = velocity_of<D>(route.start, route.problem.unit);
   const Bound size = largest_size<D>(v);
   if (size.is_zero()) throw InputError("v: is zero");
@@ -45,7 +45,7 @@ Passage<D>::Passage(Route<D>& route, long bits) : route_(route), bits_(bits), fr
 template <std::size_t D>
 bool Passage<D>::go() {
   for (;;) {
-    const Ball::Precision precision(working_bits());
+    const Ball::WorkingPrecision precision(working_bits());
     const bool is_stopped = route_.journey.stop && *route_.journey.stop;
     const Step result = is_stopped ? Step::lost : step();
     if (result == Step::done) continue;
@@ -112,7 +112,7 @@ typename Passage<D>::Step Passage<D>::collide_with(const ObstacleId& obstacle) {
 template <std::size_t D>
 std::optional<Collision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre, const Form<D>& form) const {
   const auto with_bits = [&](long bits) {
-    const Ball::Precision precision(bits);
+    const Ball::WorkingPrecision precision(bits);
     State<D> state = state_;
     for (std::size_t i = 0; i < D; ++i) {
       state.y[i] = (state.y[i] + Ball(centre_[i] - centre[i])).widened(box_.width_of(static_cast<int>(i)));
@@ -121,13 +121,13 @@ std::optional<Collision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre
     return collide(state, form);
   };
   auto result = with_bits(kDerivativeBits);
-  return result ? result : with_bits(std::max(kDerivativeBits, Ball::Precision::now()));
+  return result ? result : with_bits(std::max(kDerivativeBits, Ball::WorkingPrecision::now()));
 }
 
 template <std::size_t D>
 typename ErrorBox<Passage<D>::N>::Matrix Passage<D>::derivative_of(const Collision<D>& anywhere,
                                                                    const Form<D>& form) const {
-  const Ball::Precision precision(kDerivativeBits);
+  const Ball::WorkingPrecision precision(kDerivativeBits);
   typename ErrorBox<N>::Matrix result;
   for (int k = 0; k < N; ++k) {
     State<D> change;
@@ -153,7 +153,7 @@ void Passage<D>::move_on(const Collision<D>& middle, const typename ErrorBox<N>:
   }
   rounding[kTime] = middle.after.t.radius();
   state_.t = middle.after.t.middle();
-  const Ball::Precision precision(kDerivativeBits);
+  const Ball::WorkingPrecision precision(kDerivativeBits);
   if (derivative)
     box_.advance(*derivative, rounding);
   else

@@ -16,7 +16,7 @@ class Rounded final : public RoundedItinerary::Impl {
  public:
   Rounded(const RationalScene& scene, const Start& start, long bits)
       : problem_(scene, start), sight_(problem_.scene), bits_(bits), from_(start.from) {
-    const Ball::Precision precision(bits);
+    const Ball::WorkingPrecision precision(bits);
     const BallVec<D> v = velocity_of<D>(start, problem_.unit);
     for (std::size_t i = 0; i < D; ++i) {
       state_.y[i] = rounded(Ball(problem_.x[i]));
@@ -26,7 +26,7 @@ class Rounded final : public RoundedItinerary::Impl {
   }
 
   std::optional<ObstacleId> next() override {
-    const Ball::Precision precision(bits_);
+    const Ball::WorkingPrecision precision(bits_);
     const auto next = sight_.next({centre_, state_, {}, {}, from_});
     const auto* obstacle = std::get_if<ObstacleId>(&next);
     if (!obstacle) return std::nullopt;

@@ -170,7 +170,8 @@ template <std::size_t D>
 std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
   if (seen.is_exact()) return next_exactly(seen);
   if (seen.place_is_exact() && smallest_around(exact_, exact_ray(seen))) return Unseen::around;
-  const long finest = std::max(kUsual, Ball::Precision::now());  // a state of so many bits allows no more
+  const long finest =
+      std::max(kUsual, Ball::WorkingPrecision::now());  // a state of so many bits allows no more
   long level = kUsual;
   for (bool coarser = false, finer = false; level <= finest;) {
     const auto result = next_at(seen, level);
@@ -195,7 +196,7 @@ std::variant<ObstacleId, Unseen> Sight<D>::next_exactly(const Seen<D>& seen) con
 template <std::size_t D>
 std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(const Seen<D>& seen,
                                                                              long level) {
-  const Ball::Precision precision(kDecisionBits + level);
+  const Ball::WorkingPrecision precision(kDecisionBits + level);
   const Bound allowed = Bound::power_of_two(-level) * least_radius_;
   const Bound y_error = sum<D>(seen.y_error), v_error = sum<D>(seen.v_error);
   for (long bits = 2 * level + 16 - std::min(0L, least_radius_.exponent());;) {

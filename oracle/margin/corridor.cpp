@@ -15,11 +15,11 @@ constexpr int kCoefficients = D == 2 ? 16 : 4;
 
 // v and its ulps as integers.
 template <std::size_t D>
-struct Box {
+struct CorridorBox {
   ZVec<D> v, ulp;
   double k;
 
-  Box(const PerturbedQuery<D>& perturbed, double ulps) : k(ulps) {
+  CorridorBox(const PerturbedQuery<D>& perturbed, double ulps) : k(ulps) {
     for (std::size_t i = 0; i < D; ++i) {
       v[i] = shifted_left(perturbed.query().velocity.v[i], kFiner);
       ulp[i] = ceiling(times_power_of_two(perturbed.ulps().v[i], kFiner));
@@ -181,7 +181,7 @@ class CorridorSearch {
   static constexpr long kSharp = 50;  // an angle of 2^-50 counts as much as the length
 
   const PerturbedQuery<D>& query_;
-  const Box<D> box_;
+  const CorridorBox<D> box_;
   const double ulps_;
 };
 

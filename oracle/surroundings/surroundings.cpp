@@ -20,9 +20,9 @@ double rounded(const Real& a) {
 }
 
 template <std::size_t D>
-class Sight {
+class SightLine {
  public:
-  Sight(const ExactScene<D>& scene, const Query& query) : scene_(scene), query_(scene, query, kFiner) {}
+  SightLine(const ExactScene<D>& scene, const Query& query) : scene_(scene), query_(scene, query, kFiner) {}
 
   double way(const PlaceOnLine& from, const PlaceOnLine& to) const {
     const Real length = (time_of(to) - time_of(from)) * sqrt(real(query_.velocity.v2));
@@ -112,8 +112,8 @@ struct Surroundings::Impl {
 
   template <class Work>
   auto with(const Query& query, const Work& work) const {
-    return std::visit([&]<std::size_t D>(const ExactScene<D>& exact) { return work(Sight<D>(exact, query)); },
-                      scene);
+    return std::visit(
+        [&]<std::size_t D>(const ExactScene<D>& exact) { return work(SightLine<D>(exact, query)); }, scene);
   }
 };
 

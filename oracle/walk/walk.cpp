@@ -48,7 +48,7 @@ struct Hit {
   Index n;
 };
 
-enum class End { done, gave_up };
+enum class WalkEnd { done, gave_up };
 
 // One atom's lattice seen by the ray.
 class AtomWalk {
@@ -98,7 +98,7 @@ class AtomWalk {
   }
 
   // Obstacles entered from `limit` on, if there is one, may be ignored.
-  End walk(std::int64_t max_cells, const std::optional<Ratio>& limit, std::optional<Hit>& best) const {
+  WalkEnd walk(std::int64_t max_cells, const std::optional<Ratio>& limit, std::optional<Hit>& best) const {
     Index n = home_;
     around(n, -1, 0, [&](const Index& m) { test(m, best); });
     Index first_crossing{};
@@ -107,8 +107,8 @@ class AtomWalk {
       const int axis = next_axis(n);
       const int sign = W_[axis] > Real(0) ? 1 : -1;
       const Ratio end = leaving(n, axis);
-      if (limit && end >= *limit) return End::done;
-      if (best && CGAL::compare(Root(end), best->time) != CGAL::SMALLER) return End::done;
+      if (limit && end >= *limit) return WalkEnd::done;
+      if (best && CGAL::compare(Root(end), best->time) != CGAL::SMALLER) return WalkEnd::done;
       n[axis] += sign;
       around(n, axis, sign, [&](const Index& m) { test(m, best); });
       // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing
@@ -118,10 +118,10 @@ class AtomWalk {
         first_crossing = n;
       } else if (axis == first_axis && is_along_flight(n, first_crossing)) {
         first_crossing = n;
-        if (++returns == 2 && !best) return End::done;
+        if (++returns == 2 && !best) return WalkEnd::done;
       }
     }
-    return End::gave_up;
+    return WalkEnd::gave_up;
   }
 
  private:
@@ -286,7 +286,7 @@ Answer Walk::first_hit(const Query& query, double max_time) const {
   if (std::isfinite(max_time)) limit = Ratio(Real(max_time));
   std::optional<Hit> best;
   for (const AtomWalk& walk : walks)
-    if (walk.walk(max_cells_, limit, best) == End::gave_up) return Answer::undecided();
+    if (walk.walk(max_cells_, limit, best) == WalkEnd::gave_up) return Answer::undecided();
   if (limit && !(best && CGAL::compare(best->time, Root(*limit)) == CGAL::SMALLER)) return Answer::later();
   if (!best) return Answer::never();
   return Answer::hit({best->lattice, best->atom, to_cell(best->n)}, rounded(best->time));

@@ -1,23 +1,13 @@
 // The table of all engines: their names, which scenes are beyond them, how they are made.
 #include <lorentz/engine.hpp>
 #include <lorentz/reduction.hpp>
+#include "src/engines/base/unsupported.hpp"
 #include "src/engines/classical/cell_walk.hpp"
 #include "src/engines/classical/classical.hpp"
 #include "src/engines/published/published.hpp"
 
 namespace lorentz {
 namespace {
-
-class Unsupported : public Engine {
- public:
-  Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
-
- private:
-  void first_hit_scaled(const Ray&, double, Answer& answer) const override {
-    answer = Answer::unsupported_because(why_);
-  }
-  std::string why_;
-};
 
 // One ball in the middle of each unit cell, and nothing of any other in it.
 bool is_one_ball_a_cell(const Scene& scene) {
@@ -39,13 +29,13 @@ std::unique_ptr<Engine> make(const Scene& scene) {
 }
 
 // All engines: name, why a scene is beyond it (or nothing), and how it is made.
-struct Entry {
+struct EngineEntry {
   const char* name;
   std::optional<std::string> (*beyond)(const Scene&);
   std::unique_ptr<Engine> (*make)(const Scene&);
 };
 
-constexpr Entry kEngines[] = {
+constexpr EngineEntry kEngines[] = {
     {"classical", beyond_classical, make_classical},
     {"published", Published::beyond, make<Published>},
     {"reduction", Reduction::beyond, make<Reduction>},
@@ -55,12 +45,12 @@ constexpr Entry kEngines[] = {
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names;
-  for (const Entry& entry : kEngines) names.push_back(entry.name);
+  for (const EngineEntry& entry : kEngines) names.push_back(entry.name);
   return names;
 }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
-  for (const Entry& entry : kEngines) {
+  for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;
     if (auto why = entry.beyond(scene))
       return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);

@@ -26,7 +26,7 @@ struct Inside {
   }
   template <class Outer, class Inner>
   static Outer in(const Inner& inner) {
-    static_assert(sizeof(Inner) <= sizeof(Place) && alignof(Inner) <= alignof(Place));
+    static_assert(sizeof(Inner) <= sizeof(Handle) && alignof(Inner) <= alignof(Handle));
     static_assert(std::is_trivially_copyable_v<Inner> && std::is_trivially_destructible_v<Inner>);
     Outer outer;
     new (outer.inside_.data()) Inner(inner);

@@ -40,22 +40,22 @@ struct Error : std::runtime_error {
 enum class Type { array, object, number, string, boolean, null };
 
 /// A value of a simdjson On-Demand document, which must be there: small, and copied like a pointer.
-class Place {
+class Handle {
  protected:
   friend struct Inside;
   alignas(void*) std::array<std::byte, 3 * sizeof(void*)> inside_{};
 };
 
-class Array : public Place {};
+class Array : public Handle {};
 
-class Object : public Place {
+class Object : public Handle {
  public:
   class Value operator[](const char* key);  ///< wherever it stands; throws Error if it is not there
   std::string_view text();                  ///< as it stands in the document
 };
 
 /// All but type() and is_null() throw Error if the value is of another type; each may be called once.
-class Value : public Place {
+class Value : public Handle {
  public:
   Type type();
   bool is_null();

@@ -246,7 +246,7 @@ TEST_CASE("Of the causes of a campaign's findings what is wrong comes first", "[
   findings.push_back(findings.back());
   findings.back().finding.cause = "another cause";
   std::vector<std::string> names;
-  for (const cli::Cause& cause : cli::causes_of(findings)) names.push_back(cause.name);
+  for (const cli::FindingCause& cause : cli::causes_of(findings)) names.push_back(cause.name);
   CHECK(names ==
         std::vector<std::string>{"another cause", "wrong", "wrong time", "error", "undecided", "slow"});
 }

@@ -331,7 +331,7 @@ TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers
 TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the time itself",
           "[fuzz][rewording]") {
   constexpr std::uint64_t kOther = 1303;
-  std::map<fuzz::LimitAt::Place, int> met, later;
+  std::map<fuzz::LimitAt::Side, int> met, later;
   for (const cases::Target& target : cases::targets())
     for (std::uint64_t index = 0; index < 64; ++index) {
       const cases::Case one = target.make(kOther, index);

@@ -7,9 +7,9 @@ from collections import defaultdict
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
-NOT_OURS = {"tests", "bench", "examples", "build"}
+NOT_OURS = ("tests", "bench", "examples", "build")
 # Names that two files may define: each is another thing in another room.
-MOST_SHARED_NAMES = 94
+MOST_SHARED_NAMES = 51
 TYPE = re.compile(r"^\s*(?:struct|class|enum class|enum|union)\s+(?:\[\[\w+\]\]\s+)?(\w+)(?:\s+final)?\s*(?::[^:;{]*)?\{", re.MULTILINE)
 # A key of JSON with a value put behind it: `"{\"id\":" + id`, `",\"x\":{}"`.
 GLUED = re.compile(r'\\"\w+\\":(?:"|\{\}|\[\{\}|\\"\{)')
@@ -19,7 +19,7 @@ TEXTS_OF_THEIR_OWN = {"cases/bad_queries.cpp",  # bad on purpose
 
 def sources():
     for path in sorted(SOURCE.rglob("*")):
-        if path.suffix in (".cpp", ".hpp") and not NOT_OURS & set(path.relative_to(SOURCE).parts[:-1]):
+        if path.suffix in (".cpp", ".hpp") and not path.relative_to(SOURCE).parts[0].startswith(NOT_OURS):
             yield path.relative_to(SOURCE).as_posix(), re.sub(r"//[^\n]*", "", path.read_text())
 
 

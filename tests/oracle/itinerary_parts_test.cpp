@@ -74,7 +74,7 @@ namespace {
 // what the collision makes of it.
 template <std::size_t D>
 void check_derivative(const ExactAtom<D>& atom, const State<D>& state) {
-  const Ball::Precision precision(600);
+  const Ball::WorkingPrecision precision(600);
   const Form<D> form(atom);
   const auto before = collide(state, form);
   REQUIRE(before);

@@ -78,13 +78,13 @@ struct From {
 };
 
 // A place: from the lattice point of its cell.
-struct Place {
+struct CellPlace {
   Vec x;
   CellIndex n{};
 };
 
 struct Walked {
-  enum class End { entered, nothing, gave_up } end;
+  enum class CellWalkEnd { entered, nothing, gave_up } end;
   double time = 0;  // of the entry, or how far it got
   ObstacleId obstacle;
 };
@@ -102,20 +102,20 @@ struct CellWalk::CellLattice {
   std::optional<std::string> beyond() const;
 
   // How an atom's obstacle lies about: for each axis the cells of those that reach into the cell.
-  struct Range {
+  struct CellRange {
     CellIndex first{}, last{};
     double count = 1;
   };
-  std::optional<std::string> range_of(const Atom& atom, Range& range) const;
+  std::optional<std::string> range_of(const Atom& atom, CellRange& range) const;
   double scaled(double length) const { return std::scalbn(length, -exponent); }
   Vec scaled(const Vec& a) const { return {scaled(a[0]), scaled(a[1]), scaled(a[2])}; }
   std::array<Vec, 3> scaled_axes(const Atom& atom) const;
 
   void list(const std::vector<Atom>& atoms);
   Vec relative(const Vec& x, const Vec& n) const;
-  std::optional<Place> home_of(const Vec& x) const;
-  const Obstacle* around(const Place& place, const From& from) const;
-  Walked walk(Place place, const Vec& v, const From& from, double limit) const;
+  std::optional<CellPlace> home_of(const Vec& x) const;
+  const Obstacle* around(const CellPlace& place, const From& from) const;
+  Walked walk(CellPlace place, const Vec& v, const From& from, double limit) const;
   ObstacleId id_of(const Obstacle& obstacle, const CellIndex& cell) const;
 };
 
@@ -151,7 +151,7 @@ std::array<Vec, 3> CellWalk::CellLattice::scaled_axes(const Atom& atom) const {
 
 // Of n in |y_i(position) + n_i| <= 1/2 + reach_i; the reach along dual_i is the obstacle's support |A^T
 // dual_i|.
-std::optional<std::string> CellWalk::CellLattice::range_of(const Atom& atom, Range& range) const {
+std::optional<std::string> CellWalk::CellLattice::range_of(const Atom& atom, CellRange& range) const {
   const std::array<Vec, 3> axes = scaled_axes(atom);
   const OwnCoordinates own = atom.is_ball() ? OwnCoordinates{} : dual_of(axes, dimension);
   const double radius = scaled(atom.radius);
@@ -182,7 +182,7 @@ std::optional<std::string> CellWalk::beyond(const Scene& scene) {
     const CellLattice lattice(scene, l);
     if (auto why = lattice.beyond()) return why;
     for (const Atom& atom : scene.lattices[l].atoms) {
-      CellLattice::Range range;
+      CellLattice::CellRange range;
       if (auto why = lattice.range_of(atom, range)) return why;
       count += range.count;
     }
@@ -195,7 +195,7 @@ std::optional<std::string> CellWalk::beyond(const Scene& scene) {
 void CellWalk::CellLattice::list(const std::vector<Atom>& atoms) {
   own_coordinates.reserve(atoms.size());  // the obstacles point there
   for (int a = 0; a < static_cast<int>(atoms.size()); ++a) {
-    Range range;
+    CellRange range;
     range_of(atoms[a], range);
     const OwnCoordinates* own = nullptr;
     if (!atoms[a].is_ball()) own = &own_coordinates.emplace_back(dual_of(scaled_axes(atoms[a]), dimension));
@@ -222,7 +222,7 @@ Vec CellWalk::CellLattice::relative(const Vec& x, const Vec& n) const {
 }
 
 // The cell that holds x, whose walls belong to the next one; nothing if that is too far from the origin.
-std::optional<Place> CellWalk::CellLattice::home_of(const Vec& x) const {
+std::optional<CellPlace> CellWalk::CellLattice::home_of(const Vec& x) const {
   Vec rest = x, n{};
   for (int pass = 0; pass < 3; ++pass) {  // far off, the first coordinates may be wrong by a few cells
     for (int i = 0; i < dimension; ++i) {
@@ -231,13 +231,13 @@ std::optional<Place> CellWalk::CellLattice::home_of(const Vec& x) const {
     }
     rest = relative(x, n);
   }
-  Place place{rest};
+  CellPlace place{rest};
   for (int i = 0; i < dimension; ++i) place.n[i] = static_cast<std::int64_t>(n[i]);
   return place;
 }
 
 // The first in the order of (atom, n) that contains the place.
-const Obstacle* CellWalk::CellLattice::around(const Place& place, const From& from) const {
+const Obstacle* CellWalk::CellLattice::around(const CellPlace& place, const From& from) const {
   for (const Obstacle& obstacle : obstacles)
     if (obstacle.contains(place.x) && !from.is(obstacle, place.n)) return &obstacle;
   return nullptr;
@@ -251,7 +251,7 @@ ObstacleId CellWalk::CellLattice::id_of(const Obstacle& obstacle, const CellInde
   return id;
 }
 
-Walked CellWalk::CellLattice::walk(Place place, const Vec& v, const From& from, double limit) const {
+Walked CellWalk::CellLattice::walk(CellPlace place, const Vec& v, const From& from, double limit) const {
   const Vec w = coordinates(dual, v);
   double elapsed = 0, fastest = 0;
   for (int i = 0; i < dimension; ++i) fastest = std::max(fastest, std::fabs(w[i]));
@@ -272,14 +272,14 @@ Walked CellWalk::CellLattice::walk(Place place, const Vec& v, const From& from, 
       if (time && *time >= 0 && *time < first && !from.is(obstacle, place.n))
         first = *time, entered = &obstacle;
     }
-    if (entered) return {Walked::End::entered, elapsed + first, id_of(*entered, place.n)};
+    if (entered) return {Walked::CellWalkEnd::entered, elapsed + first, id_of(*entered, place.n)};
     const int step = w[axis] > 0 ? 1 : -1;
     for (int k = 0; k < dimension; ++k) place.x[k] = (place.x[k] + to_wall * v[k]) - step * vectors[axis][k];
     place.n[axis] += step;
     elapsed += to_wall;
-    if (elapsed > limit) return {Walked::End::nothing, elapsed, {}};
+    if (elapsed > limit) return {Walked::CellWalkEnd::nothing, elapsed, {}};
   }
-  return {Walked::End::gave_up, elapsed, {}};
+  return {Walked::CellWalkEnd::gave_up, elapsed, {}};
 }
 
 CellWalk::CellWalk(const Scene& scene) : Engine(scene) {
@@ -305,12 +305,12 @@ void CellWalk::first_hit_scaled(const Ray& ray, double max_time, Answer& answer)
   double best = max_time, given_up = std::numeric_limits<double>::infinity();
   answer = Answer::never();  // before max_time, that is
   for (const CellLattice& lattice : lattices_) {
-    const Place home = *lattice.home_of(lattice.scaled(ray.x));
+    const CellPlace home = *lattice.home_of(lattice.scaled(ray.x));
     const double limit = lattice.scaled(best);
     Walked walked = lattice.walk(home, ray.v, From(ray.from, lattice.index), limit);
     const double time = std::scalbn(walked.time, lattice.exponent);
-    if (walked.end == Walked::End::gave_up) given_up = std::min(given_up, time);
-    if (walked.end != Walked::End::entered || !(time < best)) continue;
+    if (walked.end == Walked::CellWalkEnd::gave_up) given_up = std::min(given_up, time);
+    if (walked.end != Walked::CellWalkEnd::entered || !(time < best)) continue;
     best = time;
     answer = Answer::hit(std::move(walked.obstacle), time);
   }

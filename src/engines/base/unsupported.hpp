@@ -1,0 +1,23 @@
+// The engine of a scene that is beyond the one that was asked for.
+#pragma once
+
+#include <string>
+
+#include <lorentz/engine_base.hpp>
+
+namespace lorentz {
+
+/// Answers every valid query with `unsupported`, and why.
+class Unsupported final : public Engine {
+ public:
+  Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}
+
+ private:
+  void first_hit_scaled(const Ray&, double, Answer& answer) const override {
+    answer = Answer::unsupported_because(why_);
+  }
+
+  const std::string why_;
+};
+
+}  // namespace lorentz
