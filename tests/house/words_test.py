@@ -34,6 +34,19 @@ class Words(unittest.TestCase):
         listed = "\n".join(f"{word}: {', '.join(where)}" for word, where in sorted(shared.items()))
         self.assertLessEqual(len(shared), MOST_SHARED_NAMES, listed)
 
+    def test_the_glossary_s_types_are_there(self):
+        table = (SOURCE / "CONTRIBUTING.md").read_text().partition("## Words")[2].partition("\n## ")[0]
+        rows = re.findall(r"^\| ([a-z' ]+) \| [^|]+ \| `([\w:]+)` \|$", table, re.MULTILINE)
+        self.assertGreater(len(rows), 35)
+        self.assertEqual(len(rows), table.count("\n| ") - 1, "a row is not as the others are")
+        for column in zip(*rows):
+            self.assertEqual(len(set(column)), len(rows))
+        code = "\n".join(text for _, text in sources())
+        for _, name in rows:
+            room, _, word = name.rpartition("::")
+            self.assertRegex(code, rf"\b(?:struct|class|enum class) {word}\b|\busing {word} = ", name)
+            self.assertTrue(not room or f"namespace lorentz::{room} {{" in code, name)
+
     def test_json_is_written_in_one_place(self):
         self.assertTrue(GLUED.search(r'out += "{\"id\":" + id'))
         glued = [f"{name}: {found}" for name, text in sources() if name not in TEXTS_OF_THEIR_OWN for found in GLUED.findall(text)]
