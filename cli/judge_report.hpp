@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/judge_paths.hpp"
-#include "judge/examination.hpp"
 #include "compare/engines.hpp"
+#include "judge/examination.hpp"
 
 namespace lorentz::cli {
 

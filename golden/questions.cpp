@@ -11,13 +11,13 @@ compare::Source questions_of(Reader& reader) {
     scene = reader.scene_number();
     Record& record = read.record;
     return compare::Question{.place = place,
-                    .query = read.query.value_or(Query()),
-                    .exact = std::move(record.expect),
-                    .where = record.id,
-                    .text = read.query ? "" : std::move(record.question),
-                    .id = json_quoted(record.id),
-                    .tags = std::move(record.tags),
-                    .margin = record.margin};
+                             .query = read.query.value_or(Query()),
+                             .exact = std::move(record.expect),
+                             .where = record.id,
+                             .text = read.query ? "" : std::move(record.question),
+                             .id = json_quoted(record.id),
+                             .tags = std::move(record.tags),
+                             .margin = record.margin};
   };
 }
 

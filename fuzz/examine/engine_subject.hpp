@@ -6,8 +6,8 @@
 
 #include <lorentz/reduction.hpp>
 #include "compare/answerer.hpp"
-#include "fuzz/examine/subject.hpp"
 #include "compare/engines.hpp"
+#include "fuzz/examine/subject.hpp"
 
 namespace lorentz::fuzz {
 
