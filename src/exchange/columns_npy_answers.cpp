@@ -25,7 +25,8 @@ void NpyAnswerReader::refuse(const std::string& what) const {
 
 const NpyField& NpyAnswerReader::field(const char* name, std::size_t numbers) const {
   for (const NpyField& field : header_.fields) {
-    const bool is_number = field.kind == 'i' || field.kind == 'u' || field.kind == 'f';
+    const bool is_number = (field.kind == 'i' || field.kind == 'u' || field.kind == 'f') &&
+                           (field.bytes == 1 || field.bytes == 2 || field.bytes == 4 || field.bytes == 8);
     if (header_.structured && field.name == name && is_number && field.count() == numbers) return field;
   }
   refuse(std::string("has no field ") + name + " of that kind");

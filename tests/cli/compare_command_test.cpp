@@ -407,6 +407,11 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   refuses(run(folder.write("q", kScene + kGood), npy.answers), 2, "--queries needs columns, too");
   refuses(run(npy.queries, npy.queries), 2, "has no field outcome");
   refuses(run(csv.queries, npy.answers), 2, "no answer matches any query");
+  const std::string wide =
+      "[('outcome', '<i16'), ('lattice', '<i4'), ('atom', '<i4'), ('cell', '<i8', (2,)), ('time', '<f8')]";
+  refuses(run(npy.queries,
+              folder.write("wide.npy", npy_file(npy_dictionary(wide, "(1,)"), std::string(48, '\1')))),
+          2, "wide.npy");
   std::string cut = folder.read("a.npy");
   cut.resize(cut.size() - 40);
   refuses(run(npy.queries, folder.write("cut.npy", cut)), 2, "2 of 5 rows are missing");
