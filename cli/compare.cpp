@@ -1,7 +1,5 @@
 // lorentz compare: engines, and answers logged elsewhere, against the oracle.
 #include <map>
-#include <span>
-#include <unordered_set>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -11,13 +9,10 @@
 #include "cli/exit_status.hpp"
 #include "cli/logged_answers.hpp"
 #include "cli/messages.hpp"
-#include "cli/query_stream.hpp"
 #include "cli/reason.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
-#include "compare/sampling.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -139,7 +134,6 @@ class Departures {
     const auto found = text_.find(name);
     return found == text_.end() ? "" : found->second;
   }
-  void close() { file_.close(); }
 
  private:
   static std::string description(const Judged& judged) {
@@ -282,9 +276,8 @@ Command compare_command() {
            names_for_help() +
                "; several with commas between them, or once each (default: classical,published)"},
           {"--answers", &options->answers, "NAME=FILE",
-           "judge answers that some program wrote, as an engine NAME: a stream, or columns (.npy, .csv) if "
-           "the "
-           "queries are"},
+           "judge answers that some program wrote, as an engine NAME: a stream; or columns (.npy, .csv), "
+           "to queries in columns"},
           {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue (default: square)"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
           {"--queries", &options->queries, "FILE",
@@ -292,8 +285,7 @@ Command compare_command() {
            "docs/formats.md), which need --scene",
            kPlain, "--count"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
-           "threads, of the exact answers and of engines of this program; the same results, and times are "
-           "taken on "
+           "threads, of the exact answers and of engines of this program: the same results; times are of "
            "one"},
           {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
            "--queries"},
