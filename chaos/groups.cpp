@@ -15,9 +15,10 @@ namespace lorentz::chaos {
 std::string text_of(std::uint64_t group, const Sums& sums) {
   std::vector<json::Digits> values;
   for (const double value : sums.values) values.push_back({std::bit_cast<std::uint64_t>(value)});
+  const auto digits = [](std::uint64_t n) { return json::Digits{n}; };
   return json::text_of([&](json::Members& object) {
-    object.add("group", group, "values", values, "particles", sums.particles, "collisions", sums.collisions,
-               "stopped", sums.stopped);
+    object.add("group", digits(group), "values", values, "particles", digits(sums.particles), "collisions",
+               digits(sums.collisions), "stopped", digits(sums.stopped));
   });
 }
 

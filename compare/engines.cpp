@@ -83,7 +83,8 @@ class SingleAnswerer final : public Answerer {
   Answer answer_;
 };
 
-EngineInfo single(std::string name, const Traits& traits, std::function<FirstHit(const Scene&)> first_hit) {
+EngineInfo one_at_a_time(std::string name, const Traits& traits,
+                         std::function<FirstHit(const Scene&)> first_hit) {
   EngineInfo engine{std::move(name), traits, EngineInfo::Kind::own, first_hit, {}};
   engine.answerer = [first_hit](const AnswererOptions& options) {
     return std::make_unique<SingleAnswerer>(first_hit, options.request);
@@ -102,8 +103,8 @@ EngineInfo in_bulk(std::string name, Traits traits, std::function<FirstHit(const
 
 // An engine of the fast library.
 EngineInfo fast(const std::string& name, const Traits& traits = {}) {
-  return single(name, traits,
-                [name](const Scene& scene) { return first_hits_of(make_engine(name, scene), scene); });
+  return one_at_a_time(name, traits,
+                       [name](const Scene& scene) { return first_hits_of(make_engine(name, scene), scene); });
 }
 
 // Those of the fast library have their table in src/engines/make_engine.cpp.
@@ -112,13 +113,13 @@ std::vector<EngineInfo> table() {
   std::vector<EngineInfo> all;
   for (const std::string& name : engine_names())
     all.push_back(fast(name, name == "reduction" ? of_reduction : Traits()));
-  all.push_back(single("certified", {.is_exact = true, .uses_reduction = true}, ask_certified));
+  all.push_back(one_at_a_time("certified", {.is_exact = true, .uses_reduction = true}, ask_certified));
   all.push_back(in_bulk("batch", of_reduction, fast("reduction").first_hit));
   all.push_back(in_bulk("certified-batch", {.is_exact = true, .uses_reduction = true}, ask_certified));
-  all.push_back(single("oracle", {.is_exact = true, .knows_digits = true}, ask_oracle));
-  all.push_back(single("walk", {.is_exact = true}, ask_walk));
+  all.push_back(one_at_a_time("oracle", {.is_exact = true, .knows_digits = true}, ask_oracle));
+  all.push_back(one_at_a_time("walk", {.is_exact = true}, ask_walk));
   for (const std::string& name : precision_names())
-    all.push_back(single(
+    all.push_back(one_at_a_time(
         name, {}, [name](const Scene& scene) { return first_hits_of(make_precision(name, scene), scene); }));
   return all;
 }

@@ -95,13 +95,15 @@ namespace {
 constexpr const char* kExactAnswers = "exact answers";
 
 // Place by place: that of a batch is prepared once.
-void ask_certified(std::span<Question> questions, const Listener& listener, int jobs) {
+void answer_by_certified(std::span<Question> questions, const Listener& listener, int jobs) {
   std::vector<Question*> order;
   for (Question& question : questions) order.push_back(&question);
   std::stable_sort(order.begin(), order.end(),
                    [](const Question* a, const Question* b) { return a->place < b->place; });
   std::size_t told = 0;
-  const auto certified = engine_named("certified-batch").answerer({.jobs = jobs});
+  AnswererOptions options;
+  options.jobs = jobs;
+  const auto certified = engine_named("certified-batch").answerer(options);
   certified->on_answer([&](Answer& answer) {
     order[told++]->exact = std::move(answer);
     report(listener, kExactAnswers, told, order.size());
@@ -117,7 +119,7 @@ void ask_certified(std::span<Question> questions, const Listener& listener, int 
 }  // namespace
 
 void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener, int jobs) {
-  if (truth == Truth::certified) return ask_certified(questions, listener, jobs);
+  if (truth == Truth::certified) return answer_by_certified(questions, listener, jobs);
   for (const Question& question : questions) question.place->oracle();  // as the judge above
   std::mutex mutex;
   std::size_t done = 0;

@@ -63,8 +63,8 @@ class Place {
 
 struct Question {
   std::shared_ptr<Place> place;
-  Query query;
-  Answer exact;
+  Query query = {};
+  Answer exact = {};
   std::string where = {};  ///< which row it is of, and of what there: "drawn, square, r = 0.1"
   std::string text =
       {};  ///< in place of the query, where the question is invalid: a line without braces and id

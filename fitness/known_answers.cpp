@@ -7,6 +7,7 @@
 #include <lorentz/prover.hpp>
 #include <lorentz/walk.hpp>
 #include "fitness/digests/scenes.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::fitness {
 namespace {
@@ -49,10 +50,6 @@ const std::vector<KnownAnswer>& known_answers() {
   return known;
 }
 
-bool same(const Answer& a, const Answer& b) {
-  return a.outcome == b.outcome && a.obstacle == b.obstacle && a.time == b.time;
-}
-
 // What cannot even be computed is not fit either.
 Finding guarded(const char* name, const std::vector<Use>& spoiled, const std::function<Finding()>& examine) {
   try {
@@ -87,7 +84,7 @@ Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leav
     std::size_t right = 0, undecided = 0;
     for (const auto& [scene, query, known] : known_answers()) {
       const Answer answer = ask(scene, query);
-      right += same(answer, known);
+      right += same_answer(answer, known);
       undecided += answer.outcome == Outcome::undecided;
     }
     const std::size_t all = known_answers().size();

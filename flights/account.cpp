@@ -68,10 +68,11 @@ void Account::add(const Account& other) {
 namespace {
 
 // A histogram as pairs of a bin and its count; most are empty.
-std::vector<std::array<std::uint64_t, 2>> pairs_of(const std::vector<std::uint64_t>& counts) {
-  std::vector<std::array<std::uint64_t, 2>> pairs;
+using Pairs = std::vector<std::array<json::Digits, 2>>;
+Pairs pairs_of(const std::vector<std::uint64_t>& counts) {
+  Pairs pairs;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] != 0) pairs.push_back({i, counts[i]});
+    if (counts[i] != 0) pairs.push_back({json::Digits{i}, json::Digits{counts[i]}});
   return pairs;
 }
 
@@ -109,15 +110,17 @@ ExactSum read_sum(json::Object& object, const char* key) {
 }  // namespace
 
 std::string Account::text() const {
-  std::vector<std::array<std::uint64_t, 2>> blocks;
-  for (const auto& [first, last] : done.all()) blocks.push_back({first, last});
+  Pairs blocks;
+  for (const auto& [first, last] : done.all()) blocks.push_back({json::Digits{first}, json::Digits{last}});
+  const auto digits = [](std::uint64_t n) { return json::Digits{n}; };
   const auto bits = [](double x) { return json::Digits{std::bit_cast<std::uint64_t>(x)}; };
   return json::text_of([&](json::Members& account) {
-    account.add("blocks", blocks, "exponent", tally.bins.exponent(), "hits", tally.hits, "never", tally.never,
-                "undecided", tally.undecided, "inside", tally.inside, "logarithms", tally.logarithms,
-                "shortest", bits(tally.shortest), "longest", bits(tally.longest), "time", tally.time.text(),
-                "square", tally.square.text(), "log", tally.log.text(), "logarithmic",
-                pairs_of(tally.bins.logarithmic), "linear", pairs_of(tally.bins.linear));
+    account.add("blocks", blocks, "exponent", tally.bins.exponent(), "hits", digits(tally.hits), "never",
+                digits(tally.never), "undecided", digits(tally.undecided), "inside", digits(tally.inside),
+                "logarithms", digits(tally.logarithms), "shortest", bits(tally.shortest), "longest",
+                bits(tally.longest), "time", tally.time.text(), "square", tally.square.text(), "log",
+                tally.log.text(), "logarithmic", pairs_of(tally.bins.logarithmic), "linear",
+                pairs_of(tally.bins.linear));
   });
 }
 

@@ -8,17 +8,12 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/prover.hpp>
 #include <lorentz/walk.hpp>
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::golden {
 namespace {
 
 constexpr std::int64_t kWalkCells = 100;
-
-bool same(const Answer& a, const Answer& b) {
-  if (a.outcome != b.outcome) return false;
-  const bool named = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
-  return !named || (a.obstacle == b.obstacle && a.time == b.time);
-}
 
 // The number of significant digits of a decimal number as it is written here; 0 of zero.
 int significant_digits(std::string_view decimal) {
@@ -118,7 +113,7 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   };
   const Answer walked = impl_->walked(*query);
   made.walked = walked.outcome != Outcome::undecided;
-  if (made.walked && !same(walked, record.expect)) disagree("walk");
+  if (made.walked && !same_answer(walked, record.expect)) disagree("walk");
   record.certificate = impl_->proof(*query, record.expect);
   bool too_long = false;
   const auto why = impl_->check.refutation(*query, record.expect, *record.certificate, &too_long);
@@ -146,7 +141,8 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   if (again.condition != record.condition) return "its condition is another one";
   if (ask_walk) {
     const Answer walked = impl_->walked(*query);
-    if (walked.outcome != Outcome::undecided && !same(walked, record.expect)) return "walk says otherwise";
+    if (walked.outcome != Outcome::undecided && !same_answer(walked, record.expect))
+      return "walk says otherwise";
   }
   return std::nullopt;
 }

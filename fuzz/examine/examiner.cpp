@@ -7,6 +7,7 @@
 #include <lorentz/scene_check.hpp>
 #include "cases/free_start.hpp"
 #include "fuzz/examine/tie.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::fuzz {
 
@@ -82,12 +83,6 @@ struct Examiner::Impl {
     return exact(question.query, request).outcome == Outcome::later;
   }
 
-  static bool same_answer(const Answer& a, const Answer& b) {
-    if (a.outcome != b.outcome) return false;
-    const bool names_obstacle = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
-    return !names_obstacle || (a.obstacle == b.obstacle && a.time == b.time);
-  }
-
   // Answers that are the same need no judge, which most scenes therefore never get.
   oracle::Judgement judgement(const Question& question, const Answer& given) {
     const Answer& exact = question.exact;
@@ -130,8 +125,7 @@ Examined Examiner::judge(const Question& question, Reply& reply) {
     return asked.limit == LimitAt::none ? judge_unlimited(asked, reply) : judge_limited(asked, reply);
   };
   const bool in_doubt = question.is_carried && reply.answer.outcome != Outcome::undecided &&
-                        reply.answer.outcome != Outcome::error &&
-                        !Impl::same_answer(reply.answer, question.exact);
+                        reply.answer.outcome != Outcome::error && !same_answer(reply.answer, question.exact);
   if (!in_doubt) return judged(question);
   if (auto exact_here = impl_->settled(question))
     return judged({question.query, std::move(*exact_here), false, question.limit});

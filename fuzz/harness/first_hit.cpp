@@ -13,18 +13,13 @@
 #include <lorentz/verdict.hpp>
 #include "fuzz/harness/decoder.hpp"
 #include "fuzz/harness/harness.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::harness {
 namespace {
 
 constexpr int kFlights = 3;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
-bool same(const Answer& a, const Answer& b) {
-  if (a.outcome != b.outcome) return false;
-  const bool named = a.outcome == Outcome::hit || a.outcome == Outcome::inside;
-  return !named || (a.obstacle == b.obstacle && a.time == b.time);
-}
 
 bool same_bits(const Flight& a, const Flight& b) {
   return a.outcome == b.outcome && a.stage == b.stage && a.time_is_rounded == b.time_is_rounded &&
@@ -61,13 +56,13 @@ class EngineCheck {
  private:
   void check_certified(const Query& query, const Answer& exact) const {
     const Answer given = certified_.first_hit(query);
-    require(same(given, exact), "certified answers as the oracle does", stream(query, exact, given));
+    require(same_answer(given, exact), "certified answers as the oracle does", stream(query, exact, given));
     if (exact.outcome != Outcome::hit || !(*exact.time > 0)) return;
     for (const double limit : {*exact.time, std::nextafter(*exact.time, kNoLimit)}) {
       oracle::Request request;
       request.max_time = limit;
       const Answer limited = certified_.first_hit(query, request), truth = oracle_.first_hit(query, request);
-      require(same(limited, truth), "certified answers as the oracle does before a time",
+      require(same_answer(limited, truth), "certified answers as the oracle does before a time",
               stream(query, truth, limited));
     }
   }
@@ -87,7 +82,7 @@ class EngineCheck {
     require(verdict == oracle::Verdict::agree || verdict == oracle::Verdict::undecided,
             "reduction decides as the oracle does, or not at all", text);
     if (rounded.outcome == Outcome::hit && rounded.time_is_rounded)
-      require(same(answer_of(rounded), exact), "a time that reduction calls rounded is rounded", text);
+      require(same_answer(answer_of(rounded), exact), "a time that reduction calls rounded is rounded", text);
   }
 
   // What can be run again with `lorentz first-hit`.
