@@ -82,7 +82,7 @@ void add_lattice(json::Members& object, const Lattice& lattice, int dimension) {
 // What a hit has besides the obstacle.
 void add_hit(json::Members& object, const Answer& answer, int dimension) {
   if (answer.time) object.add("time", *answer.time);
-  if (!answer.time_decimal.empty()) object.add("time_decimal", json::Word{answer.time_decimal});
+  if (!answer.time_decimal.empty()) object.add("time_decimal", json::PlainText{answer.time_decimal});
   if (answer.detail)
     object.add("point", components(answer.detail->point, dimension), "normal",
                components(answer.detail->normal, dimension), "impact_parameter",
@@ -110,7 +110,7 @@ void add_query(json::Members& object, const Query& query, int dimension) {
 }
 
 void add_answer(json::Members& object, const Answer& answer, int dimension) {
-  object.add("outcome", json::Word{name_of(answer.outcome)});
+  object.add("outcome", json::PlainText{name_of(answer.outcome)});
   if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside)
     add_obstacle(object, answer.obstacle, dimension);
   if (answer.outcome == Outcome::hit) add_hit(object, answer, dimension);

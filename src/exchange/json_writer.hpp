@@ -23,7 +23,7 @@ struct Raw {
 };
 
 /// A text in which nothing has to be escaped.
-struct Word {
+struct PlainText {
   std::string_view text;
 };
 
@@ -55,14 +55,14 @@ void append_whole(std::string& out, T value) {
   if (quoted) out += '"';
 }
 
-/// Appends a value: a Raw, a Word, a truth value, a number, a text, an optional (null if empty), a function that adds
+/// Appends a value: a Raw, a PlainText, a truth value, a number, a text, an optional (null if empty), a function that adds
 /// the members of an object or appends a text, a range of such values, or anything that has an
 /// append_json(out, value) of its own.
 template <class T>
 void append(std::string& out, const T& value) {
   if constexpr (std::same_as<T, Raw>) {
     out += value.text;
-  } else if constexpr (std::same_as<T, Word>) {
+  } else if constexpr (std::same_as<T, PlainText>) {
     ((out += '"') += value.text) += '"';
   } else if constexpr (std::same_as<T, bool>) {
     out += value ? "true" : "false";
