@@ -34,8 +34,8 @@ bool same_queries(const Cell& a, const Cell& b) {
 std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells) {
   std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::pair<double, double>>> points;
   for (const Cell& cell : cells)
-    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.ns.median > 0)
-      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.ns.median);
+    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.ns && cell.ns->median > 0)
+      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.ns->median);
   std::vector<BenchFit> fits;
   for (const auto& [key, values] : points)
     if (const auto fit = report::power_fit(values))
@@ -59,11 +59,13 @@ std::string table_of(const std::vector<Cell>& cells) {
                  "", "", "", ""});
       continue;
     }
-    table.add({what, cell.engine, std::to_string(cell.queries), fmt::format("{:.0f}", cell.ns.median),
-               fmt::format("{:.0f}-{:.0f}", cell.ns.q1, cell.ns.q3), std::to_string(cell.undecided.count),
-               std::to_string(cell.ill_posed.count), std::to_string(cell.wrong.count),
-               std::to_string(cell.wrong_time.count), fmt::format("{:.3g}", cell.ulps.mean),
-               fmt::format("{:.3g}", cell.ulps.p99), fmt::format("{:.3g}", cell.ulps.max)});
+    table.add({what, cell.engine, std::to_string(cell.queries),
+               cell.ns ? fmt::format("{:.0f}", cell.ns->median) : "-",
+               cell.ns ? fmt::format("{:.0f}-{:.0f}", cell.ns->q1, cell.ns->q3) : "-",
+               std::to_string(cell.undecided.count), std::to_string(cell.ill_posed.count),
+               std::to_string(cell.wrong.count), std::to_string(cell.wrong_time.count),
+               fmt::format("{:.3g}", cell.ulps.mean), fmt::format("{:.3g}", cell.ulps.p99),
+               fmt::format("{:.3g}", cell.ulps.max)});
   }
   return table.text();
 }
@@ -86,8 +88,10 @@ class Summary {
       ++(cell.unsupported > 0 ? beyond_ : skipped_);
       return;
     }
-    fastest_ = queries_ == 0 ? cell.ns.median : std::min(fastest_, cell.ns.median);
-    slowest_ = std::max(slowest_, cell.ns.median);
+    if (cell.ns) {
+      fastest_ = std::min(fastest_.value_or(cell.ns->median), cell.ns->median);
+      slowest_ = std::max(slowest_, cell.ns->median);
+    }
     queries_ += cell.queries;
     wrong_ += cell.wrong.count, ill_posed_ += cell.ill_posed.count, undecided_ += cell.undecided.count;
     wrong_time_ += cell.wrong_time.count;
@@ -111,7 +115,7 @@ class Summary {
     if (wrong_time_ > 0)
       text +=
           fmt::format("  {} wrong {} of right obstacles\n", wrong_time_, wrong_time_ == 1 ? "time" : "times");
-    text += fmt::format("  {:.0f} to {:.0f} ns", fastest_, slowest_);
+    text += fastest_ ? fmt::format("  {:.0f} to {:.0f} ns", *fastest_, slowest_) : "  no times, for it broke";
     if (has_times_)
       text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,
                           max_condition_);
@@ -135,7 +139,8 @@ class Summary {
   std::size_t queries_ = 0, wrong_ = 0, ill_posed_ = 0, undecided_ = 0, wrong_time_ = 0, unsupported_ = 0,
               failed_ = 0, skipped_ = 0, beyond_ = 0;
   bool has_times_ = false;
-  double fastest_ = 0, slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
+  std::optional<double> fastest_;
+  double slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
 };
 
 }  // namespace
@@ -175,11 +180,13 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       "condition_99_percent,max_condition,instructions\n";
   for (const Cell& cell : cells) {
     if (cell.skipped) continue;
-    csv += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}",
-                       field(cell.scene), radius_of(cell), cell.difficulty, field(cell.engine), cell.queries,
-                       cell.ns.mean, cell.ns.median, cell.ns.q1, cell.ns.q3, cell.undecided.count,
-                       cell.wrong.count, cell.wrong_time.count, cell.ulps.mean, cell.ulps.p99, cell.ulps.max,
-                       cell.mean_path, cell.ill_posed.count);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", field(cell.scene),
+                       radius_of(cell), cell.difficulty, field(cell.engine), cell.queries,
+                       cell.ns ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.ns->mean, cell.ns->median,
+                                             cell.ns->q1, cell.ns->q3)
+                               : ",,,",
+                       cell.undecided.count, cell.wrong.count, cell.wrong_time.count, cell.ulps.mean,
+                       cell.ulps.p99, cell.ulps.max, cell.mean_path, cell.ill_posed.count);
     for (const report::Share& share : {cell.undecided, cell.ill_posed, cell.wrong, cell.wrong_time})
       csv += fmt::format(",{:.4g},{:.4g}", share.low, share.high);
     csv += fmt::format(",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,

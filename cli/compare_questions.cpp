@@ -28,21 +28,19 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
 
 void ComparedQuestions::enter(const Scene& scene) {
   place_ = std::make_shared<Place>(scene);
-  disagreements_.begin(scene);
+  disagreements_.begin(place_);
   is_new_ = true;
 }
 
 void ComparedQuestions::open_columns(const std::string& path) {
   if (!place_) throw InputError("--queries: columns hold no scene; --scene says it");
-  const auto on_unknown = [&](const std::string& place, const std::string& column) {
-    const std::string what = fmt::format("{}: the column {} is not known", place, json_quoted(column));
-    if (options_.strict) throw InputError(what);
-    say("warning: {}, and is ignored (--strict: an error)", what);
-  };
+  const UnknownKeys policy = options_.unknown_keys();
   if (path.ends_with(".npy"))
-    columns_ = std::make_unique<NpyQueryReader>(path, dimension(), on_unknown);
+    columns_ =
+        std::make_unique<NpyQueryReader>(path, dimension(), unknown_columns(npy_query_fields(), policy));
   else
-    columns_ = std::make_unique<CsvQueryReader>(path, dimension(), on_unknown);
+    columns_ = std::make_unique<CsvQueryReader>(path, dimension(),
+                                                unknown_columns(csv_query_columns(dimension()), policy));
 }
 
 std::vector<Question> ComparedQuestions::next(std::size_t most) {

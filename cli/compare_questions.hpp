@@ -26,25 +26,25 @@ struct CompareOptions {
   UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
 };
 
-/// Is it the name of a file of columns?
+/// True if the name of the file says that it holds columns.
 inline bool is_columns(const std::string& path) {
   return path.ends_with(".npy") || path.ends_with(".csv");
 }
 
-/// The questions that were asked for, part by part, without answers.
+/// The questions that the options ask for, part by part, without answers.
 class ComparedQuestions {
  public:
   /// Throws InputError and FileError. The scenes begin the file of disagreements.
   ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements);
 
-  /// Up to so many more; none: that was all.
+  /// The next questions, at most `most`; empty at the end.
   std::vector<compare::Question> next(std::size_t most);
 
   bool had_bad_input() const { return bad_rows_ > 0 || bad_ids_ || (stream_ && stream_->had_bad_input()); }
   std::size_t count() const { return count_; }
   std::size_t scenes() const { return scenes_; }  ///< with questions
 
-  /// Rows of columns have numbers, by which rows of answers are matched.
+  /// Are the queries columns? Then rows of answers are matched to them by number.
   bool are_columns() const { return columns_ != nullptr; }
   int dimension() const { return place_ ? place_->scene().dimension : 0; }
 

@@ -57,7 +57,7 @@ class DemoReport {
   explicit DemoReport(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
 
   void add(const std::string& what, std::vector<Question> questions) {
-    disagreements_.begin(questions[0].place->scene());
+    disagreements_.begin(questions[0].place);
     answer_exactly(questions, Truth::oracle, terminal());
     const std::vector<EngineInfo> engines = engines_named({"classical", kPublished, "oracle"});
     RaceOptions options;

@@ -13,21 +13,22 @@ DisagreementFile::DisagreementFile(const std::optional<std::string>& path) {
   if (path) file_.emplace(*path);
 }
 
-void DisagreementFile::begin(const Scene& scene) {
-  if (file_ && scene_line_.empty()) write_scene(scene);
+void DisagreementFile::begin(const std::shared_ptr<Place>& place) {
+  if (file_ && !place_) enter(place);
 }
 
-void DisagreementFile::write_scene(const Scene& scene) {
+void DisagreementFile::enter(const std::shared_ptr<Place>& place) {
+  if (place == place_) return;
   std::string line;
-  append_scene_line(line, scene);
-  if (line != scene_line_) file_->write(line);
-  scene_line_ = std::move(line);
+  append_scene_line(line, place->scene());
+  file_->write(line);
+  place_ = place;
 }
 
 void DisagreementFile::add(const Judged& judged, const std::string& engine) {
   if (!file_) return;
   const auto& [question, given, origin, judgement] = judged;
-  write_scene(question.place->scene());
+  enter(question.place);
   const int dimension = question.place->scene().dimension;
   const std::string_view verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
                                    : judgement.wrong_time                      ? "wrong-time"

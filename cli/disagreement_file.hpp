@@ -15,19 +15,18 @@ class DisagreementFile {
   /// Writes nothing without a path. Throws FileError if the file cannot be written.
   explicit DisagreementFile(const std::optional<std::string>& path);
 
-  /// A scene of questions that may follow; the first is written at once, so that the file is a stream even if
-  /// nothing disagrees.
-  void begin(const Scene& scene);
+  /// Writes the scene of the first place, so that the file is a stream even if nothing disagrees.
+  void begin(const std::shared_ptr<compare::Place>& place);
   void add(const compare::Judged& judged, const std::string& engine);
 
   /// Puts the file in its place. Throws FileError if something was not written.
   void close();
 
  private:
-  void write_scene(const Scene& scene);
+  void enter(const std::shared_ptr<compare::Place>& place);
 
   std::optional<WholeFile> file_;
-  std::string scene_line_;  // the last
+  std::shared_ptr<compare::Place> place_;  // of the scene that was written last
 };
 
 }  // namespace lorentz::cli

@@ -7,8 +7,8 @@
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
 #include "cli/output.hpp"
+#include "cli/unknown_keys.hpp"
 #include "compare/column_engine.hpp"
-#include "compare/nearest_name.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 
@@ -45,27 +45,17 @@ class Complaints {
   long bad_ = 0, beyond_ = 0;
 };
 
-OnUnknownColumn unknown_columns(const ColumnOrder& order) {
-  std::vector<std::string> known = csv_query_columns(order.scene.dimension);
-  if (order.format == ColumnOrder::Format::npy)
-    known = {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
-  return
-      [known, strict = order.strict, seen = 0](const std::string& place, const std::string& column) mutable {
-        const std::string what = fmt::format("the column {} is not known{}", json_quoted(column),
-                                             compare::did_you_mean(column, known));
-        if (strict) throw InputError(place + ": " + what);
-        if (++seen <= kMost)
-          say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
-        else if (seen == kMost + 1)
-          say("warning: {}: more columns are not known, and are ignored", place);
-      };
+UnknownKeys policy(const ColumnOrder& order) {
+  return order.strict ? UnknownKeys::errors : UnknownKeys::warned;
 }
 
 // One format: its reader, and how its answers are written.
 class Csv {
  public:
   Csv(const ColumnOrder& order, std::string& out)
-      : reader_(order.queries, order.scene.dimension, unknown_columns(order)), out_(out) {
+      : reader_(order.queries, order.scene.dimension,
+                unknown_columns(csv_query_columns(order.scene.dimension), policy(order))),
+        out_(out) {
     append_csv_names(out_, order.scene.dimension, reader_.has_ids());
   }
   ColumnReader& reader() { return reader_; }
@@ -82,7 +72,8 @@ class Csv {
 class Npy {
  public:
   Npy(const ColumnOrder& order, std::string& out)
-      : reader_(order.queries, order.scene.dimension, unknown_columns(order)), out_(out) {
+      : reader_(order.queries, order.scene.dimension, unknown_columns(npy_query_fields(), policy(order))),
+        out_(out) {
     out_ += npy_answer_header(reader_.promised(), order.scene.dimension);
   }
   ColumnReader& reader() { return reader_; }

@@ -31,12 +31,6 @@ std::uint64_t answered(const TargetTally& tally) {
   return tally.cases > unsupported ? tally.cases - unsupported : 0;
 }
 
-std::string number(double value) {
-  std::string out;
-  append_number(out, value);
-  return out;
-}
-
 // Which layers of the engine's ladder decided, where it tells: cases and variants.
 std::string layers(const FuzzReport& report) {
   TargetTally all;

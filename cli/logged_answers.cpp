@@ -14,7 +14,7 @@ LoggedAnswers::LoggedAnswers(std::unique_ptr<AnswerReader> columns)
 
 void LoggedAnswers::complain(std::size_t line, const std::string& what) {
   bad_input_ = true;
-  say("{}:{}: {}", name_, line, what);
+  say("{}{}: {}", name_, columns_ ? "" : fmt::format(":{}", line), what);
 }
 
 // The next good answer that has an id.
@@ -28,12 +28,12 @@ bool LoggedAnswers::read(Id& id, Logged& logged) {
   return false;
 }
 
-// Behind a bad row there is none.
+// Nothing is read after a bad row.
 bool LoggedAnswers::read_row(Id& id, Logged& logged) {
   try {
-    return !bad_input_ && columns_->next(logged.answer, id);
+    return !is_broken_ && columns_->next(logged.answer, id);
   } catch (const InputError& error) {
-    bad_input_ = true;
+    is_broken_ = bad_input_ = true;
     is_empty_ = false;
     say("{}", error.what());
     return false;

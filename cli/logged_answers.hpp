@@ -54,7 +54,7 @@ class LoggedAnswers final : public compare::Answerer {
   std::unordered_set<Id> ids_;  // of all that were read
   std::size_t matched_ = 0;
   int dimension_ = 0;
-  bool is_empty_ = true, bad_input_ = false;
+  bool is_empty_ = true, is_broken_ = false, bad_input_ = false;
 };
 
 }  // namespace lorentz::cli

@@ -22,4 +22,17 @@ void KeyCheck::operator()(const std::string& key) {
     say("warning: {}: more keys are not known, and are ignored", place);
 }
 
+OnUnknownColumn unknown_columns(const std::vector<std::string>& known, UnknownKeys policy) {
+  constexpr int kMost = 20;
+  return [known, policy, seen = 0](const std::string& place, const std::string& column) mutable {
+    const std::string what = fmt::format("the column {} is not known{}", json_quoted(column),
+                                         compare::did_you_mean(column, known));
+    if (policy == UnknownKeys::errors) throw InputError(place + ": " + what);
+    if (++seen <= kMost)
+      say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
+    else if (seen == kMost + 1)
+      say("warning: {}: more columns are not known, and are ignored", place);
+  };
+}
+
 }  // namespace lorentz::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
+#include "src/exchange/columns.hpp"
 
 namespace lorentz::cli {
 
@@ -32,5 +33,8 @@ class KeyCheck {
   UnknownKeys policy_;
   std::set<std::string> seen_;
 };
+
+/// What readers of columns call: the same of columns beside the known ones.
+OnUnknownColumn unknown_columns(const std::vector<std::string>& known, UnknownKeys policy);
 
 }  // namespace lorentz::cli

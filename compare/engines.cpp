@@ -23,7 +23,7 @@ void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   if (answer.outcome != Outcome::hit || !answer.time) return;
   if (flaw_of(Query{query.x, query.v, answer.obstacle}, scene)) return;
   const Detail detail = collision_detail(scene, query, answer);
-  // Beyond the range of binary64 there is none; the oracle has it.
+  // Outside the range of binary64 no detail is added. The oracle has it.
   if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
     answer.detail = detail;
 }

@@ -1,5 +1,5 @@
-// Everything that answers queries: the binary64 engines, the oracle, walk, other programs, and functions of those
-// who call this program as a library.
+// Everything that answers queries: the binary64 engines, the oracle, walk, other programs, and functions of a
+// caller's.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ struct Traits {
   bool in_bulk = false;           ///< slow one at a time: its answerer gathers queries
 };
 
-/// Who answers. A value: names are looked up once, where they are given.
+/// An engine as a value. Its name is looked up once, where a user gives it.
 struct EngineInfo {
   enum class Kind {
     own,      ///< of this program
@@ -37,7 +37,7 @@ struct EngineInfo {
     guest     ///< a function of the caller's
   };
   std::string name;
-  Traits traits = {};  ///< of a command and a guest nothing is known
+  Traits traits = {};  ///< all false of a command; of a guest only in_bulk is true
   Kind kind = Kind::own;
   /// One at a time, for a scene without flaws; a batch engine is the engine of single flights that it agrees
   /// with. Empty but for `own`: others would be slow that way.
@@ -49,20 +49,20 @@ struct EngineInfo {
   bool is_command() const { return kind == Kind::command; }
 };
 
-/// The table of all that this program answers with itself.
+/// The table of this program's engines.
 const std::vector<EngineInfo>& own_engines();
 
-/// The names of these; and, for help texts, with `cmd:COMMAND`.
+/// Their names; and the same for help texts, with `cmd:COMMAND`.
 std::vector<std::string> own_names();
 std::string names_for_help();
 
-/// One of these, or nothing.
+/// The one with this name, or null.
 const EngineInfo* own_engine(std::string_view name);
 
-/// One of these, or a command. Throws InputError for an unknown name, or a command that is empty.
+/// An engine of this program, or a command. Throws InputError for an unknown name, or a command that is empty.
 EngineInfo engine_named(const std::string& name);
 
-/// Those in arguments like `reduction,published`. A command may contain commas: from `cmd:` on an argument is
+/// The engines in arguments like `reduction,published`. A command may contain commas: from `cmd:` on an argument is
 /// taken whole. Throws InputError.
 std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments);
 

@@ -57,7 +57,7 @@ void examine(const Source& source, Answerer& answerer, double ulps, const Sink& 
 
 namespace {
 
-// Calls act(begin, end) for as many stretches of [0, count) as there are jobs, each in a thread.
+// Cuts [0, count) into one stretch per job and calls act(job, begin, end) for each in a thread of its own.
 template <class Act>
 void in_stretches(std::size_t count, std::size_t jobs, const Act& act) {
   const auto bound = [&](std::size_t job) { return job * count / jobs; };
@@ -73,7 +73,8 @@ void in_stretches(std::size_t count, std::size_t jobs, const Act& act) {
 void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
              double ulps, const Sink& sink) {
   if (answerers.size() == 1) return examine(all_of(questions), *answerers[0], ulps, sink);
-  for (const Question& question : questions) question.place->judge();  // it is made by whoever asks first
+  for (const Question& question : questions)
+    question.place->judge();  // made here, for threads may only read it
   struct Came {
     Answer given;
     Answerer::Origin origin{};
@@ -94,7 +95,7 @@ namespace {
 
 constexpr const char* kExactAnswers = "exact answers";
 
-// Place by place: that of a batch is prepared once.
+// In the order of places, so that each batch engine is prepared once.
 void answer_by_certified(std::span<Question> questions, const Listener& listener, int jobs) {
   std::vector<Question*> order;
   for (Question& question : questions) order.push_back(&question);
@@ -120,7 +121,7 @@ void answer_by_certified(std::span<Question> questions, const Listener& listener
 
 void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener, int jobs) {
   if (truth == Truth::certified) return answer_by_certified(questions, listener, jobs);
-  for (const Question& question : questions) question.place->oracle();  // as the judge above
+  for (const Question& question : questions) question.place->oracle();  // made here, too
   std::mutex mutex;
   std::size_t done = 0;
   in_stretches(questions.size(), static_cast<std::size_t>(jobs),

@@ -1,4 +1,4 @@
-// Asks an engine questions, judges its answers as they come, and hands both to who counts, keeps or prints them.
+// Asks an engine questions, judges the answers as they come, and passes both to a sink.
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace lorentz::compare {
 
-/// What an answer is worth. To an invalid question the right answer is `error`.
+/// Judges an answer with the tolerance `ulps`. The right answer to an invalid question is `error`.
 oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps);
 
-/// Is it an answer to be told of: wrong, ill-posed or wrong in time?
+/// True if the answer is wrong, ill-posed or wrong in time.
 bool departs(const oracle::Judgement& judgement);
 
-/// A question that was answered; what `judgement` says is of no meaning if it was not asked.
+/// A question and the answer to it. `judgement` is `missing` if the question was not asked.
 struct Judged {
   const Question& question;
   const Answer& given;
@@ -24,16 +24,15 @@ struct Judged {
 };
 using Sink = std::function<void(const Judged&)>;
 
-/// Asks all questions of the source; returns when all answers have come. Answers are judged in the order of the
-/// questions, with the tolerance `ulps`.
+/// Asks all questions of the source and waits for the answers. The sink gets them in the order of the questions.
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink);
 
-/// The same in a thread for each of the answerers, which get a stretch of the questions each. The sink is called in
-/// the order of the questions, by this thread.
+/// The same with one thread per answerer, each of which is asked one stretch of the questions. This thread calls the
+/// sink, in the order of the questions.
 void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
              double ulps, const Sink& sink);
 
-/// Gives the questions their exact answers, with so many threads.
+/// Sets the exact answer of each question, on `jobs` threads.
 void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener = {}, int jobs = 1);
 
 }  // namespace lorentz::compare

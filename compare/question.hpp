@@ -16,7 +16,7 @@
 namespace lorentz::compare {
 
 /// A scene without flaws. Oracle, judge and margins are made when they are first needed: many scenes never
-/// need one. For one thread.
+/// need one. One thread must make each; after that any number of threads may use it.
 class Place {
  public:
   explicit Place(Scene scene) : scene_(std::move(scene)) {}
@@ -65,17 +65,17 @@ struct Question {
   std::shared_ptr<Place> place;
   Query query = {};
   Answer exact = {};
-  std::string where = {};  ///< which row it is of, and of what there: "drawn, square, r = 0.1"
-  std::string text =
-      {};  ///< in place of the query, where the question is invalid: a line without braces and id
+  std::string where = {};  ///< where it comes from, in words: "drawn, square, r = 0.1"
+  /// Of an invalid question, in place of the query: its line without braces and id.
+  std::string text = {};
   Id id = "null";
   std::vector<std::string> tags = {};  ///< of a golden record
   std::optional<double> margin = {};   ///< of a golden record
-  double condition = 0;  ///< what an ulp in each input makes of the time, in its ulps; 0: not known
+  double condition = 0;                ///< Margins::condition of the exact answer; 0 if it was not asked for
   bool is_query() const { return text.empty(); }
 };
 
-/// Questions of one place, with their numbers as ids, and not yet with their answers.
+/// Questions of one place, with their numbers as ids, without answers.
 inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
                                           const std::vector<Query>& queries) {
   std::vector<Question> questions;
@@ -84,10 +84,10 @@ inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
   return questions;
 }
 
-/// The next question, or nothing: that was all.
+/// Returns the next question, or nothing at the end.
 using Source = std::function<std::optional<Question>()>;
 
-/// The next questions, up to so many.
+/// The next questions, at most `most`; empty at the end.
 inline std::vector<Question> some_of(const Source& source, std::size_t most) {
   std::vector<Question> questions;
   while (questions.size() < most) {
@@ -98,7 +98,7 @@ inline std::vector<Question> some_of(const Source& source, std::size_t most) {
   return questions;
 }
 
-/// A source of questions that are there already, and outlast it.
+/// A source of questions in memory, which must outlast it.
 inline Source all_of(std::span<const Question> questions) {
   return [questions, next = std::size_t{0}]() mutable -> std::optional<Question> {
     return next < questions.size() ? std::optional(questions[next++]) : std::nullopt;

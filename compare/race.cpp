@@ -12,12 +12,15 @@ namespace {
 using Questions = std::span<const Question>;
 using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kBlock = 16;
-constexpr double kEnoughSeconds = 10;  // no further rounds after that
+constexpr double kEnoughSeconds = 10;  // no further rounds after that, nor blocks of a round
 
 struct Round {
   double total_ns = 0;
+  std::size_t asked = 0;
   std::vector<double> block_means;
   std::optional<std::uint64_t> instructions = {};
+
+  double ns_per_query() const { return total_ns / static_cast<double>(asked); }
 };
 
 double ns_since(SteadyClock::time_point start) {
@@ -31,7 +34,8 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
   std::vector<Answer> answers(kBlock);
   const oracle::Request request;
   InstructionCounter instructions;
-  for (std::size_t begin = 0; begin < questions.size(); begin += kBlock) {
+  for (std::size_t begin = 0; begin < questions.size() && round.total_ns < 1e9 * kEnoughSeconds;
+       begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, questions.size());
     instructions.resume();
     const auto start = SteadyClock::now();
@@ -40,6 +44,7 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
     const double ns = ns_since(start);
     instructions.pause();
     round.total_ns += ns;
+    round.asked = end;
     round.block_means.push_back(ns / static_cast<double>(end - begin));
     report(listener, name, end, questions.size());
   }
@@ -59,7 +64,7 @@ Round run_round(Questions questions, Answerer& program, const std::string& name,
   }
   program.drain();
   const double ns = ns_since(start);
-  return {ns, {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
+  return {ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
 }
 
 // An engine, ready for every place, and what it did in each round.
@@ -99,11 +104,11 @@ class Entrant {
     speed.failed = failed();
     if (questions_.empty() || rounds_.empty()) return speed;
     std::sort(rounds_.begin(), rounds_.end(),
-              [](const Round& a, const Round& b) { return a.total_ns < b.total_ns; });
+              [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
     const Round& middle = rounds_[rounds_.size() / 2];
-    const auto count = static_cast<double>(questions_.size());
-    speed.ns_per_query = middle.total_ns / count;
-    if (middle.instructions) speed.instructions = static_cast<double>(*middle.instructions) / count;
+    speed.ns_per_query = middle.ns_per_query();
+    if (middle.instructions)
+      speed.instructions = static_cast<double>(*middle.instructions) / static_cast<double>(middle.asked);
     speed.ns_median = quantile(middle.block_means, 0.5);
     speed.ns_low = quantile(middle.block_means, 0.25);
     speed.ns_high = quantile(middle.block_means, 0.75);

@@ -16,12 +16,11 @@ struct RaceOptions {
   std::function<bool()> enough = {};  ///< AnswererOptions::enough
   std::vector<std::size_t> counts =
       {};  ///< of each engine, how many of the questions, from the first; none: all
-  /// Of each engine that is asked many at a time one that is running already, which is not ended; none, or
-  /// null: a new one.
+  /// Of each engine an answerer that runs already, and is not ended here. Empty, or null: a new one is made.
   std::vector<Answerer*> running = {};
 };
 
-/// The engines' speeds, on one thread. Another program is timed by the wall, pipes and all, from the first query
+/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. Another program is timed by the wall, pipes and all, from the first query
 /// to the last answer; where it broke it is not run again.
 std::vector<Speed> race(std::span<const Question> questions, const std::vector<EngineInfo>& engines,
                         const RaceOptions& options = {});

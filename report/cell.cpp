@@ -26,12 +26,14 @@ void append_json(std::string& out, const Cell& cell) {
     object.add("scene", cell.scene, "radius", cell.radius, "dimension", cell.dimension, "difficulty",
                cell.difficulty, "engine", cell.engine, "queries", cell.queries, "skipped", cell.skipped,
                "unsupported", cell.unsupported);
-    object.add("ns", measured([&](json::Members& ns) { add_times(ns, cell.ns); }), "instructions",
-               cell.skipped ? std::nullopt : cell.instructions, "mean_path", measured(cell.mean_path),
-               "undecided", measured(cell.undecided), "ill_posed", measured(cell.ill_posed), "wrong",
-               measured(cell.wrong), "wrong_time", measured(cell.wrong_time), "error", measured(cell.error),
-               "missing", measured(cell.missing), "ulps", measured(cell.ulps), "conditions",
-               measured(cell.conditions), "worst",
+    object.add("ns",
+               cell.ns && !cell.skipped ? std::optional([&](json::Members& ns) { add_times(ns, *cell.ns); })
+                                        : std::nullopt,
+               "instructions", cell.skipped ? std::nullopt : cell.instructions, "mean_path",
+               measured(cell.mean_path), "undecided", measured(cell.undecided), "ill_posed",
+               measured(cell.ill_posed), "wrong", measured(cell.wrong), "wrong_time",
+               measured(cell.wrong_time), "error", measured(cell.error), "missing", measured(cell.missing),
+               "ulps", measured(cell.ulps), "conditions", measured(cell.conditions), "worst",
                cell.worst && !cell.skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
@@ -102,7 +104,7 @@ Worst worst(json::Object object) {
 }
 
 void read_measured(json::Object& object, Cell& cell) {
-  cell.ns = times(object["ns"].object());
+  if (json::Value value = object["ns"]; !value.is_null()) cell.ns = times(value.object());
   cell.instructions = number_or_null(object["instructions"]);
   cell.mean_path = number(object, "mean_path");
   cell.undecided = share(object["undecided"].object());
@@ -174,7 +176,7 @@ std::string flaw_of(const Cell& cell, std::size_t most) {
               cell.missing >
           n)
     return "counts more answers than queries";
-  const Times& ns = cell.ns;
+  const Times ns = cell.ns.value_or(Times());
   if (!(ns.q1 >= 0 && ns.q1 <= ns.median && ns.median <= ns.q3 && ns.mean >= 0 &&
         std::isfinite(ns.q3 + ns.mean)))
     return "has times out of order";

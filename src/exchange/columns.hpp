@@ -119,7 +119,7 @@ class AnswerReader {
  public:
   virtual ~AnswerReader() = default;
 
-  /// False at the end. `id` becomes the row's, a text; without ids it is the number of the row, from 0. Throws
+  /// The next row; false at the end. `id` is the row's id, or its number from 0 if there are no ids. Throws
   /// InputError, with the place, for a row that is not an answer, and FileError.
   virtual bool next(Answer& answer, Id& id) = 0;
   virtual const std::string& name() const = 0;

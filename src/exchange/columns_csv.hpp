@@ -42,7 +42,7 @@ class CsvQueryReader final : public ColumnReader {
 /// Reads answers: the columns that append_csv_answers writes, in any order.
 class CsvAnswerReader final : public AnswerReader {
  public:
-  /// As CsvQueryReader; columns that are not known mean nothing.
+  /// As CsvQueryReader; unknown columns are ignored.
   CsvAnswerReader(const std::string& path, int dimension);
 
   bool next(Answer& answer, Id& id) override;

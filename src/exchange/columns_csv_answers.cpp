@@ -1,15 +1,9 @@
 #include <lorentz/exchange.hpp>
 #include "src/exchange/columns_csv.hpp"
+#include "src/exchange/exchange_line.hpp"
 
 namespace lorentz {
 namespace {
-
-std::optional<Outcome> outcome_named(std::string_view name) {
-  for (const Outcome outcome :
-       {Outcome::hit, Outcome::never, Outcome::inside, Outcome::later, Outcome::undecided, Outcome::error})
-    if (name_of(outcome) == name) return outcome;
-  return std::nullopt;
-}
 
 std::vector<std::string> columns(int dimension) {
   std::vector<std::string> names{"id", "outcome", "lattice", "atom", "time"};
@@ -37,12 +31,13 @@ void CsvAnswerReader::understand(const CsvTable& table) {
 Answer CsvAnswerReader::answer_of() const {
   Answer answer;
   const auto outcome = outcome_named(table_.field(outcome_));
-  if (!outcome) table_.refuse(outcome_, "is no outcome");
+  if (!outcome) table_.refuse(outcome_, "is not an outcome");
   answer.outcome = *outcome;
   if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return answer;
   const auto index = [&](std::size_t column) {
     const std::int64_t value = table_.integer(column);
-    if (value < 0 || value > 1'000'000'000) table_.refuse(column, "is no number of a lattice or an atom");
+    if (value < 0 || value > 1'000'000'000)
+      table_.refuse(column, "is not the number of a lattice or an atom");
     return static_cast<int>(value);
   };
   answer.obstacle.lattice = index(lattice_), answer.obstacle.atom = index(atom_);

@@ -62,7 +62,7 @@ class NpyQueryReader final : public ColumnReader {
 };
 
 /// Reads answers: an array of fields outcome, lattice, .., as append_npy_answers writes them, in any order and of
-/// any types that hold them; other fields mean nothing.
+/// any types that hold them; other fields are ignored.
 class NpyAnswerReader final : public AnswerReader {
  public:
   /// As NpyQueryReader.
@@ -83,6 +83,9 @@ class NpyAnswerReader final : public AnswerReader {
   std::uint64_t done_ = 0;
   std::vector<char> row_;
 };
+
+/// All fields that queries can have.
+std::vector<std::string> npy_query_fields();
 
 /// The header of an array of so many queries without limits: of numbers, or of fields if they leave
 /// obstacles.

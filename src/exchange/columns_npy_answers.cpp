@@ -10,7 +10,8 @@ NpyAnswerReader::NpyAnswerReader(const std::string& path, int dimension)
     : file_(path), header_(read_npy_header(file_)), dimension_(dimension) {
   outcome_ = field("outcome", 1), lattice_ = field("lattice", 1), atom_ = field("atom", 1);
   cell_ = field("cell", static_cast<std::size_t>(dimension)), time_ = field("time", 1);
-  if (header_.shape.size() != 1 || time_.kind != 'f' || time_.bytes != 8) refuse("is no array of answers");
+  if (header_.shape.size() != 1 || time_.kind != 'f' || time_.bytes != 8)
+    refuse("is not an array of answers");
   row_.resize(header_.item_bytes);
 }
 
@@ -38,7 +39,7 @@ std::int64_t NpyAnswerReader::integer(const NpyField& field, std::size_t compone
                          : integer_at(field, row_.data() + field.offset + component * field.bytes);
   if (!value)
     throw InputError(file_.name() + ": row " + std::to_string(done_) + ": " + field.name +
-                     ": is no integer of 64 bits");
+                     ": is not an integer of 64 bits");
   return *value;
 }
 
@@ -52,7 +53,7 @@ bool NpyAnswerReader::next(Answer& answer, Id& id) {
   if (outcome < 0 || outcome > static_cast<int>(Outcome::error) || lattice < 0 || atom < 0 ||
       lattice > kMost || atom > kMost)
     throw InputError(file_.name() + ": row " + std::to_string(done_) +
-                     ": is no answer: its outcome, lattice or atom does not exist");
+                     ": is not an answer: its outcome, lattice or atom does not exist");
   answer = {};
   answer.outcome = static_cast<Outcome>(outcome);
   if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {

@@ -23,6 +23,10 @@ void append_reals(std::vector<double>& column, const char* first, std::size_t st
 
 }  // namespace
 
+std::vector<std::string> npy_query_fields() {
+  return {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
+}
+
 NpyQueryReader::NpyQueryReader(const std::string& path, int dimension,
                                const OnUnknownColumn& on_unknown_column)
     : file_(path), header_(read_npy_header(file_)), dimension_(dimension) {
@@ -89,9 +93,9 @@ void NpyQueryReader::understand_fields(const OnUnknownColumn& on_unknown_column)
     check_number(*(from_atom_ = *field("from_atom", true)), false, false);
     check_number(*(from_cell_ = *field("from_cell", true)), true, false);
   }
-  constexpr std::string_view kKnown[] = {"", "x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
+  const std::vector<std::string> known = npy_query_fields();
   for (const NpyField& field : header_.fields)
-    if (std::find(std::begin(kKnown), std::end(kKnown), field.name) == std::end(kKnown))
+    if (!field.name.empty() && std::find(known.begin(), known.end(), field.name) == known.end())
       on_unknown_column(file_.name(), field.name);
 }
 

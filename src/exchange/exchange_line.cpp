@@ -35,6 +35,13 @@ int read_index(json::Value value, const char* key) {
   return static_cast<int>(n.int64());
 }
 
+std::optional<Outcome> outcome_named(std::string_view name) {
+  for (const Outcome outcome :
+       {Outcome::hit, Outcome::never, Outcome::inside, Outcome::later, Outcome::undecided, Outcome::error})
+    if (name_of(outcome) == name) return outcome;
+  return std::nullopt;
+}
+
 Id read_id(json::Value value) {
   if (value.type() == json::Type::string) return json_quoted(value.text());
   if (value.type() == json::Type::null) {

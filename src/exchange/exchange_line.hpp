@@ -32,6 +32,9 @@ int read_index(json::Value value, const char* key);
 
 Id read_id(json::Value value);
 
+/// The outcome that name_of() calls so, or nothing.
+std::optional<Outcome> outcome_named(std::string_view name);
+
 struct FromRead {
   ObstacleId obstacle;
   std::size_t components = 0;

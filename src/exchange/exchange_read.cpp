@@ -89,13 +89,8 @@ void ExchangeReader::read_query_line(const LineReader::Line& line, const Scene* 
 
 namespace {
 
-Outcome outcome_named(std::string_view name) {
-  if (name == "hit") return Outcome::hit;
-  if (name == "never") return Outcome::never;
-  if (name == "inside") return Outcome::inside;
-  if (name == "later") return Outcome::later;
-  if (name == "undecided") return Outcome::undecided;
-  if (name == "error") return Outcome::error;
+Outcome read_outcome(std::string_view name) {
+  if (const auto outcome = outcome_named(name)) return *outcome;
   throw InputError("outcome: " + json_quoted(name) +
                    " is none of hit, never, inside, later, undecided, error");
 }
@@ -120,7 +115,7 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
   if (key == "id") {
     id = read_id(value);
   } else if (key == "outcome") {
-    answer.outcome = outcome_named(value.text());
+    answer.outcome = read_outcome(value.text());
     has.outcome = true;
   } else if (key == "lattice") {
     answer.obstacle.lattice = read_index(value, "lattice");

@@ -1,5 +1,5 @@
-// JSON as this project writes it: members in the order of the code, no white space, numbers by append_number.
-// The only place with braces, quotes and commas. Private to the libraries and the program.
+// Writes JSON: members in the order of the code, no white space, numbers by append_number. The only place with
+// braces, quotes and commas. Private to the libraries and the program.
 #pragma once
 
 #include <charconv>
@@ -55,9 +55,9 @@ void append_whole(std::string& out, T value) {
   if (quoted) out += '"';
 }
 
-/// Appends a value: a Raw, a PlainText, a truth value, a number, a text, an optional (null if empty), a function that adds
-/// the members of an object or appends a text, a range of such values, or anything that has an
-/// append_json(out, value) of its own.
+/// Appends a value: a Raw, a PlainText, Digits, a truth value, a number, a text, an optional (null if empty), a
+/// function that adds the members of an object or appends a text, a range of such values, or anything that has
+/// an append_json(out, value) of its own.
 template <class T>
 void append(std::string& out, const T& value) {
   if constexpr (std::same_as<T, Raw>) {

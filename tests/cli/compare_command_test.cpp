@@ -2,6 +2,7 @@
 #include "tests/support/command_line.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "tests/support/npy.hpp"
@@ -417,14 +418,20 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   refuses(run(npy.queries, folder.write("cut.npy", cut)), 2, "2 of 5 rows are missing");
   std::string odd = folder.read("a.npy");
   odd[odd.size() - 35] = 9;
-  refuses(run(npy.queries, folder.write("odd.npy", odd)), 2, "row 4: is no answer");
+  refuses(run(npy.queries, folder.write("odd.npy", odd)), 2, "row 4: is not an answer");
   const std::string names = "outcome,lattice,atom,cell1,cell2,time,id\n";
   refuses(run(csv.queries, folder.write("o.csv", names + "struck,0,0,1,0,2,q 0\n")), 2,
-          "\"struck\" is no outcome");
+          "\"struck\" is not an outcome");
   refuses(run(csv.queries, folder.write("t.csv", names + "hit,0,0,1,0,soon,q 0\n")), 2, "column time");
   refuses(run(csv.queries, folder.write("n.csv", "outcome,lattice\n")), 2, "there is no column atom");
   refuses(run(folder.write("x.csv", "x1,x2,v1,v2\n0.5,0,1,0\n1,,2,3\n0.5,0,0,0\n"), ""), 2, "row 1: ");
   refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,3\n"), ""), 2, "compared without");
+  // An id that comes twice is told of, and the rows behind it are read.
+  const Run twice =
+      run(csv.queries, folder.write("d.csv", names + "never,,,,,,q 0\nnever,,,,,,q 0\nnever,,,,,,q 1\n"),
+          "--json");
+  refuses(twice, 2, "d.csv: the id \"q 0\" came before");
+  CHECK(contains(twice.out, R"("error":0,"missing":3,)"));
   // A cell beyond 64 bits, a time beyond binary64, and rows that say little.
   const std::string far = "hit,0,0,100000000000000000000,0,inf,q 0\nnever,,,,,,q 1\nundecided,,,,,,q 2\n";
   const Run said = run(csv.queries, folder.write("f.csv", names + far), "--json");
@@ -447,4 +454,28 @@ TEST_CASE("compare and golden check say the same with threads as without", "[cli
     CHECK(said(command + more, end) == said(command + more + " --jobs 3", end));
   }
   CHECK(folder.lorentz("compare --jobs 0").status == 2);
+}
+
+TEST_CASE(
+    "compare: an array of answers says the same in any order of fields, of any types, with others beside",
+    "[cli][compare_command]") {
+  const Folder folder;
+  const std::string queries =
+      folder.write("q.npy", npy_rows({{0, 0.445, 1, 0.0175}, {0.5, 0, 0, 1}, {0.05, 0, 1, 0}}));
+  for (const bool big : {false, true}) {
+    const std::string b = big ? ">" : "<";
+    const std::string description = "[('time', '" + b + "f8'), ('note', 'S3'), ('cell', '" + b +
+                                    "i2', (2,)), ('atom', '|u1'), ('outcome', '" + b + "i4'), ('lattice', '" +
+                                    b + "u8')]";
+    const auto row = [&](double time, std::int16_t n1, std::int16_t n2, std::int32_t outcome) {
+      return bytes_of(time, big) + "abc" + bytes_of(n1, big) + bytes_of(n2, big) + '\0' +
+             bytes_of(outcome, big) + bytes_of(std::uint64_t{0}, big);
+    };
+    const std::string rows = row(25.999999999999996, 26, 1, 0) + row(NAN, 7, 7, 1) + row(NAN, 0, 0, 2);
+    const std::string answers = folder.write("a.npy", npy_file(npy_dictionary(description, "(3,)"), rows));
+    const Run run = folder.lorentz("compare --json --scene square --radius 0.1 --queries " + queries +
+                                   " --answers mine=" + answers);
+    INFO(run.out << run.err);
+    CHECK(contains(run.out, R"("queries":3,"agree":3,)"));
+  }
 }
