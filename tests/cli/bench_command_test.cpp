@@ -136,6 +136,7 @@ TEST_CASE("bench: one process at a time writes a store, no page without a name, 
     const Run mute = folder.run(bench + " --engine '" + engine + "'");
     INFO(mute.out);
     CHECK(contains(mute.out, engine + ": no answer to judge"));
+    CHECK(contains(mute.out, "no times, for it broke"));
     CHECK_FALSE(contains(mute.out, "ulps off"));
   }
 }

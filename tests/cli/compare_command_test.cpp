@@ -461,7 +461,7 @@ TEST_CASE(
     "[cli][compare_command]") {
   const Folder folder;
   const std::string queries =
-      folder.write("q.npy", npy_rows({{0, 0.445, 1, 0.0175}, {0.5, 0, 0, 1}, {0.05, 0, 1, 0}}));
+      folder.write("q.npy", npy_rows({{0.5, 0, 1, 0}, {0.5, 0, 0, 1}, {0.05, 0, 1, 0}}));
   for (const bool big : {false, true}) {
     const std::string b = big ? ">" : "<";
     const std::string description = "[('time', '" + b + "f8'), ('note', 'S3'), ('cell', '" + b +
@@ -471,11 +471,35 @@ TEST_CASE(
       return bytes_of(time, big) + "abc" + bytes_of(n1, big) + bytes_of(n2, big) + '\0' +
              bytes_of(outcome, big) + bytes_of(std::uint64_t{0}, big);
     };
-    const std::string rows = row(25.999999999999996, 26, 1, 0) + row(NAN, 7, 7, 1) + row(NAN, 0, 0, 2);
+    const std::string rows = row(0.4, 1, 0, 0) + row(NAN, 7, 7, 1) + row(NAN, 0, 0, 2);
     const std::string answers = folder.write("a.npy", npy_file(npy_dictionary(description, "(3,)"), rows));
     const Run run = folder.lorentz("compare --json --scene square --radius 0.1 --queries " + queries +
                                    " --answers mine=" + answers);
     INFO(run.out << run.err);
     CHECK(contains(run.out, R"("queries":3,"agree":3,)"));
   }
+}
+
+TEST_CASE("compare: answers may come in any order, and rows without ids are matched by their numbers",
+          "[cli][compare_command]") {
+  const Folder folder;
+  std::string queries = kScene, answers, csv = "x1,x2,v1,v2\n",
+              rows = "time,outcome,lattice,atom,cell1,cell2\n";
+  for (int i = 0; i < 20; ++i) {
+    const std::string n = std::to_string(i);
+    queries += R"({"id":)" + n + R"(,"x":[)" + n + R"(.5,0],"v":[1,0]})" + '\n';
+    const std::string answer = R"({"id":)" + n + R"(,"outcome":"hit","lattice":0,"atom":0,"cell":[)" +
+                               std::to_string(i + 1) + R"(,0],"time":0.25})" + '\n';
+    answers = answer + answers;  // the last first
+    csv += n + ".5,0,1,0\n";
+    rows += "0.25,hit,0,0," + std::to_string(i + 1) + ",0\n";
+  }
+  const auto agree = [&](const std::string& command) {
+    const Run run = folder.lorentz("compare --json " + command);
+    INFO(run.out << run.err);
+    CHECK(contains(run.out, R"("queries":20,"agree":20,)"));
+  };
+  agree("--queries " + folder.write("q", queries) + " --answers mine=" + folder.write("a", answers));
+  agree("--scene square --radius 0.25 --queries " + folder.write("q.csv", csv) +
+        " --answers mine=" + folder.write("a.csv", rows));
 }
