@@ -134,7 +134,7 @@ void fill(report::Cell& cell, const Tally& t) {
   cell.error = t.error;
   cell.missing = t.missing;
   cell.ulps = report::histogram_of(t.ulps);
-  cell.skipped = cell.unsupported == cell.queries;  // how fast it says so is nobody's question
+  cell.skipped = cell.unsupported == cell.queries;  // how fast it refuses means nothing
 }
 
 // An engine over the questions, judged.

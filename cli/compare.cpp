@@ -54,7 +54,7 @@ std::string json_of(const std::string& scene, std::uint64_t seed, const std::vec
   });
 }
 
-// Who is compared: an engine, or answers in a file.
+// An engine, or the answers in a file, that is compared.
 struct Compared {
   std::string name;
   std::vector<std::unique_ptr<Answerer>> answerers;  // one a thread

@@ -64,7 +64,7 @@ std::string lines_of_question(const Finding& finding) {
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
   if (report.engine.kind == compare::EngineInfo::Kind::guest)
-    return {};  // a function in somebody's program has no command
+    return {};                                                      // a function of a caller's has no command
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine.name);

@@ -13,7 +13,8 @@ namespace lorentz::compare {
 
 class ColumnEngine {
  public:
-  /// Of this program. With `max_time` no row has a later limit. `jobs`: threads, of the batch engines.
+  /// `engine` must be one of this program's. `max_time` is an upper bound for the limits of all rows. `jobs`:
+  /// threads, of the batch engines.
   ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time, int jobs);
 
   /// The same answers as of its answerer; rows with a flaw are errors.

@@ -11,11 +11,10 @@ struct RaceOptions {
   int rounds = 5;
   double timeout = AnswererOptions::kDefaultTimeout;  ///< of another program
   Listener listener = {};
-  bool strict = false;                ///< of another program: AnswererOptions::strict
-  double start_timeout = 0;           ///< AnswererOptions::start_timeout
-  std::function<bool()> enough = {};  ///< AnswererOptions::enough
-  std::vector<std::size_t> counts =
-      {};  ///< of each engine, how many of the questions, from the first; none: all
+  bool strict = false;                   ///< of another program: AnswererOptions::strict
+  double start_timeout = 0;              ///< AnswererOptions::start_timeout
+  std::function<bool()> enough = {};     ///< AnswererOptions::enough
+  std::vector<std::size_t> counts = {};  ///< how many of the questions each engine is asked; empty: all
   /// Of each engine an answerer that runs already, and is not ended here. Empty, or null: a new one is made.
   std::vector<Answerer*> running = {};
 };

@@ -14,16 +14,16 @@ constexpr std::uint64_t kTogether = 4096;
 
 // ---- engines by columns
 
-ColumnFlyer::ColumnFlyer(const std::string& engine, const Scene& scene)
-    : single_(compare::engine_named(engine).first_hit(scene)) {
-  if (!flies_in_columns(engine)) return;
-  if (compare::own_engine(engine)->traits.is_exact) {
+ColumnFlyer::ColumnFlyer(const compare::EngineInfo& engine, const Scene& scene)
+    : single_(engine.first_hit(scene)) {
+  if (!engine.traits.uses_reduction) return;  // asked one at a time
+  if (engine.traits.is_exact) {
     certified_.emplace(scene);
-  } else {
-    if (const auto why = Reduction::beyond(scene))
-      throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine, *why));
-    batch_.emplace(scene);
+    return;
   }
+  if (const auto why = Reduction::beyond(scene))
+    throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine.name, *why));
+  batch_.emplace(scene);
 }
 
 namespace {

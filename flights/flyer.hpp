@@ -14,7 +14,7 @@ namespace lorentz::flights {
 /// An engine that flies columns. Any number of threads may share one if its engine may be shared.
 class ColumnFlyer {
  public:
-  ColumnFlyer(const std::string& engine, const Scene& scene);
+  ColumnFlyer(const compare::EngineInfo& engine, const Scene& scene);
   void fly(const QueryColumns& queries, FlightTable& flights) const;
 
  private:

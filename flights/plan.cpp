@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "compare/engines.hpp"
 #include "flights/account.hpp"
 #include "src/problem/scene_geometry.hpp"
 
@@ -30,11 +29,6 @@ int unit_exponent(const Scene& scene) {
   const std::optional<Filling> filling = filling_of(scene);
   if (!filling || !(filling->surface > 0)) return 0;
   return std::clamp(std::ilogb((scene.dimension == 2 ? 3.14 : 4) / filling->surface), -900, 900);
-}
-
-bool flies_in_columns(const std::string& engine) {
-  const compare::EngineInfo* own = compare::own_engine(engine);
-  return own && own->traits.uses_reduction;
 }
 
 }  // namespace lorentz::flights

@@ -33,7 +33,4 @@ struct Plan {
 /// obstacles, and nothing that answers depend on.
 int unit_exponent(const Scene& scene);
 
-/// Engines that fly many at a time, by columns; the others are asked one by one.
-bool flies_in_columns(const std::string& engine);
-
 }  // namespace lorentz::flights

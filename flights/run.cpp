@@ -98,7 +98,7 @@ void work(const Plan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
 }  // namespace
 
 void run(const Plan& plan, const Bounds& bounds, Account& account, const OnProgress& on_progress) {
-  const ColumnFlyer engine(plan.engine, plan.scene);
+  const ColumnFlyer engine(compare::engine_named(plan.engine), plan.scene);
   BlockLedger ledger(plan, bounds, account);
   std::vector<std::jthread> threads;
   for (unsigned job = 0; job < bounds.jobs; ++job) threads.emplace_back([&] { work(plan, engine, ledger); });

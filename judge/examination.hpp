@@ -38,7 +38,7 @@ struct Row {
 
 class Examination {
  public:
-  /// `stop`, set by somebody else, ends everything soon.
+  /// If another thread sets `stop`, everything ends soon.
   Examination(const compare::EngineInfo& engine, compare::AnswererOptions options, double ulps,
               const std::atomic<bool>& stop);
   Examination(const Examination&) = delete;

@@ -37,7 +37,7 @@ struct Cell {
   std::string difficulty, engine;
   std::size_t queries = 0;
   bool skipped = false;     ///< too slow, or all is unsupported: of what follows only that is known
-  std::optional<Times> ns;  ///< none of a program that broke
+  std::optional<Times> ns;  ///< empty if the program broke
   std::optional<double> instructions;  ///< a query, where the processor counts them
   double mean_path = 0;                ///< mean time of the flights that hit, 0 if none does
   Share undecided, ill_posed, wrong, wrong_time;

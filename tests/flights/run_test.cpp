@@ -137,13 +137,6 @@ TEST_CASE("A run that has time enough is whole", "[flights]") {
   for (const double seconds : {3600.0, 1e300}) CHECK(flown(plan, {.seconds = seconds}) == flown(plan));
 }
 
-TEST_CASE("Engines that fly in columns", "[flights]") {
-  for (const char* name : {"batch", "reduction", "certified-batch", "certified"})
-    CHECK(flies_in_columns(name));
-  for (const char* name : {"classical", "published", "oracle", "walk", ""})
-    CHECK_FALSE(flies_in_columns(name));
-}
-
 TEST_CASE("Two processes or more are several, and need MPI", "[flights]") {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     for (const auto& [size, several] : {std::pair("0", false), {"1", false}, {"2", true}, {"3", true}}) {
