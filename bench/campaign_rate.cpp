@@ -1,29 +1,17 @@
 // What a campaign costs: cases a second of processor time, by target, by whose answers are the truth, with
-// and without variants. The subject costs next to nothing: it is the engine `certified`.
+// and without variants. The engine costs next to nothing: it is the engine `certified`.
 // campaign_rate [SECONDS]
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <ctime>
-#include <utility>
 
-#include <lorentz/certified.hpp>
 #include "fuzz/campaign/campaign.hpp"
+#include "fuzz/examine/answerers.hpp"
 
 using namespace lorentz;
 
 namespace {
-
-class CertifiedSubject final : public fuzz::Subject {
- public:
-  void ask(const Query& query) override { replies_.push_back({engine_->first_hit(query)}); }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
- private:
-  void change_scene(const Scene& scene) override { engine_.emplace(scene); }
-  std::optional<oracle::Certified> engine_;
-  std::vector<fuzz::Reply> replies_;
-};
 
 class NoJournal final : public fuzz::Journal {
   void record(const cases::Target&, const fuzz::TargetTally&, const std::vector<fuzz::Finding>&) override {}
@@ -40,8 +28,7 @@ double rate(const cases::Target& target, fuzz::Truth truth, std::uint64_t mutate
   std::vector<fuzz::TargetTally> tallies(1);
   NoJournal journal;
   const std::clock_t start = std::clock();
-  fuzz::run(
-      plan, bounds, [] { return std::make_unique<CertifiedSubject>(); }, tallies, journal);
+  fuzz::run(plan, bounds, fuzz::answerer_maker(compare::engine_named("certified")), tallies, journal);
   return static_cast<double>(tallies[0].cases + tallies[0].variants) * CLOCKS_PER_SEC /
          static_cast<double>(std::clock() - start);
 }

@@ -123,10 +123,11 @@ class Departures {
     if (!departs(judgement) || (judgement.wrong_time && !times_)) return;
     file_.add(judged, name);
     if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
-    const auto& [question, given, origin, same] = judged;
+    const Question& question = judged.question;
     const Place& place = *question.place;
-    text_[name] += description(judged) + reason_of(place.margins(), place.scene(), question.query,
-                                                   question.exact, given, judgement.obstacle, "    ");
+    text_[name] +=
+        description(judged) + reason_of(place.margins(), place.scene(), question.query, question.exact,
+                                        judged.reply.answer, judgement.obstacle, "    ");
   }
 
   /// The first wrong answers of an engine, for people; empty if there are none.
@@ -142,7 +143,7 @@ class Departures {
     std::string query, truth, says;
     append_query_line(query, question.id, question.query, dimension);
     append_answer_line(truth, question.id, question.exact, dimension);
-    append_answer_line(says, question.id, judged.given, dimension);
+    append_answer_line(says, question.id, judged.reply.answer, dimension);
     return fmt::format("  {}    says  {}    truth {}", query, says, truth);
   }
 

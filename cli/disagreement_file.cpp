@@ -27,7 +27,7 @@ void DisagreementFile::enter(const std::shared_ptr<Place>& place) {
 
 void DisagreementFile::add(const Judged& judged, const std::string& engine) {
   if (!file_) return;
-  const auto& [question, given, origin, judgement] = judged;
+  const auto& [question, reply, judgement] = judged;
   enter(question.place);
   const int dimension = question.place->scene().dimension;
   const std::string_view verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
@@ -35,15 +35,15 @@ void DisagreementFile::add(const Judged& judged, const std::string& engine) {
                                                                                : "ill-posed";
   const auto answer = [&](const Answer& its) {
     return [&](json::Members& object) {
-      object.add("id", json::Raw{judged.question.id});
+      object.add("id", json::Raw{question.id});
       add_answer(object, its, dimension);
     };
   };
   file_->write(json::line_of([&](json::Members& line) {
-    line.add("id", json::Raw{judged.question.id});
-    add_query(line, judged.question.query, dimension);
-    line.add("engine", engine, "verdict", verdict, "departs", judged.judgement.departs, "expected",
-             answer(judged.question.exact), "given", answer(judged.given));
+    line.add("id", json::Raw{question.id});
+    add_query(line, question.query, dimension);
+    line.add("engine", engine, "verdict", verdict, "departs", judgement.departs, "expected",
+             answer(question.exact), "given", answer(reply.answer));
   }));
 }
 

@@ -137,7 +137,7 @@ int act_on_lines(const FirstHitOptions& options) {
   QueryStream stream(options.queries, initial, unknown);
   Output output;
   AnswerOrder order(output.buffer());
-  answerer->on_answer([&](const Answer& answer) { order.answered(answer); });
+  answerer->on_reply([&](const compare::Reply& reply) { order.answered(reply.answer); });
   // While the input pauses, answers go on coming.
   stream.lines().before_waiting([&] {
     do output.flush();

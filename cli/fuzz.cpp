@@ -10,7 +10,7 @@
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
 #include "fuzz/campaign/ranks.hpp"
-#include "fuzz/examine/engine_subject.hpp"
+#include "fuzz/examine/answerers.hpp"
 
 namespace lorentz::cli {
 
@@ -23,8 +23,8 @@ using fuzz::Store;
 
 constexpr double kDefaultSecondsALine = 60;
 
-int exit_status(const FuzzReport& report, bool times, bool subject_failed) {
-  if (subject_failed) return kFailed;
+int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
+  if (answerer_failed) return kFailed;
   const bool wrong = report.total(Kind::wrong) + report.total(Kind::error) > 0;
   return wrong || (times && report.total(Kind::wrong_time) > 0) ? kDisagreement : kDone;
 }
@@ -67,8 +67,8 @@ Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) 
 }
 
 // What the plan, the store and the other processes make of it; reports.
-int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz::MakeSubject& make_subject,
-                 fuzz::Ranks* ranks) {
+int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
+                 const compare::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
@@ -78,7 +78,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, const fuzz:
   {
     JournalWithProgress journal(store, campaign, bounds, plan.targets.size(),
                                 options.progress.value_or(kDefaultSecondsALine));
-    failed = fuzz::run(plan, bounds, make_subject, report.tallies, journal, ranks, unshrunk);
+    failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, unshrunk);
   }
   report.findings = findings_of(store, campaign);
   print(options.json ? report.json() : report.text());
@@ -98,14 +98,14 @@ int act(const FuzzOptions& options) {
   const fuzz::Plan plan = plan_of(options);
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  const fuzz::MakeSubject make_subject =
-      fuzz::subject_maker(compare::engine_named(options.engine), {{}, timeout, terminal()});
+  const compare::MakeAnswerer make_answerer =
+      fuzz::answerer_maker(compare::engine_named(options.engine), {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       ranks::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
-  if (!ranks) return run_campaign(options, plan, make_subject, nullptr);
+  if (!ranks) return run_campaign(options, plan, make_answerer, nullptr);
   try {
-    if (ranks->rank() == 0) return run_campaign(options, plan, make_subject, ranks.get());
-    ranks->work(plan, jobs, make_subject);
+    if (ranks->rank() == 0) return run_campaign(options, plan, make_answerer, ranks.get());
+    ranks->work(plan, jobs, make_answerer);
     return kDone;
   } catch (const std::exception& error) {  // nobody waits for a process that is gone
     say("{}", error.what());

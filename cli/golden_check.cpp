@@ -107,8 +107,8 @@ class EngineCheck {
   static constexpr std::size_t kTogether = 4096;
 
   void take(const Judged& judged, const std::string& set, SetTally& tally) {
-    const auto& [question, given, origin, judgement] = judged;
-    if (origin == Answerer::Origin::not_asked) {
+    const auto& [question, reply, judgement] = judged;
+    if (!reply.was_asked()) {
       ++tally.not_asked;
       return;
     }
@@ -119,10 +119,11 @@ class EngineCheck {
     if (!failed || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, question.margin, question.exact, given, place.scene().dimension, ""});
+                         judgement, question.margin, question.exact, reply.answer, place.scene().dimension,
+                         ""});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = reason_of(place.margins(), place.scene(), question.query, question.exact,
-                                          given, judgement.obstacle, "    ");
+                                          reply.answer, judgement.obstacle, "    ");
   }
 
   const std::string engine_;

@@ -67,17 +67,14 @@ bool LoggedAnswers::find(const Id& id, Logged& logged) {
 
 void LoggedAnswers::ask(const Id& id, const Query&) {
   Logged logged;
-  if (id == "null" || !find(id, logged)) {
-    Answer none = Answer::error("no answer");
-    return deliver(none, Origin::not_asked);
-  }
+  if (id == "null" || !find(id, logged)) return deliver({Answer::error("no answer"), Origin::not_asked});
   ++matched_;
-  if (logged.components != 0 && logged.components != static_cast<std::size_t>(dimension_)) {
+  if (logged.components != 0 && logged.components != static_cast<std::size_t>(scene().dimension)) {
     complain(logged.line, fmt::format("cell: has {} components, the scene has dimension {}",
-                                      logged.components, dimension_));
+                                      logged.components, scene().dimension));
     logged.answer = Answer::error("cell: has another dimension");
   }
-  deliver(logged.answer);
+  deliver({std::move(logged.answer)});
 }
 
 void LoggedAnswers::finish() {

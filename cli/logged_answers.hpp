@@ -20,7 +20,6 @@ class LoggedAnswers final : public compare::Answerer {
   LoggedAnswers(const std::string& path, UnknownKeys unknown);
   explicit LoggedAnswers(std::unique_ptr<AnswerReader> columns);
 
-  void set_scene(const Scene& scene) override { dimension_ = scene.dimension; }
   void ask(const Id& id, const Query& query) override;
   /// Reads the rest, and says what did not match; nothing matched at all is bad input, the wrong file most
   /// likely.
@@ -28,6 +27,7 @@ class LoggedAnswers final : public compare::Answerer {
   bool had_bad_input() const { return bad_input_; }
 
  private:
+  void enter(const Scene&) override {}
   struct Logged {
     Answer answer;
     std::size_t components = 0;  // of its cell
@@ -53,7 +53,6 @@ class LoggedAnswers final : public compare::Answerer {
   std::unordered_map<Id, Logged> early_;
   std::unordered_set<Id> ids_;  // of all that were read
   std::size_t matched_ = 0;
-  int dimension_ = 0;
   bool is_empty_ = true, is_broken_ = false, bad_input_ = false;
 };
 

@@ -59,9 +59,9 @@ void refuse_other_formats(const std::string& file) {
 }
 
 // The flights of a query stream, up to the first query of another scene than the first one's.
-std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
+std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
   constexpr std::size_t kMostFlights = 1000;
-  std::vector<Flight> flights;
+  std::vector<DrawnFlight> flights;
   FirstHit first_hit;
   std::size_t refused = 0;
   std::string reason;
@@ -79,7 +79,7 @@ std::vector<Flight> flights_of(QueryStream& stream, std::optional<Scene>& scene)
         break;
       }
       if (!first_hit) first_hit = compare::engine_named("certified").first_hit(*scene);
-      Flight flight{item.query, {}};
+      DrawnFlight flight{item.query, {}};
       first_hit(item.query, {}, flight.answer);
       if (flight.answer.outcome == Outcome::error) {
         ++refused;
@@ -188,7 +188,7 @@ int draw(const SceneDrawOptions& options) {
     throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;
   if (options.scene) scene = load_scene(*options.scene, options.radius);
-  std::vector<Flight> flights;
+  std::vector<DrawnFlight> flights;
   bool bad = false;
   if (options.queries) {
     QueryStream stream(*options.queries, scene, UnknownKeys::warned);

@@ -22,7 +22,7 @@ oracle::Request request_until(double max_time) {
 // Another program is asked one query at a time: the next depends on its answer.
 AskFirstHit ask_command(compare::Answerer& program) {
   return [&program](const Query& query, double, Answer& answer) {
-    program.on_answer([&](const Answer& given) { answer = given; });
+    program.on_reply([&](const compare::Reply& reply) { answer = reply.answer; });
     program.ask("0", query);
     program.drain();
   };

@@ -1,5 +1,7 @@
 #include "compare/batch_answerer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "compare/engines.hpp"
@@ -10,14 +12,15 @@ namespace {
 // So many that threads have something to share, and so few that answers come soon.
 constexpr std::size_t kGathered = 8192;
 
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
 }  // namespace
 
 BatchAnswerer::BatchAnswerer(bool certified, const AnswererOptions& options)
     : certified_(certified), request_(options.request), jobs_(options.jobs) {}
 
-void BatchAnswerer::set_scene(const Scene& scene) {
+void BatchAnswerer::enter(const Scene& scene) {
   drain();
-  scene_ = scene;
   batch_.reset(), certified_batch_.reset(), why_not_.reset();
   if (certified_) {
     certified_batch_.emplace(scene);
@@ -27,12 +30,17 @@ void BatchAnswerer::set_scene(const Scene& scene) {
   if (!why_not_) batch_.emplace(scene);
 }
 
-void BatchAnswerer::ask(const Id&, const Query& query) {
-  const double limit = request_.max_time.value_or(std::numeric_limits<double>::infinity());
+void BatchAnswerer::ask(const Id& id, const Query& query) {
+  ask_until(id, query, kForEver);
+}
+
+void BatchAnswerer::ask_until(const Id&, const Query& query, double max_time) {
+  const double limit = std::min(max_time, request_.max_time.value_or(kForEver));
   if (!queries_.push_back(query, limit)) {  // `from` is too far away for the columns
     drain();
-    Answer answer = single(query);
-    deliver(answer);
+    Reply reply = single(query, limit);
+    if (batch_) reply.stage = batch_->one_at_a_time().fly(query, limit).stage;
+    deliver(reply);
   } else if (queries_.size() == kGathered) {
     drain();
   }
@@ -50,48 +58,50 @@ bool BatchAnswerer::idle(int) {
 
 void BatchAnswerer::drain() {
   if (queries_.size() == 0) return;
+  flights_.resize(queries_.size());
+  uncertain_.clear();
   fly();
-  answer_all();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    const bool uncertain = next < uncertain_.size() && uncertain_[next] == i;
+    next += uncertain;
+    deliver(uncertain ? single(queries_[i], limit(i)) : reply_to(i));
+  }
   queries_.clear();
 }
 
 void BatchAnswerer::fly() {
-  flights_.resize(queries_.size());
-  uncertain_.clear();
   if (batch_) batch_->fly(queries_.columns(), flights_.columns(), Batch::Time::close, jobs_);
   if (certified_batch_)
     certified_batch_->first_hits(queries_.columns(), flights_.columns(), uncertain_, jobs_);
 }
 
-void BatchAnswerer::answer_all() {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < queries_.size(); ++i) {
-    const bool uncertain = next < uncertain_.size() && uncertain_[next] == i;
-    next += uncertain;
-    Answer answer = uncertain ? single(queries_[i]) : answer_of_flight(i);
-    deliver(answer);
-  }
+double BatchAnswerer::limit(std::size_t i) const {
+  const double* const limits = queries_.columns().max_time;
+  return limits ? limits[i] : kForEver;
 }
 
-Answer BatchAnswerer::answer_of_flight(std::size_t i) {
+Reply BatchAnswerer::reply_to(std::size_t i) const {
   const Flight flight = why_not_ ? Flight{} : flights_[i];
   if (why_not_ || flight.outcome == Outcome::error || request_.detail || request_.digits > 0)
-    return single(queries_[i]);
-  return answer_of(flight);
+    return single(queries_[i], limit(i));
+  return {.answer = answer_of(flight), .stage = flight.stage};
 }
 
-// Queries with a flaw, and what more is wanted than a flight says.
-Answer BatchAnswerer::single(const Query& query) const {
-  if (why_not_) return Answer::unsupported_because("batch " + *why_not_);
-  Answer answer;
+// Queries with a flaw, those that are uncertain, and what more is wanted than a flight says.
+Reply BatchAnswerer::single(const Query& query, double max_time) const {
+  if (why_not_) return {Answer::unsupported_because("batch " + *why_not_)};
+  Reply reply;
   if (certified_batch_) {
-    certified_batch_->one_at_a_time().first_hit(query, request_, answer);
-    return answer;
+    oracle::Request request = request_;
+    if (std::isfinite(max_time)) request.max_time = max_time;
+    certified_batch_->one_at_a_time().first_hit(query, request, reply.answer);
+    reply.stage = Stage::undecided;
+    return reply;
   }
-  const double limit = request_.max_time.value_or(std::numeric_limits<double>::infinity());
-  batch_->one_at_a_time().first_hit(query, limit, answer);
-  if (request_.detail) add_detail(query, scene_, answer);
-  return answer;
+  batch_->one_at_a_time().first_hit(query, max_time, reply.answer);
+  if (request_.detail) add_detail(query, scene(), reply.answer);
+  return reply;
 }
 
 }  // namespace lorentz::compare

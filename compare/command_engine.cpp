@@ -58,7 +58,7 @@ CommandEngine::CommandEngine(std::string command, const AnswererOptions& options
   reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
 }
 
-void CommandEngine::set_scene(const Scene& scene) {
+void CommandEngine::enter(const Scene& scene) {
   scene_ = std::make_shared<const Scene>(scene);
 }
 
@@ -389,7 +389,7 @@ void CommandEngine::deliver_first(Answer& answer, Origin origin) {
   if (recent_.size() > kRecent) recent_.pop_front();
   open_.pop_front();
   ++first_number_;
-  deliver(answer, origin);
+  deliver({std::move(answer), origin});
 }
 
 // ---- its end

@@ -33,7 +33,6 @@ class CommandEngine final : public Answerer {
 
   CommandEngine(std::string command, const AnswererOptions& options);
 
-  void set_scene(const Scene& scene) override;
   void ask(const Id& id, const Query& query) override;
   void ask_text(const Id& id, const std::string& question) override;
   void drain() override;
@@ -43,8 +42,11 @@ class CommandEngine final : public Answerer {
   bool given_up() const override { return given_up_in_ != nullptr; }
   bool is_hopeless() const override { return given_up() && !ever_answered_; }
   void try_again() override;
+  std::uint64_t batch_size() const override { return 256; }
 
  private:
+  void enter(const Scene& scene) override;
+
   using Clock = std::chrono::steady_clock;
   using Seconds = std::chrono::duration<double>;
   static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();

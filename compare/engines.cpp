@@ -70,17 +70,18 @@ class SingleAnswerer final : public Answerer {
  public:
   SingleAnswerer(std::function<FirstHit(const Scene&)> make, const oracle::Request& request)
       : make_(std::move(make)), request_(request) {}
-  void set_scene(const Scene& scene) override { first_hit_ = make_(scene); }
   void ask(const Id&, const Query& query) override {
-    first_hit_(query, request_, answer_);
-    deliver(answer_);
+    first_hit_(query, request_, reply_.answer);
+    deliver(reply_);
   }
 
  private:
+  void enter(const Scene& scene) override { first_hit_ = make_(scene); }
+
   const std::function<FirstHit(const Scene&)> make_;
   const oracle::Request request_;
   FirstHit first_hit_;
-  Answer answer_;
+  Reply reply_;
 };
 
 EngineInfo one_at_a_time(std::string name, const Traits& traits,

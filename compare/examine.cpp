@@ -1,10 +1,13 @@
 #include "compare/examine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <future>
 #include <limits>
 #include <mutex>
+
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::compare {
 namespace {
@@ -20,9 +23,29 @@ Judgement judgement_of_invalid(const Answer& given) {
 
 }  // namespace
 
+bool is_later(const Question& question) {
+  const Answer& exact = question.exact;
+  if (exact.outcome != Outcome::hit) return exact.outcome == Outcome::never;
+  // The exact time lies between the neighbours of the rounded one.
+  if (*exact.time != question.max_time) return question.max_time < *exact.time;
+  oracle::Request request;
+  request.max_time = question.max_time;
+  return question.place->exact(question.query, request).outcome == Outcome::later;
+}
+
 Judgement judgement_of(const Question& question, const Answer& given, double ulps) {
   if (!question.is_query()) return judgement_of_invalid(given);
-  return question.place->judge().judge(question.query, question.exact, given, ulps);
+  if (question.has_limit()) {
+    const bool says_later = given.outcome == Outcome::later || given.outcome == Outcome::never;
+    const bool says_something = given.outcome == Outcome::hit || given.outcome == Outcome::inside;
+    if (says_later || (says_something && is_later(question)))
+      return {says_later && is_later(question) ? Verdict::agree : Verdict::wrong};
+  }
+  // Answers that are the same need no judge, which many scenes therefore never get.
+  const Answer& exact = question.exact;
+  if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && same_answer(given, exact))
+    return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};
+  return question.place->judge().judge(question.query, exact, given, ulps);
 }
 
 bool departs(const Judgement& judgement) {
@@ -30,29 +53,37 @@ bool departs(const Judgement& judgement) {
          judgement.verdict == Verdict::ill_posed;
 }
 
-void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink) {
+void ask_all(const Source& source, Answerer& answerer,
+             const std::function<void(const Question&, Reply&)>& take) {
   std::deque<Question> open;
-  answerer.on_answer([&](Answer& given) {
+  answerer.on_reply([&](Reply& reply) {
     const Question question = std::move(open.front());
     open.pop_front();
-    const bool was_asked = answerer.origin() != Answerer::Origin::not_asked;
-    sink({question, given, answerer.origin(), was_asked ? judgement_of(question, given, ulps) : Judgement()});
+    take(question, reply);
   });
   std::shared_ptr<Place> place;
   while (std::optional<Question> next = source()) {
-    if (next->place != place) answerer.set_scene((place = next->place)->scene());
+    if (next->place != place && !answerer.is_in(next->place->scene()))
+      answerer.set_scene(next->place->scene());
+    place = next->place;
     open.push_back(std::move(*next));
-    const Id id = open.back().id;  // its answer may come at once, and take it away
-    if (open.back().is_query()) {
-      const Query query = open.back().query;
-      answerer.ask(id, query);
-    } else {
-      const std::string text = open.back().text;
-      answerer.ask_text(id, text);
-    }
+    const Question& asked = open.back();
+    const Id id = asked.id;  // its reply may come at once, and take it away
+    if (!asked.is_query())
+      answerer.ask_text(id, std::string(asked.text));
+    else if (asked.has_limit())
+      answerer.ask_until(id, Query(asked.query), asked.max_time);
+    else
+      answerer.ask(id, Query(asked.query));
   }
   answerer.drain();
-  answerer.on_answer([](Answer&) {});
+  answerer.on_reply([](Reply&) {});
+}
+
+void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink) {
+  ask_all(source, answerer, [&](const Question& question, const Reply& reply) {
+    sink({question, reply, reply.was_asked() ? judgement_of(question, reply.answer, ulps) : Judgement()});
+  });
 }
 
 namespace {
@@ -76,19 +107,17 @@ void examine(std::span<const Question> questions, std::span<const std::unique_pt
   for (const Question& question : questions)
     question.place->judge();  // made here, for threads may only read it
   struct Came {
-    Answer given;
-    Answerer::Origin origin{};
+    Reply reply;
     Judgement judgement;
   };
   std::vector<Came> came(questions.size());
   in_stretches(questions.size(), answerers.size(), [&](std::size_t job, std::size_t begin, std::size_t end) {
     std::size_t next = begin;
     examine(all_of(questions.subspan(begin, end - begin)), *answerers[job], ulps, [&](const Judged& judged) {
-      came[next++] = {judged.given, judged.origin, judged.judgement};
+      came[next++] = {judged.reply, judged.judgement};
     });
   });
-  for (std::size_t i = 0; i < questions.size(); ++i)
-    sink({questions[i], came[i].given, came[i].origin, came[i].judgement});
+  for (std::size_t i = 0; i < questions.size(); ++i) sink({questions[i], came[i].reply, came[i].judgement});
 }
 
 namespace {
@@ -105,13 +134,12 @@ void answer_by_certified(std::span<Question> questions, const Listener& listener
   AnswererOptions options;
   options.jobs = jobs;
   const auto certified = engine_named("certified-batch").answerer(options);
-  certified->on_answer([&](Answer& answer) {
-    order[told++]->exact = std::move(answer);
+  certified->on_reply([&](Reply& reply) {
+    order[told++]->exact = std::move(reply.answer);
     report(listener, kExactAnswers, told, order.size());
   });
-  const Place* place = nullptr;
   for (const Question* question : order) {
-    if (question->place.get() != place) certified->set_scene((place = question->place.get())->scene());
+    certified->set_scene(question->place->scene());
     certified->ask(question->id, question->query);
   }
   certified->finish();

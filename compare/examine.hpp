@@ -9,22 +9,30 @@
 
 namespace lorentz::compare {
 
-/// Judges an answer with the tolerance `ulps`. The right answer to an invalid question is `error`.
+/// Asks all questions of the source, waits for the replies, and passes each on with its question, in the order
+/// of the questions.
+void ask_all(const Source& source, Answerer& answerer,
+             const std::function<void(const Question&, Reply&)>& take);
+
+/// Judges an answer with the tolerance `ulps`. The right answer to an invalid question is `error`. At the
+/// question's limit nothing is ill-posed: an engine that is asked with one knows its times.
 oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps);
+
+/// True if nothing is entered before the question's limit.
+bool is_later(const Question& question);
 
 /// True if the answer is wrong, ill-posed or wrong in time.
 bool departs(const oracle::Judgement& judgement);
 
-/// A question and the answer to it. `judgement` is `missing` if the question was not asked.
+/// A question and the reply to it. `judgement` is `missing` if the question was not asked.
 struct Judged {
   const Question& question;
-  const Answer& given;
-  Answerer::Origin origin;
+  const Reply& reply;
   oracle::Judgement judgement;
 };
 using Sink = std::function<void(const Judged&)>;
 
-/// Asks all questions of the source and waits for the answers. The sink gets them in the order of the questions.
+/// Asks all questions of the source. The sink gets them in their order.
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink);
 
 /// The same with one thread per answerer, each of which is asked one stretch of the questions. This thread calls the

@@ -55,7 +55,7 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
 // One that is asked many at a time: another program, a batch engine.
 Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
   std::size_t answered = 0;
-  program.on_answer([&](Answer&) { report(listener, name, ++answered, questions.size()); });
+  program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
   const auto start = SteadyClock::now();
   const Place* place = nullptr;
   for (const Question& question : questions) {

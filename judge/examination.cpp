@@ -8,7 +8,7 @@
 namespace lorentz::judge {
 namespace {
 
-using Origin = compare::Answerer::Origin;
+using compare::Origin;
 using oracle::Judgement;
 using oracle::Verdict;
 
@@ -39,9 +39,6 @@ Examination::Examination(const compare::EngineInfo& engine, compare::AnswererOpt
     : ulps_(ulps), stop_(stop), is_command_(engine.is_command()) {
   options.enough = [this] { return is_enough(); };
   answerer_ = engine.answerer(options);
-  answerer_->on_answer([this](Answer& answer) {
-    answers_.push_back({std::move(answer), answerer_->origin()});
-  });
 }
 
 void Examination::limit(double seconds) {
@@ -54,15 +51,16 @@ Examination::Start Examination::warm_up() {
   if (!is_command_) return {};
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const Question question{place, along, place->oracle().first_hit(along), "the first question", ""};
+  const Question question{
+      .place = place, .query = along, .exact = place->exact(along), .where = "the first question"};
   double longest = 0, last = 0;
   for (int i = 0; i < kTries && !is_over() && (i == 0 || last > kFast); ++i) {
     longest = std::max(longest, last = ask({question}));
     if (!answerer_->failed()) continue;
     Row row{"first question", "an empty place in the square lattice, before anything else"};
-    if (answers_.empty())
-      answers_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
-    take(question, answers_[0], row);
+    if (replies_.empty())
+      replies_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
+    take(question, replies_[0], row);
     rows_.push_back(std::move(row));
     break;
   }
@@ -71,23 +69,16 @@ Examination::Start Examination::warm_up() {
 
 // Returns how long it took.
 double Examination::ask(const std::vector<Question>& questions) {
-  answers_.clear();
+  replies_.clear();
   const auto start = Clock::now();
-  for (const Question& question : questions) {
-    if (question.place != place_) answerer_->set_scene((place_ = question.place)->scene());
-    if (question.is_query())
-      answerer_->ask("null", question.query);
-    else
-      answerer_->ask_text("null", question.text);
-  }
-  answerer_->drain();
+  compare::ask_all(compare::all_of(questions), *answerer_,
+                   [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });
   return seconds_since(start);
 }
 
 void Examination::run(Row row, const Source& source, double seconds, const Look& look) {
   const auto start = Clock::now();
   row.tally.name = row.name;
-  place_.reset();
   answerer_->try_again();
   double asking = 0;
   std::size_t at_once = kFewestAtOnce;
@@ -103,12 +94,12 @@ void Examination::run(Row row, const Source& source, double seconds, const Look&
     const double took = ask(questions);
     asking += took;
     at_once = next_number(questions.size(), took);
-    for (std::size_t i = 0; i < answers_.size(); ++i) {
-      questions[i].place->note_time(took / static_cast<double>(answers_.size()));
-      take(questions[i], answers_[i], row);
-      if (look && answers_[i].was_asked()) look(questions[i], answers_[i].answer);
+    for (std::size_t i = 0; i < replies_.size(); ++i) {
+      questions[i].place->note_time(took / static_cast<double>(replies_.size()));
+      take(questions[i], replies_[i], row);
+      if (look && replies_[i].was_asked()) look(questions[i], replies_[i].answer);
     }
-    if (answerer_->given_up() && place_) leave(*place_, row);
+    if (answerer_->given_up() && !questions.empty()) leave(*questions.back().place, row);
     if (answerer_->is_hopeless()) break;
   }
   if (row.tally.queries > 0)
@@ -140,30 +131,30 @@ void Examination::leave(Place& place, Row& row) const {
   row.last_failure = last_fault_;
 }
 
-Judgement Examination::judgement_of(const Question& question, const Given& given) const {
-  if (given.origin == Origin::fault) return {Verdict::missing};
-  return compare::judgement_of(question, given.answer, ulps_);
+Judgement Examination::judgement_of(const Question& question, const Reply& reply) const {
+  if (reply.origin == Origin::fault) return {Verdict::missing};
+  return compare::judgement_of(question, reply.answer, ulps_);
 }
 
-std::optional<Example> Examination::departing(const Question& question, const Given& given) const {
-  if (!given.was_asked()) return std::nullopt;
-  const Judgement judgement = judgement_of(question, given);
-  const auto diagnosis = diagnosis_of(question, given.answer, judgement);
-  return diagnosis ? std::optional(Example{question, given.answer, judgement, *diagnosis}) : std::nullopt;
+std::optional<Example> Examination::departing(const Question& question, const Reply& reply) const {
+  if (!reply.was_asked()) return std::nullopt;
+  const Judgement judgement = judgement_of(question, reply);
+  const auto diagnosis = diagnosis_of(question, reply.answer, judgement);
+  return diagnosis ? std::optional(Example{question, reply.answer, judgement, *diagnosis}) : std::nullopt;
 }
 
-void Examination::take(const Question& question, const Given& given, Row& row) {
-  if (!given.was_asked()) return leave(*question.place, row);
-  const Judgement judgement = judgement_of(question, given);
-  if (given.origin == Origin::fault) last_fault_ = given.answer.message;
-  const auto diagnosis = diagnosis_of(question, given.answer, judgement);
+void Examination::take(const Question& question, const Reply& reply, Row& row) {
+  if (!reply.was_asked()) return leave(*question.place, row);
+  const Judgement judgement = judgement_of(question, reply);
+  if (reply.origin == Origin::fault) last_fault_ = reply.answer.message;
+  const auto diagnosis = diagnosis_of(question, reply.answer, judgement);
   const bool is_nonsense = diagnosis && diagnosis->severity == Severity::nonsense;
   if (is_nonsense)
     ++row.nonsense;
   else
     row.tally.count(judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
-  if (diagnosis) findings_.add({question, given.answer, judgement, *diagnosis}, row.name);
+  if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis}, row.name);
   if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(question);
   if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
@@ -180,14 +171,14 @@ std::vector<Finding> Examination::findings() const {
 std::optional<Example> Examination::example_of(const Question& question) {
   answerer_->try_again();
   ask({question});
-  return answers_.empty() ? std::nullopt : departing(question, answers_[0]);
+  return replies_.empty() ? std::nullopt : departing(question, replies_[0]);
 }
 
 Examination::Repeated Examination::repeat(const Question& question, std::size_t copies, Diagnosis like) {
   ask(std::vector<Question>(copies, question));
-  Repeated repeated{{}, answers_.size() == copies};
-  for (std::size_t i = 0; i < answers_.size() && !repeated.failed; ++i) {
-    const auto example = departing(question, answers_[i]);
+  Repeated repeated{{}, replies_.size() == copies};
+  for (std::size_t i = 0; i < replies_.size() && !repeated.failed; ++i) {
+    const auto example = departing(question, replies_[i]);
     if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)
       repeated.failed = i + 1;
   }

@@ -17,6 +17,7 @@
 
 namespace lorentz::judge {
 
+using compare::Reply;
 using compare::Source;
 
 /// Sees each answer of a row.
@@ -91,19 +92,12 @@ class Examination {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // With whose it is.
-  struct Given {
-    Answer answer;
-    compare::Answerer::Origin origin = compare::Answerer::Origin::engine;
-    bool was_asked() const { return origin != compare::Answerer::Origin::not_asked; }
-  };
-
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
-  void take(const Question& question, const Given& given, Row& row);
+  void take(const Question& question, const Reply& reply, Row& row);
   void leave(Place& place, Row& row) const;
-  oracle::Judgement judgement_of(const Question& question, const Given& given) const;
-  std::optional<Example> departing(const Question& question, const Given& given) const;
+  oracle::Judgement judgement_of(const Question& question, const Reply& reply) const;
+  std::optional<Example> departing(const Question& question, const Reply& reply) const;
 
   const double ulps_;
   const std::atomic<bool>& stop_;
@@ -112,8 +106,7 @@ class Examination {
   bool failed_ = false;  // of those that were taken over
   const bool is_command_;
   std::unique_ptr<compare::Answerer> answerer_;
-  std::shared_ptr<Place> place_;  // that the answerer is in
-  std::vector<Given> answers_;
+  std::vector<Reply> replies_;
   std::string last_fault_;
   std::vector<Row> rows_;
   Findings findings_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
 
 Question question_of(const NamedPlace& place, const Query& query, const std::string& where) {
-  return {place.place, query, place.place->oracle().first_hit(query), where, ""};
+  return {.place = place.place, .query = query, .exact = place.place->exact(query), .where = where};
 }
 
 // Blocks of all places in turn.
@@ -105,16 +105,6 @@ class Golden {
   const compare::Source records_;
 };
 
-// For an examiner that is to know what is exact, and asks nobody.
-class NoSubject final : public fuzz::Subject {
- public:
-  void ask(const Query&) override {}
-  std::vector<fuzz::Reply> replies() override { return {}; }
-
- private:
-  void change_scene(const Scene&) override {}
-};
-
 class CampaignQuestions {
  public:
   CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts)
@@ -159,22 +149,20 @@ class CampaignQuestions {
     if (!scope_.admits(base.scene)) return;
     auto place = std::make_shared<Place>(base.scene);
     const auto add = [&](const Query& query, const Answer& exact, std::uint64_t index, int step) {
-      questions_.push_back(
-          {place, query, exact,
-           fmt::format("campaign, {}/{}{}", target.name(), index, step > 0 ? fmt::format(".{}", step) : ""),
-           ""});
+      questions_.push_back({.place = place,
+                            .query = query,
+                            .exact = exact,
+                            .where = fmt::format("campaign, {}/{}{}", target.name(), index,
+                                                 step > 0 ? fmt::format(".{}", step) : "")});
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
       const cases::Case one = target.make(seed_, index);
-      if (one.scene == base.scene) add(one.query, place->oracle().first_hit(one.query), index, 0);
+      if (one.scene == base.scene) add(one.query, place->exact(one.query), index, 0);
     }
-    NoSubject nobody;
-    const fuzz::Examiner examiner(nobody, base.scene, oracle::kDefaultUlps);
     int step = 0;
-    for (const fuzz::Variant& variant :
-         fuzz::climb(cases::Random(seed_, target.name(), begin, cases::Use::variants), base, examiner,
-                     place->margins()))
-      add(variant.question.query, variant.question.exact, begin, ++step);
+    const cases::Random random(seed_, target.name(), begin, cases::Use::variants);
+    for (const fuzz::Variant& variant : fuzz::climb(random, base.query, *place))
+      add(variant.query, variant.exact, begin, ++step);
   }
 
   static constexpr std::uint64_t kCases = 16;  // of a scene's

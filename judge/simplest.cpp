@@ -27,7 +27,8 @@ class SameWay {
       place_ = std::make_shared<Place>(scene);
     }
     if (flaw_of(query, scene)) return false;
-    const Question question{place_, query, place_->oracle().first_hit(query), like_.question.where, ""};
+    const Question question{
+        .place = place_, .query = query, .exact = place_->exact(query), .where = like_.question.where};
     last_ = examination_.example_of(question);
     return last_ && is_alike(*last_, like_, by_radii_);
   }

@@ -43,16 +43,16 @@ void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std
 struct Line {
   Vec from{}, to{};
   bool ends = true;  ///< `to` is the hit (or, inside, the start), else it goes on: an arrow
-  const Flight* flight = nullptr;
+  const DrawnFlight* flight = nullptr;
 };
 
 /// Flights with their ends. Those whose start is too far from the others to share a picture are left out;
 /// those much longer than nearly all others are cut, for one of them would shrink the rest to a corner.
-std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
+std::vector<Line> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
                            std::vector<std::string>& remarks);
 
 /// The same for a given window: none is left out, and none is cut that may end there.
-std::vector<Line> lines_in_window(const Scene& scene, const std::vector<Flight>& flights);
+std::vector<Line> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights);
 
 /// The obstacles that the flights hit or start in, each once.
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines);
@@ -114,7 +114,9 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2);
 inline constexpr double kMargin = 24;
 
 /// Pictures by dimension.
-Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights);
-Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights);
+Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options,
+                      const std::vector<DrawnFlight>& flights);
+Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options,
+                      const std::vector<DrawnFlight>& flights);
 
 }  // namespace lorentz::pictures

@@ -15,15 +15,15 @@ double speed_of(const Query& query) {
   return std::hypot(query.v[0], query.v[1], query.v[2]);
 }
 
-double length_of(const Flight& flight) {
+double length_of(const DrawnFlight& flight) {
   return flight.answer.outcome == Outcome::hit ? flight.answer.time.value_or(0) * speed_of(flight.query) : 0;
 }
 
 // So long a flight is drawn to its end: nine of ten are, and those that are not much longer than these.
-double longest_drawn(const std::vector<Flight>& flights, double cell) {
+double longest_drawn(const std::vector<DrawnFlight>& flights, double cell) {
   const double most = kLongestFlight * cell;
   std::vector<double> lengths;
-  for (const Flight& flight : flights)
+  for (const DrawnFlight& flight : flights)
     if (flight.answer.outcome == Outcome::hit) lengths.push_back(length_of(flight));
   constexpr std::size_t kFew = 4;
   if (lengths.size() < kFew) return most;
@@ -34,7 +34,7 @@ double longest_drawn(const std::vector<Flight>& flights, double cell) {
 }
 
 // To its hit, or cut there; one that never ends is three cells long.
-Line line_of(const Flight& flight, double longest, double cell) {
+Line line_of(const DrawnFlight& flight, double longest, double cell) {
   const Query& query = flight.query;
   Line line{query.x, query.x, true, &flight};
   double length = length_of(flight);
@@ -51,13 +51,13 @@ Line line_of(const Flight& flight, double longest, double cell) {
 
 }  // namespace
 
-std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flights,
+std::vector<Line> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
                            std::vector<std::string>& remarks) {
   const double cell = cell_size(scene), longest = longest_drawn(flights, cell);
   std::vector<Line> lines;
   std::size_t far = 0, cut = 0;
   double most = 0;
-  for (const Flight& flight : flights) {
+  for (const DrawnFlight& flight : flights) {
     Vec arm{};
     for (int k = 0; k < 3; ++k) arm[k] = flight.query.x[k] - flights[0].query.x[k];
     if (!(length(arm) <= kLongestFlight * cell)) {
@@ -78,10 +78,10 @@ std::vector<Line> lines_of(const Scene& scene, const std::vector<Flight>& flight
   return lines;
 }
 
-std::vector<Line> lines_in_window(const Scene& scene, const std::vector<Flight>& flights) {
+std::vector<Line> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights) {
   constexpr double kFar = 1e12;  // cells: beyond any window with obstacles in it
   std::vector<Line> lines;
-  for (const Flight& flight : flights)
+  for (const DrawnFlight& flight : flights)
     lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));
   return lines;
 }
@@ -89,7 +89,7 @@ std::vector<Line> lines_in_window(const Scene& scene, const std::vector<Flight>&
 namespace {
 
 // The obstacle that a flight hits or starts in, if any.
-bool obstacle_of(const Scene& scene, const Flight& flight, Placed& obstacle) {
+bool obstacle_of(const Scene& scene, const DrawnFlight& flight, Placed& obstacle) {
   if (flight.answer.outcome == Outcome::never) return false;
   const ObstacleId& id = flight.answer.obstacle;
   const Lattice& lattice = scene.lattices[id.lattice];

@@ -162,7 +162,7 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
   return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
 }
 
-Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights) {
   return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
                               : draw_scene_3d(scene, options, flights);
 }

@@ -12,7 +12,7 @@
 
 namespace lorentz::pictures {
 
-struct Flight {
+struct DrawnFlight {
   Query query;
   Answer answer;  ///< hit, never or inside
 };
@@ -43,6 +43,6 @@ struct Drawing {
 
 /// Some cells around the first, or around the first flight's start, of a scene without flaws, or a window on
 /// it; a 3D one in orthographic projection. A cubic lattice with centred cells is shown in a cube.
-Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights);
+Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights);
 
 }  // namespace lorentz::pictures

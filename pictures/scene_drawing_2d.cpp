@@ -188,7 +188,7 @@ bool add_corridor(Svg& svg, const Scene& scene, const PaperWindow& window, const
 
 class Picture2D {
  public:
-  Picture2D(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+  Picture2D(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights)
       : scene_(scene), options_(options) {
     lines_ = options.window ? lines_in_window(scene, flights) : lines_of(scene, flights, drawing_.remarks);
     if (options.window) {
@@ -274,7 +274,8 @@ Drawing Picture2D::draw() {
 
 }  // namespace
 
-Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options,
+                      const std::vector<DrawnFlight>& flights) {
   return Picture2D(scene, options, flights).draw();
 }
 

@@ -39,7 +39,7 @@ struct SeenObstacle {
 
 class Picture3D {
  public:
-  Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights)
+  Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights)
       : scene_(scene),
         options_(options),
         cell_(shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
@@ -361,7 +361,8 @@ Drawing Picture3D::draw() {
 
 }  // namespace
 
-Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options, const std::vector<Flight>& flights) {
+Drawing draw_scene_3d(const Scene& scene, const DrawOptions& options,
+                      const std::vector<DrawnFlight>& flights) {
   return Picture3D(scene, options, flights).draw();
 }
 

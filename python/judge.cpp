@@ -44,12 +44,6 @@ class FunctionAnswerer final : public compare::Answerer {
     scene_ = py::object();
   }
 
-  void set_scene(const Scene& scene) override {
-    drain();
-    dimension_ = scene.dimension;
-    const py::gil_scoped_acquire gil;
-    scene_ = py::cast(PyScene(scene));
-  }
   void ask(const Id&, const Query& query) override {
     queries_.push_back(query);
     if (queries_.size() == kGathered) drain();
@@ -65,11 +59,17 @@ class FunctionAnswerer final : public compare::Answerer {
     answers.resize(queries_.size(), Answer::error("not asked"));
     queries_.clear();
     for (std::size_t i = 0; i < answers.size(); ++i)
-      deliver(answers[i], i < asked ? Origin::engine : Origin::not_asked);
+      deliver({std::move(answers[i]), i < asked ? compare::Origin::engine : compare::Origin::not_asked});
   }
   void finish() override { drain(); }
 
  private:
+  void enter(const Scene& scene) override {
+    drain();
+    dimension_ = scene.dimension;
+    const py::gil_scoped_acquire gil;
+    scene_ = py::cast(PyScene(scene));
+  }
   std::vector<Answer> answered() {
     std::vector<Answer> answers;
     const py::gil_scoped_acquire gil;

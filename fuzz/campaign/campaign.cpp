@@ -57,12 +57,12 @@ void TargetTally::add(const TargetTally& other) {
     margin = other.margin, margin_index = other.margin_index;
 }
 
-bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
+bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks,
          const std::vector<Finding>& unshrunk) {
   const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
   Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal, unshrunk);
-  Workers workers(plan, make_subject, ledger, bounds.jobs);
+  Workers workers(plan, make_answerer, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);
   } catch (...) {
@@ -75,7 +75,7 @@ bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject
   if (ranks) ranks->dismiss(ledger);
   ledger.record();  // what came in while all were told to stop
   journal.tick();
-  return ledger.had_failing_subject();
+  return ledger.had_failing_answerer();
 }
 
 }  // namespace lorentz::fuzz

@@ -1,4 +1,4 @@
-// A campaign: cases of several targets and variants of some of them, asked of a subject, judged by the
+// A campaign: cases of several targets and variants of some of them, asked of an engine, judged by the
 // oracle, what goes wrong shrunk. What is found depends on the plan and on how far each target went; not on
 // the number of threads, nor on how often it was stopped and gone on with.
 #pragma once
@@ -15,9 +15,11 @@
 
 #include "cases/families/target.hpp"
 #include "fuzz/campaign/finding.hpp"
-#include "fuzz/examine/subject.hpp"
 
 namespace lorentz::fuzz {
+
+using compare::Answerer;
+using compare::MakeAnswerer;
 
 /// Which scenes a campaign keeps to: what an engine can do.
 struct Scope {
@@ -35,7 +37,7 @@ struct Scope {
   bool meets(const cases::Target& target, std::uint64_t seed) const;
 };
 
-/// All that findings depend on, but for the subject.
+/// All that findings depend on, but for the engine.
 struct Plan {
   std::vector<const cases::Target*> targets;
   Scope scope;  ///< cases beyond are left out, and other words that lead there; shrinking stays within
@@ -94,9 +96,9 @@ class Ranks;
 /// Goes on from the tallies (one for each target of the plan), which it brings up to date, and from the
 /// findings of these that are not shrunk to the end. Threads get equal times for each target, shrinking
 /// included. Work that is unfinished when the time is up is dropped: at most the few cases, or the one
-/// finding, that each thread was at. Returns whether a subject failed. With `ranks` (this is rank 0) other
+/// finding, that each thread was at. Returns whether an engine failed. With `ranks` (this is rank 0) other
 /// processes help.
-bool run(const Plan& plan, const Bounds& bounds, const MakeSubject& make_subject,
+bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr,
          const std::vector<Finding>& unshrunk = {});
 

@@ -1,4 +1,4 @@
-// Who does which indices of a campaign, and what came of them: hands out batches, and records their results
+// Who does which indices of a campaign, and what came of them: hands out stretches, and records their results
 // in the order of the indices, so that it does not matter who did them, or when. Hands out the findings that
 // were recorded, too, to be shrunk.
 #pragma once
@@ -19,7 +19,7 @@ class Ledger final : public WorkSource {
 
   std::optional<Assignment> take(std::uint64_t batch_size) override;
   void hand_in(Done done) override;
-  void subject_failed() override;
+  void answerer_failed() override;
   void fail(std::exception_ptr failure) override;
   const std::atomic<bool>& stop() const override { return stop_; }
 
@@ -29,18 +29,18 @@ class Ledger final : public WorkSource {
   /// Records what is ready. Returns whether there may be more. Throws what somebody failed with.
   bool record();
   void stop_all();
-  bool had_failing_subject() const { return subject_failed_; }
+  bool had_failing_answerer() const { return answerer_failed_; }
 
  private:
   // A target in a running campaign.
   struct Track {
-    TargetTally tally;                                             // of what is recorded
-    std::uint64_t handed_out = 0;                                  // the first index that nobody has
-    std::size_t in_work = 0;                                       // batches handed out and not recorded
-    double seconds = 0;                                            // of all threads, shrinking included
-    std::optional<double> usual;                                   // seconds that a case took, of late
-    std::uint64_t pending = 0;                                     // indices handed out and not handed in
-    std::map<std::uint64_t, std::pair<Batch, BatchResult>> ready;  // by first index: done, not recorded
+    TargetTally tally;             // of what is recorded
+    std::uint64_t handed_out = 0;  // the first index that nobody has
+    std::size_t in_work = 0;       // stretches handed out and not recorded
+    double seconds = 0;            // of all threads, shrinking included
+    std::optional<double> usual;   // seconds that a case took, of late
+    std::uint64_t pending = 0;     // indices handed out and not handed in
+    std::map<std::uint64_t, std::pair<Stretch, StretchResult>> ready;  // by first index: done, not recorded
 
     std::multimap<int, Finding> due;  // to be shrunk, by rank_of()
     std::size_t in_shrinking = 0;     // handed out and not handed in
@@ -59,7 +59,7 @@ class Ledger final : public WorkSource {
   double time_of(const Track& track) const;
   bool is_complete(const Track& track) const;
   bool record(std::size_t target);
-  void record(Track& track, const Batch& batch, BatchResult& result, std::vector<Finding>& kept);
+  void record(Track& track, const Stretch& stretch, StretchResult& result, std::vector<Finding>& kept);
 
   const Plan& plan_;
   const std::uint64_t count_;
@@ -69,7 +69,7 @@ class Ledger final : public WorkSource {
   std::vector<TargetTally>& tallies_;
   Journal& journal_;
   std::vector<Track> tracks_;
-  std::atomic<bool> stop_ = false, subject_failed_ = false;
+  std::atomic<bool> stop_ = false, answerer_failed_ = false;
   bool is_closing_ = false;  // the first finding is recorded, and the last one: no more cases
   std::exception_ptr failure_;
   std::mutex mutex_;

@@ -1,4 +1,4 @@
-// The processes of one campaign. Rank 0 keeps the ledger (and the store); the others ask it for batches and
+// The processes of one campaign. Rank 0 keeps the ledger (and the store); the others ask it for stretches and
 // send it what came of them.
 #pragma once
 
@@ -18,7 +18,7 @@ class Ranks : public ranks::World {
   void dismiss(Ledger& ledger);
 
   /// The other ranks: works until rank 0 says that it is done.
-  void work(const Plan& plan, unsigned jobs, const MakeSubject& make_subject);
+  void work(const Plan& plan, unsigned jobs, const MakeAnswerer& make_answerer);
 
  private:
   int dismissed_ = 0;  ///< of the others, by rank 0

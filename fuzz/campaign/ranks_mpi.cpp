@@ -25,7 +25,7 @@ enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
-// A rank's threads always have a few batches before them.
+// A rank's threads always have a few stretches before them.
 constexpr std::size_t kBatchesAhead = 4;
 
 }  // namespace
@@ -42,7 +42,7 @@ void transfer(Archive& archive, std::optional<T>& value) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Batch& s, unsigned) {
+void serialize(Archive& archive, Stretch& s, unsigned) {
   archive& s.target& s.begin& s.end;
 }
 template <class Archive>
@@ -60,22 +60,22 @@ void serialize(Archive& archive, Finding& f, unsigned) {
   archive& f.shrinking& f.bits& f.complexity& f.tries;
 }
 template <class Archive>
-void serialize(Archive& archive, BatchResult::Kept& k, unsigned) {
+void serialize(Archive& archive, StretchResult::Kept& k, unsigned) {
   archive& k.finding& k.ordinal;
 }
 template <class Archive>
-void serialize(Archive& archive, BatchResult& r, unsigned) {
+void serialize(Archive& archive, StretchResult& r, unsigned) {
   archive& r.met& r.kept;
 }
 template <class Archive>
 void serialize(Archive& archive, Done& d, unsigned) {
-  archive& d.batch& d.seconds;
+  archive& d.stretch& d.seconds;
   transfer(archive, d.result);
   transfer(archive, d.shrunk);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& a, unsigned) {
-  archive& a.batch& a.known& a.most_seconds;
+  archive& a.stretch& a.known& a.most_seconds;
   transfer(archive, a.due);
 }
 namespace {
@@ -83,12 +83,12 @@ namespace {
 struct Report {
   std::vector<Done> done;
   std::uint64_t wants = 0, batch_size = 1;
-  bool subject_failed = false, last = false;
+  bool answerer_failed = false, last = false;
   std::string failure;
 
   template <class Archive>
   void serialize(Archive& archive, unsigned) {
-    archive& done& wants& batch_size& subject_failed& last& failure;
+    archive& done& wants& batch_size& answerer_failed& last& failure;
   }
 };
 
@@ -121,9 +121,9 @@ class RemoteWork final : public WorkSource {
     const std::lock_guard lock(mutex_);
     report_.done.push_back(std::move(done));
   }
-  void subject_failed() override {
+  void answerer_failed() override {
     const std::lock_guard lock(mutex_);
-    report_.subject_failed = true;
+    report_.answerer_failed = true;
   }
   void fail(std::exception_ptr failure) override {
     const std::lock_guard lock(mutex_);
@@ -171,7 +171,7 @@ Report received(const mpi::communicator& world, int source) {
 
 void take_in(Ledger& ledger, Report& report) {
   for (Done& done : report.done) ledger.hand_in(std::move(done));
-  if (report.subject_failed) ledger.subject_failed();
+  if (report.answerer_failed) ledger.answerer_failed();
   if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
 }
 
@@ -196,10 +196,10 @@ void Ranks::dismiss(Ledger& ledger) {
   }
 }
 
-void Ranks::work(const Plan& plan, unsigned jobs, const MakeSubject& make_subject) {
+void Ranks::work(const Plan& plan, unsigned jobs, const MakeAnswerer& make_answerer) {
   const mpi::communicator& world = mpi().world;
   RemoteWork work(jobs);
-  Workers workers(plan, make_subject, work, jobs);
+  Workers workers(plan, make_answerer, work, jobs);
   auto last_sent = SteadyClock::now() - kLongestSilence;
   while (!work.stop()) {
     std::this_thread::sleep_for(kLook);

@@ -5,6 +5,6 @@ namespace lorentz::fuzz {
 
 void Ranks::serve(Ledger&) {}
 void Ranks::dismiss(Ledger&) {}
-void Ranks::work(const Plan&, unsigned, const MakeSubject&) {}
+void Ranks::work(const Plan&, unsigned, const MakeAnswerer&) {}
 
 }  // namespace lorentz::fuzz

@@ -14,8 +14,8 @@
 #include <set>
 #include <sstream>
 
-#include "fuzz/campaign/batch.hpp"
 #include "fuzz/campaign/sqlite.hpp"
+#include "fuzz/campaign/stretch.hpp"
 #include "src/problem/write_error.hpp"
 #include "store/lock_file.hpp"
 

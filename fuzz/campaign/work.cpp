@@ -4,8 +4,8 @@
 
 namespace lorentz::fuzz {
 
-Workers::Workers(const Plan& plan, const MakeSubject& make_subject, WorkSource& source, unsigned jobs)
-    : plan_(plan), make_subject_(make_subject), source_(source) {
+Workers::Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource& source, unsigned jobs)
+    : plan_(plan), make_answerer_(make_answerer), source_(source) {
   for (unsigned i = 0; i < jobs; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -17,16 +17,16 @@ void Workers::join() {
 void Workers::work() {
   using Clock = std::chrono::steady_clock;
   try {
-    BatchRunner runner(plan_, make_subject_, source_.stop());
+    StretchRunner runner(plan_, make_answerer_, source_.stop());
     while (const auto assignment = source_.take(runner.batch_size())) {
       const auto start = Clock::now();
-      Done done{assignment->batch};
+      Done done{assignment->stretch};
       if (assignment->due)
         done.shrunk = runner.shrink(*assignment->due, assignment->most_seconds);
       else
-        done.result = runner.run(assignment->batch, assignment->known);
+        done.result = runner.run(assignment->stretch, assignment->known);
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (runner.subject_failed()) source_.subject_failed();
+      if (runner.answerer_failed()) source_.answerer_failed();
       source_.hand_in(std::move(done));
     }
   } catch (...) {

@@ -10,14 +10,14 @@
 #include <thread>
 #include <vector>
 
-#include "fuzz/campaign/batch.hpp"
+#include "fuzz/campaign/stretch.hpp"
 
 namespace lorentz::fuzz {
 
-/// A batch for somebody, and how many findings of each sort its target has for certain from earlier indices.
-/// Or, with an empty batch, a finding of its target that is to be shrunk.
+/// A stretch for somebody, and how many findings of each sort its target has for certain from earlier indices.
+/// Or, with an empty stretch, a finding of its target that is to be shrunk.
 struct Assignment {
-  Batch batch;
+  Stretch stretch;
   std::map<std::string, std::uint64_t> known = {};
   std::optional<Finding> due = {};
   double most_seconds = std::numeric_limits<double>::infinity();  ///< for that
@@ -25,8 +25,8 @@ struct Assignment {
 
 /// What was done; without a result, or the finding, if it was stopped in between.
 struct Done {
-  Batch batch;
-  std::optional<BatchResult> result = {};
+  Stretch stretch;
+  std::optional<StretchResult> result = {};
   std::optional<Finding> shrunk = {};
   double seconds = 0;
 };
@@ -41,8 +41,8 @@ class WorkSource {
   virtual std::optional<Assignment> take(std::uint64_t batch_size) = 0;
   virtual void hand_in(Done done) = 0;
 
-  /// A subject broke, and was made anew.
-  virtual void subject_failed() = 0;
+  /// An engine broke, and was made anew.
+  virtual void answerer_failed() = 0;
   virtual void fail(std::exception_ptr failure) = 0;
 
   /// True from when all that is under way may be dropped.
@@ -52,7 +52,7 @@ class WorkSource {
 /// Works with so many threads, which end when there is no more work.
 class Workers {
  public:
-  Workers(const Plan& plan, const MakeSubject& make_subject, WorkSource& source, unsigned jobs);
+  Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource& source, unsigned jobs);
   ~Workers() { join(); }
   void join();
 
@@ -60,7 +60,7 @@ class Workers {
   void work();
 
   const Plan& plan_;
-  const MakeSubject& make_subject_;
+  const MakeAnswerer& make_answerer_;
   WorkSource& source_;
   std::vector<std::thread> threads_;
 };

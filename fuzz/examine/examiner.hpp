@@ -1,18 +1,12 @@
-// Asks a subject and judges it by the oracle: what a campaign counts, and what it calls a finding.
+// What a campaign makes of the replies of an engine: what it counts, and what it calls a finding.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <vector>
 
-#include <lorentz/answer.hpp>
-#include <lorentz/query.hpp>
-#include <lorentz/scene.hpp>
-#include <lorentz/verdict.hpp>
-#include "compare/truth.hpp"
-#include "fuzz/examine/subject.hpp"
+#include "compare/answerer.hpp"
+#include "compare/question.hpp"
 #include "fuzz/examine/time_limit.hpp"
 
 namespace lorentz::fuzz {
@@ -26,7 +20,7 @@ enum class Kind {
   undecided,    ///< it gave up
   slow,  ///< the right obstacle, but with more than kSlowFactor times the work of a drawn flight in the same
          ///< scene
-  error  ///< it calls the query none, or broke
+  error  ///< it says that the query is invalid, or it broke
 };
 inline constexpr int kKinds = 7;
 
@@ -45,14 +39,11 @@ struct Counts {
   bool is_finding(Kind kind) const;
 };
 
+using compare::Answerer;
+using compare::Place;
+using compare::Question;
+using compare::Reply;
 using compare::Truth;
-
-struct Question {
-  Query query;
-  Answer exact;             ///< without the limit
-  bool is_carried = false;  ///< the answer is of the question in its own words: asked anew where in doubt
-  LimitAt limit = LimitAt::none;
-};
 
 struct Examined {
   Kind kind = Kind::fine;
@@ -63,34 +54,34 @@ struct Examined {
   bool is_misreading = false;  ///< an error of the reader: nobody was asked
 };
 
-/// One scene and a subject in it.
+/// A place, and an answerer that is asked there.
 class Examiner {
  public:
-  /// The scene without flaws.
-  Examiner(Subject& subject, const Scene& scene, double ulps, Truth truth = Truth::oracle);
-  ~Examiner();
+  Examiner(Answerer& answerer, std::shared_ptr<Place> place, double ulps)
+      : answerer_(answerer), place_(std::move(place)), ulps_(ulps) {}
 
-  const Scene& scene() const;
-  /// The true answer to a query without flaws.
-  Answer exact(const Query& query) const;
+  const std::shared_ptr<Place>& place() const { return place_; }
+  const Scene& scene() const { return place_->scene(); }
 
-  /// Asks the subject. Its replies are for the caller to wait for, and to hand to judge().
-  void ask(const Question& question);
-  Examined judge(const Question& question, Reply& reply);
+  /// Judges the reply to a question in this place, while no replies are due. `is_carried`: the exact answer is
+  /// of the question in other words, and where the reply is not the same the truth is asked for anew.
+  Examined judge(const Question& question, Reply& reply, bool is_carried = false);
 
-  /// One query, which must have no flaw, while no replies are due.
+  /// Asks one query, which must have no flaw, while no replies are due.
   Examined examine(const Query& query, LimitAt limit = LimitAt::none);
 
  private:
-  Examined judge_unlimited(const Question& question, Reply& reply);
-  Examined judge_limited(const Question& question, Reply& reply);
+  std::optional<Answer> settled(const Question& question) const;
+  Examined judge_exact(const Question& question, Reply& reply);
   bool is_slow(double work);
 
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Answerer& answerer_;
+  std::shared_ptr<Place> place_;
+  double ulps_;
+  std::optional<double> slow_from_ = {};
 };
 
-/// The scene and the query are what they should be, also where only exact arithmetic can say so.
+/// True if the scene has no flaw, also where only exact arithmetic can say so.
 bool is_sound(const Scene& scene);
 
 }  // namespace lorentz::fuzz

@@ -17,6 +17,7 @@
 namespace lorentz::fuzz {
 
 using namespace cases;
+using compare::Place;
 
 namespace {
 
@@ -149,21 +150,21 @@ std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
 
 // Where the exact answer changes, between neighbouring binary64 values of component k: by bisection, if an
 // answer is another one near there.
-void bisect(const Examiner& examiner, const Scene& scene, Query& query, int k) {
+void bisect(const Place& place, Query& query, int k) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
-  const auto answer_at = [&](double place) {
+  const auto answer_at = [&](double x) {
     Query there = query;
-    there.x[k] = place;
-    Answer answer = flaw_of(there, scene) ? Answer::undecided() : examiner.exact(there);
+    there.x[k] = x;
+    Answer answer = flaw_of(there, place.scene()) ? Answer::undecided() : place.exact(there);
     return std::pair(answer.outcome, std::move(answer.obstacle));
   };
   double here = query.x[k], there = here;
   const auto answer = answer_at(here);
   for (std::int64_t ulps = 1; there == here && ulps <= kFarthest; ulps *= -32)
-    if (const double place = moved(here, ulps); answer_at(place) != answer) there = place;
+    if (const double x = moved(here, ulps); answer_at(x) != answer) there = x;
   if (there == here) return;
-  for (double place = middle(here, there); place != here && place != there; place = middle(here, there))
-    (answer_at(place) == answer ? here : there) = place;
+  for (double x = middle(here, there); x != here && x != there; x = middle(here, there))
+    (answer_at(x) == answer ? here : there) = x;
   query.x[k] = here;
 }
 
@@ -182,12 +183,12 @@ struct NearDecision {
 
 // The hardest decision, or one about the obstacle that is hit: for a tie with the one that would be hit next.
 NearDecision drawn_decision(Random& random, const Query& query, const Answer& exact,
-                            const std::optional<oracle::HardestDecision>& hardest, const Examiner& examiner) {
+                            const std::optional<oracle::HardestDecision>& hardest, const Place& place) {
   const std::uint64_t kind = random.below(8);
   if (kind < 4 && hardest && hardest->margin < oracle::kLargestMargin)
     return {hardest->kind, hardest->obstacle};
   if (kind == 7) {
-    const Answer next = examiner.exact({query.x, query.v, exact.obstacle});
+    const Answer next = place.exact({query.x, query.v, exact.obstacle});
     if (next.outcome == Outcome::hit) return {DecisionKind::order, next.obstacle};
   }
   return {kind == 6 ? DecisionKind::containing : DecisionKind::meeting, exact.obstacle};
@@ -195,12 +196,12 @@ NearDecision drawn_decision(Random& random, const Query& query, const Answer& ex
 
 }  // namespace
 
-std::optional<Query> query_near_decision(Random& random, const Scene& scene, const Query& query,
+std::optional<Query> query_near_decision(Random& random, const Place& place, const Query& query,
                                          const Answer& exact,
-                                         const std::optional<oracle::HardestDecision>& hardest,
-                                         const Examiner& examiner) {
+                                         const std::optional<oracle::HardestDecision>& hardest) {
+  const Scene& scene = place.scene();
   if (exact.outcome != Outcome::hit) return std::nullopt;
-  const NearDecision decision = drawn_decision(random, query, exact, hardest, examiner);
+  const NearDecision decision = drawn_decision(random, query, exact, hardest, place);
   if (!has_small_cell(decision.obstacle) || !has_small_cell(exact.obstacle)) return std::nullopt;
   const ObstacleAndLine target(scene, decision.obstacle, query.v), hit(scene, exact.obstacle, query.v);
   const auto off = [&](const Vec& x) {
@@ -215,7 +216,7 @@ std::optional<Query> query_near_decision(Random& random, const Scene& scene, con
   Query near = query;
   const auto last = approach(random, scene.dimension, off, near.x);
   if (!last || flaw_of(near, scene)) return std::nullopt;
-  if (random.one_in(4)) bisect(examiner, scene, near, *last);
+  if (random.one_in(4)) bisect(place, near, *last);
   return near;
 }
 

@@ -70,14 +70,14 @@ double Variant::margin() const {
 }
 
 std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Variant& here) {
-  const Answer& exact = here.question.exact;
+  const Answer& exact = here.exact;
   if (exact.outcome != Outcome::hit) return std::nullopt;
   const Lattice& lattice = scene.lattices[exact.obstacle.lattice];
   const Atom& atom = lattice.atoms[exact.obstacle.atom];
   const std::vector<Vec>& axes = atom.semiaxes;
   if (axes.empty() || random.one_in(2)) return std::nullopt;
   const Vec &axis = axes[random.below(axes.size())], &other = axes[random.below(axes.size())];
-  Query query = here.question.query;
+  Query query = here.query;
   query.v = sum(axis, scaled(other, random.octave(-6, 3) * random.sign()));
   if (random.one_in(2)) {  // towards the atom of the cell 0, from nearby
     query.x = sum(atom.position, scaled(axis, -random.between(1.1, 3)));
@@ -87,37 +87,33 @@ std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Va
   return query;
 }
 
-Query next_query(Random& random, const Scene& scene, const Examiner& examiner, const Variant& here,
-                 int move) {
+Query next_query(Random& random, const Place& place, const Variant& here, int move) {
   if (move == 0)
-    if (auto near = query_near_decision(random, scene, here.question.query, here.question.exact, here.hardest,
-                                        examiner))
-      return *near;
-  Query query = here.question.query;
-  const Answer& exact = here.question.exact;
+    if (auto near = query_near_decision(random, place, here.query, here.exact, here.hardest)) return *near;
+  Query query = here.query;
+  const Answer& exact = here.exact;
   if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
     query.from = exact.obstacle;  // what comes next?
     return query;
   }
-  return moved_query(random, scene, query);
+  return moved_query(random, place.scene(), query);
 }
 
-Variant seen(const Examiner& examiner, const oracle::Margins& margins, const Query& query) {
-  Variant variant{{query, examiner.exact(query)}, {}};
-  variant.hardest = margins.hardest_decision(query, variant.question.exact, 0);
+Variant seen(const Place& place, const Query& query) {
+  Variant variant{query, place.exact(query), {}};
+  variant.hardest = place.margins().hardest_decision(query, variant.exact, 0);
   return variant;
 }
 
-std::vector<Variant> climb(Random random, const Case& base, const Examiner& examiner,
-                           const oracle::Margins& margins) {
+std::vector<Variant> climb(Random random, const Query& base, const Place& place) {
   std::vector<Variant> tried;
-  Variant best = seen(examiner, margins, base.query);
-  if (const auto along = along_semiaxis(random, base.scene, best))
-    tried.push_back(best = seen(examiner, margins, *along));
+  Variant best = seen(place, base);
+  if (const auto along = along_semiaxis(random, place.scene(), best))
+    tried.push_back(best = seen(place, *along));
   for (int round = 0; round < kRounds; ++round) {
     const Variant here = best;
     for (int move = 0; move < kMovesPerRound; ++move) {
-      tried.push_back(seen(examiner, margins, next_query(random, base.scene, examiner, here, move)));
+      tried.push_back(seen(place, next_query(random, place, here, move)));
       if (tried.back().margin() < best.margin()) best = tried.back();
     }
     if (best.margin() == 0) break;

@@ -5,17 +5,20 @@
 #include <vector>
 
 #include <lorentz/margin.hpp>
-#include "cases/case.hpp"
-#include "fuzz/examine/examiner.hpp"
+#include "cases/random.hpp"
+#include "compare/question.hpp"
 
 namespace lorentz::fuzz {
+
+using compare::Place;
 
 /// A query changed by one small move: a component by ulps or by one bit, components exchanged or copied, a
 /// sign, a zero, the velocity in another length, the start one lattice vector or a part of the flight on.
 Query moved_query(cases::Random& random, const Scene& scene, const Query& query);
 
 struct Variant {
-  Question question;
+  Query query;
+  Answer exact;
   std::optional<oracle::HardestDecision>
       hardest;  ///< of those that a narrow search sees; nothing for `never`
 
@@ -23,7 +26,7 @@ struct Variant {
 };
 
 /// A query with its answer and its margin.
-Variant seen(const Examiner& examiner, const oracle::Margins& margins, const Query& query);
+Variant seen(const Place& place, const Query& query);
 
 /// Where an ellipsoid is hit, in every second case: the flight nearly along one of its semiaxes, or such a
 /// flight beside it. In the metric in which it is a ball the terms of such a velocity nearly cancel. No
@@ -31,10 +34,8 @@ Variant seen(const Examiner& examiner, const oracle::Margins& margins, const Que
 std::optional<Query> along_semiaxis(cases::Random& random, const Scene& scene, const Variant& here);
 
 /// What is tried as move number `move` of a round: first a start near a decision (nearest_decision.hpp),
-/// then small moves, or the
-/// obstacle that was the answer taken out of the question.
-Query next_query(cases::Random& random, const Scene& scene, const Examiner& examiner, const Variant& here,
-                 int move);
+/// then small moves, or the obstacle that was the answer taken out of the question.
+Query next_query(cases::Random& random, const Place& place, const Variant& here, int move);
 
 /// A climb's rounds, and the moves tried in each.
 inline constexpr int kRounds = 6, kMovesPerRound = 4;
@@ -43,7 +44,6 @@ inline constexpr int kRounds = 6, kMovesPerRound = 4;
 /// smallest margin is the next to be moved. Returns all that was tried, in order. Costs kRounds *
 /// kMovesPerRound exact answers and narrow searches for a margin, and some hundred answers where a decision
 /// is bisected: about 2 ms in 2D and 10 ms in 3D. Ends early at a margin of 0.
-std::vector<Variant> climb(cases::Random random, const cases::Case& base, const Examiner& examiner,
-                           const oracle::Margins& margins);
+std::vector<Variant> climb(cases::Random random, const Query& base, const Place& place);
 
 }  // namespace lorentz::fuzz

@@ -174,7 +174,7 @@ using Answers = std::vector<lorentz::Answer>;
 // What a program answers to `count` queries asked at once.
 Answers asked(lorentz::compare::Answerer& program, const lorentz::Scene& scene, int count) {
   Answers answers;
-  program.on_answer([&](lorentz::Answer& answer) { answers.push_back(answer); });
+  program.on_reply([&](lorentz::compare::Reply& reply) { answers.push_back(reply.answer); });
   program.set_scene(scene);
   for (int k = 0; k < count; ++k) program.ask("null", {{static_cast<double>(k), 0.5, 0}, {1, 1, 0}, {}});
   program.drain();

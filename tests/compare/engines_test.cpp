@@ -115,10 +115,10 @@ TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compa
                  single = engine_named(alone).answerer(options);
       std::vector<std::string> lines[2];
       int dimension = 2;
-      together->on_answer(
-          [&](Answer& answer) { append_answer_line(lines[0].emplace_back(), "1", answer, dimension); });
-      single->on_answer(
-          [&](Answer& answer) { append_answer_line(lines[1].emplace_back(), "1", answer, dimension); });
+      together->on_reply(
+          [&](Reply& reply) { append_answer_line(lines[0].emplace_back(), "1", reply.answer, dimension); });
+      single->on_reply(
+          [&](Reply& reply) { append_answer_line(lines[1].emplace_back(), "1", reply.answer, dimension); });
       for (const Scene& scene : scenes) {
         together->set_scene(scene), single->set_scene(scene);  // answers what was asked before
         CHECK(lines[0] == lines[1]);
@@ -134,7 +134,7 @@ TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compa
     }
   const auto together = engine_named("batch").answerer({});
   std::size_t answered = 0;
-  together->on_answer([&](Answer&) { ++answered; });
+  together->on_reply([&](Reply&) { ++answered; });
   together->set_scene(scenes[0]);
   for (int i = 1; i < 8192; ++i) together->ask("1", {{0.5, 0.5, 0}, {1, 0, 0}, {}});
   CHECK(answered == 0);

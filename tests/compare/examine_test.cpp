@@ -104,7 +104,6 @@ std::vector<Question> diagonals() {
 // Answers what is exact but for every third question, which it misses; from the tenth on it was given up.
 class Lazy final : public compare::Answerer {
  public:
-  void set_scene(const Scene& scene) override { dimensions.push_back(scene.dimension); }
   void ask(const Id&, const Query& query) override { open_.push_back(query); }
   void drain() override {
     for (const Query& query : std::exchange(open_, {})) {
@@ -112,12 +111,14 @@ class Lazy final : public compare::Answerer {
       Answer answer = asked_ % 3 == 0 ? Answer::never()
                                       : Answer::hit({0, 0, {1, 1, query.x[2] > 0 ? 1 : 0}},
                                                     0.5 - 0.25 / std::sqrt(query.x[2] > 0 ? 3 : 2));
-      deliver(answer, asked_ < 10 ? Origin::engine : Origin::not_asked);
+      deliver({answer, asked_ < 10 ? compare::Origin::engine : compare::Origin::not_asked});
     }
   }
   std::vector<int> dimensions;
 
  private:
+  void enter(const Scene& scene) override { dimensions.push_back(scene.dimension); }
+
   std::vector<Query> open_;
   int asked_ = 0;
 };
@@ -134,7 +135,7 @@ TEST_CASE("Answers that come late are judged with their own questions, and what 
   compare::examine(compare::all_of(questions), lazy, 4, [&](const compare::Judged& judged) {
     tally.count(judged.judgement);
     ids.push_back(judged.question.id);
-    CHECK((judged.origin == compare::Answerer::Origin::engine) == (ids.size() < 10));
+    CHECK(judged.reply.was_asked() == (ids.size() < 10));
     CHECK(compare::departs(judged.judgement) == (ids.size() < 10 && ids.size() % 3 == 0));
   });
   CHECK(lazy.dimensions == std::vector<int>{3, 2, 3});
@@ -193,7 +194,7 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
     for (std::size_t job = 0; job < jobs; ++job) answerers.push_back(engine.answerer({}));
     std::string text;
     compare::examine(alone, answerers, 4, [&](const compare::Judged& judged) {
-      append_answer_line(text, judged.question.id, judged.given, 3);
+      append_answer_line(text, judged.question.id, judged.reply.answer, 3);
       text += std::to_string(static_cast<int>(judged.judgement.verdict));
     });
     return text;

@@ -1,6 +1,7 @@
-// Subjects and stores for the tests of campaigns.
+// Answerers and stores for the tests of campaigns.
 #pragma once
 
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -9,40 +10,39 @@
 
 namespace lorentz::test {
 
-/// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.
-class SkewedSubject final : public fuzz::Subject {
+/// Says what it is told to, and how much work that was.
+class ToldAnswerer final : public compare::Answerer {
  public:
-  void ask(const Query& query) override {
-    Answer answer = oracle_->first_hit(query);
-    const bool skewed = query.from && query.v[0] > 0.5 && query.from->cell[0] == Integer(0);
-    if (skewed && answer.outcome == Outcome::hit && answer.obstacle.cell[0].fits_int64())
-      answer.obstacle.cell[0] = answer.obstacle.cell[0].int64() + 1;
-    replies_.push_back({std::move(answer), {}});
+  using Says = std::function<Answer(const compare::Place&, const Query&)>;
+  using Works = std::function<std::optional<double>(const Query&)>;
+  explicit ToldAnswerer(Says says, Works works = {}) : says_(std::move(says)), works_(std::move(works)) {}
+  void ask(const Id&, const Query& query) override {
+    Answer answer = says_(*place_, query);
+    deliver({.answer = std::move(answer), .work = works_ ? works_(query) : std::nullopt});
   }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
 
  private:
-  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
-  std::optional<oracle::Oracle> oracle_;
-  std::vector<fuzz::Reply> replies_;
+  void enter(const Scene& scene) override { place_.emplace(scene); }
+  const Says says_;
+  const Works works_;
+  std::optional<compare::Place> place_;
 };
 
-/// Says what it is told to.
-class ToldSubject final : public fuzz::Subject {
- public:
-  using Says = std::function<Answer(const Query&)>;
-  explicit ToldSubject(Says says) : says_(std::move(says)) {}
-  void ask(const Query& query) override { replies_.push_back({says_(query)}); }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
+inline compare::MakeAnswerer told(const ToldAnswerer::Says& says, const ToldAnswerer::Works& works = {}) {
+  return [=] { return std::make_unique<ToldAnswerer>(says, works); };
+}
 
- private:
-  void change_scene(const Scene&) override {}
-  Says says_;
-  std::vector<fuzz::Reply> replies_;
-};
+/// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.
+inline Answer skewed_answer(const compare::Place& place, const Query& query) {
+  Answer answer = place.exact(query);
+  const bool skewed = query.from && query.v[0] > 0.5 && query.from->cell[0] == Integer(0);
+  if (skewed && answer.outcome == Outcome::hit && answer.obstacle.cell[0].fits_int64())
+    answer.obstacle.cell[0] = answer.obstacle.cell[0].int64() + 1;
+  return answer;
+}
 
-inline fuzz::MakeSubject skewed_subjects() {
-  return [] { return std::make_unique<SkewedSubject>(); };
+inline compare::MakeAnswerer skewed_answerers() {
+  return told(skewed_answer);
 }
 
 inline std::string text_of(const fuzz::TargetTally& a) {

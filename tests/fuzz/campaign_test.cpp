@@ -36,7 +36,7 @@ Plan plan_of(std::initializer_list<const char*> names) {
 
 // A campaign up to a number of cases, in a store.
 void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
-            const fuzz::MakeSubject& subjects = skewed_subjects(),
+            const compare::MakeAnswerer& answerers = skewed_answerers(),
             double seconds = std::numeric_limits<double>::infinity()) {
   fuzz::Manifest manifest{"1",
                           "skewed",
@@ -57,7 +57,7 @@ void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned 
   bounds.seconds = seconds;
   std::vector<fuzz::Finding> unshrunk;
   for (const fuzz::Stored& one : store.findings()) unshrunk.push_back(one.finding);
-  fuzz::run(plan, bounds, subjects, tallies, journal, nullptr, unshrunk);
+  fuzz::run(plan, bounds, answerers, tallies, journal, nullptr, unshrunk);
 }
 
 std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
@@ -67,26 +67,20 @@ std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
 }
 
 // Does much work in flights along a diagonal, and gives up where |v_1| < |v_2| / 8.
-class WorkingSubject final : public fuzz::Subject {
- public:
-  void ask(const Query& query) override {
-    Answer answer = oracle_->first_hit(query);
-    if (std::fabs(query.v[0]) < std::fabs(query.v[1]) / 8) answer = Answer::undecided();
-    if (std::fabs(query.v[0]) > 8 * std::fabs(query.v[1])) answer = Answer::error("what?");
-    replies_.push_back({std::move(answer), query.v[0] == query.v[1] ? 1e5 : 10});
-  }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
- private:
-  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
-  std::optional<oracle::Oracle> oracle_;
-  std::vector<fuzz::Reply> replies_;
-};
+compare::MakeAnswerer working_answerers() {
+  return told(
+      [](const compare::Place& place, const Query& query) {
+        if (std::fabs(query.v[0]) < std::fabs(query.v[1]) / 8) return Answer::undecided();
+        if (std::fabs(query.v[0]) > 8 * std::fabs(query.v[1])) return Answer::error("what?");
+        return place.exact(query);
+      },
+      [](const Query& query) { return query.v[0] == query.v[1] ? 1e5 : 10; });
+}
 
 // What an answer is taken for with a tolerance of so many ulps.
 Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
-  ToldSubject subject([&](const Query&) { return answer; });
-  return fuzz::Examiner(subject, scene, ulps).examine(query).kind;
+  ToldAnswerer answerer([&](const compare::Place&, const Query&) { return answer; });
+  return fuzz::Examiner(answerer, std::make_shared<compare::Place>(scene), ulps).examine(query).kind;
 }
 
 std::string outcome_in(const std::string& answer) {
@@ -97,17 +91,16 @@ std::string outcome_in(const std::string& answer) {
 
 // Right in cells of an ordinary size; in others it sees nothing. With a time limit it takes rounded times for
 // exact ones.
-class ParochialSubject final : public fuzz::Subject {
+class Parochial final : public compare::Answerer {
  public:
-  void ask(const Query& query) override { replies_.push_back({answer(query)}); }
+  void ask(const Id&, const Query& query) override { deliver({answer(query)}); }
   bool takes_limits() const override { return true; }
-  void ask_until(const Query& query, double max_time) override {
-    replies_.push_back({limited(answer(query), max_time)});
+  void ask_until(const Id&, const Query& query, double max_time) override {
+    deliver({limited(answer(query), max_time)});
   }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
 
  private:
-  void change_scene(const Scene& scene) override {
+  void enter(const Scene& scene) override {
     const double size = length(scene.lattices[0].vectors[0]);
     knows_ = size > 0x1p-60 && size < 0x1p60;
     oracle_.emplace(scene);
@@ -115,16 +108,15 @@ class ParochialSubject final : public fuzz::Subject {
   Answer answer(const Query& query) const { return knows_ ? oracle_->first_hit(query) : Answer::never(); }
   std::optional<oracle::Oracle> oracle_;
   bool knows_ = true;
-  std::vector<fuzz::Reply> replies_;
 };
 
-// What a campaign of a few targets finds in a subject that errs in other words alone.
+// What a campaign of a few targets finds in an engine that errs in other words alone.
 std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, TargetTally& all) {
   Plan plan = plan_of({"generic", "grazing", "superpositions"});
   plan.counts.ulps = 0;
   plan.reword = reword;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
-  run_in(store, plan, 128, 2, [] { return std::make_unique<ParochialSubject>(); });
+  run_in(store, plan, 128, 2, [] { return std::make_unique<Parochial>(); });
   for (const cases::Target* target : plan.targets) all.add(store.tally(1, target->name()));
   return store.findings();
 }
@@ -190,7 +182,7 @@ TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on fro
   fuzz::Bounds bounds;
   bounds.seconds = 0.2;
   bounds.jobs = 2;
-  fuzz::run(plan, bounds, skewed_subjects(), tallies, journal);
+  fuzz::run(plan, bounds, skewed_answerers(), tallies, journal);
   for (const TargetTally& tally : tallies) {
     CHECK(tally.next > 0);
     CHECK(tally.cases == tally.next);
@@ -203,22 +195,13 @@ TEST_CASE("Stopped by the time, it has whole stretches of cases, and goes on fro
 TEST_CASE("What the time cut short is shrunk to the end when there is time", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   const Plan plan = plan_of({"leaving", "boundary"});
-  // As SkewedSubject, and slow: its findings are not shrunk in the time.
-  class Slow final : public fuzz::Subject {
-   public:
-    void ask(const Query& query) override {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      skewed_.ask(query);
-    }
-    std::vector<fuzz::Reply> replies() override { return skewed_.replies(); }
-
-   private:
-    void change_scene(const Scene& scene) override { skewed_.set_scene(scene); }
-    SkewedSubject skewed_;
-  };
+  // Slow: its findings are not shrunk in the time.
+  const auto slow = told([](const compare::Place& place, const Query& query) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return skewed_answer(place, query);
+  });
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
-  run_in(
-      store, plan, 150, 2, [] { return std::make_unique<Slow>(); }, 1.5);
+  run_in(store, plan, 150, 2, slow, 1.5);
   std::map<fuzz::Shrinking, int> states;
   for (const fuzz::Stored& one : store.findings()) ++states[one.finding.shrinking];
   CHECK(states[fuzz::Shrinking::cut_short] > 0);  // 3 seen
@@ -233,20 +216,11 @@ TEST_CASE("Nobody is asked about scenes beyond the scope: cases, other words, sh
   static fuzz::Scope scope;
   static std::atomic<int> asked, beyond;
   // Gives up, so that there is something to shrink.
-  class Careful final : public fuzz::Subject {
-   public:
-    void ask(const Query&) override {
-      ++asked;
-      if (!is_within_) ++beyond;
-      replies_.push_back({Answer::undecided(), {}});
-    }
-    std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
-   private:
-    void change_scene(const Scene& scene) override { is_within_ = scope.admits(scene); }
-    bool is_within_ = true;
-    std::vector<fuzz::Reply> replies_;
-  };
+  const auto careful = told([](const compare::Place& place, const Query&) {
+    ++asked;
+    if (!scope.admits(place.scene())) ++beyond;
+    return Answer::undecided();
+  });
   using Scenes = fuzz::Scope::Scenes;
   for (const auto& [scenes, dimension] :
        {std::pair{Scenes::unit, 0}, {Scenes::lattice, 2}, {Scenes::any, 3}, {Scenes::unit, 2}}) {
@@ -254,7 +228,7 @@ TEST_CASE("Nobody is asked about scenes beyond the scope: cases, other words, sh
     plan.scope = scope = {scenes, dimension};
     fuzz::Store store(":memory:", fuzz::Store::Access::write);
     asked = beyond = 0;
-    run_in(store, plan, 256, 2, [] { return std::make_unique<Careful>(); });
+    run_in(store, plan, 256, 2, careful);
     std::uint64_t cases = 0, reworded = 0;
     for (const cases::Target* target : plan.targets) {
       CHECK(store.tally(1, target->name()).next == 256);
@@ -375,8 +349,7 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
     tallies = {{}};
     plan.counts.undecided = undecided;
     fuzz::StoreJournal journal(store, undecided);
-    fuzz::run(
-        plan, bounds, [] { return std::make_unique<WorkingSubject>(); }, tallies, journal);
+    fuzz::run(plan, bounds, working_answerers(), tallies, journal);
   }
   const auto number = [&](Kind kind) { return tallies[0].kinds[static_cast<std::size_t>(kind)]; };
   CHECK(number(Kind::undecided) > 30);  // 40 seen
@@ -490,25 +463,16 @@ TEST_CASE("A finding of a store is plain text, nothing in it below zero, its ans
 TEST_CASE("Shrinking ends when its work is more than the most, not when it is as much", "[fuzz][campaign]") {
   const auto asked = [](double work) {
     int count = 0;
-    class Working final : public fuzz::Subject {
-     public:
-      Working(int& count, double work) : count_(count), work_(work) {}
-      void ask(const Query&) override {
-        ++count_;
-        replies_.push_back({Answer::error("what?"), work_});
-      }
-      std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
-     private:
-      void change_scene(const Scene&) override {}
-      int& count_;
-      double work_;
-      std::vector<fuzz::Reply> replies_;
-    };
+    const auto working = told(
+        [&](const compare::Place&, const Query&) {
+          ++count;
+          return Answer::error("what?");
+        },
+        [&](const Query&) { return work; });
     Plan plan = plan_of({"generic"});
     plan.mutate = plan.reword = 0;
     fuzz::Store store(":memory:", fuzz::Store::Access::write);
-    run_in(store, plan, 1, 1, [&] { return std::make_unique<Working>(count, work); });
+    run_in(store, plan, 1, 1, working);
     REQUIRE(store.findings().size() == 1);
     return count;
   };
@@ -522,13 +486,11 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   plan.reword = 0;
   plan.keep = 4;
   // Wrong in two ways, and about hits, starts inside, and flights without end.
-  const auto subjects = [] {
-    return std::make_unique<ToldSubject>([](const Query& query) {
-      return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
-    });
-  };
+  const auto wrong = told([](const compare::Place&, const Query& query) {
+    return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
+  });
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
-  run_in(store, plan, 60, 2, subjects);
+  run_in(store, plan, 60, 2, wrong);
   std::map<std::string, int> met;
   for (const fuzz::Stored& one : store.findings()) {
     const auto& [text, shrunk] = std::tie(one.finding.text, one.finding.shrunk);
@@ -612,31 +574,29 @@ TEST_CASE("A climb is repeatable and comes to smaller margins, its variants are 
   for (std::uint64_t index = 0; index < 60; ++index) {
     const cases::Case base = cases::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
-    const oracle::Margins margins(base.scene);
-    const auto nobody = skewed_subjects()();
-    const fuzz::Examiner examiner(*nobody, base.scene, oracle::kDefaultUlps);
-    const auto variants = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
-    const auto again = fuzz::climb(cases::Random(1, "climb", index), base, examiner, margins);
+    const compare::Place place(base.scene);
+    const auto variants = fuzz::climb(cases::Random(1, "climb", index), base.query, place);
+    const auto again = fuzz::climb(cases::Random(1, "climb", index), base.query, place);
     REQUIRE(variants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);
     REQUIRE(variants.size() == again.size());
     double least = 1e300;
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, again[i].question.query));
-      REQUIRE_FALSE(flaw_of(variants[i].question.query, base.scene));
-      REQUIRE(same(variants[i].question.exact, oracle.first_hit(variants[i].question.query)));
+      REQUIRE(stream(base.scene, variants[i].query) == stream(base.scene, again[i].query));
+      REQUIRE_FALSE(flaw_of(variants[i].query, base.scene));
+      REQUIRE(same(variants[i].exact, oracle.first_hit(variants[i].query)));
       least = std::min(least, variants[i].margin());
     }
     // Each round goes on from the best before it.
     cases::Random random(1, "climb", index);
-    fuzz::Variant best = fuzz::seen(examiner, margins, base.query);
+    fuzz::Variant best = fuzz::seen(place, base.query);
     REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
     improved += least < best.margin();
     at_the_edge += least < 4;
     for (std::size_t i = 0; i < variants.size();) {
       const fuzz::Variant here = best;
       for (int move = 0; move < fuzz::kMovesPerRound; ++move, ++i) {
-        const Query query = fuzz::next_query(random, base.scene, examiner, here, move);
-        REQUIRE(stream(base.scene, variants[i].question.query) == stream(base.scene, query));
+        const Query query = fuzz::next_query(random, place, here, move);
+        REQUIRE(stream(base.scene, variants[i].query) == stream(base.scene, query));
         if (variants[i].margin() < best.margin()) best = variants[i];
       }
     }

@@ -8,8 +8,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cases/families/target.hpp"
-#include "fuzz/examine/batch_subject.hpp"
-#include "fuzz/examine/engine_subject.hpp"
+#include "fuzz/examine/answerers.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"
@@ -26,21 +25,23 @@ constexpr std::uint64_t kSeed = 1305;
 // What becomes of an answer to a question whose exact answer came along from elsewhere.
 fuzz::Examined examined(const Scene& scene, const Query& query, const Answer& carried, const Answer& given,
                         LimitAt limit = LimitAt::none) {
-  ToldSubject subject([&](const Query&) { return given; });
-  fuzz::Examiner examiner(subject, scene, 0);
-  const fuzz::Question question{query, carried, true, limit};
-  examiner.ask(question);
-  auto replies = subject.replies();
-  return examiner.judge(question, replies.at(0));
+  ToldAnswerer answerer([&](const compare::Place&, const Query&) { return given; });
+  const auto place = std::make_shared<compare::Place>(scene);
+  compare::Question question{.place = place, .query = query, .exact = carried};
+  question.max_time = fuzz::limit_of(limit, carried);
+  auto replies = fuzz::replies_to(compare::all_of({&question, 1}), answerer);
+  return fuzz::Examiner(answerer, place, 0).judge(question, replies.at(0), true);
 }
 
-std::string said(fuzz::Subject& subject, const Scene& scene, const std::vector<Query>& queries,
+// The first letters of the outcomes.
+std::string said(compare::Answerer& answerer, const Scene& scene, const std::vector<Query>& queries,
                  double max_time = HUGE_VAL) {
-  subject.set_scene(scene);
-  for (const Query& query : queries) subject.ask_until(query, max_time);
   std::string text;
-  for (const fuzz::Reply& reply : subject.replies())
-    text += reply.answer.outcome == Outcome::error ? 'e' : reply.answer.outcome == Outcome::later ? 'l' : '.';
+  answerer.on_reply(
+      [&](compare::Reply& reply) { text += std::string(name_of(reply.answer.outcome)).substr(0, 1); });
+  answerer.set_scene(scene);
+  for (const Query& query : queries) answerer.ask_until("null", query, max_time);
+  answerer.drain();
   return text;
 }
 
@@ -94,17 +95,17 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
       {[](Flight& f) { f.atom = 1; }, true},
       {[](Flight& f) { f.lattice = 1; }, true}};
   for (const auto& [change, seen] : changes) {
-    const std::string expected = seen ? ".e" : "..";
+    const std::string expected = seen ? "he" : "hh";
     // In the second flight alone.
     const auto reduction =
-        fuzz::make_reduction_subject([&](const Reduction& engine, const Query& query, double max_time) {
+        fuzz::reduction_both_ways([&](const Reduction& engine, const Query& query, double max_time) {
           Flight flight = engine.fly(query, max_time);
           if (query.v[1] != 0) change(flight);
           return flight;
         });
     CHECK(said(*reduction, scene, queries) == expected);
     for (const auto wrong_in : {Batch::Time::close, Batch::Time::rounded}) {
-      const auto batch = fuzz::make_batch_subject(
+      const auto batch = fuzz::batch_both_ways(
           [&](const Batch& engine, const Query& query, double max_time, Batch::Time time) {
             Flight flight = engine.one_at_a_time().fly(query, max_time, time);
             if (query.v[1] != 0 && time == wrong_in) change(flight);
@@ -115,7 +116,7 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
   }
   // The limit goes both ways, too.
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
-    CHECK(said(*fuzz::subject_maker(compare::engine_named(engine))(), scene, queries, 0.125) == "ll");
+    CHECK(said(*fuzz::answerer_maker(compare::engine_named(engine))(), scene, queries, 0.125) == "ll");
 }
 
 TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
@@ -199,30 +200,16 @@ TEST_CASE("A reader that loses or changes anything is seen by reading back", "[f
 
 namespace {
 
-// Right, with so much work: `its` for the first question, then what is drawn, as long as there is some.
-class CountingSubject final : public fuzz::Subject {
- public:
-  CountingSubject(double its, std::vector<std::optional<double>> drawn)
-      : its_(its), drawn_(std::move(drawn)) {}
-  void ask(const Query& query) override {
-    const std::optional<double> work = asked_ == 0 ? its_ : drawn_[(asked_ - 1) % drawn_.size()];
-    ++asked_;
-    replies_.push_back({oracle_->first_hit(query), work});
-  }
-  std::vector<fuzz::Reply> replies() override { return std::exchange(replies_, {}); }
-
- private:
-  void change_scene(const Scene& scene) override { oracle_.emplace(scene); }
-  double its_;
-  std::vector<std::optional<double>> drawn_;
-  std::size_t asked_ = 0;
-  std::optional<oracle::Oracle> oracle_;
-  std::vector<fuzz::Reply> replies_;
-};
-
+// Of a right answer with so much work: `its` for the first question, then what is drawn, as long as there is some.
 Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
-  CountingSubject subject(its, std::move(drawn));
-  return fuzz::Examiner(subject, unit_scene(2, 0.25), 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
+  std::size_t asked = 0;
+  ToldAnswerer answerer([](const compare::Place& place, const Query& query) { return place.exact(query); },
+                        [&](const Query&) {
+                          const std::size_t before = asked++;
+                          return before == 0 ? std::optional(its) : drawn[(before - 1) % drawn.size()];
+                        });
+  const auto place = std::make_shared<compare::Place>(unit_scene(2, 0.25));
+  return fuzz::Examiner(answerer, place, 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
 }
 
 }  // namespace
@@ -254,8 +241,9 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
     std::string text;
     for (const Answer& given :
          {truth, Answer::later(), Answer::never(), missed, Answer::inside({}), Answer::undecided()}) {
-      ToldSubject subject([&](const Query&) { return given; });
-      const fuzz::Examined one = fuzz::Examiner(subject, scene, 4).examine(query, limit);
+      ToldAnswerer answerer([&](const compare::Place&, const Query&) { return given; });
+      const auto place = std::make_shared<compare::Place>(scene);
+      const fuzz::Examined one = fuzz::Examiner(answerer, place, 4).examine(query, limit);
       text += std::string(fuzz::name_of(one.kind)).substr(0, 1);
       CHECK(same(one.given, given));
       const bool says = given.outcome != Outcome::undecided;
@@ -276,28 +264,21 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
   CHECK(kinds({LimitAt::after, 51}) == "fwwwwu");
 }
 
-TEST_CASE("What a subject said of one scene it does not say of the next", "[fuzz][examiner]") {
+TEST_CASE("What an engine said of one scene it does not say of the next", "[fuzz][examiner]") {
   const std::vector<Query> queries{{{0.5, 0}, {1, 0}, {}}, {{0.5, 0.25}, {1, 0}, {}}};  // and a tangent
-  const auto outcomes = [&](fuzz::Subject& subject, const Scene& scene) {
-    subject.set_scene(scene);
-    for (const Query& query : queries) subject.ask(query);
-    std::string text;
-    for (const fuzz::Reply& reply : subject.replies()) text += name_of(reply.answer.outcome).substr(0, 1);
-    return text;
-  };
   Scene beyond = unit_scene(2, 0.25);  // for `reduction`: larger than half the shortest vector
   beyond.lattices[0].vectors[0][0] = 0.375;
   REQUIRE(Reduction::beyond(beyond));
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
     INFO(engine);
-    const auto subject = fuzz::subject_maker(compare::engine_named(engine))();
+    const auto answerer = fuzz::answerer_maker(compare::engine_named(engine))();
     const bool is_exact = std::string_view(engine).starts_with("certified");
-    const std::string here = outcomes(*subject, unit_scene(2, 0.25));
+    const std::string here = said(*answerer, unit_scene(2, 0.25), queries);
     CHECK(here.substr(0, 1) == "h");
     if (is_exact) CHECK(here == "hn");
     CHECK(here.size() == 2);
-    if (!is_exact) CHECK(outcomes(*subject, beyond) == "ee");
-    CHECK(outcomes(*subject, unit_scene(2, 0.25)) == here);
+    if (!is_exact) CHECK(said(*answerer, beyond, queries) == "ee");
+    CHECK(said(*answerer, unit_scene(2, 0.25), queries) == here);
   }
 }
 

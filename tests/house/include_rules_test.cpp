@@ -179,7 +179,7 @@ const std::vector<Room> kHouse{
     {"bench",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "src/trajectory/batch", "oracle", "oracle/certified", "oracle/certified_batch"},
-     {"src/engines/published", "cases/families", "compare", "fuzz/campaign"},
+     {"src/engines/published", "cases/families", "compare", "fuzz/examine", "fuzz/campaign"},
      {"fmt/", "benchmark/ first_hit_benchmark.cpp", "rapidjson/ json_readers.cpp",
       "simdjson.h json_readers.cpp"}},
 };

@@ -32,7 +32,7 @@ Source questions(std::vector<int> dimensions, std::size_t number) {
   for (const int dimension : dimensions) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
     for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), kSeed, number))
-      all->push_back({place, query, place->oracle().first_hit(query), "here", ""});
+      all->push_back({.place = place, .query = query, .exact = place->exact(query), .where = "here"});
   }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
     while (next < all->size() && (*all)[next].place->is_beyond_engine()) ++next;
@@ -44,14 +44,13 @@ Source questions(std::vector<int> dimensions, std::size_t number) {
 class Flagging final : public compare::Answerer {
  public:
   Flagging(std::atomic<bool>& flag, long at) : flag_(flag), left_(at) {}
-  void set_scene(const Scene& scene) override { oracle_.emplace(scene); }
   void ask(const Id&, const Query& query) override {
     if (--left_ <= 0) flag_ = true;
-    Answer answer = oracle_->first_hit(query);
-    deliver(answer);
+    deliver({oracle_->first_hit(query)});
   }
 
  private:
+  void enter(const Scene& scene) override { oracle_.emplace(scene); }
   std::atomic<bool>& flag_;
   long left_;
   std::optional<oracle::Oracle> oracle_;

@@ -41,23 +41,20 @@ class Faulty final : public compare::Answerer {
  public:
   using Fault = std::function<void(const Scene&, const Query&, Answer&)>;
   explicit Faulty(Fault fault, Log* asked = nullptr) : fault_(std::move(fault)), asked_(asked) {}
-  void set_scene(const Scene& scene) override { scene_ = scene, oracle_.emplace(scene); }
   void ask(const Id&, const Query& query) override {
-    if (asked_ && !write(query)) {
-      Answer no = Answer::unsupported_because("this is no campaign");
-      return deliver(no);
-    }
+    if (asked_ && !write(query)) return deliver({Answer::unsupported_because("this is no campaign")});
     Answer answer = oracle_->first_hit(query);
-    fault_(scene_, query, answer);
-    deliver(answer);
+    fault_(scene(), query, answer);
+    deliver({answer});
   }
 
  private:
+  void enter(const Scene& scene) override { oracle_.emplace(scene); }
   bool write(const Query& query) {
     constexpr std::size_t kEnough = 100;  // of each thread
     const std::lock_guard lock(asked_->mutex);
     if (!asked_->is_on) return false;
-    ++asked_->by_thread[std::this_thread::get_id()][stream(scene_, query)];
+    ++asked_->by_thread[std::this_thread::get_id()][stream(scene(), query)];
     std::size_t threads = 0;
     for (const auto& [thread, questions] : asked_->by_thread) threads += questions.size() >= kEnough;
     if (threads == 2) asked_->is_enough = true;
@@ -87,7 +84,10 @@ Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::siz
   for (const int dimension : dimensions) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
     for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), seed, number))
-      all->push_back({place, query, place->oracle().first_hit(query), "seed " + std::to_string(seed), ""});
+      all->push_back({.place = place,
+                      .query = query,
+                      .exact = place->exact(query),
+                      .where = "seed " + std::to_string(seed)});
   }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
     return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
@@ -226,17 +226,11 @@ namespace {
 // Exact, but for invalid questions: it answers these.
 class Gullible final : public compare::Answerer {
  public:
-  void set_scene(const Scene& scene) override { oracle_.emplace(scene); }
-  void ask(const Id&, const Query& query) override {
-    Answer answer = oracle_->first_hit(query);
-    deliver(answer);
-  }
-  void ask_text(const Id&, const std::string&) override {
-    Answer answer = Answer::never();
-    deliver(answer);
-  }
+  void ask(const Id&, const Query& query) override { deliver({oracle_->first_hit(query)}); }
+  void ask_text(const Id&, const std::string&) override { deliver({Answer::never()}); }
 
  private:
+  void enter(const Scene& scene) override { oracle_.emplace(scene); }
   std::optional<oracle::Oracle> oracle_;
 };
 
@@ -289,7 +283,10 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
     return examined(gullible, [=, left = number]() mutable -> std::optional<Question> {
       if (left == 0) return std::nullopt;
       --left;
-      return Question{place, {}, Answer::error("no query"), "here", R"("x":[0.5,0],"v":[0,0])"};
+      return Question{.place = place,
+                      .exact = Answer::error("no query"),
+                      .where = "here",
+                      .text = R"("x":[0.5,0],"v":[0,0])"};
     });
   };
   const auto two = nonsense(2), three = nonsense(3);
@@ -344,7 +341,7 @@ TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge]
   Examination examination(engine, {}, 4, stop);
   const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
   const auto place = std::make_shared<Place>(unit_scene(3, 0.25));
-  const Question question{place, query, place->oracle().first_hit(query), "here", ""};
+  const Question question{.place = place, .query = query, .exact = place->exact(query), .where = "here"};
   CHECK(examination.repeat(question, 3, {Cause::never_for_hit, Severity::wrong}).failed == 1);
   CHECK_FALSE(examination.repeat(question, 3, {Cause::never_for_hit, Severity::ill_posed}).failed);
   CHECK_FALSE(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).failed);

@@ -81,7 +81,8 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
   turn(report.rows[0], &compare::Tally::wrong, 5);
   const auto place = std::make_shared<compare::Place>(unit_scene(2, 0.25));
   const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{place, query, place->oracle().first_hit(query), "here", ""};
+  const judge::Question question{
+      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
   const auto add = [&](judge::Cause cause, judge::Severity severity) {
     report.findings.push_back(finding(question, cause, severity));
   };

@@ -57,7 +57,7 @@ TEST_CASE("No picture holds more than a few thousand obstacles", "[pictures][sce
   for (int i = 0; i < 120 * 120; ++i)
     scene.lattices[0].atoms.push_back({{i % 120 / 120.0, i / 120 / 120.0}, 0.001, {}});
   CHECK(times(draw_scene(scene, {}, {}).svg, "<circle") <= kMostDrawn + 20);
-  Flight flight{{{0.5, 0.5}, {1, 1e-9}, {}}, Answer::hit({0, 0, {}}, 30)};
+  pictures::DrawnFlight flight{{{0.5, 0.5}, {1, 1e-9}, {}}, Answer::hit({0, 0, {}}, 30)};
   const Drawing drawing = draw_scene(scene, {}, {flight});
   CHECK(times(drawing.svg, "<circle") <= kMostDrawn + 20);
   CHECK(drawing.remarks.size() == 1);
@@ -67,7 +67,7 @@ namespace {
 
 // The square lattice, r = 1/10, and flights upwards from (1/2, 1/2) that hit after these lengths.
 Drawing with_flights(const std::vector<double>& lengths, const DrawOptions& options = {}) {
-  std::vector<Flight> flights;
+  std::vector<pictures::DrawnFlight> flights;
   for (const double length : lengths)
     flights.push_back({{{0.5, 0.5}, {0, 2}, {}}, Answer::hit({0, 0, {}}, length / 2)});
   return draw_scene(unit_scene(2, 0.1), options, flights);
@@ -121,7 +121,7 @@ TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pic
   CHECK(height > 270);
   // A flight through the window: neither its start nor its end is there.
   options.window = {{0.9, 0.2, 1.1, 0.4}};
-  const Flight flight{{{0.3, 0.3}, {1, 0}, {}}, Answer::hit({0, 0, {}}, 30)};
+  const pictures::DrawnFlight flight{{{0.3, 0.3}, {1, 0}, {}}, Answer::hit({0, 0, {}}, 30)};
   const std::string through = draw_scene(unit_scene(2, 0.05), options, {flight}).svg;
   CHECK(times(through, "<circle") == 0);
   CHECK(through.find("goes on") != std::string::npos);
@@ -135,7 +135,7 @@ TEST_CASE("The legend explains what is there, and nothing else, or is left out",
   const std::string plain = draw_scene(unit_scene(2, 0.2), {}, {}).svg;
   for (const char* word : {"flight", "goes on", "never", "inside", "corridor"})
     CHECK(plain.find(word) == std::string::npos);
-  const Flight never{{{0.5, 0.5}, {1, 0}, {}}, Answer::never()};
+  const pictures::DrawnFlight never{{{0.5, 0.5}, {1, 0}, {}}, Answer::never()};
   const std::string flies = draw_scene(unit_scene(2, 0.2), {}, {never}).svg;
   CHECK(flies.find(">never hits<") != std::string::npos);
   CHECK(flies.find("first hit") == std::string::npos);

@@ -75,7 +75,7 @@ TEST_CASE("2D: without a window the cell is in its middle, and all flights in it
   check_drawn(picture, drawn_obstacles(picture), plane,
               within(obstacles_of(crowd(), 8, kCrowd), {low.x, low.y, high.x, high.y}));
   // Flights down and to the left: all of them, and 0.6 cells beyond.
-  std::vector<Flight> flights;
+  std::vector<pictures::DrawnFlight> flights;
   for (const Vec& end : {Vec{0.4, -6}, Vec{-5, 0.3}})
     flights.push_back({{{0.4, 0.3}, {end[0] - 0.4, end[1] - 0.3}, {}}, Answer::hit({0, 0, {}}, 1)});
   flights.push_back({{{7, 0.4}, {-1, 0}, {}}, Answer::hit({0, 0, {}}, 1)});
@@ -99,7 +99,7 @@ TEST_CASE("2D: flights begin at x, go along v, and end on the surface of what th
   const Scene scene = crowd();
   DrawOptions options;
   options.window = {{-2.5, -1.5, 3, 2.25}};
-  std::vector<Flight> flights;
+  std::vector<pictures::DrawnFlight> flights;
   for (const Query& query : {Query{{0.6, 0.1}, {-2, 1.1}, {}}, Query{{-1, 0.9}, {0.3, 0.35}, {}},
                              Query{{1.2, -0.8}, {-0.1, 3}, {}}})
     flights.push_back({query, oracle::Oracle(scene).first_hit(query)});

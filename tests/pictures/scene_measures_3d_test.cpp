@@ -146,7 +146,7 @@ TEST_CASE("3D: every obstacle of the block is drawn, once, as it is seen, the fa
 TEST_CASE("3D: flights begin at x and end on what they hit, the others go on", "[pictures][scene_drawing]") {
   const Scene scene = crowd_in_space();
   const std::vector<std::string> names{"0", "1", "2"};
-  std::vector<Flight> flights;
+  std::vector<pictures::DrawnFlight> flights;
   for (const Query& query :
        {Query{{0.5, 0.1, 0.6}, {1, 0.7, -0.35}, {}}, Query{{0.3, 0.5, 1.1}, {-0.4, 0.5, 0.2}, {}}})
     flights.push_back({query, oracle::Oracle(scene).first_hit(query)});
@@ -273,9 +273,9 @@ TEST_CASE("3D: a layer's faces and a cylinder are where they are, as wide as the
 
 TEST_CASE("Flights that start far away, together, the legend of flights in space",
           "[pictures][scene_drawing]") {
-  const Flight far{{{1000.5, 0.5}, {1, 0}, {}}, Answer::never()};
+  const pictures::DrawnFlight far{{{1000.5, 0.5}, {1, 0}, {}}, Answer::never()};
   CHECK(draw_scene(unit_scene(2, 0.1), {}, {far, far}).remarks.empty());
-  const Flight inside{{{0.05, 0, 0}, {1, 0, 0}, {}}, Answer::inside({0, 0, {}})},
+  const pictures::DrawnFlight inside{{{0.05, 0, 0}, {1, 0, 0}, {}}, Answer::inside({0, 0, {}})},
       goes_on{{{0.5, 0.5, 0.5}, {1, 0, 0}, {}}, Answer::hit({0, 0, {}}, 1000)};
   Scene many = unit_scene(3, 0.1);
   for (int i = 1; i < 12; ++i)

@@ -1,4 +1,4 @@
-// A batch: consecutive cases of a target, worked through by one thread. What it finds is shrunk later, one
+// A stretch: consecutive cases of a target, worked through by one thread. What it finds is shrunk later, one
 // finding at a time.
 #pragma once
 
@@ -13,56 +13,56 @@
 
 namespace lorentz::fuzz {
 
-struct Batch {
+struct Stretch {
   std::size_t target;        ///< of the plan's
   std::uint64_t begin, end;  ///< indices
 };
 
-struct BatchResult {
-  TargetTally met;  ///< of this batch alone
+struct StretchResult {
+  TargetTally met;  ///< of this stretch alone
   struct Kept {
     Finding finding;
-    std::uint64_t ordinal;  ///< among the batch's findings of its sort, from 1
+    std::uint64_t ordinal;  ///< among the stretch's findings of its sort, from 1
   };
   std::vector<Kept> kept;
 };
 
-class BatchRunner {
+class StretchRunner {
  public:
-  BatchRunner(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop);
-  ~BatchRunner();
+  StretchRunner(const Plan& plan, const MakeAnswerer& make_answerer, const std::atomic<bool>& stop);
+  ~StretchRunner();
 
   /// Nothing if it was stopped. `known` is how many findings of each sort the target has for certain from
   /// earlier indices: those beyond the plan's `keep` are counted only.
-  std::optional<BatchResult> run(const Batch& batch, const std::map<std::string, std::uint64_t>& known);
+  std::optional<StretchResult> run(const Stretch& stretch, const std::map<std::string, std::uint64_t>& known);
 
   /// A finding that is due, shrunk for so many seconds at the most; without these it is the same whoever does
   /// it. One that does not fail again stays as it was found. Nothing if it was stopped.
   std::optional<Finding> shrink(Finding finding, double seconds);
 
-  /// The subject broke at least once. (It was made anew.)
-  bool subject_failed() const { return subject_failed_; }
+  /// The engine broke at least once. (It was made anew.)
+  bool answerer_failed() const { return answerer_failed_; }
 
-  /// How many cases a batch should have, if they do not take long.
-  std::uint64_t batch_size() const { return subject_->batch_size(); }
+  /// How many cases a stretch should have, if they do not take long.
+  std::uint64_t batch_size() const { return answerer_->batch_size(); }
 
  private:
   struct Case;
   struct SceneContext;
   struct Questions;
-  void pose(const Batch& batch, Questions& questions);
+  void pose(const Stretch& stretch, Questions& questions);
   void pose_in_other_words(cases::Random& random, Questions& questions, std::size_t first);
   static std::optional<Case> in_other_digits(cases::Random& random, const Case& one);
   void ask(Questions& questions);
-  void take(Questions& questions, const std::map<std::string, std::uint64_t>& known, BatchResult& result);
+  void take(Questions& questions, const std::map<std::string, std::uint64_t>& known, StretchResult& result);
   Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
-  void replace_broken_subject();
+  void replace_broken_answerer();
 
   const Plan& plan_;
-  const MakeSubject& make_subject_;
+  const MakeAnswerer& make_answerer_;
   const std::atomic<bool>& stop_;
-  std::unique_ptr<Subject> subject_;
-  bool subject_failed_ = false;
+  std::unique_ptr<Answerer> answerer_;
+  bool answerer_failed_ = false;
 };
 
 /// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a variant; with an `r` behind

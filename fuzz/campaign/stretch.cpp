@@ -1,4 +1,4 @@
-#include "fuzz/campaign/batch.hpp"
+#include "fuzz/campaign/stretch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +9,7 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
+#include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "fuzz/rewording/notation.hpp"
@@ -20,7 +21,7 @@ using namespace cases;
 
 namespace {
 
-// Work (in the subject's own count) that shrinking one case may cost: some seconds of `published`.
+// Work (in the engine's own count) that shrinking one case may cost: some seconds of `published`.
 constexpr double kShrinkWork = 1.5e7;
 
 // In so many other words each scene is asked about, and one in so many questions is asked with a time limit,
@@ -30,13 +31,13 @@ constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8
 // Does a case fail as another one did: in kind, and in both outcomes?
 class SameFailure {
  public:
-  SameFailure(Subject& subject, const Plan& plan, const Examined& like, LimitAt limit)
-      : subject_(subject), plan_(plan), like_(like), limit_(limit) {}
+  SameFailure(Answerer& answerer, const Plan& plan, const Examined& like, LimitAt limit)
+      : answerer_(answerer), plan_(plan), like_(like), limit_(limit) {}
 
   bool operator()(const Scene& scene, const Query& query) {
     if (!examiner_ || examiner_->scene() != scene) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
-      examiner_.emplace(subject_, scene, plan_.counts.ulps, plan_.truth);
+      examiner_.emplace(examiner_in(scene));
     }
     if (flaw_of(query, scene)) return false;
     last_ = examiner_->examine(query, limit_);
@@ -47,17 +48,21 @@ class SameFailure {
   }
 
   // No more is to be asked: it took too much work, or there is nobody to ask.
-  bool is_over() const { return work_ > kShrinkWork || subject_.failed(); }
+  bool is_over() const { return work_ > kShrinkWork || answerer_.failed(); }
 
   double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
 
   // Whatever is left to spend.
-  Examined examine(const Scene& scene, const Query& query) {
-    return Examiner(subject_, scene, plan_.counts.ulps, plan_.truth).examine(query, limit_);
+  Examined examine(const Scene& scene, const Query& query) const {
+    return examiner_in(scene).examine(query, limit_);
   }
 
  private:
-  Subject& subject_;
+  Examiner examiner_in(const Scene& scene) const {
+    return {answerer_, std::make_shared<Place>(scene, plan_.truth), plan_.counts.ulps};
+  }
+
+  Answerer& answerer_;
   const Plan& plan_;
   const Examined& like_;
   const LimitAt limit_;
@@ -84,26 +89,25 @@ void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, c
 }  // namespace
 
 // A case or a variant that was asked about, as it was made or in other words.
-struct BatchRunner::Case {
+struct StretchRunner::Case {
   const Target* target;
   std::uint64_t index;
   int step;
   Question question;
   SceneContext* context;
   std::string words = {};                // if in other words: which
+  bool is_carried = false;               // the exact answer came from the case in its own words
   std::optional<Examined> misread = {};  // nobody needs to be asked
 };
 
 // A scene, with all that is needed to ask and to judge in it.
-struct BatchRunner::SceneContext {
-  SceneContext(Subject& subject, const Scene& scene, const Plan& plan, std::size_t number)
-      : number(number), examiner(subject, scene, plan.counts.ulps, plan.truth) {}
-  const oracle::Margins& margins() {
-    if (!margins_) margins_.emplace(examiner.scene());
-    return *margins_;
-  }
+struct StretchRunner::SceneContext {
+  SceneContext(Answerer& answerer, const Scene& scene, const Plan& plan, std::size_t number)
+      : number(number), examiner(answerer, std::make_shared<Place>(scene, plan.truth), plan.counts.ulps) {}
   const std::size_t number;  // in the order in which they were needed
   Examiner examiner;
+
+  const std::shared_ptr<Place>& place() const { return examiner.place(); }
 
   // The scene in other words, and the context of that.
   struct OtherWords {
@@ -111,81 +115,88 @@ struct BatchRunner::SceneContext {
     SceneContext* context;
   };
   std::map<std::uint64_t, OtherWords> other_words;
-
- private:
-  std::optional<oracle::Margins> margins_;
 };
 
-// All that is asked about in one batch, and the margins met in its climbs.
-struct BatchRunner::Questions {
+// All that is asked about in one stretch, and the margins met in its climbs.
+struct StretchRunner::Questions {
   std::deque<SceneContext> contexts;
   std::vector<Case> cases;
   std::vector<std::size_t> asked;  // of the cases, in the order in which they were asked
+  std::vector<Reply> replies;      // to these
   TargetTally met;
   SceneContext* as_made = nullptr;  // of the scene of the cases that are being made
 
-  SceneContext& add_context(Subject& subject, const Scene& scene, const Plan& plan) {
-    return contexts.emplace_back(subject, scene, plan, contexts.size());
+  SceneContext& add_context(Answerer& answerer, const Scene& scene, const Plan& plan) {
+    return contexts.emplace_back(answerer, scene, plan, contexts.size());
   }
 
   // The case's scene in the words of this number. They follow from the scene and where it is, so that they
-  // are the same in whichever batch.
-  SceneContext::OtherWords& other_words(const Plan& plan, Subject& subject, const Case& one,
+  // are the same in whichever stretch.
+  SceneContext::OtherWords& other_words(const Plan& plan, Answerer& answerer, const Case& one,
                                         std::uint64_t number) {
     auto& known = one.context->other_words;
     if (const auto found = known.find(number); found != known.end()) return found->second;
     Random random(plan.seed, one.target->name(), one.index / kCasesPerScene * kWordings + number,
                   Use::reworded_scenes);
     Rewording rewording(random, one.context->examiner.scene());
-    SceneContext& context = add_context(subject, rewording.scene(), plan);
+    SceneContext& context = add_context(answerer, rewording.scene(), plan);
     return known.emplace(number, SceneContext::OtherWords{std::move(rewording), &context}).first->second;
   }
 };
 
-BatchRunner::BatchRunner(const Plan& plan, const MakeSubject& make_subject, const std::atomic<bool>& stop)
-    : plan_(plan), make_subject_(make_subject), stop_(stop), subject_(make_subject()) {}
-BatchRunner::~BatchRunner() = default;
+StretchRunner::StretchRunner(const Plan& plan, const MakeAnswerer& make_answerer,
+                             const std::atomic<bool>& stop)
+    : plan_(plan), make_answerer_(make_answerer), stop_(stop), answerer_(make_answerer()) {}
+StretchRunner::~StretchRunner() = default;
 
-std::optional<BatchResult> BatchRunner::run(const Batch& batch,
-                                            const std::map<std::string, std::uint64_t>& known) {
+std::optional<StretchResult> StretchRunner::run(const Stretch& stretch,
+                                                const std::map<std::string, std::uint64_t>& known) {
   Questions questions;
-  pose(batch, questions);
+  pose(stretch, questions);
   if (stop_) return std::nullopt;
-  BatchResult result;
+  StretchResult result;
   result.met = questions.met;
   take(questions, known, result);
-  replace_broken_subject();
+  replace_broken_answerer();
   if (stop_) return std::nullopt;
   return result;
 }
 
-void BatchRunner::replace_broken_subject() {
-  if (!subject_->failed()) return;
-  subject_failed_ = true;
-  subject_ = make_subject_();
+void StretchRunner::replace_broken_answerer() {
+  if (!answerer_->failed()) return;
+  answerer_failed_ = true;
+  answerer_ = make_answerer_();
 }
 
-// Makes the cases and variants, with their exact answers, and asks the subject.
-void BatchRunner::pose(const Batch& batch, Questions& questions) {
-  const Target& target = *plan_.targets[batch.target];
-  for (std::uint64_t index = batch.begin; index < batch.end && !stop_; ++index) {
+// Makes the cases and variants, with their exact answers, and asks about them.
+void StretchRunner::pose(const Stretch& stretch, Questions& questions) {
+  const Target& target = *plan_.targets[stretch.target];
+  for (std::uint64_t index = stretch.begin; index < stretch.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index);
     if (!plan_.scope.admits(base.scene)) continue;
     if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
-      questions.as_made = &questions.add_context(*subject_, base.scene, plan_);
+      questions.as_made = &questions.add_context(*answerer_, base.scene, plan_);
     SceneContext& context = *questions.as_made;
     const std::size_t first = questions.cases.size();
-    questions.cases.push_back(
-        {&target, index, 0, {base.query, context.examiner.exact(base.query)}, &context});
+    const std::shared_ptr<Place>& place = context.place();
+    questions.cases.push_back({&target,
+                               index,
+                               0,
+                               {.place = place, .query = base.query, .exact = place->exact(base.query)},
+                               &context});
     ++questions.met.cases;
     if (Random random(plan_.seed, target.name(), index, Use::variants);
         plan_.mutate > 0 && random.one_in(plan_.mutate)) {
       int step = 0;
-      for (Variant& variant : climb(random, base, context.examiner, context.margins())) {
+      for (Variant& variant : climb(random, base.query, *place)) {
         if (variant.margin() > 0 && variant.margin() < questions.met.margin)
           questions.met.margin = variant.margin(), questions.met.margin_index = index;
-        questions.cases.push_back({&target, index, ++step, std::move(variant.question), &context});
+        questions.cases.push_back({&target,
+                                   index,
+                                   ++step,
+                                   {.place = place, .query = variant.query, .exact = variant.exact},
+                                   &context});
       }
       questions.met.variants += static_cast<std::uint64_t>(step);
     }
@@ -198,7 +209,7 @@ void BatchRunner::pose(const Batch& batch, Questions& questions) {
 
 // The cases from `first` on, each in other words: one of a few for the scene, in turn, and its own. The
 // answer comes with it, where it can.
-void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
+void StretchRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
   for (std::size_t i = first, last = questions.cases.size(); i < last && !stop_; ++i) {
     const Case& one = questions.cases[i];
     if (random.one_in(kCasesPerNotation)) {
@@ -206,26 +217,27 @@ void BatchRunner::pose_in_other_words(Random& random, Questions& questions, std:
       continue;
     }
     const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
-    auto& [rewording, context] = questions.other_words(plan_, *subject_, one, number);
+    auto& [rewording, context] = questions.other_words(plan_, *answerer_, one, number);
     if (!plan_.scope.admits(context->examiner.scene())) continue;
     auto reworded = rewording.reword(random, one.question.query);
     if (!reworded) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
-    Question question{std::move(reworded->query), {}, carried.has_value()};
-    question.exact = carried ? std::move(*carried) : context->examiner.exact(question.query);
+    Question question{.place = context->place(), .query = std::move(reworded->query)};
+    question.exact = carried ? std::move(*carried) : question.place->exact(question.query);
     std::string words = rewording.words(*reworded);
-    if (random.one_in(kCasesPerLimit) && subject_->takes_limits()) {
-      question.limit = drawn_limit(random, question.exact);
-      if (question.limit != LimitAt::none) words += (words.empty() ? "" : ", ") + words_of(question.limit);
+    if (random.one_in(kCasesPerLimit) && answerer_->takes_limits()) {
+      const LimitAt limit = drawn_limit(random, question.exact);
+      question.max_time = limit_of(limit, question.exact);
+      if (limit != LimitAt::none) words += (words.empty() ? "" : ", ") + words_of(limit);
     }
     if (words.empty()) continue;
-    questions.cases.push_back(
-        {one.target, one.index, one.step, std::move(question), context, std::move(words)});
+    questions.cases.push_back({one.target, one.index, one.step, std::move(question), context,
+                               std::move(words), carried.has_value()});
   }
 }
 
-// The same words in other digits, if they are read otherwise; by the subject they are not seen.
-std::optional<BatchRunner::Case> BatchRunner::in_other_digits(Random& random, const Case& one) {
+// The same words in other digits, if they are read otherwise; by the engine they are not seen.
+std::optional<StretchRunner::Case> StretchRunner::in_other_digits(Random& random, const Case& one) {
   auto misread = misreading(random, one.context->examiner.scene(), one.question.query);
   if (!misread) return std::nullopt;
   Examined examined;
@@ -233,26 +245,27 @@ std::optional<BatchRunner::Case> BatchRunner::in_other_digits(Random& random, co
   examined.is_misreading = true;
   examined.given = Answer::error("read back otherwise: " + misread->line);
   examined.exact = one.question.exact;
-  return Case{one.target, one.index, one.step, one.question, one.context, misread->notation, examined};
+  return Case{one.target, one.index, one.step, one.question, one.context, misread->notation, false, examined};
 }
 
-// Scene by scene, so that a subject is prepared once for each scene.
-void BatchRunner::ask(Questions& questions) {
+// Scene by scene, so that an engine is prepared once for each scene.
+void StretchRunner::ask(Questions& questions) {
   for (std::size_t i = 0; i < questions.cases.size(); ++i)
     if (!questions.cases[i].misread) questions.asked.push_back(i);
   const auto place = [&](std::size_t i) { return questions.cases[i].context->number; };
   std::stable_sort(questions.asked.begin(), questions.asked.end(),
                    [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  for (const std::size_t i : questions.asked) {
-    if (stop_) break;
-    questions.cases[i].context->examiner.ask(questions.cases[i].question);
-  }
+  const auto in_order = [&, next = std::size_t{0}]() mutable -> std::optional<Question> {
+    if (stop_ || next == questions.asked.size()) return std::nullopt;
+    return questions.cases[questions.asked[next++]].question;
+  };
+  questions.replies = replies_to(in_order, *answerer_);
 }
 
 // Judges the replies. Of a case and its variants one finding of a sort is enough.
-void BatchRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
-                       BatchResult& result) {
-  std::vector<Reply> replies = subject_->replies();
+void StretchRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
+                         StretchResult& result) {
+  std::vector<Reply>& replies = questions.replies;
   std::vector<Reply*> reply_to(questions.cases.size(), nullptr);
   for (std::size_t i = 0; i < replies.size(); ++i) reply_to[questions.asked[i]] = &replies[i];
   std::set<std::tuple<std::uint64_t, std::string>> kept;
@@ -260,7 +273,7 @@ void BatchRunner::take(Questions& questions, const std::map<std::string, std::ui
     const Case& one = questions.cases[i];
     if (!one.misread && !reply_to[i]) continue;
     const Examined examined =
-        one.misread ? *one.misread : one.context->examiner.judge(one.question, *reply_to[i]);
+        one.misread ? *one.misread : one.context->examiner.judge(one.question, *reply_to[i], one.is_carried);
     const bool in_other_words = !one.words.empty();
     // What it does not do in other words says nothing.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
@@ -279,7 +292,7 @@ void BatchRunner::take(Questions& questions, const std::map<std::string, std::ui
   }
 }
 
-Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
+Finding StretchRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
   const Scene& scene = one.context->examiner.scene();
   Finding finding;
   finding.target = one.target->name();
@@ -289,14 +302,14 @@ Finding BatchRunner::finding_of(const Case& one, const std::string& sort, const 
   finding.kind = name_of(examined.kind);
   finding.sort = sort;
   finding.text = text_of(label_of(finding), scene, one.question.query, examined);
-  const auto margin = margin_of(one.context->margins(), one.question.query, examined.exact);
+  const auto margin = margin_of(one.context->place()->margins(), one.question.query, examined.exact);
   finding.text.margin = margin;
   take_for_shrunk(finding, scene, one.question.query, examined, margin);
-  if (one.misread || subject_->failed()) finding.shrinking = Shrinking::done;
+  if (one.misread || answerer_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }
 
-std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
+std::optional<Finding> StretchRunner::shrink(Finding finding, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto is_late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; };
@@ -304,24 +317,26 @@ std::optional<Finding> BatchRunner::shrink(Finding finding, double seconds) {
   const Scene& scene = found.scene;
   const Query& query = found.query;
   const LimitAt limit = limit_in(finding.words);
-  const Examined examined = Examiner(*subject_, scene, plan_.counts.ulps, plan_.truth).examine(query, limit);
+  const Examined examined =
+      Examiner(*answerer_, std::make_shared<Place>(scene, plan_.truth), plan_.counts.ulps)
+          .examine(query, limit);
   finding.shrinking = Shrinking::done;
-  if (!subject_->failed() && name_of(examined.kind) == finding.kind) {
-    SameFailure fails(*subject_, plan_, examined, limit);
+  if (!answerer_->failed() && name_of(examined.kind) == finding.kind) {
+    SameFailure fails(*answerer_, plan_, examined, limit);
     const auto is_up = [&] { return stop_ || fails.is_over() || is_late(); };
     const Shrunk shrunk =
         fuzz::shrink(scene, query, std::ref(fails), [&] { return fails.flight(); }, {kShrinkTries, is_up});
     if (is_late()) finding.shrinking = Shrinking::cut_short;
     finding.tries = shrunk.tries;
-    if (!stop_ && !subject_->failed()) {
+    if (!stop_ && !answerer_->failed()) {
       const Examined after = fails.examine(shrunk.scene, shrunk.query);
-      // Else the subject answers now like this, now like that, and the finding stays as it was found.
+      // Else the engine answers now like this, now like that, and the finding stays as it was found.
       if (name_of(after.kind) == finding.kind)
         take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
                         margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
     }
   }
-  replace_broken_subject();
+  replace_broken_answerer();
   if (stop_) return std::nullopt;
   return finding;
 }
