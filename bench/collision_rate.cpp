@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <lorentz/trajectory_batch.hpp>
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -52,7 +52,7 @@ class Ground {
         wide_(engine_, scene_, Precision::double_double) {
     const oracle::Oracle oracle(scene_);
     const std::vector<Query> starts =
-        compare::draw_queries(scene_, oracle, compare::kDefaultSeed, kParticles);
+        starts::free_starts(scene_, starts::Kind::uniform, starts::kDefaultSeed, kParticles);
     for (const Query& start : starts) {
       particles_.add(start);
       wide_.add(start);

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include <lorentz/oracle.hpp>
-#include "compare/sampling.hpp"
 #include "src/engines/published/published.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     const Published published(scene);
     long long made = 0, wrong = 0, with_wrong = 0, most = 0;
     for (const Query& query :
-         compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, flights)) {
+         starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, flights)) {
       Proposals proposals;
       published.first_hit_counted(query, HUGE_VAL, proposals);
       made += proposals.made, wrong += proposals.false_tricylinder;

@@ -7,8 +7,7 @@
 #include <lorentz/certified.hpp>
 #include <lorentz/reduction.hpp>
 #include "bench/bare_continued_fraction.hpp"
-#include "compare/hard_cases.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -51,7 +50,7 @@ void fly(benchmark::State& state, const Scene& scene, const std::vector<Query>& 
 }
 
 std::vector<Query> drawn(const Scene& scene) {
-  return compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, kQueries);
+  return starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, kQueries);
 }
 
 void reduction(benchmark::State& state, const Scene& scene) {
@@ -59,7 +58,7 @@ void reduction(benchmark::State& state, const Scene& scene) {
 }
 
 void engine(benchmark::State& state, const char* name, const Scene& scene, std::size_t count) {
-  const auto queries = compare::draw_queries(scene, oracle::Oracle(scene), compare::kDefaultSeed, count);
+  const auto queries = starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count);
   const auto engine = make_engine(name, scene);
   Answer answer;
   std::size_t i = 0;
@@ -108,9 +107,7 @@ void channel(benchmark::State& state, const Scene& scene, Query query) {
 }
 
 void near_rational(benchmark::State& state, const Scene& scene) {
-  fly(state, scene,
-      compare::hard_queries(compare::Difficulty::near_rational, scene, oracle::Oracle(scene),
-                            compare::kDefaultSeed, kQueries));
+  fly(state, scene, starts::free_starts(scene, starts::Kind::near_rational, starts::kDefaultSeed, kQueries));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <lorentz/oracle.hpp>
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -41,8 +41,8 @@ std::string text(const Spread& spread) {
 Spread by_radius(int dimension, double r) {
   const Scene scene = unit_scene(dimension, r);
   const oracle::Oracle oracle(scene);
-  return cost(oracle,
-              compare::draw_queries(scene, oracle, compare::kDefaultSeed, dimension == 2 ? 20000 : 4000));
+  return cost(oracle, starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed,
+                                          dimension == 2 ? 20000 : 4000));
 }
 
 // From the middle of a corridor, drifting out of it at 2^-k: a flight of about 2^k / 3.

@@ -15,8 +15,7 @@
 
 #include <lorentz/certified_batch.hpp>
 #include "bench/bare_continued_fraction.hpp"
-#include "compare/hard_cases.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -69,12 +68,9 @@ using Work = std::function<double(std::size_t begin, std::size_t end)>;
 // A scene and queries in it, and the ways to answer them.
 class Ground {
  public:
-  Ground(Scene scene, compare::Difficulty difficulty, std::size_t count = kQueries)
+  Ground(Scene scene, starts::Kind kind, std::size_t count = kQueries)
       : scene_(std::move(scene)), single_(scene_) {
-    const oracle::Oracle oracle(scene_);
-    queries_ = difficulty == compare::Difficulty::drawn
-                   ? compare::draw_queries(scene_, oracle, compare::kDefaultSeed, count)
-                   : compare::hard_queries(difficulty, scene_, oracle, compare::kDefaultSeed, count);
+    queries_ = starts::free_starts(scene_, kind, starts::kDefaultSeed, count);
     for (const Query& query : queries_) table_.push_back(query);
     flights_.resize(count);
   }
@@ -212,7 +208,7 @@ std::string at(double r) {
 
 // One flight at a time / in batches, by scene, radius, difficulty and set of instructions.
 void measure_batches(Measurement& measurement) {
-  using compare::Difficulty;
+  using starts::Kind;
   const std::vector<Place> places{{"square", [](double r) { return unit_scene(2, r); }},
                                   {"hexagonal", hexagonal},
                                   {"ellipse", ellipse},
@@ -227,44 +223,44 @@ void measure_batches(Measurement& measurement) {
     for (const Place& place : places)
       for (const double r : {0.3, 0.1, 1e-3, 1e-6}) {
         if (Reduction::beyond(place.scene(r))) continue;
-        Ground ground(place.scene(r), Difficulty::drawn);
+        Ground ground(place.scene(r), Kind::uniform);
         measurement.measure(fmt::format("single / batch {}: {}, {}", instructions, place.name, at(r)), ground,
                             ground.single(), ground.batch(instructions));
       }
-    for (const Difficulty difficulty : {Difficulty::near_rational, Difficulty::grazing})
+    for (const Kind kind : {Kind::near_rational, Kind::grazing})
       for (const int dimension : {2, 3}) {
-        Ground ground(unit_scene(dimension, 0.1), difficulty);
-        measurement.measure(fmt::format("single / batch {}: {} {}D, {}", instructions, name_of(difficulty),
-                                        dimension, at(0.1)),
-                            ground, ground.single(), ground.batch(instructions));
+        Ground ground(unit_scene(dimension, 0.1), kind);
+        measurement.measure(
+            fmt::format("single / batch {}: {} {}D, {}", instructions, name_of(kind), dimension, at(0.1)),
+            ground, ground.single(), ground.batch(instructions));
       }
   }
 }
 
 void measure_engines(Measurement& measurement) {
-  using compare::Difficulty;
+  using starts::Kind;
   for (const double r : {0.1, 1e-3, 1e-6}) {
-    Ground square(unit_scene(2, r), Difficulty::drawn);
+    Ground square(unit_scene(2, r), Kind::uniform);
     const Work bare = square.bare_continued_fraction(r);
     measurement.measure("reduction / bare continued fraction: square, " + at(r), square, square.single(),
                         bare);
     measurement.measure("batch / bare continued fraction: square, " + at(r), square, square.batch(""), bare);
     for (const int dimension : {2, 3}) {
-      Ground ground(unit_scene(dimension, r), Difficulty::drawn);
+      Ground ground(unit_scene(dimension, r), Kind::uniform);
       const std::string where = fmt::format("{}D, {}", dimension, at(r));
       measurement.measure("certified-batch / batch: " + where, ground, ground.certified_batch(),
                           ground.batch(""));
       measurement.measure("oracle / reduction: " + where, ground, ground.oracle(), ground.single(), 64);
     }
   }
-  Ground plane(unit_scene(2, 1e-6), Difficulty::drawn), space(unit_scene(3, 1e-2), Difficulty::drawn, 256);
+  Ground plane(unit_scene(2, 1e-6), Kind::uniform), space(unit_scene(3, 1e-2), Kind::uniform, 256);
   measurement.measure("published / reduction: 2D, r = 1e-06", plane, plane.engine("published"),
                       plane.single());
   measurement.measure("published / reduction: 3D, r = 0.01", space, space.engine("published"), space.single(),
                       32);
   for (const int dimension : {2, 3}) {
     const std::size_t count = dimension == 2 ? 1 << 19 : 1 << 16;  // some 25 ms
-    Ground ground(unit_scene(dimension, 1e-3), Difficulty::drawn, count);
+    Ground ground(unit_scene(dimension, 1e-3), Kind::uniform, count);
     measurement.measure(fmt::format("one thread / two: {}D, r = 0.001", dimension), ground,
                         ground.batch("", 1), ground.batch("", 2), count);
   }

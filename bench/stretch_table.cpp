@@ -12,8 +12,8 @@
 
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
-#include "compare/sampling.hpp"
 #include "src/engines/published/published.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 
@@ -109,7 +109,7 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
   if (const auto why = Published::beyond(scene)) return head + " unsupported | | | | | | |\n";
   const auto place = std::make_shared<compare::Place>(scene);
   std::vector<compare::Question> questions = compare::questions_of(
-      place, compare::draw_queries(scene, place->oracle(), compare::kDefaultSeed, count));
+      place, starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count));
   compare::answer_exactly(questions, compare::Truth::oracle);
   const auto engines = compare::engines_named({"published", "reduction"});
   std::size_t wrong = 0;

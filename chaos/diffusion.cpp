@@ -5,7 +5,8 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
-#include "chaos/free_starts.hpp"
+#include <lorentz/trajectory_batch.hpp>
+#include "starts/free_starts.hpp"
 
 namespace lorentz::chaos {
 namespace {
@@ -58,10 +59,10 @@ bool can_be_displacements(const Sums& sums, Share share) {
 }
 
 // The particles [first, last), to the time T, or until the work is stopped: then the sums are no use.
-void fly(const DiffusionPlan& plan, const Batch& engine, const flights::Starts& starts, Share share,
+void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, Share share,
          const std::vector<double>& times, const Work& work, Sums& sums) {
   Particles particles(engine, plan.scene);
-  add_free_starts(starts, engine.one_at_a_time(), share.first, share.last, particles);
+  for (std::uint64_t i = share.first; i < share.last; ++i) particles.add(starts[i]);
   std::vector<Way> ways(particles.size());
   for (std::size_t i = 0; i < ways.size(); ++i) ways[i].first_velocity = particles[i].velocity;
   const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
@@ -145,7 +146,7 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   if (const auto why = Reduction::beyond(plan.scene))
     throw InputError("trajectories of many particles are flown by the engine batch, which " + *why);
   const Batch engine(plan.scene);
-  const flights::Starts starts(plan.scene, plan.from, plan.seed);
+  const starts::FreeStarts starts(plan.scene, starts::kind_of(plan.from), plan.seed);
   const std::vector<double> times = times_of(plan.time);
   const auto all = for_each_group(
       work,

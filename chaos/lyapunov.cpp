@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include <lorentz/errors.hpp>
-#include "chaos/free_starts.hpp"
+#include <lorentz/trajectory_batch.hpp>
 #include "chaos/tangents.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::chaos {
 namespace {
@@ -22,10 +23,9 @@ class Group {
         curvatures_(plan.scene),
         each_((plan.collisions + kGroups * kParticles - 1) / (kGroups * kParticles)) {}
 
-  Sums run(const flights::Starts& starts, std::uint64_t number) const {
+  Sums run(const starts::FreeStarts& starts, std::uint64_t number) const {
     Particles particles(engine_, plan_.scene);
-    add_free_starts(starts, engine_.one_at_a_time(), number * kParticles, (number + 1) * kParticles,
-                    particles);
+    for (std::uint64_t i = number * kParticles; i < (number + 1) * kParticles; ++i) particles.add(starts[i]);
     const int half = plan_.scene.dimension - 1, count = plan_.whole_spectrum ? 2 * half : half;
     std::vector<Tangents> tangents;
     for (std::size_t i = 0; i < particles.size(); ++i)
@@ -91,7 +91,7 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
   if (const auto why = Reduction::beyond(plan.scene))
     throw InputError("trajectories of many particles are flown by the engine batch, which " + *why);
   const Batch engine(plan.scene);
-  const flights::Starts starts(plan.scene, flights::Ensemble::surface, plan.seed);
+  const starts::FreeStarts starts(plan.scene, starts::Kind::surface, plan.seed);
   const Group group(plan, engine, work);
   const auto all = for_each_group(
       work, [&](std::uint64_t number) { return group.run(starts, number); },

@@ -16,7 +16,7 @@
 #include "cli/numbers.hpp"
 #include "cli/signals.hpp"
 #include "cli/versions.hpp"
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
@@ -94,7 +94,7 @@ Called subcommand_of(CLI::App& app, const Command& command, const std::string& b
   std::vector<std::string> names;
   for (const Command& one : command.commands) names.push_back(one.name);
   throw InputError(fmt::format("no subcommand is called {}{}; there are {}", json_quoted(argv[1]),
-                               compare::did_you_mean(argv[1], names), fmt::join(names, ", ")));
+                               did_you_mean(argv[1], names), fmt::join(names, ", ")));
 }
 
 // Of the words that no option took those that look like options, with what they may have been meant for.
@@ -105,7 +105,7 @@ std::string unknown_options(const CLI::App& app, const Command& command) {
   std::string text;
   for (const std::string& word : app.remaining(true))
     if (word.starts_with('-'))
-      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", word, compare::did_you_mean(word, names));
+      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", word, did_you_mean(word, names));
   return text;
 }
 

@@ -16,6 +16,8 @@
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -28,7 +30,7 @@ struct BenchOptions {
   std::vector<std::string> scenes{"square", "cubic"};
   std::vector<std::string> radii;  // none: radii_of
   std::vector<std::string> difficulties{"drawn", "near-rational", "grazing"};
-  std::uint64_t count = 2000, seed = kDefaultSeed;
+  std::uint64_t count = 2000, seed = starts::kDefaultSeed;
   std::optional<double> timeout;
   std::optional<std::string> csv, html, store;
   bool json = false;
@@ -43,19 +45,14 @@ std::vector<std::optional<std::string>> radii_of(const BenchOptions& options, co
   return {"0.3", "0.1", "0.01", "0.001", "1e-06"};
 }
 
-Difficulty difficulty_named(const std::string& name) {
-  for (const Difficulty difficulty : {Difficulty::drawn, Difficulty::near_rational, Difficulty::grazing})
-    if (name == name_of(difficulty)) return difficulty;
-  throw InputError("--difficulty: " + json_quoted(name) +
-                   " is none; there are drawn, near-rational, grazing");
-}
-
 std::vector<BenchGroup> groups_of(const BenchOptions& options) {
   std::vector<BenchGroup> groups;
+  for (const std::string& difficulty : options.difficulties)
+    index_of_name(difficulty, {"drawn", "near-rational", "grazing"}, "--difficulty");
   for (const std::string& scene : options.scenes)
     for (const auto& radius : radii_of(options, scene))
       for (const std::string& difficulty : options.difficulties)
-        groups.push_back({scene, radius, difficulty_named(difficulty)});
+        groups.push_back({scene, radius, difficulty});
   return groups;
 }
 

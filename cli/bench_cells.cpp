@@ -13,6 +13,7 @@
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
 #include "report/query_text.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -27,8 +28,10 @@ constexpr int kRounds = 5;
 std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
   const auto place =
       std::make_shared<Place>(load_scene(group.scene, positive_number(group.radius, "--radius")));
-  return compare::questions_of(place, hard_queries(group.difficulty, place->scene(), place->oracle(),
-                                                   plan.seed, plan.count, terminal()));
+  const starts::Kind kind = group.difficulty == "drawn"
+                                ? starts::Kind::uniform
+                                : starts::kind_named(group.difficulty, "--difficulty");
+  return compare::questions_of(place, starts::free_starts(place->scene(), kind, plan.seed, plan.count));
 }
 
 // How many of the queries an engine does in the time of a round; by the first few, or the first two if these
@@ -119,7 +122,7 @@ report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::
   cell.scene = group.scene;
   cell.radius = positive_number(group.radius, "--radius");
   cell.dimension = scene.dimension;
-  cell.difficulty = name_of(group.difficulty);
+  cell.difficulty = group.difficulty;
   cell.engine = engine;
   return cell;
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compare/engines.hpp"
-#include "compare/hard_cases.hpp"
 #include "report/cell.hpp"
 
 namespace lorentz::cli {
@@ -16,7 +15,7 @@ namespace lorentz::cli {
 struct BenchGroup {
   std::string scene;                  ///< a name of the catalogue or a file
   std::optional<std::string> radius;  ///< none: the scene's own sizes
-  compare::Difficulty difficulty;
+  std::string difficulty;             ///< drawn, near-rational or grazing
 };
 
 struct BenchPlan {

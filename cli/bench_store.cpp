@@ -15,7 +15,7 @@ namespace lorentz::cli {
 namespace {
 
 CellKey key_of(const BenchGroup& group, const std::string& engine) {
-  return {group.scene, positive_number(group.radius, "--radius"), compare::name_of(group.difficulty), engine};
+  return {group.scene, positive_number(group.radius, "--radius"), group.difficulty, engine};
 }
 
 CellKey key_of(const report::Cell& cell) {
@@ -26,8 +26,7 @@ store::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& group
   std::vector<std::string> names;
   std::string scenes;
   for (const BenchGroup& group : groups) {
-    names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius.value_or("own"),
-                                compare::name_of(group.difficulty)));
+    names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius.value_or("own"), group.difficulty));
     append_scene_line(scenes, load_scene(group.scene, positive_number(group.radius, "--radius")));
   }
   store::Plan words{{"engines", fmt::format("{}", fmt::join(names_of(plan.engines), ", "))},

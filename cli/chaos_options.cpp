@@ -8,7 +8,7 @@
 #include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

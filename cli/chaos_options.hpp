@@ -9,14 +9,14 @@
 #include <lorentz/scene.hpp>
 #include "chaos/groups.hpp"
 #include "cli/command.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 #include "store/pieces.hpp"
 
 namespace lorentz::cli {
 
 struct ChaosOptions {
   std::string scene = "square";
-  std::uint64_t seed = compare::kDefaultSeed, jobs = 1;
+  std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
   std::optional<double> radius;
   std::optional<std::string> store;
   bool json = false;

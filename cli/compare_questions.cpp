@@ -61,8 +61,8 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
 std::vector<Question> ComparedQuestions::draw(std::size_t most) {
   Questions questions;
   const std::size_t left = options_.count - count_;
-  for (const Query& query : compare::draw_queries(place_->scene(), place_->oracle(), options_.seed,
-                                                  std::min(most, left), terminal(), count_))
+  if (!starts_) starts_.emplace(place_->scene(), starts::Kind::uniform, options_.seed);
+  for (const Query& query : starts_->some(count_, std::min(most, left)))
     add(questions, query, std::to_string(count_));
   return questions;
 }

@@ -10,8 +10,8 @@
 #include "cli/disagreement_file.hpp"
 #include "cli/query_stream.hpp"
 #include "compare/question.hpp"
-#include "compare/sampling.hpp"
 #include "src/exchange/columns.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -19,7 +19,7 @@ struct CompareOptions {
   std::vector<std::string> engines, answers;
   std::optional<std::string> scene, queries, disagreements;
   std::optional<double> radius, ulps, timeout;
-  std::uint64_t jobs = 1, count = 10'000, seed = compare::kDefaultSeed, failures = 3;
+  std::uint64_t jobs = 1, count = 10'000, seed = starts::kDefaultSeed, failures = 3;
   std::string judge = "oracle";
   bool json = false, strict = false, times = false, no_oracle = false;
 
@@ -65,6 +65,7 @@ class ComparedQuestions {
   std::optional<QueryStream> stream_;      // or
   std::unique_ptr<ColumnReader> columns_;  // or drawn
   std::shared_ptr<compare::Place> place_;
+  std::optional<starts::FreeStarts> starts_;  // of drawn queries
   bool is_new_ = false, bad_ids_ = false;
   std::size_t rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
   std::unordered_set<Id> ids_;

@@ -11,7 +11,7 @@
 #include "cli/terminal.hpp"
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -42,14 +42,15 @@ std::vector<Question> paper_example() {
 
 // Where the published algorithm skips discs.
 std::vector<Question> leaving_flights(int dimension, double radius, std::size_t count) {
-  return questions_of(fmt::format("leaving-{}d/{}", dimension, radius), unit_scene(dimension, radius),
-                      draw_leaving_queries(dimension, radius, kDefaultSeed + 1, count));
+  return questions_of(
+      fmt::format("leaving-{}d/{}", dimension, radius), unit_scene(dimension, radius),
+      starts::free_starts(unit_scene(dimension, radius), starts::Kind::surface, starts::kDefaultSeed, count));
 }
 
 std::vector<Question> drawn(int dimension, double radius, std::size_t count) {
   const Scene scene = unit_scene(dimension, radius);
   return questions_of(fmt::format("drawn-{}d/{}", dimension, radius), scene,
-                      draw_queries(scene, oracle::Oracle(scene), kDefaultSeed, count, terminal()));
+                      starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count));
 }
 
 class DemoReport {
@@ -113,7 +114,7 @@ int act(const std::optional<std::string>& disagreements) {
   print(fmt::format(
       "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
       "{}).\n\n",
-      kDefaultSeed));
+      starts::kDefaultSeed));
   DemoReport report(disagreements);
   report.add("the paper's example, r = 0.1", paper_example());
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})

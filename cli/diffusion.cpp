@@ -10,9 +10,9 @@
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/nearest_name.hpp"
 #include "flights/theory/laws.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -131,18 +131,11 @@ std::string DiffusionReport::json() const {
   });
 }
 
-Ensemble ensemble_of(const std::string& name) {
-  if (name == "uniform") return Ensemble::uniform;
-  if (name == "surface") return Ensemble::surface;
-  throw InputError(fmt::format("--from: {} is no kind of start{}; there are uniform and surface",
-                               json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
-}
-
 int act(const DiffusionOptions& options) {
   DiffusionReport report;
   report.scene = options.scene;
-  report.plan = {scene_of(options), ensemble_of(options.from), options.seed, options.count,
-                 options.time.value_or(100)};
+  report.plan = {scene_of(options), starts::ensemble_named(options.from, "--from"), options.seed,
+                 options.count, options.time.value_or(100)};
   RequestedFile csv(options.csv);
   const store::Plan words{{"count", std::to_string(report.plan.count)},
                           {"time", fmt::format("{}", report.plan.time)},

@@ -11,6 +11,7 @@
 #include "fitness/examination.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -35,9 +36,8 @@ struct MachineReport {
 
 // For tests: what is wrong must be seen to be wrong.
 void set_rounding(const std::string& mode) {
-  if (mode != "upward" && mode != "downward" && mode != "toward-zero")
-    throw InputError("--pretend-rounding: there are upward, downward and toward-zero");
-  std::fesetround(mode == "upward" ? FE_UPWARD : mode == "downward" ? FE_DOWNWARD : FE_TOWARDZERO);
+  constexpr int kModes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+  std::fesetround(kModes[index_of_name(mode, {"upward", "downward", "toward-zero"}, "--pretend-rounding")]);
 }
 
 MachineReport diagnose() {

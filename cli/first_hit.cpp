@@ -12,7 +12,7 @@
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
 #include "compare/engines.hpp"
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 
@@ -165,12 +165,14 @@ int act_on_lines(const FirstHitOptions& options) {
 }
 
 int act(const FirstHitOptions& options) {
-  if (options.format == "csv") return act_on_columns(options, ColumnOrder::Format::csv);
-  if (options.format == "npy") return act_on_columns(options, ColumnOrder::Format::npy);
-  if (options.format == "ndjson") return act_on_lines(options);
-  throw InputError(fmt::format("--format: {} is none{}; there are ndjson, csv, npy",
-                               json_quoted(options.format),
-                               did_you_mean(options.format, {"ndjson", "csv", "npy"})));
+  switch (index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format")) {
+    case 0:
+      return act_on_lines(options);
+    case 1:
+      return act_on_columns(options, ColumnOrder::Format::csv);
+    default:
+      return act_on_columns(options, ColumnOrder::Format::npy);
+  }
 }
 
 }  // namespace

@@ -13,11 +13,11 @@
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/engines.hpp"
-#include "compare/nearest_name.hpp"
-#include "compare/sampling.hpp"
 #include "flights/ranks.hpp"
 #include "flights/run.hpp"
 #include "report/page.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -30,19 +30,12 @@ constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct FlightsOptions {
   std::string scene = "square", engine = "batch", from = "uniform", shard = "0/1";
-  std::uint64_t count = 1'000'000, seed = compare::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
+  std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
   std::optional<double> seconds;
   std::optional<std::string> store, csv, svg, density_svg, html;
   bool json = false;
   std::vector<std::string> radii, parts;
 };
-
-flights::Ensemble ensemble_of(const std::string& name) {
-  if (name == "uniform") return flights::Ensemble::uniform;
-  if (name == "surface") return flights::Ensemble::surface;
-  throw InputError(fmt::format("--from: {} is no kind of start{}; there are uniform and surface",
-                               json_quoted(name), compare::did_you_mean(name, {"uniform", "surface"})));
-}
 
 Plan plan_of(const FlightsOptions& options, std::optional<double> radius) {
   Plan plan;
@@ -52,7 +45,7 @@ Plan plan_of(const FlightsOptions& options, std::optional<double> radius) {
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
         "starts for others");
   plan.engine = options.engine;
-  plan.from = ensemble_of(options.from);
+  plan.from = starts::ensemble_named(options.from, "--from");
   plan.seed = options.seed;
   plan.count = options.count;
   plan.cells = options.cells;

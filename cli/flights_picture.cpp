@@ -23,7 +23,7 @@ FreePathPlot plot_of(const std::vector<FlightsReport>& reports) {
   FreePathPlot plot;
   plot.title =
       fmt::format("Free paths: {}, {} starts", first.radius ? first.scene_name : first.name_with_radius(),
-                  first.plan.from == flights::Ensemble::uniform ? "uniform" : "surface");
+                  name_of(first.plan.from));
   const flights::Laws laws = flights::laws_of(first.plan.scene, first.plan.from);
   plot.note = fmt::format("{} flights{}, bars of one standard error, engine {}, seed {}{}",
                           first.account.tally.flights(), first.radius ? " each" : "", first.plan.engine,

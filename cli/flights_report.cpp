@@ -118,10 +118,6 @@ std::optional<double> common_radius(const Scene& scene) {
   return same ? radius : std::nullopt;
 }
 
-std::string name_of(Ensemble from) {
-  return from == Ensemble::uniform ? "uniform" : "surface";
-}
-
 // Of one hit there is no standard error.
 std::string line_of_mean(const FlightsReport& report, const FlightsFindings& found) {
   const double mean = report.account.tally.mean(), error = report.account.tally.standard_error();

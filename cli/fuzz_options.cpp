@@ -9,7 +9,7 @@
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
 #include "compare/engines.hpp"
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 
@@ -21,11 +21,8 @@ fuzz::Scope scope_of(const FuzzOptions& options) {
   using Scenes = fuzz::Scope::Scenes;
   fuzz::Scope scope;
   if (options.dimension) scope.dimension = static_cast<int>(*options.dimension);
-  if (options.scenes == "any") return scope;
-  if (options.scenes != "lattice" && options.scenes != "unit")
-    throw InputError(fmt::format("--scenes: there are no scenes called {}; there are unit, lattice and any",
-                                 json_quoted(options.scenes)));
-  scope.scenes = options.scenes == "unit" ? Scenes::unit : Scenes::lattice;
+  constexpr Scenes kScenes[] = {Scenes::unit, Scenes::lattice, Scenes::any};
+  scope.scenes = kScenes[index_of_name(options.scenes, {"unit", "lattice", "any"}, "--scenes")];
   return scope;
 }
 
@@ -55,9 +52,7 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
   std::vector<const cases::Target*> targets;
   for (const std::string& name : names_in(options.targets)) {
     const cases::Target* target = cases::target_named(name);
-    if (!target)
-      throw InputError(fmt::format("--target: no target is called {}{}; there are {}", json_quoted(name),
-                                   did_you_mean(name, names), fmt::join(names, ", ")));
+    if (!target) index_of_name(name, names, "--target");  // says that it is not one
     if (std::find(targets.begin(), targets.end(), target) != targets.end())
       throw InputError(fmt::format("--target: {} is named twice", name));
     targets.push_back(target);

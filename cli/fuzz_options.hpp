@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "compare/sampling.hpp"
 #include "fuzz/campaign/store.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -20,7 +20,7 @@ struct FuzzOptions {
   std::optional<std::string> store;
   std::optional<double> seconds, ulps, timeout, progress;
   std::optional<std::uint64_t> count, dimension;
-  std::uint64_t seed = compare::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
+  std::uint64_t seed = starts::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
   std::string engine = "reduction", shard = "0/1", judge = "oracle", scenes = "any";
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };

@@ -9,10 +9,10 @@
 #include "cli/exit_status.hpp"
 #include "cli/messages.hpp"
 #include "cli/table.hpp"
-#include "compare/nearest_name.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -76,7 +76,7 @@ std::string find_set(const std::string& name_or_file) {
     throw FileError(fmt::format("no file is called {}, and there are no committed sets (looked for in {})",
                                 json_quoted(name_or_file), data_places("golden")));
   throw FileError(fmt::format("no file and no committed set is called {}{}; the sets are {}",
-                              json_quoted(name_or_file), compare::did_you_mean(name_or_file, names),
+                              json_quoted(name_or_file), did_you_mean(name_or_file, names),
                               fmt::join(names, ", ")));
 }
 

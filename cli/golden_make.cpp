@@ -9,12 +9,11 @@
 #include "cli/messages.hpp"
 #include "cli/progress.hpp"
 #include "cli/whole_file.hpp"
-#include "compare/sampling.hpp"
 #include "golden/production.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
-
-using namespace compare;
 
 namespace {
 
@@ -24,15 +23,13 @@ struct MakeOptions {
   std::optional<std::string> set, folder;
   std::optional<std::uint64_t> count;
   std::string output = "-";
-  std::uint64_t seed = kDefaultSeed, jobs = 1;
+  std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
 };
 
 const golden::Set& set_named(const std::string& name) {
-  if (const golden::Set* set = golden::set_named(name)) return *set;
   std::vector<std::string> names;
   for (const golden::Set& set : golden::sets()) names.push_back(set.name);
-  throw InputError(
-      fmt::format("--set: no set is called {}; there are {}", json_quoted(name), fmt::join(names, ", ")));
+  return golden::sets()[index_of_name(name, names, "--set")];
 }
 
 void report(const golden::Order& order, const golden::RecordCounts& counts) {

@@ -18,7 +18,7 @@ namespace {
 
 struct JudgeOptions {
   std::string engine;
-  std::uint64_t seed = compare::kDefaultSeed, jobs = 1;
+  std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
   std::optional<double> ulps, timeout, seconds;
   std::optional<std::string> html;
   bool quick = false, json = false, times = false, strict = false;

@@ -70,7 +70,7 @@ std::vector<FlownScene> fly_free_paths(judge::Examination& examination, std::uin
   };
   examination.run(
       {"free paths", "from collision to collision: starts on obstacles, by the cosine law", false},
-      judge::flown(places, seed, kFlights), seconds, look);
+      judge::drawn(places, starts::Kind::surface, seed, kFlights), seconds, look);
   std::erase_if(flown, [](const FlownScene& scene) { return scene.paths.flights() == 0; });
   return flown;
 }

@@ -18,9 +18,9 @@
 
 namespace lorentz::cli {
 
-using compare::Difficulty;
 using judge::Examination;
 using judge::NamedPlace;
+using starts::Kind;
 
 namespace {
 
@@ -100,14 +100,15 @@ std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan
   for (const Scenery& scenery : kSceneries) {
     const std::vector<NamedPlace> places = places_of(scenery);
     examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
-                    judge::drawn(places, Difficulty::drawn, seed, plan.count), drawn.next());
+                    judge::drawn(places, Kind::uniform, seed, plan.count), drawn.next());
     all.insert(all.end(), places.begin(), places.end());
   }
   Shares hard(plan.hard, 2);
-  examination.run({"near-rational", "directions a few ulps from small integers, in these scenes"},
-                  judge::drawn(all, Difficulty::near_rational, seed, 2 * plan.count), hard.next());
-  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-50 of its edge"},
-                  judge::drawn(all, Difficulty::grazing, seed, 2 * plan.count), hard.next());
+  examination.run(
+      {"near-rational", "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
+      judge::drawn(all, Kind::near_rational, seed, 2 * plan.count), hard.next());
+  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
+                  judge::drawn(all, Kind::grazing, seed, 2 * plan.count), hard.next());
   return all;
 }
 
@@ -207,7 +208,7 @@ std::vector<compare::Question> questions_to_race_in(const std::vector<const Name
   std::vector<compare::Question> all;
   for (const NamedPlace* named : places)
     for (compare::Question& question : compare::questions_of(
-             named->place, compare::draw_queries(named->place->scene(), named->place->oracle(), seed, count)))
+             named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed, count)))
       all.push_back(std::move(question));
   return all;
 }

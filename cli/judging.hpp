@@ -8,7 +8,7 @@
 
 #include <lorentz/verdict.hpp>
 #include "cli/judge_report.hpp"
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -18,7 +18,7 @@ struct JudgeOrder {
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
-  std::uint64_t seed = compare::kDefaultSeed;
+  std::uint64_t seed = starts::kDefaultSeed;
   unsigned jobs = 1;  ///< threads of the campaign
   double ulps = oracle::kDefaultUlps;
   std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time

@@ -8,36 +8,26 @@
 #include "cli/output.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
-#include "compare/nearest_name.hpp"
-#include "compare/sampling.hpp"
-#include "flights/sample/free_starts.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
-using flights::FreeStarts;
-using flights::Kind;
+using starts::FreeStarts;
+using starts::Kind;
 
 namespace {
 
 struct SampleOptions {
   std::string scene = "square", kind = "uniform", format = "ndjson";
-  std::uint64_t count = 1000, seed = compare::kDefaultSeed;
+  std::uint64_t count = 1000, seed = starts::kDefaultSeed;
   std::optional<double> radius;
   bool strict = false;
 };
 
 enum class SampleFormat { ndjson, csv, npy };
-
-// Which of the names it is.
-std::size_t choice(const std::string& given, const char* option, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), given);
-  if (found == names.end())
-    throw InputError(fmt::format("{}: {} is none{}; there are {}", option, json_quoted(given),
-                                 compare::did_you_mean(given, names), fmt::join(names, ", ")));
-  return static_cast<std::size_t>(found - names.begin());
-}
 
 // What was asked for, understood.
 struct SampleOrder {
@@ -50,8 +40,9 @@ struct SampleOrder {
 };
 
 SampleOrder order_of(const SampleOptions& options) {
-  const auto kind = static_cast<Kind>(choice(options.kind, "--kind", flights::kind_names()));
-  const auto format = static_cast<SampleFormat>(choice(options.format, "--format", {"ndjson", "csv", "npy"}));
+  const Kind kind = starts::kind_named(options.kind, "--kind");
+  const auto format =
+      static_cast<SampleFormat>(index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format"));
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   return {load_scene(options.scene, options.radius, unknown), kind, format, options.count, options.seed};
 }
@@ -131,7 +122,7 @@ Command sample_command() {
           {"--kind", &options->kind, "uniform|surface|near-rational|grazing",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
            "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
-           "2^-40; grazing: at an obstacle's edge but for ulps to 2^-40"},
+           "2^-40; grazing: at an obstacle's edge but for ulps to 2^-10"},
           {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N", "how many"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},
           {"--format", &options->format, "ndjson|csv|npy",

@@ -13,7 +13,7 @@
 #include <lorentz/scene_check.hpp>
 #include "cli/data_folder.hpp"
 #include "cli/messages.hpp"
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::cli {
@@ -35,7 +35,7 @@ const std::string& queries_file(const std::string& file) {
   if (file == "-" || fs::exists(file, error) || error) return file;
   std::vector<std::string> names;
   for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
-  if (const std::string scene = compare::nearest_name(file, names); !scene.empty())
+  if (const std::string scene = nearest_name(file, names); !scene.empty())
     throw FileError(fmt::format("{}: no such file (a scene is given by --scene {})", file, scene));
   return file;
 }
@@ -55,7 +55,7 @@ std::string find_scene(const std::string& name_or_file) {
     throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
                                 data_places("scenes")));
   throw FileError(fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}", shown,
-                              compare::did_you_mean(shown, names), fmt::join(names, ", ")));
+                              did_you_mean(shown, names), fmt::join(names, ", ")));
 }
 
 namespace {

@@ -15,13 +15,12 @@
 #include "cli/trajectory_rival.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/engines.hpp"
-#include "compare/sampling.hpp"
-#include "flights/starts/starts.hpp"
 #include "pictures/free_path_plot.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -31,7 +30,7 @@ using oracle::Itinerary;
 
 struct SurvivalOptions {
   std::string scene = "square", engine = "reduction";
-  std::uint64_t count = 100, collisions = 500, seed = compare::kDefaultSeed;
+  std::uint64_t count = 100, collisions = 500, seed = starts::kDefaultSeed;
   std::vector<std::string> bits{"53,106,128,256"};
   std::optional<double> radius;
   std::optional<std::string> csv, svg, html;
@@ -186,18 +185,11 @@ std::string Survival::page_json() const {
   });
 }
 
-// Start `index`, off the surface of an obstacle by the cosine law: the first candidate that lies in no other.
-Start start_of(const flights::Starts& starts, const oracle::Oracle& oracle, std::uint64_t index) {
-  Query query;
-  for (std::uint64_t attempt = 0; attempt < flights::Starts::kMostAttempts; ++attempt) {
-    starts.draw(index, attempt, query);
-    if (oracle.first_hit(query).outcome == Outcome::inside) continue;
-    Start start;
-    for (int i = 0; i < 3; ++i) start.x[i] = query.x[i], start.v[i] = Surd(Rational(query.v[i]));
-    start.from = query.from;
-    return start;
-  }
-  throw InputError("--scene: the obstacles leave no surface to start from");
+Start start_of(const Query& query) {
+  Start start;
+  for (int i = 0; i < 3; ++i) start.x[i] = query.x[i], start.v[i] = Surd(Rational(query.v[i]));
+  start.from = query.from;
+  return start;
 }
 
 void follow(const RationalScene& scene, const Start& start, Survival& survival) {
@@ -237,14 +229,13 @@ int act(const SurvivalOptions& options) {
   survival.seed = options.seed;
   survival.collisions = options.collisions;
   survival.arithmetics = arithmetics_of(options);
-  const flights::Starts starts(scene, flights::Ensemble::surface, survival.seed);
-  const oracle::Oracle oracle(scene);
+  const starts::FreeStarts starts(scene, starts::Kind::surface, survival.seed);
   const RationalScene exact = rational(scene);
   RequestedFile csv(options.csv), svg(options.svg), html(options.html);
   const Interrupt interrupt;
   Progress progress("following", options.count, 1);
   for (std::uint64_t i = 0; i < options.count && !Interrupt::came(); ++i, progress.at(i))
-    follow(exact, start_of(starts, oracle, i), survival);
+    follow(exact, start_of(starts[i]), survival);
   if (Interrupt::came())
     say("{}: after {} of {} starts", Interrupt::what(), survival.arithmetics[0].right.size(), options.count);
   if (survival.arithmetics[0].right.empty()) return kFailed;

@@ -12,10 +12,10 @@
 #include "cli/trajectory_rival.hpp"
 #include "cli/whole_file.hpp"
 #include "compare/engines.hpp"
-#include "compare/nearest_name.hpp"
 #include "pictures/path_drawing.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -58,11 +58,8 @@ Journey journey_of(const TrajectoryOptions& options) {
 }
 
 Precision precision_of(const TrajectoryOptions& options) {
-  if (options.precision == "binary64") return Precision::binary64;
-  if (options.precision == "double-double") return Precision::double_double;
-  throw InputError(fmt::format("--precision: {} is none{}; there are binary64, double-double",
-                               json_quoted(options.precision),
-                               compare::did_you_mean(options.precision, {"binary64", "double-double"})));
+  constexpr Precision kPrecisions[] = {Precision::binary64, Precision::double_double};
+  return kPrecisions[index_of_name(options.precision, {"binary64", "double-double"}, "--precision")];
 }
 
 std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {

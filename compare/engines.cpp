@@ -14,8 +14,8 @@
 #include <lorentz/walk.hpp>
 #include "compare/batch_answerer.hpp"
 #include "compare/command_engine.hpp"
-#include "compare/nearest_name.hpp"
 #include "compare/precisions/precisions.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::compare {
 

@@ -8,9 +8,7 @@
 namespace lorentz::compare {
 
 Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged) {
-  if (name == "oracle") return Truth::oracle;
-  if (name != "certified")
-    throw InputError(fmt::format("--judge: {} is none; there are oracle and certified", json_quoted(name)));
+  if (index_of_name(name, {"oracle", "certified"}, "--judge") == 0) return Truth::oracle;
   for (const EngineInfo& engine : judged)
     if (engine.traits.uses_reduction)
       throw InputError(

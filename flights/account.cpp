@@ -219,7 +219,7 @@ void Account::check(const Plan& plan) const {
   if (t.bins.exponent() != unit_exponent(plan.scene)) refuse("its unit of time is not that of the scene");
   if (!add_up_to(flights, {t.hits, t.never, t.undecided}))
     refuse("outcomes that are not those of its blocks");
-  if (t.inside / Starts::kMostAttempts > flights) refuse("more draws than a run makes");
+  if (t.inside / starts::Candidates::kMostAttempts > flights) refuse("more draws than a run makes");
   if (!add_up_to(t.hits, t.bins.logarithmic) || !add_up_to(t.hits, t.bins.linear))
     refuse("bins that do not add up to its hits");
   const Tally none;

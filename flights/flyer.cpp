@@ -100,7 +100,8 @@ bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
       return true;
     case Outcome::inside:
       ++tally.inside;
-      if (++inside_in_a_row_ == Starts::kMostAttempts) throw InputError(nowhere_to_start(inside_in_a_row_));
+      if (++inside_in_a_row_ == starts::Candidates::kMostAttempts)
+        throw InputError(starts::nowhere_to_start(inside_in_a_row_));
       return false;
     default:
       throw InputError(fmt::format("the engine has no answer to start {} in this scene", index));

@@ -37,8 +37,8 @@ class Flyer {
   void draw_anew(Tally& tally);
 
   const ColumnFlyer& engine_;
-  const Starts starts_;
-  StartColumns columns_;
+  const starts::Candidates starts_;
+  starts::StartColumns columns_;
   QueryTable again_;
   FlightTable flights_;
   std::uint64_t inside_in_a_row_ = 0;  ///< candidates

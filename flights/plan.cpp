@@ -18,7 +18,7 @@ std::vector<std::pair<std::string, std::string>> Plan::words() const {
   append_scene_line(line, scene);
   line.pop_back();
   return {{"engine", engine},
-          {"starts", from == Ensemble::uniform ? "uniform" : "surface"},
+          {"starts", name_of(from)},
           {"seed", std::to_string(seed)},
           {"count", std::to_string(count)},
           {"cells", std::to_string(cells)},

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-#include "flights/starts/starts.hpp"
+#include "starts/candidates.hpp"
 
 namespace lorentz::flights {
 

@@ -8,73 +8,33 @@
 #include <tuple>
 
 #include "cases/families/target.hpp"
-#include "flights/sample/free_starts.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "golden/questions.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::judge {
 namespace {
 
 constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
 
-Question question_of(const NamedPlace& place, const Query& query, const std::string& where) {
-  return {.place = place.place, .query = query, .exact = place.place->exact(query), .where = where};
-}
-
-// Blocks of all places in turn.
+// Blocks of all places in turn, but of those that the engine does not do.
 class Drawn {
  public:
-  Drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
-        std::size_t count)
-      : places_(places), difficulty_(difficulty), seed_(seed), left_(count) {}
-
-  std::optional<Question> next() {
-    if (left_ == 0 || (next_ == queries_.size() && !draw())) return std::nullopt;
-    --left_;
-    return question_of(*place_, queries_[next_++], fmt::format("{}, {}", name_of(difficulty_), place_->name));
-  }
-
- private:
-  // The next block, of the next place that the engine does. False if there is none.
-  bool draw() {
-    for (std::size_t tried = 0; tried < places_.size(); ++tried, ++block_) {
-      const NamedPlace& place = places_[block_ % places_.size()];
-      if (place.place->is_beyond_engine()) continue;
-      place_ = &place;
-      next_ = 0;
-      queries_ = compare::hard_queries(difficulty_, place.place->scene(), place.place->oracle(),
-                                       seed_ + block_ / places_.size(), kBlock);
-      ++block_;
-      return true;
-    }
-    return false;
-  }
-
-  const std::vector<NamedPlace>& places_;
-  const compare::Difficulty difficulty_;
-  const std::uint64_t seed_;
-  std::size_t left_, block_ = 0, next_ = 0;
-  const NamedPlace* place_ = nullptr;
-  std::vector<Query> queries_;
-};
-
-// The same of flights that begin on an obstacle.
-class Flown {
- public:
-  Flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count)
-      : places_(places), count_(count) {
-    for (const NamedPlace& place : places)
-      starts_.emplace_back(place.place->scene(), flights::Kind::surface, seed);
+  Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count)
+      : places_(places), count_(count), what_(words_of(kind)) {
+    for (const NamedPlace& place : places) starts_.emplace_back(place.place->scene(), kind, seed);
   }
 
   std::optional<Question> next() {
     for (std::size_t tried = 0; number_ < count_ && tried < places_.size(); ++tried) {
       const std::size_t block = number_ / kBlock, which = block % places_.size();
       if (const NamedPlace& place = places_[which]; !place.place->is_beyond_engine()) {
-        Query query;
-        starts_[which].draw(block / places_.size() * kBlock + number_ % kBlock, query);
+        const Query query = starts_[which][block / places_.size() * kBlock + number_ % kBlock];
         ++number_;
-        return question_of(place, query, "free paths, " + place.name);
+        return Question{.place = place.place,
+                        .query = query,
+                        .exact = place.place->exact(query),
+                        .where = fmt::format("{}, {}", what_, place.name)};
       }
       number_ = (block + 1) * kBlock;
     }
@@ -82,10 +42,17 @@ class Flown {
   }
 
  private:
+  static std::string words_of(starts::Kind kind) {
+    return kind == starts::Kind::uniform   ? "drawn"
+           : kind == starts::Kind::surface ? "free paths"
+                                           : name_of(kind);
+  }
+
   const std::vector<NamedPlace>& places_;
   const std::size_t count_;
+  const std::string what_;
   std::size_t number_ = 0;
-  std::vector<flights::FreeStarts> starts_;
+  std::vector<starts::FreeStarts> starts_;
 };
 
 class Golden {
@@ -183,13 +150,9 @@ Source source_of(Arguments&&... arguments) {
 
 }  // namespace
 
-Source drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
+Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed,
              std::size_t count) {
-  return source_of<Drawn>(places, difficulty, seed, count);
-}
-
-Source flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count) {
-  return source_of<Flown>(places, seed, count);
+  return source_of<Drawn>(places, kind, seed, count);
 }
 
 Source golden_set(const std::string& path) {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/hard_cases.hpp"
 #include "fuzz/campaign/campaign.hpp"
 #include "judge/examination.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::judge {
 
@@ -17,14 +17,9 @@ struct NamedPlace {
   std::shared_ptr<Place> place;
 };
 
-/// `count` queries, a few of each place in turn; none of those that are beyond the engine. The places must
-/// outlast the source.
-Source drawn(const std::vector<NamedPlace>& places, compare::Difficulty difficulty, std::uint64_t seed,
-             std::size_t count);
-
-/// `count` flights from collision to collision, a few in each place in turn: starts on obstacles, by the
-/// cosine law. The places must outlast the source.
-Source flown(const std::vector<NamedPlace>& places, std::uint64_t seed, std::size_t count);
+/// `count` starts of a kind, a few of each place in turn; those of places that are beyond the engine are left
+/// out. The places must outlast the source.
+Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count);
 
 /// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
 /// does.

@@ -10,12 +10,6 @@
 namespace lorentz::python {
 namespace {
 
-flights::Ensemble ensemble_of(const std::string& name) {
-  if (name == "uniform") return flights::Ensemble::uniform;
-  if (name == "surface") return flights::Ensemble::surface;
-  throw InputError("start: " + json_quoted(name) + " is no kind of start; there are uniform and surface");
-}
-
 template <class Number>
 py::array_t<Number> array_of(const std::vector<Number>& numbers) {
   return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
@@ -43,7 +37,8 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
   cli::FlightsReport report;
-  report.plan.scene = scene.scene(), report.plan.engine = engine, report.plan.from = ensemble_of(start);
+  report.plan.scene = scene.scene(), report.plan.engine = engine,
+  report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
   fly(report.plan, threads, report.account);
@@ -54,7 +49,7 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
 // Each law by its name, when it holds, and its survival at these times.
 py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
   py::list list;
-  for (const flights::Law& law : flights::laws_of(scene.scene(), ensemble_of(start)).laws)
+  for (const flights::Law& law : flights::laws_of(scene.scene(), starts::ensemble_named(start, "start")).laws)
     list.append(py::make_tuple(law.name, law.when, py::vectorize(law.survival)(times)));
   return list;
 }

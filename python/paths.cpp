@@ -6,10 +6,10 @@
 #include <lorentz/itinerary.hpp>
 #include <lorentz/trajectory_batch.hpp>
 #include "compare/engines.hpp"
-#include "flights/sample/free_starts.hpp"
 #include "python/engine.hpp"
 #include "python/lines.hpp"
 #include "python/signals.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -168,7 +168,7 @@ struct DrawnStarts {
   py::array_t<std::int32_t> lattice, atom;
 };
 
-void draw_into(DrawnStarts& drawn, const flights::FreeStarts& starts, std::uint64_t first) {
+void draw_into(DrawnStarts& drawn, const starts::FreeStarts& starts, std::uint64_t first) {
   auto x = drawn.x.mutable_unchecked<2>(), v = drawn.v.mutable_unchecked<2>();
   auto cell = drawn.cell.mutable_unchecked<2>();
   auto lattice = drawn.lattice.mutable_unchecked<1>(), atom = drawn.atom.mutable_unchecked<1>();
@@ -190,15 +190,9 @@ void draw_into(DrawnStarts& drawn, const flights::FreeStarts& starts, std::uint6
 
 py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
               std::uint64_t first) {
-  const auto& names = flights::kind_names();
-  const auto found = std::find(names.begin(), names.end(), kind);
-  if (found == names.end()) {
-    std::string known;
-    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-    throw InputError("kind: " + json_quoted(kind) + " is none; there are " + known);
-  }
+  const starts::Kind its = starts::kind_named(kind, "kind");
   DrawnStarts drawn(count, scene.dimension());
-  draw_into(drawn, {scene.scene(), static_cast<flights::Kind>(found - names.begin()), seed}, first);
+  draw_into(drawn, {scene.scene(), its, seed}, first);
   py::dict columns(py::arg("x") = drawn.x, py::arg("v") = drawn.v, py::arg("start_from") = py::none());
   if (kind == "surface") columns["start_from"] = py::make_tuple(drawn.lattice, drawn.atom, drawn.cell);
   return columns;

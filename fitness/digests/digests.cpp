@@ -8,7 +8,7 @@
 #include "fitness/digests/drawn_queries.hpp"
 #include "fitness/digests/hash.hpp"
 #include "fitness/digests/scenes.hpp"
-#include "flights/starts/starts.hpp"
+#include "starts/candidates.hpp"
 
 namespace lorentz::fitness {
 namespace {
@@ -67,7 +67,7 @@ void fly_by(const std::string& name, const QueryFamily& family, std::uint64_t fl
 
 void draw_starts(const Scene& scene, std::uint64_t flights, Hash& hash) {
   for (const flights::Ensemble ensemble : {flights::Ensemble::uniform, flights::Ensemble::surface}) {
-    const flights::Starts starts(scene, ensemble, kSeed);
+    const starts::Candidates starts(scene, ensemble, kSeed);
     Query start;
     for (std::uint64_t i = 0; i < flights; ++i) {
       starts.draw(i, 0, start);
@@ -83,7 +83,7 @@ void draw_starts(const Scene& scene, std::uint64_t flights, Hash& hash) {
 
 void follow_paths(const Scene& scene, Precision precision, std::uint64_t flights, Hash& hash) {
   constexpr std::uint64_t kParticles = 64;
-  const flights::Starts starts(scene, flights::Ensemble::surface, kSeed);
+  const starts::Candidates starts(scene, flights::Ensemble::surface, kSeed);
   const Batch engine(scene);
   Particles particles(engine, scene, precision);
   Query start;

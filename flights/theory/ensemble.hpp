@@ -8,4 +8,8 @@ namespace lorentz::flights {
 /// normal: the flights from collision to collision of a gas in equilibrium.
 enum class Ensemble { uniform, surface };
 
+constexpr const char* name_of(Ensemble ensemble) {
+  return ensemble == Ensemble::uniform ? "uniform" : "surface";
+}
+
 }  // namespace lorentz::flights

@@ -9,26 +9,24 @@
 #include <lorentz/reduction.hpp>
 #include <lorentz/scene_check.hpp>
 #include <lorentz/walk.hpp>
-#include "compare/hard_cases.hpp"
-#include "flights/sample/free_starts.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
-using compare::Difficulty;
+using starts::Kind;
 
 namespace {
 
-constexpr Difficulty kDifficulties[] = {Difficulty::drawn, Difficulty::near_rational, Difficulty::grazing};
+constexpr Kind kDifficulties[] = {Kind::uniform, Kind::near_rational, Kind::grazing};
 
-std::vector<Query> queries_of(const Scene& scene, Difficulty difficulty, std::uint64_t seed,
-                              std::size_t count) {
-  return compare::hard_queries(difficulty, scene, oracle::Oracle(scene), seed, count);
+std::vector<Query> queries_of(const Scene& scene, Kind difficulty, std::uint64_t seed, std::size_t count) {
+  return starts::free_starts(scene, difficulty, seed, count);
 }
 
 // `certified` against the oracle; how many queries the fast engine decided, in `tally`.
-void hold_certified(const Scene& scene, Difficulty difficulty, std::size_t count, StageTally& tally) {
+void hold_certified(const Scene& scene, Kind difficulty, std::size_t count, StageTally& tally) {
   const oracle::Certified certified(scene);
   const oracle::Oracle exact(scene);
   for (const Query& query : queries_of(scene, difficulty, 4, count)) {
@@ -47,19 +45,19 @@ bool overlaps(const Scene& scene) {
 
 TEST_CASE("certified equals the oracle on every scene of the catalogue", "[cases][catalogue_campaign]") {
   for (const auto& [name, scene] : all_scenes())
-    for (const Difficulty difficulty : kDifficulties) {
-      CAPTURE(name, compare::name_of(difficulty));
+    for (const Kind difficulty : kDifficulties) {
+      CAPTURE(name, name_of(difficulty));
       StageTally tally;
       hold_certified(scene, difficulty, 300, tally);
       // Drawn queries are the fast engine's, unless obstacles overlap their own translates.
-      if (difficulty == Difficulty::drawn && !Reduction::beyond(scene)) CHECK(tally.undecided < 3);  // 0 seen
+      if (difficulty == Kind::uniform && !Reduction::beyond(scene)) CHECK(tally.undecided < 3);  // 0 seen
     }
 }
 
 TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][catalogue_campaign]") {
   for (const auto& [name, scene] : all_scenes())
-    for (const Difficulty difficulty : kDifficulties) {
-      CAPTURE(name, compare::name_of(difficulty));
+    for (const Kind difficulty : kDifficulties) {
+      CAPTURE(name, name_of(difficulty));
       const oracle::Oracle exact(scene);
       const oracle::Walk walk(scene, 300);
       long judged = 0;
@@ -70,7 +68,7 @@ TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][cat
         INFO(stream(scene, query));
         REQUIRE(same(exact.first_hit(query), second));
       }
-      if (difficulty == Difficulty::drawn && !name.starts_with("superposition"))
+      if (difficulty == Kind::uniform && !name.starts_with("superposition"))
         CHECK(judged > 50);  // 59 seen at least
     }
 }
@@ -84,7 +82,7 @@ TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[c
     const double expected = filling_of(scene)->mean_free_path;
     constexpr int kFlights = 20'000;
     const oracle::Certified certified(scene);
-    const flights::FreeStarts starts(scene, flights::Kind::surface, 7);
+    const starts::FreeStarts starts(scene, starts::Kind::surface, 7);
     Query query;
     double sum = 0, sum2 = 0;
     for (int i = 0; i < kFlights; ++i) {

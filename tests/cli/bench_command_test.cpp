@@ -25,7 +25,8 @@ TEST_CASE("bench measures, concludes, and writes its figures", "[cli][bench_comm
 
 TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_command]") {
   const Folder folder;
-  const Run run = folder.lorentz("bench --scene square --radius 0.01 --count 64 --engine published");
+  const Run run =
+      folder.lorentz("bench --scene square --radius 0.01 --count 64 --engine published --difficulty drawn");
   INFO(run.out);
   CHECK(contains(run.out, "published: no wrong answer in "));
   CHECK(contains(run.out, " wrong times of right obstacles\n"));

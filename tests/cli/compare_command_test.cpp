@@ -239,7 +239,7 @@ TEST_CASE("compare --judge certified: the same verdicts, and none of what rests 
   for (const char* engine : {"reduction", "certified", "batch", "certified-batch"})
     CHECK(contains(refused("certified -e published," + std::string(engine)),
                    "no judge of the engine " + std::string(engine) + "; use oracle"));
-  CHECK(contains(refused("nobody"), "\"nobody\" is none; there are oracle and certified"));
+  CHECK(contains(refused("nobody"), "\"nobody\" is not one of oracle, certified"));
   CHECK(contains(refused("certified --no-oracle -e walk"), "nobody is judged with --no-oracle"));
 }
 

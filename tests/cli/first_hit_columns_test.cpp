@@ -323,7 +323,8 @@ TEST_CASE("Columns: what the options ask for, and files that are none", "[cli][c
     CHECK(run.status == status);
     CHECK(contains(run.err, what));
   };
-  says("--format cvs --scene square " + csv, 2, "--format: \"cvs\" is none (did you mean csv?)");
+  says("--format cvs --scene square " + csv, 2,
+       "--format: \"cvs\" is not one of ndjson, csv, npy (did you mean csv?)");
   says("--format csv " + csv, 2, "--format csv: needs --scene");
   says("--format csv --scene square --digits 20 " + csv, 2, "--digits: only streams in JSON");
   says("--format npy --scene square --detail " + npy, 2, "--detail: only streams in JSON");

@@ -97,9 +97,9 @@ TEST_CASE("Sample says what is wrong with what it is asked", "[cli][sample]") {
     return run.err;
   };
   CHECK(contains(said("--count 0"), "--count: \"0\" is no whole number from 1"));
-  CHECK(
-      contains(said("--kind unifrm"), "(did you mean uniform?); there are uniform, surface, near-rational"));
-  CHECK(contains(said("--format jsn"), "there are ndjson, csv, npy"));
+  CHECK(contains(said("--kind unifrm"),
+                 "is not one of uniform, surface, near-rational, grazing (did you mean uniform?)"));
+  CHECK(contains(said("--format jsn"), "is not one of ndjson, csv, npy"));
   CHECK(contains(said("--radius 0"), "--radius: must be above zero"));
   CHECK(contains(said("--scene ellipse --radius 0.2"), "semiaxes, which have no radius"));
   for (const std::string kind : {"uniform", "surface", "near-rational", "grazing"})

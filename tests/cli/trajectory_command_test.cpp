@@ -137,7 +137,7 @@ TEST_CASE("trajectory: options that are none, and files that cannot be written",
   CHECK(status("--time 0", "--time: \"0\" is no rational number above zero") == 2);
   CHECK(status("--collisions 5 --radius -1/3", "--radius: \"-1/3\" is no") == 2);
   CHECK(status("--collisions 5 --engine reductoin", "did you mean") == 2);
-  CHECK(status("--collisions 5 --precision double", "there are binary64, double-double") == 2);
+  CHECK(status("--collisions 5 --precision double", "is not one of binary64, double-double") == 2);
   CHECK(status("--collisions 5 --digits 0", "--digits") == 2);
   CHECK(status("--collisions 5 --csv /dev/full", "/dev/full") == 3);
   CHECK(status("--collisions 5 --svg /dev/full", "/dev/full") == 3);

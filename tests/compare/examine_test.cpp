@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "compare/hard_cases.hpp"
 #include "compare/race.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -62,8 +62,7 @@ TEST_CASE("Exact answers are the same from the oracle and from certified, scenes
   std::vector<std::vector<Question>> by_place;
   for (const char* name : {"square", "honeycomb", "cubic", "ellipsoids-mixed"}) {
     const auto place = std::make_shared<Place>(catalogue.at(name));
-    std::vector<Query> queries =
-        compare::hard_queries(compare::Difficulty::grazing, place->scene(), place->oracle(), kSeed, 100);
+    std::vector<Query> queries = starts::free_starts(place->scene(), starts::Kind::grazing, kSeed, 100);
     // Tangent to discs on both sides, along a lattice vector; and an obstacle left that no column can name.
     queries.push_back({{0.25, 0.5, 0}, {1, 0, 0}, {}});
     const Integer far = *Integer::from_decimal("100000000000000000000");
@@ -182,8 +181,7 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
   std::vector<Question> questions;
   for (const int dimension : {2, 3}) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.1));
-    const auto queries =
-        compare::hard_queries(compare::Difficulty::grazing, place->scene(), place->oracle(), 4712, 150);
+    const auto queries = starts::free_starts(place->scene(), starts::Kind::grazing, 4712, 150);
     for (Question& question : compare::questions_of(place, queries)) questions.push_back(std::move(question));
   }
   std::vector<Question> alone = questions;

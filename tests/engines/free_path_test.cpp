@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include <lorentz/oracle.hpp>
-#include "flights/starts/starts.hpp"
+#include "starts/candidates.hpp"
 
 using namespace lorentz;
 
@@ -19,7 +19,7 @@ struct Mean {
 Mean mean_free_path(int dimension, double r, int count, std::uint64_t seed) {
   const Scene scene = unit_scene(dimension, r);
   const oracle::Oracle oracle(scene);
-  const flights::Starts starts(scene, flights::Ensemble::surface, seed);
+  const starts::Candidates starts(scene, flights::Ensemble::surface, seed);
   Query query;
   double sum = 0, sum2 = 0;
   for (int i = 0; i < count; ++i) {

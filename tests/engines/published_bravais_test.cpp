@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/oracle.hpp>
-#include "compare/sampling.hpp"
 #include "src/engines/published/published.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
@@ -46,12 +46,12 @@ Count hold_against_oracle(const Scene& scene, const std::vector<Query>& queries)
 }
 
 Count drawn(const Scene& scene, std::uint64_t seed, std::size_t number) {
-  return hold_against_oracle(scene, compare::draw_queries(scene, oracle::Oracle(scene), seed, number));
+  return hold_against_oracle(scene, starts::free_starts(scene, starts::Kind::uniform, seed, number));
 }
 
 // Flights that leave the ball at the origin, `from` that ball.
 std::vector<Query> leaving(int dimension, double r, std::uint64_t seed, std::size_t number) {
-  return compare::draw_leaving_queries(dimension, r, seed, number);
+  return starts::free_starts(unit_scene(dimension, r), starts::Kind::surface, seed, number);
 }
 
 }  // namespace

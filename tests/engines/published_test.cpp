@@ -6,7 +6,7 @@
 
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
-#include "compare/sampling.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -74,7 +74,7 @@ TEST_CASE("Skipped disc: the first step's tolerance is too small", "[engines][pu
 TEST_CASE("Skipped discs are about 0.1 % of the flights that leave a disc", "[engines][published]") {
   INFO("seed 81");
   for (const double r : {0.1, 0.2}) {
-    const auto queries = compare::draw_leaving_queries(2, r, 81, 20000);
+    const auto queries = starts::free_starts(unit_scene(2, r), starts::Kind::surface, 81, 20000);
     const Share share = share_wrong(unit_scene(2, r), queries);
     INFO("r = " << r << ": " << share.wrong << " wrong of " << share.answered);
     CHECK(share.answered > 19900);  // 20 000 seen

@@ -3,13 +3,14 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/batch.hpp>
-#include "flights/starts/starts.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "starts/candidates.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::flights;
+using namespace lorentz::starts;
 using namespace lorentz::test;
 
 namespace {
@@ -22,7 +23,7 @@ struct Mean {
 // Of starts inside an obstacle the next attempt counts.
 Mean mean_free_path(const Scene& scene, std::uint64_t seed, std::size_t count) {
   constexpr std::size_t kTogether = 4096;
-  const Starts starts(scene, Ensemble::surface, seed);
+  const Candidates starts(scene, Ensemble::surface, seed);
   const Batch batch(scene);
   StartColumns columns;
   FlightTable flights;
@@ -37,7 +38,7 @@ Mean mean_free_path(const Scene& scene, std::uint64_t seed, std::size_t count) {
     for (std::size_t i = 0; i < together; ++i) {
       Flight flight = flights[i];
       for (std::uint64_t attempt = 1; flight.outcome == Outcome::inside; ++attempt, ++mean.inside) {
-        REQUIRE(attempt < Starts::kMostAttempts);
+        REQUIRE(attempt < Candidates::kMostAttempts);
         starts.draw(first + i, attempt, again);
         flight = batch.one_at_a_time().fly(again);
       }

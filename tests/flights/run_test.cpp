@@ -18,6 +18,7 @@
 
 using namespace lorentz;
 using namespace lorentz::flights;
+using namespace lorentz::starts;
 using test::Folder;
 
 namespace {
@@ -69,7 +70,7 @@ TEST_CASE("A tally counts what the oracle says of each start", "[flights]") {
         Plan plan = plan_of(scene, 3000, from);
         plan.engine = engine;
         INFO(engine);
-        const Starts starts(scene, from, plan.seed, plan.cells);
+        const Candidates starts(scene, from, plan.seed, plan.cells);
         const oracle::Oracle exact(scene);
         std::uint64_t inside = 0, hits = 0;
         double sum = 0;

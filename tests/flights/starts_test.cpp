@@ -7,13 +7,14 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
-#include "flights/starts/starts.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "starts/candidates.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::flights;
+using namespace lorentz::starts;
 using namespace lorentz::test;
 
 namespace {
@@ -103,7 +104,7 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
   constexpr std::size_t kCount = 500;
   for (const Scene& scene : some_scenes())
     for (const Ensemble ensemble : {Ensemble::uniform, Ensemble::surface}) {
-      const Starts starts(scene, ensemble, kSeed);
+      const Candidates starts(scene, ensemble, kSeed);
       StartColumns all, part;
       starts.draw(7, kCount, all);
       REQUIRE(all.size() == kCount);
@@ -115,7 +116,7 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
         CHECK_FALSE(flaw_of(query, scene));
       }
       for (std::size_t begin = 0, length = 1; begin < kCount; begin += length, length = 2 * length + 1) {
-        Starts(scene, ensemble, kSeed).draw(7 + begin, length, part);
+        Candidates(scene, ensemble, kSeed).draw(7 + begin, length, part);
         for (std::size_t i = 0; i < length && begin + i < kCount; ++i) {
           starts.draw(7 + begin + i, 0, query);
           REQUIRE(same(part, i, query, scene.dimension));
@@ -129,7 +130,7 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
 
 TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights][starts]") {
   const Scene scene = unit_scene(2, 0.25);
-  const Starts starts(scene, Ensemble::uniform, kSeed), other(scene, Ensemble::uniform, kSeed + 1);
+  const Candidates starts(scene, Ensemble::uniform, kSeed), other(scene, Ensemble::uniform, kSeed + 1);
   Query first, query;
   starts.draw(0, 0, first);
   other.draw(0, 0, query);
@@ -146,7 +147,7 @@ TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights
     const std::uint64_t number = std::uint64_t{1} << bit;
     starts.draw(number, 0, query);
     CHECK(seen.insert(query.x[0]).second);
-    Starts(scene, Ensemble::uniform, kSeed ^ number).draw(0, 0, query);
+    Candidates(scene, Ensemble::uniform, kSeed ^ number).draw(0, 0, query);
     CHECK(seen.insert(query.x[0]).second);
     starts.draw(0, number, query);
     CHECK(seen.insert(query.x[0]).second);
@@ -167,7 +168,7 @@ TEST_CASE("The starts of a seed stay what they are, to the bit", "[flights][star
   };
   for (const Scene& scene : some_scenes())
     for (const Ensemble ensemble : {Ensemble::uniform, Ensemble::surface}) {
-      const Starts starts(scene, ensemble, kSeed);
+      const Candidates starts(scene, ensemble, kSeed);
       Query query;
       for (std::uint64_t i = 0; i < 1000; ++i) {
         starts.draw(i, i % 3, query);
@@ -178,7 +179,7 @@ TEST_CASE("The starts of a seed stay what they are, to the bit", "[flights][star
 }
 
 TEST_CASE("Columns that are large enough are not allocated anew", "[flights][starts]") {
-  const Starts starts(superposition(3), Ensemble::surface, kSeed);
+  const Candidates starts(superposition(3), Ensemble::surface, kSeed);
   StartColumns columns;
   starts.draw(0, 100, columns);
   const double* const before = columns.view().x[2];
@@ -197,7 +198,7 @@ TEST_CASE("Uniform starts are uniform in the cell, or in the box", "[flights][st
     const auto dual = dual_of(scene.lattices[0].vectors, d);
     const std::size_t steps = d == 2 ? 16 : 6;
     std::vector<double> counts(d == 2 ? 256 : 216);
-    const Starts starts(scene, Ensemble::uniform, kSeed);
+    const Candidates starts(scene, Ensemble::uniform, kSeed);
     Query query;
     for (std::uint64_t i = 0; i < kCount; ++i) {
       starts.draw(i, 0, query);
@@ -221,7 +222,7 @@ TEST_CASE("Uniform starts are uniform in the cell, or in the box", "[flights][st
 TEST_CASE("Directions are isotropic, and of unit length but for rounding", "[flights][starts]") {
   constexpr std::uint64_t kCount = 400'000;
   for (const int d : {2, 3}) {
-    const Starts starts(unit_scene(d, 0.25), Ensemble::uniform, kSeed);
+    const Candidates starts(unit_scene(d, 0.25), Ensemble::uniform, kSeed);
     Histogram around(200), up(200), across(200);
     Query query;
     for (std::uint64_t i = 0; i < kCount; ++i) {
@@ -330,7 +331,7 @@ TEST_CASE("Obstacles are chosen by their surface, and stand all over the box", "
     std::vector<double> expected, counts(2);
     for (const auto& share : shares->atoms) expected.push_back(share.surface);
     Histogram first(10), second(5);
-    const Starts starts(scene, Ensemble::surface, kSeed);
+    const Candidates starts(scene, Ensemble::surface, kSeed);
     Query query;
     for (std::uint64_t i = 0; i < kCount; ++i) {
       starts.draw(i, 0, query);
@@ -384,7 +385,7 @@ TEST_CASE("An obstacle of next to no surface among others is not chosen, whereve
     Scene scene = unit_scene(2, 0.25);
     scene.lattices[0].atoms.push_back({{0.5, 0.5, 0}, 0.25, {}});
     scene.lattices[0].atoms[small].radius = 1e-30;
-    const Starts starts(scene, Ensemble::surface, kSeed);
+    const Candidates starts(scene, Ensemble::surface, kSeed);
     Query query;
     for (std::uint64_t i = 0; i < 1000; ++i) {
       starts.draw(i, 0, query);
@@ -406,24 +407,24 @@ TEST_CASE("Any unit of length will do, where binary64 ends it is said", "[flight
   for (const double unit : {0x1p-900, 0x1p900})
     for (const Ensemble ensemble : {Ensemble::uniform, Ensemble::surface})
       for (std::uint64_t i = 0; i < 100; ++i) {
-        Starts(in_units(unit), ensemble, kSeed).draw(i, 0, query);
-        Starts(in_units(1), ensemble, kSeed).draw(i, 0, here);
+        Candidates(in_units(unit), ensemble, kSeed).draw(i, 0, query);
+        Candidates(in_units(1), ensemble, kSeed).draw(i, 0, here);
         REQUIRE(query.x == scaled(here.x, unit));
         REQUIRE(query.v == here.v);
         REQUIRE(query.from == here.from);
       }
-  CHECK_THROWS_AS(Starts(in_units(0x1p1010), Ensemble::uniform, kSeed), InputError);
+  CHECK_THROWS_AS(Candidates(in_units(0x1p1010), Ensemble::uniform, kSeed), InputError);
   for (const int dimension : {2, 3})
     for (int axis = 0; axis < dimension; ++axis) {
       Scene far = unit_scene(dimension, 0.1);
       far.lattices[0].atoms.push_back(far.lattices[0].atoms[0]);
       far.lattices[0].atoms[1].position[axis] = 0x1p1001;
-      CHECK_THROWS_AS(Starts(far, Ensemble::uniform, kSeed), InputError);
+      CHECK_THROWS_AS(Candidates(far, Ensemble::uniform, kSeed), InputError);
     }
   Scene speck = unit_scene(3, 1e-320);
-  CHECK_THROWS_AS(Starts(speck, Ensemble::surface, kSeed), InputError);
-  CHECK_NOTHROW(Starts(speck, Ensemble::uniform, kSeed));
+  CHECK_THROWS_AS(Candidates(speck, Ensemble::surface, kSeed), InputError);
+  CHECK_NOTHROW(Candidates(speck, Ensemble::uniform, kSeed));
   Scene uneven = superposition(2);
   for (Vec& u : uneven.lattices[1].vectors) u = scaled(u, 1e-20);
-  CHECK_THROWS_AS(Starts(uneven, Ensemble::surface, kSeed), InputError);
+  CHECK_THROWS_AS(Candidates(uneven, Ensemble::surface, kSeed), InputError);
 }

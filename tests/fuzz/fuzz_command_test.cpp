@@ -497,7 +497,7 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
     CHECK(contains(run.err, message));
     CHECK(run.out.empty());
   };
-  refused("--target nonsense", "no target is called \"nonsense\"; there are generic, near-rational,");
+  refused("--target nonsense", "--target: \"nonsense\" is not one of generic, near-rational,");
   refused("-t grazing,grazing", "--target: grazing is named twice");
   refused("-e nonsense", "no engine is called \"nonsense\"");
   refused("-e cmd:", "cmd: is no engine yet");
@@ -513,13 +513,12 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--mutate -1", "--mutate: ");
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
   refused("--undecided --no-undecided", "excludes");
-  refused("--judge nobody", "--judge: \"nobody\" is none; there are oracle and certified");
+  refused("--judge nobody", "--judge: \"nobody\" is not one of oracle, certified");
   refused("--judge certified -e reduction",
           "certified rests on reduction, and is no judge of the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
   refused("--dimension 4", "--dimension: \"4\" is no whole number from 2 to 3");
-  refused("--scenes cubes",
-          "--scenes: there are no scenes called \"cubes\"; there are unit, lattice and any");
+  refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, any");
   refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");
   refused("list", "--store is required");

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "compare/engines.hpp"
-#include "compare/sampling.hpp"
 #include "judge/repetition.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
@@ -31,7 +31,7 @@ Source questions(std::vector<int> dimensions, std::size_t number) {
   const auto all = std::make_shared<std::vector<Question>>();
   for (const int dimension : dimensions) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
-    for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), kSeed, number))
+    for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, kSeed, number))
       all->push_back({.place = place, .query = query, .exact = place->exact(query), .where = "here"});
   }
   return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {

@@ -12,11 +12,10 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/target.hpp"
 #include "compare/engines.hpp"
-#include "compare/sampling.hpp"
-#include "flights/sample/free_starts.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -83,7 +82,7 @@ Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::siz
   const auto all = std::make_shared<std::vector<Question>>();
   for (const int dimension : dimensions) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
-    for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), seed, number))
+    for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, seed, number))
       all->push_back({.place = place,
                       .query = query,
                       .exact = place->exact(query),
@@ -374,20 +373,17 @@ TEST_CASE("Drawn and flown questions come in blocks of each place, and none is l
         if (question->place == places[p].place) all[p].push_back(question->query);
     return all;
   };
-  const auto drawn_ones = by_place(drawn(places, compare::Difficulty::drawn, kSeed, 90)),
-             flown_ones = by_place(flown(places, kSeed, 90));
+  const auto drawn_ones = by_place(drawn(places, starts::Kind::uniform, kSeed, 90)),
+             flown_ones = by_place(drawn(places, starts::Kind::surface, kSeed, 90));
   for (std::size_t p = 0; p < places.size(); ++p) {
     const Place& place = *places[p].place;
     REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));
     REQUIRE(flown_ones[p].size() == drawn_ones[p].size());
-    flights::FreeStarts starts(place.scene(), flights::Kind::surface, kSeed);
+    const starts::FreeStarts uniform(place.scene(), starts::Kind::uniform, kSeed),
+        surface(place.scene(), starts::Kind::surface, kSeed);
     for (std::size_t i = 0; i < drawn_ones[p].size(); ++i) {
-      const auto block = compare::hard_queries(compare::Difficulty::drawn, place.scene(), place.oracle(),
-                                               kSeed + i / 16, 16);
-      CHECK(stream(place.scene(), drawn_ones[p][i]) == stream(place.scene(), block[i % 16]));
-      Query start;
-      starts.draw(i, start);
-      CHECK(stream(place.scene(), flown_ones[p][i]) == stream(place.scene(), start));
+      CHECK(stream(place.scene(), drawn_ones[p][i]) == stream(place.scene(), uniform[i]));
+      CHECK(stream(place.scene(), flown_ones[p][i]) == stream(place.scene(), surface[i]));
     }
   }
 }

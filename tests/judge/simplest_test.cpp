@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "compare/sampling.hpp"
 #include "fuzz/examine/shrink.hpp"
+#include "starts/free_starts.hpp"
 
 using namespace lorentz;
 using namespace lorentz::judge;
@@ -42,7 +42,7 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
   const auto place = std::make_shared<Place>(unit_scene(2, 0.01));
   constexpr std::uint64_t kSeed = 20161115;
   std::map<Cause, Example> met;
-  for (const Query& query : compare::draw_queries(place->scene(), place->oracle(), kSeed, 300))
+  for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, kSeed, 300))
     if (const auto example =
             examination.example_of({place, query, place->oracle().first_hit(query), "here", ""}))
       met.try_emplace(example->diagnosis.cause, *example);

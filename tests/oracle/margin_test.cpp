@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/oracle.hpp>
-#include "compare/hard_cases.hpp"
+#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -136,8 +136,8 @@ Tally grazing_campaign(std::uint64_t seed, int dimension, int cases, int corners
   for (const double radius : {0.3, 0.1, 0.01, 1e-3}) {
     const Scene scene = unit_scene(dimension, radius);
     const oracle::Oracle oracle(scene);
-    for (const auto difficulty : {compare::Difficulty::drawn, compare::Difficulty::grazing})
-      for (const Query& query : compare::hard_queries(difficulty, scene, oracle, seed, cases / 8))
+    for (const auto kind : {starts::Kind::uniform, starts::Kind::grazing})
+      for (const Query& query : starts::free_starts(scene, kind, seed, cases / 8))
         hold(draw, {scene, query}, corners, tally);
   }
   return tally;

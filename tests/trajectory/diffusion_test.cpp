@@ -6,10 +6,11 @@
 #include <map>
 
 #include <lorentz/trajectory.hpp>
-#include "chaos/free_starts.hpp"
+#include <lorentz/trajectory_batch.hpp>
 #include "chaos/groups.hpp"
 #include "chaos/theory.hpp"
 #include "flights/theory/laws.hpp"
+#include "starts/candidates.hpp"
 #include "tests/trajectory/coverage_support.hpp"
 
 using namespace lorentz;
@@ -91,35 +92,12 @@ TEST_CASE("The slope in ln t is that of the straight line nearest to MSD / t", "
   CHECK(result.logarithmic.value == Approx((n * xy - x * y) / (n * xx - x * x)).epsilon(1e-10));
 }
 
-TEST_CASE("Starts are the first of the attempts that are free, of every index", "[chaos]") {
-  const Scene scene = unit_scene(2, 0.45);
-  const Batch engine(scene);
-  const flights::Starts starts(scene, flights::Ensemble::uniform, 9202);
-  Particles particles(engine, scene);
-  constexpr std::uint64_t kFirst = 5, kLast = 205;
-  add_free_starts(starts, engine.one_at_a_time(), kFirst, kLast, particles);
-  REQUIRE(particles.size() == kLast - kFirst);
-  std::map<std::uint64_t, int> attempts;
-  for (std::uint64_t index = kFirst; index < kLast; ++index) {
-    Query start;
-    std::uint64_t attempt = 0;
-    do starts.draw(index, attempt++, start);
-    while (std::hypot(start.x[0] - std::round(start.x[0]), start.x[1] - std::round(start.x[1])) < 0.45);
-    ++attempts[attempt];
-    CHECK(particles[index - kFirst].velocity == start.v);
-    const Vec place = place_of(scene, particles[index - kFirst]);
-    for (int k = 0; k < 2; ++k) CHECK(place[k] == Approx(start.x[k]).margin(1e-15));
-  }
-  CHECK(attempts[1] > 40);
-  CHECK(attempts[2] > 20);
-}
-
 TEST_CASE("Every particle of a group is flown once, of the second piece of it, too", "[chaos]") {
   const Scene scene = unit_scene(2, 0.3);
   constexpr std::uint64_t kCount = 600 * kGroups;  // of which 512 fly together
   constexpr double kTime = 2;
   const Diffusion all = measured(scene, kCount, kTime);
-  const flights::Starts starts(scene, flights::Ensemble::uniform, 9201);
+  const starts::Candidates starts(scene, flights::Ensemble::uniform, 9201);
   const Reduction engine(scene);
   std::uint64_t collisions = 0;
   double squares = 0;

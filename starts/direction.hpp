@@ -6,7 +6,7 @@
 
 #include "cases/random.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 /// (cos a, sin a) for |a| <= pi / 4, by the first terms of their series, the rest of which is below 5e-17: no
 /// library's functions, whose last bits differ from machine to machine.
@@ -46,4 +46,4 @@ inline Vec direction(cases::Random& random, int dimension) {
   return dimension == 2 ? on_circle(random) : on_sphere(random);
 }
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

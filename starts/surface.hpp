@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lorentz/scene.hpp>
-#include "flights/starts/direction.hpp"
+#include "starts/direction.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 /// A point relative to the obstacle's centre, and the outward normal there, of unit length up to rounding.
 struct SurfacePoint {
@@ -38,4 +38,4 @@ class Surface {
 /// rounding.
 Vec cosine_law(cases::Random& random, const Vec& normal, int dimension);
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

@@ -1,6 +1,6 @@
-#include "flights/starts/start_columns.hpp"
+#include "starts/start_columns.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
   const std::size_t from_count = with_from ? count : 0;
@@ -28,4 +28,4 @@ QueryColumns StartColumns::view() const {
   return columns;
 }
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

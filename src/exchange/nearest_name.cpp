@@ -1,8 +1,11 @@
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 #include <algorithm>
 
-namespace lorentz::compare {
+#include <lorentz/errors.hpp>
+#include <lorentz/exchange.hpp>
+
+namespace lorentz {
 namespace {
 
 // Optimal string alignment: rows of the table of distances between beginnings of the two.
@@ -51,4 +54,14 @@ std::string did_you_mean(std::string_view typed, const std::vector<std::string>&
   return name.empty() || name == typed ? "" : " (did you mean " + name + "?)";
 }
 
-}  // namespace lorentz::compare
+std::size_t index_of_name(const std::string& name, const std::vector<std::string>& names,
+                          std::string_view what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::string known;
+  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+  throw InputError(std::string(what) + ": " + json_quoted(name) + " is not one of " + known +
+                   did_you_mean(name, names));
+}
+
+}  // namespace lorentz

@@ -8,13 +8,15 @@
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "cases/box.hpp"
-#include "flights/starts/start_columns.hpp"
-#include "flights/starts/surface.hpp"
 #include "flights/theory/ensemble.hpp"
+#include "starts/start_columns.hpp"
+#include "starts/surface.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
-/// Starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and the index only,
+using flights::Ensemble;
+
+/// Candidates for starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and the index only,
 /// so that any number of threads, shards and machines draws the same, to the bit.
 ///
 /// uniform: the point is uniform in a cell of the first lattice, of a superposition in a box of many such
@@ -29,14 +31,15 @@ namespace lorentz::flights {
 ///
 /// Units: lengths are the scene's; velocities have length 1 up to rounding. `draw` throws nothing, allocates
 /// nothing where nothing grows, and may be called by any number of threads.
-class Starts {
+class Candidates {
  public:
   static constexpr std::uint64_t kMostAttempts = 100'000;  ///< that are worth a try
 
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). `cells`: about
   /// how many cells of the first lattice the box of a superposition has, 1 to 2^40. Throws InputError if
   /// the scene's numbers are so large or small that no starts can be drawn in binary64.
-  Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells = cases::Box::kCells);
+  Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed,
+             std::uint64_t cells = cases::Box::kCells);
 
   /// Candidate number `attempt` (0, 1, ..) of start `index`. It may lie inside an obstacle: who flies it sees
   /// the outcome `inside`, and draws the next one; after kMostAttempts of them there is nowhere_to_start().
@@ -85,4 +88,4 @@ class Starts {
 /// What to say when `draws` candidates of one start were all inside obstacles.
 std::string nowhere_to_start(std::uint64_t draws);
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

@@ -1,11 +1,11 @@
-#include "flights/starts/surface.hpp"
+#include "starts/surface.hpp"
 
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 using cases::Random;
 
@@ -73,4 +73,4 @@ Vec cosine_law(Random& random, const Vec& normal, int dimension) {
   return dimension == 2 ? cosine_law_2d(random, normal) : cosine_law_3d(random, normal);
 }
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

@@ -1,14 +1,14 @@
-#include "flights/starts/starts.hpp"
+#include "starts/candidates.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
-#include "flights/starts/direction.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "starts/direction.hpp"
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 using cases::Random;
 using cases::Series;
@@ -38,7 +38,7 @@ std::string nowhere_to_start(std::uint64_t draws) {
          " draws: the obstacles leave no free part of the cell, or nearly none; take smaller ones";
 }
 
-Starts::Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells)
+Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells)
     : ensemble_(ensemble),
       seed_(seed),
       in_many_cells_(scene.lattices.size() > 1),
@@ -51,7 +51,7 @@ Starts::Starts(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::u
 
 // A word chooses the obstacle: each has its share of them, in steps of 2^-40 of the largest, since elliptic
 // integrals are not the same to the last bit everywhere.
-void Starts::choose_by_surface(const Scene& scene) {
+void Candidates::choose_by_surface(const Scene& scene) {
   const auto shares = shares_of(scene);
   double largest = 0, sum = 0, before = 0;
   if (shares)
@@ -75,7 +75,7 @@ void Starts::choose_by_surface(const Scene& scene) {
   }
 }
 
-void Starts::count_cells(const Lattice& lattice) {
+void Candidates::count_cells(const Lattice& lattice) {
   const Cells cells{lattice.vectors, dual_of(lattice.vectors, box_.dimension)};
   double farthest = 0;
   for (int i = 0; i < box_.dimension; ++i)
@@ -86,14 +86,14 @@ void Starts::count_cells(const Lattice& lattice) {
   lattices_.push_back(cells);
 }
 
-const Starts::Obstacle& Starts::chosen_obstacle(Random& random) const {
+const Candidates::Obstacle& Candidates::chosen_obstacle(Random& random) const {
   if (obstacles_.size() == 1) return obstacles_[0];
   return *std::upper_bound(
       obstacles_.begin(), obstacles_.end(), random.bits() >> 11,
       [](std::uint64_t bits, const Obstacle& obstacle) { return bits < obstacle.below; });
 }
 
-Starts::Start Starts::uniform_start(Random& random) const {
+Candidates::Start Candidates::uniform_start(Random& random) const {
   Start start{};
   start.lattice = -1;
   start.x = box_.point(random);
@@ -103,7 +103,7 @@ Starts::Start Starts::uniform_start(Random& random) const {
 
 // The obstacle's cell in a superposition is that in which a point of the box lies: so all cells are as
 // likely.
-Starts::Start Starts::surface_start(Random& random) const {
+Candidates::Start Candidates::surface_start(Random& random) const {
   const Obstacle& obstacle = chosen_obstacle(random);
   Start start{};
   start.lattice = obstacle.lattice, start.atom = obstacle.atom;
@@ -123,20 +123,21 @@ Starts::Start Starts::surface_start(Random& random) const {
   return start;
 }
 
-Starts::Start Starts::start(std::uint64_t index, std::uint64_t attempt) const {
+Candidates::Start Candidates::start(std::uint64_t index, std::uint64_t attempt) const {
   const bool surface = ensemble_ == Ensemble::surface;
   Random random(seed_, surface ? kSurface : kUniform, index, cases::Use::cases, attempt);
   return surface ? surface_start(random) : uniform_start(random);
 }
 
-void Starts::draw(std::uint64_t index, std::uint64_t attempt, Query& query) const {
+void Candidates::draw(std::uint64_t index, std::uint64_t attempt, Query& query) const {
   const Start drawn = start(index, attempt);
   query.x = drawn.x, query.v = drawn.v;
   const ObstacleId from{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
   query.from = drawn.lattice < 0 ? std::nullopt : std::optional(from);
 }
 
-void Starts::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const {
+void Candidates::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts,
+                      std::size_t place) const {
   const Start drawn = start(index, attempt);
   for (int i = 0; i < box_.dimension; ++i) {
     starts.x[i][place] = drawn.x[i];
@@ -148,9 +149,9 @@ void Starts::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& star
   for (int i = 0; i < box_.dimension; ++i) starts.from_cell[i][place] = drawn.cell[i];
 }
 
-void Starts::draw(std::uint64_t first, std::size_t count, StartColumns& starts) const {
+void Candidates::draw(std::uint64_t first, std::size_t count, StartColumns& starts) const {
   starts.resize(count, box_.dimension, ensemble_ == Ensemble::surface);
   for (std::size_t i = 0; i < count; ++i) draw(first + i, 0, starts, i);
 }
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

@@ -6,7 +6,7 @@
 
 #include <lorentz/batch.hpp>
 
-namespace lorentz::flights {
+namespace lorentz::starts {
 
 /// A column each component, as QueryColumns has them; in 2D the third columns are empty.
 struct StartColumns {
@@ -25,4 +25,4 @@ struct StartColumns {
   QueryColumns view() const;
 };
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::starts

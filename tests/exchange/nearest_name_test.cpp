@@ -1,9 +1,9 @@
 // What was meant by a mistyped name.
-#include "compare/nearest_name.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 #include <catch2/catch.hpp>
 
-using lorentz::compare::nearest_name;
+using lorentz::nearest_name;
 
 TEST_CASE("The nearest name: one character too many, missing, wrong, or two exchanged",
           "[compare][nearest_name]") {
@@ -24,6 +24,6 @@ TEST_CASE("What is far from every name is none of them", "[compare][nearest_name
 }
 
 TEST_CASE("A name that stands where it means nothing was not mistyped", "[compare][nearest_name]") {
-  CHECK(lorentz::compare::did_you_mean("scene", {"scene", "from"}).empty());
-  CHECK(lorentz::compare::did_you_mean("scenes", {"scene", "from"}) == " (did you mean scene?)");
+  CHECK(lorentz::did_you_mean("scene", {"scene", "from"}).empty());
+  CHECK(lorentz::did_you_mean("scenes", {"scene", "from"}) == " (did you mean scene?)");
 }

@@ -1,0 +1,102 @@
+#include "starts/free_starts.hpp"
+
+#include <lorentz/certified.hpp>
+#include <lorentz/geometry.hpp>
+#include "cases/hard_moves.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/ulps.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "starts/candidates.hpp"
+
+namespace lorentz::starts {
+
+using cases::Random;
+using cases::Series;
+
+const std::vector<std::string>& kind_names() {
+  static const std::vector<std::string> names{"uniform", "surface", "near-rational", "grazing"};
+  return names;
+}
+
+Kind kind_named(const std::string& name, const std::string& what) {
+  return static_cast<Kind>(index_of_name(name, kind_names(), what));
+}
+
+flights::Ensemble ensemble_named(const std::string& name, const std::string& what) {
+  return static_cast<flights::Ensemble>(index_of_name(name, {"uniform", "surface"}, what));
+}
+
+namespace {
+
+// A primitive vector of one of the lattices, components up to 9, or beside it: up to 3 ulps in each nonzero
+// component, or 2^-40 to 2^-52 of its size towards another lattice vector.
+Vec near_rational_direction(Random& random, const Scene& scene) {
+  constexpr std::int64_t kRange = 9, kUlps = 3;
+  const int d = scene.dimension;
+  const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
+  Vec v = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
+  if (random.one_in(2)) {
+    cases::jitter(random, v, d, kUlps);
+    return v;
+  }
+  const Vec aside = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
+  return sum(v, scaled(aside, random.sign() * random.octave(-52, -40)));
+}
+
+}  // namespace
+
+struct FreeStarts::Inside {
+  Inside(const Scene& of, Kind what, std::uint64_t number)
+      : scene(of),
+        kind(what),
+        seed(number),
+        candidates(of, what == Kind::surface ? flights::Ensemble::surface : flights::Ensemble::uniform,
+                   number),
+        oracle(of),
+        certified(of) {}
+
+  bool is_free(const Query& start) const {
+    oracle::Request at_once;
+    at_once.max_time = 0;
+    return certified.first_hit(start, at_once).outcome != Outcome::inside;
+  }
+
+  // True if the candidate became a start of the kind.
+  bool make(Random& random, Query& start) const {
+    if (kind == Kind::grazing)
+      return cases::move_to_edge(random.sign() * random.octave(-52, -10), scene, oracle, start);
+    if (!is_free(start)) return false;
+    if (kind == Kind::near_rational) start.v = near_rational_direction(random, scene);
+    return true;
+  }
+
+  Scene scene;
+  Kind kind;
+  std::uint64_t seed;
+  Candidates candidates;
+  oracle::Oracle oracle;
+  oracle::Certified certified;
+};
+
+FreeStarts::FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed)
+    : inside_(std::make_unique<const Inside>(scene, kind, seed)) {}
+FreeStarts::~FreeStarts() = default;
+FreeStarts::FreeStarts(FreeStarts&&) noexcept = default;
+
+void FreeStarts::draw(std::uint64_t index, Query& start) const {
+  constexpr Series kHard("hard starts");
+  for (std::uint64_t attempt = 0; attempt < Candidates::kMostAttempts; ++attempt) {
+    Random random(inside_->seed, kHard, index, cases::Use::cases, attempt);
+    inside_->candidates.draw(index, attempt, start);
+    if (inside_->make(random, start)) return;
+  }
+  throw InputError(nowhere_to_start(Candidates::kMostAttempts));
+}
+
+std::vector<Query> FreeStarts::some(std::uint64_t first, std::size_t count) const {
+  std::vector<Query> starts(count);
+  for (std::size_t i = 0; i < count; ++i) draw(first + i, starts[i]);
+  return starts;
+}
+
+}  // namespace lorentz::starts

@@ -1,0 +1,72 @@
+// Starts that lie in no obstacle, of several kinds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
+#include "flights/theory/ensemble.hpp"
+
+namespace lorentz::starts {
+
+/// Of what is drawn by default.
+inline constexpr std::uint64_t kDefaultSeed = 20161115;
+
+/// What starts are like.
+enum class Kind {
+  uniform,        ///< anywhere outside the obstacles, in any direction
+  surface,        ///< off an obstacle, by the cosine law, with `from`
+  near_rational,  ///< anywhere, along a small lattice vector or a few ulps, or 2^-40, beside it
+  grazing         ///< the line passes or meets an obstacle within some ulps to 2^-10 of its edge
+};
+
+/// All kinds, by the names that people know them by; in the order of Kind.
+const std::vector<std::string>& kind_names();
+inline const std::string& name_of(Kind kind) {
+  return kind_names()[static_cast<std::size_t>(kind)];
+}
+
+/// The kind of this name. Throws InputError, which begins with `what`, if there is none.
+Kind kind_named(const std::string& name, const std::string& what);
+
+/// The same of ensembles, which are the first two kinds.
+flights::Ensemble ensemble_named(const std::string& name, const std::string& what);
+constexpr Kind kind_of(flights::Ensemble ensemble) {
+  return ensemble == flights::Ensemble::uniform ? Kind::uniform : Kind::surface;
+}
+
+/// Starts, numbered; of `uniform` and `surface` those of Candidates, the first attempt of each that is free.
+class FreeStarts {
+ public:
+  /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
+  /// InputError as Candidates does.
+  FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed);
+  ~FreeStarts();
+  FreeStarts(FreeStarts&&) noexcept;
+
+  /// Start number `index`, which depends on scene, kind, seed and index only. In no open obstacle but `from`:
+  /// decided exactly. Throws InputError if Candidates::kMostAttempts candidates do not come to one.
+  void draw(std::uint64_t index, Query& start) const;
+  Query operator[](std::uint64_t index) const {
+    Query start;
+    draw(index, start);
+    return start;
+  }
+
+  /// The starts [first, first + count).
+  std::vector<Query> some(std::uint64_t first, std::size_t count) const;
+
+ private:
+  struct Inside;
+  std::unique_ptr<const Inside> inside_;
+};
+
+/// The first `count` starts of a scene.
+inline std::vector<Query> free_starts(const Scene& scene, Kind kind, std::uint64_t seed, std::size_t count) {
+  return FreeStarts(scene, kind, seed).some(0, count);
+}
+
+}  // namespace lorentz::starts
