@@ -57,7 +57,7 @@ std::vector<BenchGroup> groups_of(const BenchOptions& options) {
 }
 
 // What figures depend on besides what was asked.
-store::Plan words_of(const report::Manifest& manifest) {
+runs::Plan words_of(const report::Manifest& manifest) {
   return {
       {"commit", manifest.commit},   {"compiler", manifest.compiler},         {"flags", manifest.flags},
       {"machine", manifest.machine}, {"instructions", manifest.instructions}, {"system", manifest.system}};
@@ -133,7 +133,7 @@ Command bench_command() {
           "grazing: the first ball is passed or met within r 2^-10 to r 2^-50 of its edge.\n"
           "Examples:\n  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv "
           "speed.csv\n"
-          "  lorentz bench --store run.ndjson --html speed.html   # interrupted? the same line goes on",
+          "  lorentz bench --store run.bench --html speed.html   # interrupted? the same line goes on",
           [options] { return act(*options); }};
 }
 

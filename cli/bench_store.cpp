@@ -22,18 +22,18 @@ CellKey key_of(const report::Cell& cell) {
   return {cell.scene, cell.radius, cell.difficulty, cell.engine};
 }
 
-store::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups, const store::Plan& more) {
+runs::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups, const runs::Plan& more) {
   std::vector<std::string> names;
   std::string scenes;
   for (const BenchGroup& group : groups) {
     names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius.value_or("own"), group.difficulty));
     append_scene_line(scenes, load_scene(group.scene, positive_number(group.radius, "--radius")));
   }
-  store::Plan words{{"engines", fmt::format("{}", fmt::join(names_of(plan.engines), ", "))},
-                    {"queries", std::to_string(plan.count)},
-                    {"seed", std::to_string(plan.seed)},
-                    {"cells", fmt::format("{}", fmt::join(names, " "))},
-                    {"scenes", scenes}};
+  runs::Plan words{{"engines", fmt::format("{}", fmt::join(names_of(plan.engines), ", "))},
+                   {"queries", std::to_string(plan.count)},
+                   {"seed", std::to_string(plan.seed)},
+                   {"cells", fmt::format("{}", fmt::join(names, " "))},
+                   {"scenes", scenes}};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -41,15 +41,18 @@ store::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& group
 }  // namespace
 
 BenchStore::BenchStore(std::optional<std::string> path, const BenchPlan& plan,
-                       const std::vector<BenchGroup>& groups, const store::Plan& words, std::string manifest)
-    : plan_(plan), store_(std::move(path), "bench", words_of(plan, groups, words)) {
+                       const std::vector<BenchGroup>& groups, const runs::Plan& words, std::string manifest)
+    : plan_(plan), store_(path, "bench", words_of(plan, groups, words)) {
   store_.each([&](const std::string& piece) { read(piece, groups); });
-  if (!has_manifest_) store_.add({std::move(manifest)});
+  if (manifest_.empty()) store_.add({manifest_ = std::move(manifest)});
 }
 
 // The first piece is the manifest, the others are cells.
 void BenchStore::read(const std::string& piece, const std::vector<BenchGroup>& groups) {
-  if (!std::exchange(has_manifest_, true)) return;
+  if (manifest_.empty()) {
+    manifest_ = piece;
+    return;
+  }
   report::Cell cell = report::cell_of(piece);
   if (const std::string flaw = flaw_of(cell, plan_.count); !flaw.empty()) throw InputError(flaw);
   const CellKey key = key_of(cell);

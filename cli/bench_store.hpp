@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/bench_cells.hpp"
-#include "cli/piece_store.hpp"
+#include "runs/piece_store.hpp"
 
 namespace lorentz::cli {
 
@@ -20,7 +20,7 @@ class BenchStore {
   /// Without a path nothing is kept in a file. One that is there must be of this run. `words`: what its cells
   /// depend on besides the plan and the groups. Throws InputError or FileError.
   BenchStore(std::optional<std::string> path, const BenchPlan& plan, const std::vector<BenchGroup>& groups,
-             const store::Plan& words, std::string manifest);
+             const runs::Plan& words, std::string manifest);
 
   /// The cells of a group, one an engine in their order, if all of them are there.
   std::optional<std::vector<report::Cell>> find(const BenchGroup& group) const;
@@ -29,15 +29,15 @@ class BenchStore {
   void add(const std::vector<report::Cell>& cells);
 
   /// Of the run's first part, as JSON.
-  const std::string& manifest() const { return store_.pieces().front(); }
+  const std::string& manifest() const { return manifest_; }
 
  private:
   void read(const std::string& piece, const std::vector<BenchGroup>& groups);
 
   const BenchPlan& plan_;
-  bool has_manifest_ = false;
+  std::string manifest_;
   std::map<CellKey, report::Cell> cells_;
-  PieceStore store_;
+  runs::PieceStore store_;
 };
 
 }  // namespace lorentz::cli

@@ -5,9 +5,9 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
+#include "runs/piece_store.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
@@ -26,26 +26,25 @@ Scene scene_of(const ChaosOptions& options) {
   return load_scene(options.scene, options.radius);
 }
 
-void with_work(const ChaosOptions& options, const std::string& kind, const store::Plan& plan,
+void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,
                const std::function<void(const chaos::Work&)>& run) {
   const auto jobs = static_cast<unsigned>(options.jobs);
-  PieceStore store(options.store, kind, plan);
-  if (!store.pieces().empty())
-    say("{}: {} of {} parts are done", *options.store, store.pieces().size(), chaos::kGroups);
+  runs::PieceStore store(options.store, kind, plan);
+  if (store.size() > 0) say("{}: {} of {} parts are done", *options.store, store.size(), chaos::kGroups);
   const Interrupt interrupt;
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("flying, part", chaos::kGroups, 1);
     chaos::Work work{jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }};
-    if (store)
-      work.kept = {[&](const ReadPiece& read) { store.each(read); },
+    if (store.is_file())
+      work.kept = {[&](const runs::ReadPiece& read) { store.each(read); },
                    [&](const std::string& piece) { store.add({piece}); }};
     run(work);
   }
   say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (Interrupt::came())
     say("{}; {}", Interrupt::what(),
-        store ? "the same command goes on" : "without --store nothing is kept to go on with");
+        store.is_file() ? "the same command goes on" : "without --store nothing is kept to go on with");
 }
 
 std::string name_with_radius(const std::string& name, const Scene& scene) {

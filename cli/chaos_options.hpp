@@ -9,8 +9,8 @@
 #include <lorentz/scene.hpp>
 #include "chaos/groups.hpp"
 #include "cli/command.hpp"
+#include "runs/piece_store.hpp"
 #include "starts/free_starts.hpp"
-#include "store/pieces.hpp"
 
 namespace lorentz::cli {
 
@@ -30,7 +30,7 @@ Scene scene_of(const ChaosOptions& options);
 
 /// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if one is asked
 /// for; says how long it took.
-void with_work(const ChaosOptions& options, const std::string& kind, const store::Plan& plan,
+void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,
                const std::function<void(const chaos::Work&)>& run);
 
 /// "square", or "square, r = 0.1" if all are balls of one radius.

@@ -137,11 +137,11 @@ int act(const DiffusionOptions& options) {
   report.plan = {scene_of(options), starts::ensemble_named(options.from, "--from"), options.seed,
                  options.count, options.time.value_or(100)};
   RequestedFile csv(options.csv);
-  const store::Plan words{{"count", std::to_string(report.plan.count)},
-                          {"time", fmt::format("{}", report.plan.time)},
-                          {"starts", options.from},
-                          {"seed", std::to_string(report.plan.seed)},
-                          {"scene", scene_line(report.plan.scene)}};
+  const runs::Plan words{{"count", std::to_string(report.plan.count)},
+                         {"time", fmt::format("{}", report.plan.time)},
+                         {"starts", options.from},
+                         {"seed", std::to_string(report.plan.seed)},
+                         {"scene", scene_line(report.plan.scene)}};
   with_work(options, "diffusion", words,
             [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
   // Those that are left after others ended are the ones that met nothing.

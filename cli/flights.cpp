@@ -8,7 +8,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/numbers.hpp"
-#include "cli/piece_store.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_option.hpp"
 #include "cli/whole_file.hpp"
@@ -16,6 +15,7 @@
 #include "flights/ranks.hpp"
 #include "flights/run.hpp"
 #include "report/page.hpp"
+#include "runs/piece_store.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "starts/free_starts.hpp"
 
@@ -95,14 +95,14 @@ Account account_in(const std::string& piece, const Plan& plan) {
 // A run as its store has it, with what the stores of other shards have.
 struct Begun {
   Account account;
-  PieceStore store;
+  runs::PieceStore store;
 
   Begun(const FlightsOptions& options, const Plan& plan)
       : account(Account::begun(plan)), store(options.store, "flights", plan.words()) {
     store.each(reader(plan));
-    if (store) say_how_far(*options.store, plan);
+    if (store.is_file()) say_how_far(*options.store, plan);
     for (const std::string& part : options.parts) {
-      read_pieces(part, "flights", plan.words(), reader(plan));
+      runs::PieceStore(part, "flights", plan.words(), runs::Access::read).each(reader(plan));
       say_how_far(part, plan);
     }
   }
@@ -110,7 +110,7 @@ struct Begun {
  private:
   std::uint64_t before = 0;  // blocks of the files before
 
-  ReadPiece reader(const Plan& plan) {
+  runs::ReadPiece reader(const Plan& plan) {
     return [this, &plan](const std::string& piece) {
       try {
         account.add(account_in(piece, plan));
@@ -129,7 +129,7 @@ struct Begun {
 // Draws the progress, and stores now and then.
 class News {
  public:
-  News(PieceStore* store, const Plan& plan, flights::Ranks* ranks)
+  News(runs::PieceStore* store, const Plan& plan, flights::Ranks* ranks)
       : store_(store), progress_("flying", plan.count, 1), count_(plan.count), ranks_(ranks) {}
 
   void operator()(const Account& account) {
@@ -140,12 +140,12 @@ class News {
     next_ = now + kBetweenStores;
     if (others)
       ranks_->report(account, false);
-    else if (*store_)
-      store_->set({(ranks_ ? ranks_->sum(account, false) : account).text()});
+    else if (store_->is_file())
+      store_->set((ranks_ ? ranks_->sum(account, false) : account).text());
   }
 
  private:
-  PieceStore* store_;  // of rank 0
+  runs::PieceStore* store_;  // of rank 0
   Progress progress_;
   const std::uint64_t count_;
   flights::Ranks* ranks_;
@@ -175,7 +175,7 @@ FlightsReport fly(const FlightsTask& task, const flights::Bounds& bounds, const 
   }
   if (ranks) result.account = ranks->sum(result.account, true);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  begun.store.set({result.account.text()});
+  begun.store.set(result.account.text());
   say("{:.2f} s", *result.seconds);
   return result;
 }
@@ -220,7 +220,7 @@ int act(const FlightsOptions& options) {
   flights::Bounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  const std::unique_ptr<flights::Ranks> ranks = ranks::join<flights::Ranks>("--jobs, or --shard and --add");
+  const std::unique_ptr<flights::Ranks> ranks = runs::join<flights::Ranks>("--jobs, or --shard and --add");
   if (!ranks) return fly_all(tasks, bounds, options, nullptr);
   try {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());

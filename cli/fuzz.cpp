@@ -101,7 +101,7 @@ int act(const FuzzOptions& options) {
   const compare::MakeAnswerer make_answerer =
       fuzz::answerer_maker(compare::engine_named(options.engine), {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
-      ranks::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
+      runs::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
   if (!ranks) return run_campaign(options, plan, make_answerer, nullptr);
   try {
     if (ranks->rank() == 0) return run_campaign(options, plan, make_answerer, ranks.get());

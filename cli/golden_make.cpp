@@ -1,4 +1,5 @@
 // lorentz golden make: produces a set, or all that are committed.
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "cli/whole_file.hpp"
 #include "golden/production.hpp"
 #include "src/exchange/nearest_name.hpp"
+#include "src/problem/write_error.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
@@ -44,6 +46,8 @@ void report(const golden::Order& order, const golden::RecordCounts& counts) {
 // A file that is no golden set is not overwritten: it would be somebody's loss.
 void check_place(const std::string& path) {
   std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw FileError(path + ": is no regular file; name another, or use standard output");
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
   const std::string_view kBeginning = "{\"golden\"";
   std::string start(kBeginning.size(), ' ');
@@ -55,8 +59,20 @@ void check_place(const std::string& path) {
 golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
   check_place(path);
   goes_on_when_repeated();
-  Progress progress(order.set->name.c_str(), order.count, 1);
-  return golden::produce_file(order, path, [&](std::uint64_t done) { progress.at(done); });
+  const std::string part = path + ".part";
+  if (fs::is_symlink(fs::symlink_status(part))) throw write_error(part, ELOOP);
+  golden::RecordCounts counts;
+  {
+    runs::PieceStore kept(part, "golden make", golden::plan_of(order));
+    WholeFile file(path);
+    Progress progress(order.set->name.c_str(), order.count, 1);
+    counts = golden::produce(
+        order, [&](std::string_view text) { file.write(text); },
+        [&](std::uint64_t done) { progress.at(done); }, &kept);
+    file.commit();
+  }
+  fs::remove(part);
+  return counts;
 }
 
 std::string contents(const std::string& path) {

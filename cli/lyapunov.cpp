@@ -93,10 +93,10 @@ int act(const LyapunovOptions& options) {
   report.scene = options.scene;
   report.plan = {scene_of(options), options.seed, options.collisions, options.spectrum};
   const Scene& scene = report.plan.scene;
-  const store::Plan words{{"collisions", std::to_string(report.plan.collisions)},
-                          {"spectrum", report.plan.whole_spectrum ? "whole" : "above zero"},
-                          {"seed", std::to_string(report.plan.seed)},
-                          {"scene", scene_line(scene)}};
+  const runs::Plan words{{"collisions", std::to_string(report.plan.collisions)},
+                         {"spectrum", report.plan.whole_spectrum ? "whole" : "above zero"},
+                         {"seed", std::to_string(report.plan.seed)},
+                         {"scene", scene_line(scene)}};
   with_work(options, "lyapunov", words,
             [&](const chaos::Work& work) { report.found = chaos::lyapunov_of(report.plan, work); });
   if (report.found.collisions == 0) {

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "flights/account.hpp"
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 
 namespace lorentz::flights {
 
-class Ranks : public ranks::World {
+class Ranks : public runs::World {
  public:
-  /// See ranks::join.
+  /// See runs::join.
   Ranks();
   ~Ranks();
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "flights/ranks.hpp"
-#include "ranks/world_mpi.hpp"
+#include "runs/world_mpi.hpp"
 
 namespace lorentz::flights {
 namespace {

@@ -1,16 +1,10 @@
 #include "golden/production.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <condition_variable>
-#include <cstdio>
-#include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -18,8 +12,6 @@
 #include <unordered_set>
 
 #include "golden/maker.hpp"
-#include "src/problem/write_error.hpp"
-#include "store/check.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -165,112 +157,28 @@ void produce_rest(const Order& order, ProductionState& state,
   }
 }
 
-[[noreturn]] void fail(const std::string& path) {
-  throw write_error(path, errno);
+// A piece is what was made with a batch, in numbers, and the batch's text.
+std::string piece_of(const RecordCounts& a, std::string_view text) {
+  return fmt::format("{} {} {} {} {} {}\n{}", a.records, a.walked, a.hits, a.insides, a.nevers, a.errors,
+                     text);
 }
 
-// The unfinished file, and beside it a note of how far it is, with the check of all its text. The note is
-// replaced as a whole after each write, so what lies beyond it in the file is not there.
-class PartFile {
- public:
-  PartFile(const Order& order, const std::string& path)
-      : path_(path), part_(path + ".part"), note_(path + ".part.note"), header_([&] {
-          std::string line;
-          append_header_line(line, header_of(order));
-          return line;
-        }()) {}
-  ~PartFile() {
-    if (file_) std::fclose(file_);
-    close(lock_);
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-
-  // Goes on with what is there if it is of the same order, else begins anew.
-  ProductionState open() {
-    ProductionState state;
-    std::error_code error;
-    const auto there = std::filesystem::symlink_status(path_, error);
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
-      throw FileError(path_ + ": is no regular file; name another, or use standard output");
-    lock_ = ::open(part_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (lock_ == -1) fail(part_);
-    if (flock(lock_, LOCK_EX | LOCK_NB) != 0) throw FileError(part_ + ": another run is writing it");
-    const bool resumed = read_note(state);
-    if (::ftruncate(lock_, static_cast<off_t>(bytes_)) != 0) fail(part_);
-    file_ = ::fdopen(::dup(lock_), "wb");
-    if (!file_) fail(part_);
-    if (!resumed) write(header_, state);
-    return state;
-  }
-
-  void write(std::string_view text, const ProductionState& state) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
-      fail(part_);
-    bytes_ += text.size();
-    check_ = store::check_of(text, check_);
-    const RecordCounts& a = state.counts;
-    const std::string fresh = note_ + ".new";
-    std::ostringstream state_text;
-    state_text << bytes_ << ' ' << check_ << ' ' << state.next_batch << ' ' << a.records << ' ' << a.walked
-               << ' ' << a.hits << ' ' << a.insides << ' ' << a.nevers << ' ' << a.errors << " end\n";
-    std::remove(fresh.c_str());  // no link is followed, and no file of another name is written
-    const int note = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    const std::string line = state_text.str();
-    if (note == -1) fail(note_);
-    const bool written = ::write(note, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-    ::close(note);
-    if (!written || std::rename(fresh.c_str(), note_.c_str()) != 0) fail(note_);
-  }
-
-  void finish() {
-    const bool closed = std::fclose(file_) == 0;
-    file_ = nullptr;
-    if (!closed || std::rename(part_.c_str(), path_.c_str()) != 0) fail(part_);
-    std::remove(note_.c_str());
-  }
-
- private:
-  bool read_note(ProductionState& state) {
-    std::ifstream note(note_);
-    RecordCounts& a = state.counts;
-    std::string end;
-    if (!(note >> bytes_ >> check_ >> state.next_batch >> a.records >> a.walked >> a.hits >> a.insides >>
-          a.nevers >> a.errors >> end) ||
-        end != "end" || !read_part(state)) {
-      state = {};
-      bytes_ = 0;
-      check_ = store::kCheckOfNothing;
-      return false;
-    }
-    return true;
-  }
-
-  // The ids and the last scene of the part that the note speaks of.
-  bool read_part(ProductionState& state) const {
-    std::error_code error;
-    if (const auto size = std::filesystem::file_size(part_, error); error || size < bytes_) return false;
-    std::ifstream part(part_);
-    std::string line;
-    if (!std::getline(part, line) || line + '\n' != header_) return false;
-    std::uint64_t read = line.size() + 1, check = store::check_of(header_);
-    constexpr std::string_view kId = "{\"id\":\"";
-    while (read < bytes_ && std::getline(part, line)) {
-      read += line.size() + 1;
-      check = store::check_of(line + '\n', check);
-      if (line.starts_with(kId))
-        state.ids.insert(number_of(line.substr(kId.size(), 16)));
-      else
-        state.scene_line = line;
-    }
-    return read == bytes_ && check == check_ && state.ids.size() == state.counts.records;
-  }
-
-  std::string path_, part_, note_, header_;
-  std::FILE* file_ = nullptr;
-  int lock_ = -1;  // held on the part for as long as this lives
-  std::uint64_t bytes_ = 0, check_ = store::kCheckOfNothing;
-};
+std::string text_in(const std::string& piece, ProductionState& state) {
+  RecordCounts& a = state.counts;
+  std::istringstream in(piece);
+  in >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >> a.errors;
+  if (!in || in.get() != '\n') throw InputError("is not a batch of records");
+  const auto begin = static_cast<std::size_t>(in.tellg());
+  constexpr std::string_view kId = "{\"id\":\"";
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(kId))
+      state.ids.insert(number_of(line.substr(kId.size(), 16)));
+    else
+      state.scene_line = line;
+  if (state.ids.size() != a.records) throw InputError("has another number of records than it says");
+  ++state.next_batch;
+  return piece.substr(begin);
+}
 
 }  // namespace
 
@@ -283,22 +191,26 @@ Header header_of(const Order& order) {
 }
 
 RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
-                     const OnProgress& progress) {
+                     const OnProgress& progress, runs::PieceStore* kept) {
   std::string header;
   append_header_line(header, header_of(order));
   write(header);
   ProductionState state;
-  produce_rest(order, state, write, progress);
+  if (kept) kept->each([&](const std::string& piece) { write(text_in(piece, state)); });
+  produce_rest(
+      order, state,
+      [&](std::string_view text) {
+        write(text);
+        if (kept) kept->add({piece_of(state.counts, text)});
+      },
+      progress);
   return state.counts;
 }
 
-RecordCounts produce_file(const Order& order, const std::string& path, const OnProgress& progress) {
-  PartFile part(order, path);
-  ProductionState state = part.open();
-  produce_rest(
-      order, state, [&](std::string_view text) { part.write(text, state); }, progress);
-  part.finish();
-  return state.counts;
+runs::Plan plan_of(const Order& order) {
+  std::string header;
+  append_header_line(header, header_of(order));
+  return {{"header", header}};
 }
 
 }  // namespace lorentz::golden

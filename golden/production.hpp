@@ -1,5 +1,5 @@
-// Makes sets: many records on several threads, in an order that does not depend on these; and writes them to
-// a file in such a way that the work can be stopped at any moment and gone on with.
+// Makes sets: many records on several threads, in an order that does not depend on these; stopped at any moment,
+// the work can be gone on with.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "golden/sets.hpp"
+#include "runs/piece_store.hpp"
 
 namespace lorentz::golden {
 
@@ -28,14 +29,13 @@ using OnProgress = std::function<void(std::uint64_t)>;
 /// The header of an order's set.
 Header header_of(const Order& order);
 
-/// Makes the set and hands its text to `write`, line by line, from the header on. Constant memory, but for 8
-/// bytes a record (no id comes twice). Throws std::logic_error if the opinions about an answer differ.
-RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
-                     const OnProgress& progress);
+/// What a store of its batches is begun with.
+runs::Plan plan_of(const Order& order);
 
-/// Makes the set in a file. It grows as PATH.part beside a note of how far it is, and gets its name when it
-/// is complete; a part of the same order that is there already, from a run that was killed, is gone on with.
-/// Throws FileError.
-RecordCounts produce_file(const Order& order, const std::string& path, const OnProgress& progress);
+/// Makes the set and hands its text to `write`, line by line, from the header on. Constant memory, but for 8
+/// bytes a record (no id comes twice). Batches that `kept` has, a store of plan_of(order), are not made again, and
+/// the others are added. Throws std::logic_error if the opinions about an answer differ.
+RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
+                     const OnProgress& progress, runs::PieceStore* kept = nullptr);
 
 }  // namespace lorentz::golden

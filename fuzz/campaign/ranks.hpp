@@ -3,13 +3,13 @@
 #pragma once
 
 #include "fuzz/campaign/campaign.hpp"
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 
 namespace lorentz::fuzz {
 
 class Ledger;
 
-class Ranks : public ranks::World {
+class Ranks : public runs::World {
  public:
   /// Rank 0: answers the others that have asked since, without waiting.
   void serve(Ledger& ledger);

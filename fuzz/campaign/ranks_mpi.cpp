@@ -13,7 +13,7 @@
 
 #include "fuzz/campaign/ledger.hpp"
 #include "fuzz/campaign/ranks.hpp"
-#include "ranks/world_mpi.hpp"
+#include "runs/world_mpi.hpp"
 
 namespace lorentz::fuzz {
 namespace {

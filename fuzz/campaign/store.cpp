@@ -1,36 +1,21 @@
 #include "fuzz/campaign/store.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <numeric>
 #include <set>
-#include <sstream>
 
-#include "fuzz/campaign/sqlite.hpp"
 #include "fuzz/campaign/stretch.hpp"
-#include "src/problem/write_error.hpp"
-#include "store/lock_file.hpp"
+#include "runs/database.hpp"
 
 namespace lorentz::fuzz {
 
 using namespace cases;
+using runs::BadValue;
+using runs::Statement;
 
 namespace {
-
-constexpr int kApplication = 0x6c6f667a;  // "lofz": tells our files from other databases
-constexpr int kFormat = 3;                // 2 had no findings that are still to be shrunk
-constexpr const char* kMemory = ":memory:";
-constexpr const char* kBusy =
-    "another process is running a campaign on this store; wait for it, stop it, or use another store (shards "
-    "have one each, `lorentz fuzz merge` joins them)";
 
 constexpr const char* kSchema = R"sql(
   CREATE TABLE campaign (
@@ -62,40 +47,13 @@ constexpr const char* kFindingColumns =
     "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
     "bits, complexity, tries";
 
-// How SQLite is to open a store.
-struct Opening {
-  std::string name;
-  int flags;
-};
-
-// A path as SQLite takes it in a URI.
-std::string uri_of(const std::string& path) {
-  std::string uri = "file:";
-  for (const char c : path) {
-    char escape[4];
-    std::snprintf(escape, sizeof escape, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    uri += c == '%' || c == '?' || c == '#' ? std::string(escape) : std::string(1, c);
-  }
-  return uri;
-}
-
-// A store is written ahead while a campaign writes it, and a plain file otherwise. SQLite reads either
-// without writing, but for one that is to be written ahead and whose files for that are missing (a copy of
-// the file alone): that it must be told to take as it is.
-Opening reading(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path + ": " + std::strerror(errno));
-  char header[20] = {};
-  file.read(header, sizeof header);
-  struct stat ahead {};
-  const bool is_plain = header[19] != 2;
-  if (is_plain || ::stat((path + "-wal").c_str(), &ahead) == 0) return {path, SQLITE_OPEN_READONLY};
-  return {uri_of(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI};
-}
-
-Opening opening(const std::string& path, Store::Access access) {
-  if (path != kMemory && access != Store::Access::write) return reading(path);
-  return {path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
+const runs::Kind& kind() {
+  static const runs::Kind kind{
+      "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
+      3, kSchema,                           // format 2 had no findings that are still to be shrunk
+      "another process is running a campaign on this store; wait for it, stop it, or use another store "
+      "(shards have one each, `lorentz fuzz merge` joins them)"};
+  return kind;
 }
 
 }  // namespace
@@ -106,98 +64,19 @@ std::string Stored::label() const {
 
 struct Store::Impl {
   Impl(const std::string& path, Access access, OnLeftOut on_left_out)
-      : path(path),
-        writes(access == Access::write),
-        lock(path == kMemory || access == Access::read
-                 ? nullptr
-                 : std::make_unique<store::LockFile>(path, access == Access::write, kBusy)),
-        connection(path, opening(path, access).name, opening(path, access).flags),
-        on_left_out(std::move(on_left_out)) {
-    set_up();
-  }
-  ~Impl() {
-    if (!writes || path == kMemory) return;
-    // A plain file from here on, unless somebody is reading it.
-    if (in_transaction) sqlite3_exec(connection.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
-    if (is_set_up)
-      sqlite3_exec(connection.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+      : database(path, access, kind()), on_left_out(std::move(on_left_out)) {}
 
-  void set_up() {
-    const auto pragma = [&](const char* sql) {
-      Statement statement(connection, sql);
-      return statement.step() ? statement.integer() : 0;
-    };
-    const bool is_empty = pragma("SELECT count(*) FROM sqlite_master") == 0;
-    if (!is_empty || !writes) check(pragma);
-    if (!writes) return connection.run("BEGIN");  // all that is read is of one moment
-    is_set_up = true;
-    connection.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
-    if (is_empty) {
-      const std::string mark = "BEGIN; PRAGMA application_id = " + std::to_string(kApplication) +
-                               "; PRAGMA user_version = " + std::to_string(kFormat) + ';';
-      connection.run((mark + kSchema + "COMMIT;").c_str());
-    }
-  }
-
-  // Tables, indices and what else there is, by name; white space counts nothing.
-  static std::vector<std::string> schema_of(const Connection& connection) {
-    Statement row(connection,
-                  "SELECT type || ' ' || name || ' ' || tbl_name || ' ' || ifnull(sql, '') FROM "
-                  "sqlite_master ORDER BY type, name");
-    std::vector<std::string> schema;
-    while (row.step()) {
-      std::istringstream words(row.text());
-      schema.emplace_back();
-      for (std::string word; words >> word;) schema.back() += word + ' ';
-    }
-    return schema;
-  }
-
-  static const std::vector<std::string>& our_schema() {
-    static const std::vector<std::string> schema = [] {
-      Connection ours(kMemory, kMemory, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-      ours.run(kSchema);
-      return schema_of(ours);
-    }();
-    return schema;
-  }
-
-  // Before anything is changed, or believed.
-  template <class Pragma>
-  void check(const Pragma& pragma) const {
-    if (pragma("PRAGMA application_id") != kApplication)
-      throw FileError(connection.path() + ": is a database, but no store of lorentz fuzz");
-    if (pragma("PRAGMA user_version") != kFormat)
-      throw FileError(connection.path() + ": is a store of another format (" +
-                      std::to_string(pragma("PRAGMA user_version")) + "); this program has format " +
-                      std::to_string(kFormat) + ", and another version made it");
-    if (schema_of(connection) != our_schema())
-      throw FileError(connection.path() +
-                      ": has tables, views or triggers that no store has: another program changed it; take a "
-                      "copy from before, or name another store");
-  }
+  const runs::Connection& connection() const { return database.connection(); }
 
   // A finding that cannot be read costs the others nothing.
   void leave_out(const std::string& label, const std::string& why) {
     if (left_out.insert(label).second && on_left_out)
-      on_left_out(connection.path() + ": the finding " + label + " is left out: " + why);
+      on_left_out(database.path() + ": the finding " + label + " is left out: " + why);
   }
 
-  void begin() {
-    if (!in_transaction) connection.run("BEGIN IMMEDIATE");
-    in_transaction = true;
-  }
-
-  const std::string path;
-  const bool writes;
-  std::unique_ptr<store::LockFile> lock;
-  Connection connection;
+  runs::Database database;
   const OnLeftOut on_left_out;
   std::set<std::string> left_out;
-  bool is_set_up = false, in_transaction = false;
 };
 
 Store::Store(const std::string& path, Access access, OnLeftOut on_left_out)
@@ -205,7 +84,7 @@ Store::Store(const std::string& path, Access access, OnLeftOut on_left_out)
 Store::~Store() = default;
 
 const std::string& Store::path() const {
-  return impl_->connection.path();
+  return impl_->database.path();
 }
 
 namespace {
@@ -221,7 +100,7 @@ std::uint64_t seed_in(const std::string& text, const std::string& path) {
 }  // namespace
 
 std::vector<Campaign> Store::campaigns() const {
-  Statement all(impl_->connection,
+  Statement all(impl_->connection(),
                 "SELECT id, version, engine, targets, seed, options, keep, shard FROM campaign ORDER BY id");
   std::vector<Campaign> campaigns;
   while (all.step()) {
@@ -242,8 +121,8 @@ std::vector<Campaign> Store::campaigns() const {
 std::int64_t Store::open_campaign(const Manifest& manifest) {
   for (const Campaign& campaign : campaigns())
     if (campaign.manifest == manifest) return campaign.id;
-  impl_->begin();
-  Statement(impl_->connection,
+  impl_->database.begin();
+  Statement(impl_->connection(),
             "INSERT INTO campaign (version, engine, targets, seed, options, keep, shard) VALUES (?, ?, ?, ?, "
             "?, ?, ?)")
       .bind(manifest.version)
@@ -254,7 +133,7 @@ std::int64_t Store::open_campaign(const Manifest& manifest) {
       .bind(manifest.keep)
       .bind(manifest.shard)
       .done();
-  const std::int64_t id = sqlite3_last_insert_rowid(impl_->connection.handle());
+  const std::int64_t id = sqlite3_last_insert_rowid(impl_->connection().handle());
   commit();
   return id;
 }
@@ -276,7 +155,7 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   constexpr std::uint64_t kMostCases = std::uint64_t{1} << 60;  // sums of all of them are below 2^63
   TargetTally tally;
   Statement row(
-      impl_->connection,
+      impl_->connection(),
       "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
       "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
@@ -291,7 +170,7 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   if (!fits(tally))
     throw FileError(path() + ": the counts of " + std::string(target) +
                     " do not fit together: the store was changed; take a copy from before, or name another");
-  Statement sorts(impl_->connection, "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
+  Statement sorts(impl_->connection(), "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
   sorts.bind(campaign).bind(target);
   while (sorts.step()) {
     std::string sort = sorts.text();
@@ -325,8 +204,8 @@ Finding finding_in(Statement& row) {
 }  // namespace
 
 std::vector<Stored> Store::findings() const {
-  Statement row(impl_->connection, std::string("SELECT ") + kFindingColumns +
-                                       " FROM finding ORDER BY campaign, target, place, step, words");
+  Statement row(impl_->connection(), std::string("SELECT ") + kFindingColumns +
+                                         " FROM finding ORDER BY campaign, target, place, step, words");
   std::vector<Stored> all;
   for (std::uint64_t number = 1; row.step(); ++number) {
     std::string label = "in row " + std::to_string(number);
@@ -348,9 +227,9 @@ bool Store::is_whole() const {
 }
 
 void Store::put(std::int64_t campaign, std::string_view target, const TargetTally& tally) {
-  impl_->begin();
+  impl_->database.begin();
   Statement row(
-      impl_->connection,
+      impl_->connection(),
       "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign)
       .bind(target)
@@ -363,14 +242,14 @@ void Store::put(std::int64_t campaign, std::string_view target, const TargetTall
   row.bind(std::isfinite(tally.margin) ? std::optional(tally.margin) : std::nullopt)
       .bind(tally.margin_index)
       .done();
-  Statement sort(impl_->connection, "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
+  Statement sort(impl_->connection(), "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
   for (const auto& [name, number] : tally.sorts)
     sort.bind(campaign).bind(target).bind(name).bind(number).done();
 }
 
 void Store::put(std::int64_t campaign, const Finding& f) {
-  impl_->begin();
-  Statement row(impl_->connection,
+  impl_->database.begin();
+  Statement row(impl_->connection(),
                 std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
                     ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
@@ -387,9 +266,7 @@ void Store::put(std::int64_t campaign, const Finding& f) {
 }
 
 void Store::commit() {
-  if (!impl_->in_transaction) return;
-  impl_->connection.run("COMMIT");
-  impl_->in_transaction = false;
+  impl_->database.commit();
 }
 
 // ---- a campaign's journal

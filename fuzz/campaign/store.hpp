@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fuzz/campaign/campaign.hpp"
+#include "runs/database.hpp"
 
 namespace lorentz::fuzz {
 
@@ -41,11 +42,7 @@ struct Stored {
 /// Used by one thread. Every function throws FileError if the file does not do what it should.
 class Store {
  public:
-  enum class Access {
-    write,    ///< makes the file if there is none; nobody else may write
-    read,     ///< changes and makes no file; another process may write meanwhile
-    settled,  ///< the same, of what nobody else may be writing
-  };
+  using Access = runs::Access;
 
   /// Told, once each, of findings in the file that cannot be read.
   using OnLeftOut = std::function<void(const std::string& message)>;

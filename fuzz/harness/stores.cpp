@@ -1,13 +1,11 @@
-// Any bytes as a store of pieces, and its lines as pieces of every kind. Promised: errors are of the
-// documented type; a store that was accepted is the text that is written of it; a piece that was read is
-// written as one that reads the same; and an account, or a cell, without a flaw can be added up and written.
+// Any bytes as pieces of every kind, a line each. Promised: errors are of the documented type; a piece that was
+// read is written as one that reads the same; and an account, or a cell, without a flaw can be added up and written.
 #include "chaos/groups.hpp"
 #include "flights/account.hpp"
 #include "flights/plan.hpp"
 #include "fuzz/harness/harness.hpp"
 #include "fuzz/harness/input_file.hpp"
 #include "report/cell.hpp"
-#include "store/pieces.hpp"
 
 #include <lorentz/errors.hpp>
 
@@ -75,20 +73,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz;
   using namespace lorentz::harness;
   std::string_view text = text_of(data, size);
-  store::Plan words = plan().words();
-  words.insert(words.begin(), {"version", "harness"});
-  if (const auto pieces = read_or_refused([&] { return store::pieces_in(text, "flights", words); }))
-    require(store::text_of("flights", words, *pieces) == text, "a store is the text that is written of it",
-            std::string(text));
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string piece(text.substr(0, end));
+    const std::string piece(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
-    // Without its check, so that what is behind it is tried, too.
-    constexpr std::string_view kPiece = "{\"piece\":";
-    if (const std::size_t check = piece.rfind(",\"check\":");
-        piece.starts_with(kPiece) && check != std::string::npos)
-      piece = piece.substr(kPiece.size(), check - kPiece.size());
     read_account(piece);
     read_cell(piece);
     read_group(piece);

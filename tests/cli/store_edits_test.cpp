@@ -5,9 +5,9 @@
 
 #include <lorentz/errors.hpp>
 #include "cases/random.hpp"
-#include "store/check.hpp"
-#include "store/lock_file.hpp"
-#include "store/pieces.hpp"
+#include "runs/check.hpp"
+#include "runs/lock_file.hpp"
+#include "runs/piece_store.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
@@ -17,93 +17,133 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20261201;
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line + '\n');
-  return lines;
-}
-
-// One change, of a byte, a digit, a piece of text, or a line.
+// One change of the file's bytes: a bit, a byte, the end cut off.
 std::string edited(const std::string& text, cases::Random& random) {
   std::string out = text;
   const auto at = [&](std::size_t size) { return static_cast<std::size_t>(random.below(size)); };
-  std::vector<std::string> lines = lines_of(text);
-  switch (random.below(8)) {
-    case 0:  // a bit
+  switch (random.below(4)) {
+    case 0:
+      return out.substr(0, at(out.size()));
+    case 1:
+      out[at(out.size())] = static_cast<char>(random.below(256));
+      return out;
+    default:
       out[at(out.size())] ^= static_cast<char>(1 << random.below(8));
       return out;
-    case 1:
-      return out.erase(at(out.size()), 1 + random.below(3));
-    case 2:
-      return out.insert(at(out.size()), 1, "0123456789abcdef,:[]{}\"-. \n"[random.below(27)]);
-    case 3:  // cut off
-      return out.substr(0, at(out.size()));
-    case 4: {  // a line twice
-      const std::string line = lines[at(lines.size())];
-      return out + line;
-    }
-    case 5: {  // a line less
-      const std::size_t gone = at(lines.size());
-      out.clear();
-      for (std::size_t i = 0; i < lines.size(); ++i) out += i == gone ? "" : lines[i];
-      return out;
-    }
-    default: {  // a digit
-      std::vector<std::size_t> digits;
-      for (std::size_t i = 0; i < out.size(); ++i)
-        if (std::isxdigit(static_cast<unsigned char>(out[i]))) digits.push_back(i);
-      char& digit = out[digits[at(digits.size())]];
-      digit = digit == '7' ? '3' : '7';
-      return out;
-    }
   }
+}
+
+void change(const std::string& path, const char* sql) {
+  runs::Connection(path, path, SQLITE_OPEN_READWRITE).run(sql);
+}
+
+const std::vector<std::string> kRuns{
+    "flights --count 2e5 --radius 0.3 --json", "lyapunov --collisions 1e4 --radius 0.3",
+    "diffusion --count 256 --time 3 --radius 0.3",
+    "bench --scene square --radius 0.3,0.2 -e reduction --count 40 --difficulty drawn --json"};
+
+std::string without_seconds(const std::string& out) {
+  const std::size_t at = out.find(",\"seconds\":");
+  return at == std::string::npos ? out : out.substr(0, at);
 }
 
 }  // namespace
 
-TEST_CASE("A store that was changed is refused, or the result is the same", "[cli][store]") {
+TEST_CASE("A store with changed bytes is refused, or the result is the same", "[cli][store]") {
   INFO("seed " << kSeed);
-  const std::vector<std::string> runs{
-      "flights --count 2e5 --radius 0.3 --json", "lyapunov --collisions 1e4 --radius 0.3",
-      "diffusion --count 256 --time 3 --radius 0.3",
-      "bench --scene square --radius 0.3,0.2 -e reduction --count 40 --difficulty drawn --json"};
   int refused = 0, same = 0;
-  for (const std::string& run : runs) {
+  for (const std::string& run : kRuns) {
     const Folder folder;
     const std::string command = run + " --store " + folder.file("store");
-    const auto without_seconds = [](std::string out) {
-      const std::size_t at = out.find(",\"seconds\":");
-      return at == std::string::npos ? out : out.substr(0, at);
-    };
     REQUIRE(folder.lorentz(command).status == 0);
     const std::string stored = folder.read("store"), whole = without_seconds(folder.lorentz(command).out);
-    CHECK(folder.read("store") == stored);
-    for (int i = 0; i < (run.starts_with("bench") ? 20 : 40); ++i) {
+    CHECK(folder.read("store").size() == stored.size());
+    const int edits = run.starts_with("bench") ? 20 : 60;
+    for (int i = 0; i < edits; ++i) {
       cases::Random random(kSeed, run, static_cast<std::uint64_t>(i));
       const std::string text = edited(stored, random);
       folder.write("store", text);
       const Run again = folder.lorentz(command);
-      INFO(command << ", edit " << i << ":\n" << text.substr(0, 2000) << '\n' << again.err);
+      INFO(command << ", edit " << i << '\n' << again.err);
       if (again.status == 0) {
         ++same;
-        const bool is_measured = run.starts_with("bench");  // a missing cell is measured anew
-        if (!is_measured) CHECK(without_seconds(again.out) == whole);
-        if (!is_measured) CHECK(lines_of(folder.read("store")).size() == lines_of(stored).size());
-        CHECK((text == stored || lines(text) < lines(stored)));
+        if (!run.starts_with("bench")) CHECK(without_seconds(again.out) == whole);  // its times are measured
       } else {
         ++refused;
-        CHECK(again.status == 2);
+        CHECK((again.status == 2 || again.status == 3));
         CHECK(again.out.empty());
-        CHECK(contains(again.err, folder.file("store") + ": line "));
-        CHECK(contains(again.err, "; "));
+        CHECK(contains(again.err, folder.file("store") + ": "));
         CHECK(folder.read("store") == text);
       }
     }
   }
   INFO(refused << " refused, " << same << " the same");
-  CHECK(refused > 100);
-  CHECK(same > 0);
+  CHECK(refused > 50);
+  CHECK(same > 10);
+}
+
+TEST_CASE("A piece that was changed, left out or moved is seen, and which", "[cli][store]") {
+  for (const std::string& run : kRuns) {
+    const Folder folder;
+    const std::string command = run + " --store " + folder.file("store");
+    REQUIRE(folder.lorentz(command).status == 0);
+    const std::string stored = folder.read("store");
+    std::vector<std::pair<const char*, const char*>> changes{
+        {"UPDATE piece SET text = replace(text, '1', '2') WHERE number = 1", "piece 1 is damaged"},
+        {"UPDATE piece SET \"check\" = '0' WHERE number = 1", "piece 1 is damaged"},
+        {"UPDATE piece SET text = 7 WHERE number = 1", "piece 1 is damaged"},
+        {"UPDATE plan SET value = value || ' ' WHERE place = 4", "is of another run"},
+        {"DELETE FROM plan WHERE place = 4", "is of another version"}};
+    if (!run.starts_with("flights")) {
+      changes.emplace_back("DELETE FROM piece WHERE number = 2", "piece 2 is damaged");
+      changes.emplace_back(
+          "UPDATE piece SET number = 0 WHERE number = 2; UPDATE piece SET number = 2 WHERE number = 1; "
+          "UPDATE "
+          "piece SET number = 1 WHERE number = 0",
+          "piece 1 is damaged");
+    }
+    for (const auto& [sql, why] : changes) {
+      folder.write("store", stored);
+      change(folder.file("store"), sql);
+      const std::string changed = folder.read("store");
+      const Run again = folder.lorentz(command);
+      INFO(command << '\n' << sql << '\n' << again.err);
+      CHECK(again.status == 2);
+      CHECK(again.out.empty());
+      CHECK(contains(again.err, folder.file("store") + ": " + why));
+      CHECK(contains(again.err, "; "));
+      CHECK(folder.read("store") == changed);
+    }
+  }
+}
+
+TEST_CASE("What is not a piece of the run is refused, also with the right checksum", "[cli][store]") {
+  for (const std::string& run : kRuns) {
+    const Folder folder;
+    const std::string command = run + " --store " + folder.file("store");
+    REQUIRE(folder.lorentz(command).status == 0);
+    runs::Plan plan;
+    {
+      const runs::Connection store(folder.file("store"), folder.file("store"), SQLITE_OPEN_READONLY);
+      runs::Statement row(store, "SELECT name, value FROM plan WHERE place > 2 ORDER BY place");
+      while (row.step()) {
+        std::string name = row.text();
+        plan.emplace_back(std::move(name), row.text());
+      }
+    }
+    const std::string kind = run.substr(0, run.find(' '));
+    const std::uint64_t before = runs::PieceStore(folder.file("store"), kind, plan).size();
+    for (const char* text : {"{}", "", "no JSON", "{\"a\":1}"}) {
+      runs::PieceStore(folder.file("store"), kind, plan).add({text});
+      const Run again = folder.lorentz(command);
+      INFO(command << '\n' << text << '\n' << again.err);
+      CHECK(again.status == 2);
+      CHECK(contains(again.err, folder.file("store") + ": piece " + std::to_string(before + 1) + ' '));
+      CHECK(contains(again.err, runs::kRemedy));
+      change(folder.file("store"), ("DELETE FROM piece WHERE number > " + std::to_string(before)).c_str());
+    }
+    CHECK(folder.lorentz(command).status == 0);
+  }
 }
 
 TEST_CASE("A store is for one process at a time, by whatever name, and no longer than that lives",
@@ -130,26 +170,6 @@ TEST_CASE("A store is for one process at a time, by whatever name, and no longer
   }
 }
 
-TEST_CASE("A line that is left out of a store, or moved, is seen", "[cli][store]") {
-  const Folder folder;
-  const std::string store = folder.file("cells");
-  const std::string bench =
-      "bench --scene square --radius 0.2,0.3 --count 32 -e reduction --difficulty drawn --store ";
-  REQUIRE(folder.lorentz(bench + store).status == 0);
-  const std::vector<std::string> lines = lines_of(folder.read("cells"));
-  REQUIRE(lines.size() >= 4);  // the header, the manifest, two cells
-  for (const auto& [kept, refused] : {std::pair{lines[0] + lines[2] + lines[3], "line 2"},
-                                      {lines[0] + lines[1] + lines[3] + lines[2], "line 3"},
-                                      {lines[0] + lines[1] + lines[1], "line 3"}}) {
-    const std::string file = folder.write("changed", kept);
-    const Run run = folder.lorentz(bench + file);
-    INFO(run.err);
-    CHECK(run.status == 2);
-    CHECK(contains(run.err, std::string("changed: ") + refused + " is damaged"));
-    CHECK(folder.read("changed") == kept);
-  }
-}
-
 TEST_CASE("What stands beside a store is not written over, and not removed", "[cli][store]") {
   const Folder folder;
   const std::string store = folder.file("run"), flights = "flights --count 1000 --store " + store;
@@ -164,50 +184,57 @@ TEST_CASE("What stands beside a store is not written over, and not removed", "[c
   CHECK(folder.lorentz(flights).status == 0);
 }
 
-TEST_CASE("The text of a run in pieces is read back by the same plan, and what differs is said",
-          "[cli][store]") {
-  const store::Plan plan{{"version", "1"}, {"scene", "a \"square\""}, {"count", "12"}};
-  const std::vector<std::string> pieces{R"({"a":1})", R"({"b":[2,3]})", "{}"};
-  const std::string text = store::text_of("flights", plan, pieces);
-  CHECK(store::pieces_in(text, "flights", plan) == pieces);
-  CHECK(store::pieces_in(store::text_of("x", {}, {}), "x", {}).empty());
-  const auto refused = [&](const store::Plan& other, const std::string& what, const char* kind = "flights") {
-    CHECK_THROWS_WITH(store::pieces_in(text, kind, other),
-                      "line 1 " + what + "; give what it was begun with, or name another file");
+TEST_CASE("Pieces are read back by the same plan, and what differs is said", "[cli][store]") {
+  const Folder folder;
+  const std::string path = folder.file("store");
+  const runs::Plan plan{{"scene", "a \"square\""}, {"count", "12"}};
+  const std::vector<std::string> pieces{R"({"a":1})", "two\nlines", ""};
+  const auto read = [](const runs::PieceStore& store) {
+    std::vector<std::string> all;
+    store.each([&](const std::string& piece) { all.push_back(piece); });
+    return all;
+  };
+  runs::PieceStore(path, "flights", plan).add(pieces);
+  CHECK(read(runs::PieceStore(path, "flights", plan)) == pieces);
+  CHECK(read(runs::PieceStore(path, "flights", plan, runs::Access::read)) == pieces);
+  CHECK(read(runs::PieceStore({}, "flights", plan)).empty());
+  const auto refused = [&](const runs::Plan& other, const std::string& what, const char* kind = "flights") {
+    CHECK_THROWS_WITH(
+        runs::PieceStore(path, kind, other),
+        path + ": " + what + "; give what it was begun with, name another file, or remove this one");
   };
   refused(plan, "is a store of `lorentz flights`", "bench");
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    store::Plan other = plan;
+    runs::Plan other = plan;
     other[i].second = "0";
-    const std::string was = i == 1 ? R"(a \"square\")" : plan[i].second;
+    const std::string was = i == 0 ? R"(a \"square\")" : plan[i].second;
     refused(other, "is of another run: its " + plan[i].first + " is \"" + was + "\", not \"0\"");
     other[i].first = "other";
     refused(other, "is of another version of this program");
     refused({plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(i)},
             "is of another version of this program");
   }
-  store::Plan longer = plan;
+  runs::Plan longer = plan;
   longer.emplace_back("more", "1");
   refused(longer, "is of another version of this program");
+  runs::PieceStore(path, "flights", plan).set("alone");
+  CHECK(read(runs::PieceStore(path, "flights", plan)) == std::vector<std::string>{"alone"});
 }
 
-TEST_CASE("What is no piece is refused, also with the right checksum", "[cli][store]") {
-  const store::Plan plan{{"version", "1"}};
-  const std::string header = store::text_of("flights", plan, {});
-  const auto with_line = [&](const std::string& line) {
-    const std::uint64_t check = store::check_of(line, store::check_of(header.substr(0, header.size() - 1)));
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(check));
-    return store::pieces_in(header + line + ",\"check\":\"" + digits + "\"}\n", "flights", plan);
-  };
-  CHECK(with_line(R"({"piece":{"a":1})") == std::vector<std::string>{R"({"a":1})"});
-  for (const auto& [line, why] : {std::pair{R"({"peace":{"a":1})", "line 2 is not a piece of a run"},
-                                  {R"({"a":1)", "line 2 is not a piece of a run"},
-                                  {R"({"piece":{"a":1} {})", "line 2 is more than one piece"},
-                                  {R"({"piece":{"a":tru})", "line 2 is not JSON: "},
-                                  {R"({"piece":)", "line 2 is not JSON: "}}) {
-    INFO(line);
-    CHECK_THROWS_WITH(with_line(line), Catch::StartsWith(why) && Catch::EndsWith(store::kRemedy));
+TEST_CASE("A file that is not a store is refused, and stays as it is", "[cli][store]") {
+  const Folder folder;
+  folder.write("notes", "my notes\n");
+  change(folder.write("mine", ""), "CREATE TABLE mine (x)");
+  for (const auto& [file, why] : {std::pair{"notes", "is not a store of lorentz, nor any database"},
+                                  {"mine", "is a database, but no store of a run of lorentz"}}) {
+    const std::string before = folder.read(file);
+    for (const char* option : {"--store ", "--add "}) {
+      const Run run = folder.lorentz("flights --count 1000 " + (option + folder.file(file)));
+      INFO(run.err);
+      CHECK(run.status == 3);
+      CHECK(contains(run.err, std::string(file) + ": " + why));
+      CHECK(folder.read(file) == before);
+    }
   }
 }
 
@@ -225,15 +252,14 @@ TEST_CASE("A lock that is refused or given back leaves nothing open", "[cli][sto
   folder.write("notes.lock", "my notes\n");
   const std::ptrdiff_t before = open_files();
   for (int i = 0; i < 3; ++i) {
-    CHECK_NOTHROW(store::LockFile(store, false, "busy"));  // nobody writes: it makes no file
+    CHECK_NOTHROW(runs::LockFile(store, false, "busy"));  // nobody writes: it makes no file
     CHECK_FALSE(fs::exists(store + ".lock"));
-    CHECK_THROWS_WITH(store::LockFile(notes, true, "busy"),
+    CHECK_THROWS_WITH(runs::LockFile(notes, true, "busy"),
                       Catch::Contains("notes.lock: is there and is not a lock"));
-    CHECK_THROWS_WITH(store::LockFile(folder.file("no/store"), true, "busy"),
-                      Catch::Contains("No such file"));
-    const store::LockFile lock(store, true, "busy");
+    CHECK_THROWS_WITH(runs::LockFile(folder.file("no/store"), true, "busy"), Catch::Contains("No such file"));
+    const runs::LockFile lock(store, true, "busy");
     for (const bool writes : {false, true})
-      CHECK_THROWS_WITH(store::LockFile(store, writes, "busy"), store + ": busy");
+      CHECK_THROWS_WITH(runs::LockFile(store, writes, "busy"), store + ": busy");
   }
   CHECK(open_files() == before);
   CHECK_FALSE(fs::exists(store + ".lock"));
@@ -246,7 +272,7 @@ TEST_CASE("A lock that another removes and makes anew in between is held by one 
   const auto work = [&] {
     for (int i = 0; i < 8000; ++i) {
       try {
-        const store::LockFile lock(folder.file("store"), true, "busy");
+        const runs::LockFile lock(folder.file("store"), true, "busy");
         most = std::max(most.load(), ++holders);
         ++held;
         std::this_thread::yield();

@@ -12,7 +12,7 @@
 #include "flights/flyer.hpp"
 #include "flights/plan.hpp"
 #include "flights/run.hpp"
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -143,11 +143,11 @@ TEST_CASE("Two processes or more are several, and need MPI", "[flights]") {
     for (const auto& [size, several] : {std::pair("0", false), {"1", false}, {"2", true}, {"3", true}}) {
       ::setenv(name, size, 1);
       INFO(name << "=" << size);
-      if (!several || ranks::has_mpi())
-        CHECK(ranks::are_several("--shard") == several);
+      if (!several || runs::has_mpi())
+        CHECK(runs::are_several("--shard") == several);
       else
-        CHECK_THROWS_WITH(ranks::are_several("--shard"), Catch::EndsWith("--shard"));
+        CHECK_THROWS_WITH(runs::are_several("--shard"), Catch::EndsWith("--shard"));
       ::unsetenv(name);
     }
-  CHECK_FALSE(ranks::are_several("--shard"));
+  CHECK_FALSE(runs::are_several("--shard"));
 }

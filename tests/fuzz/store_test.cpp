@@ -222,7 +222,7 @@ TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
   const std::string text =
       folder.write("text", "this is no database, however long it may be: " + std::string(2000, 'x'));
   CHECK(
-      contains(message_of([&] { Store store(text, Store::Access::write); }), "is no store of lorentz fuzz"));
+      contains(message_of([&] { Store store(text, Store::Access::write); }), "is not a store of lorentz, nor any database"));
   const std::string other = folder.file("other");
   sqlite3* database = nullptr;
   REQUIRE(sqlite3_open(other.c_str(), &database) == SQLITE_OK);

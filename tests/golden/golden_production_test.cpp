@@ -6,7 +6,7 @@
 #include <csignal>
 #include <set>
 
-#include "store/check.hpp"
+#include "runs/piece_store.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
@@ -38,12 +38,26 @@ std::set<std::string> names_in(const Folder& folder) {
   return names;
 }
 
-// Makes the file in a process of its own that is killed where it reports its progress for the n-th time: the
-// batch is written then, and noted.
+// As the command makes a file, of which the batches are kept in FILE.part.
+golden::RecordCounts produce_file(const Order& order, const std::string& path,
+                                  const golden::OnProgress& progress = {}) {
+  std::string text;
+  golden::RecordCounts counts;
+  {
+    runs::PieceStore kept(path + ".part", "golden make", golden::plan_of(order));
+    counts = golden::produce(
+        order, [&](std::string_view more) { text += more; }, progress, &kept);
+  }
+  std::ofstream(path, std::ios::binary) << text;
+  fs::remove(path + ".part");
+  return counts;
+}
+
+// In a process of its own that is killed where it reports its progress for the n-th time: the batch is kept then.
 void killed(const Order& order, const std::string& path, int n) {
   const pid_t child = fork();
   if (child == 0) {
-    golden::produce_file(order, path, [&](std::uint64_t) {
+    produce_file(order, path, [&](std::uint64_t) {
       if (--n == 0) kill(getpid(), SIGKILL);
     });
     _exit(0);
@@ -53,20 +67,8 @@ void killed(const Order& order, const std::string& path, int n) {
   REQUIRE(WIFSIGNALED(status));
 }
 
-// What is there after a kill, whenever it came: between the write and the note a part that is longer than the
-// note says; while the note was written, half of a new one.
-enum class Moment { after_note, in_write, in_note };
-
-void leave(const Folder& folder, Moment moment) {
-  if (moment == Moment::after_note) return;
-  std::ofstream(folder.file("set.part"), std::ios::app) << R"({"scene":{"dimension":2,"lattices":[]}})"
-                                                           "\n"
-                                                           R"({"id":"0123456789abcdef","tags":["x"],"x":[0)";
-  if (moment == Moment::in_note) folder.write("set.part.note.new", "12345 6 7");
-}
-
 void require_made(const Folder& folder, const Order& order, const Production& whole) {
-  const golden::RecordCounts counts = golden::produce_file(order, folder.file("set"), {});
+  const golden::RecordCounts counts = produce_file(order, folder.file("set"));
   CHECK((folder.read("set") == whole.text));
   CHECK(names_in(folder) == std::set<std::string>{"set"});
   CHECK(counts.records == whole.counts.records);
@@ -86,7 +88,7 @@ std::size_t times_in(const std::string& text, const std::string& part) {
 // How many records a resumed production makes itself.
 std::uint64_t records_made_anew(const Folder& folder, const Order& order) {
   std::uint64_t first = order.count;
-  golden::produce_file(order, folder.file("set"), [&](std::uint64_t done) { first = std::min(first, done); });
+  produce_file(order, folder.file("set"), [&](std::uint64_t done) { first = std::min(first, done); });
   return order.count - first;
 }
 
@@ -158,30 +160,31 @@ TEST_CASE("Golden: another seed makes other records, and a longer set begins lik
 
 TEST_CASE("Golden: a question that comes twice is left out, and another made in its place",
           "[golden][golden_production]") {
-  // No set has one that does, so a part is made in which one of the second batch's came before.
+  // No set has one that does, so a batch is kept in which one of the second batch's came before.
   const Order order = order_of("ties", 100);
   const Production whole = produced(order);
   const Folder folder;
   killed(order, folder.file("set"), 1);
-  std::string part = folder.read("set.part");
+  std::string first;
+  const auto store = [&] {
+    return runs::PieceStore(folder.file("set.part"), "golden make", golden::plan_of(order));
+  };
+  store().each([&](const std::string& piece) { first = piece; });
+  const std::string part =
+      whole.text.substr(0, whole.text.find('\n') + 1) + first.substr(first.find('\n') + 1);
+  REQUIRE(whole.text.starts_with(part));
   const std::string rest = whole.text.substr(part.size());
   const std::string scene = rest.substr(0, rest.find('\n') + 1);
   std::string record = rest.substr(rest.find("{\"id\"", 3000));
   record.resize(record.find('\n') + 1);
-  const std::string note = folder.read("set.part.note");
-  const auto begin_of_note = [&] {
-    return std::to_string(part.size()) + ' ' + std::to_string(store::check_of(part));
-  };
-  REQUIRE(note == begin_of_note() + " 1 32 " + between(note, " 1 32 ", "\n") + "\n");
-  part += scene + record;
-  folder.write("set.part", part);
-  folder.write("set.part.note", begin_of_note() + " 1 33 " + between(note, " 1 32 ", "\n") + "\n");
-  CHECK(golden::produce_file(order, folder.file("set"), {}).records == 100);
+  REQUIRE(first.starts_with("32 "));
+  store().set("33 " + first.substr(3) + scene + record);
+  CHECK(produce_file(order, folder.file("set")).records == 100);
   const std::string text = folder.read("set");
-  CHECK(text.starts_with(part));
+  CHECK(text.starts_with(part + scene + record));
   CHECK(lines(text) - times_in(text, "{\"scene\"") == 101);
   CHECK(text.find(record, text.find(record) + 1) == std::string::npos);
-  CHECK(text.find(scene, part.size()) == std::string::npos);  // the scene in force is known
+  CHECK(text.find(scene, part.size() + scene.size()) == std::string::npos);  // the scene in force is known
   CHECK(whole.text.ends_with(text.substr(text.size() - 1000)));
 }
 
@@ -191,87 +194,58 @@ TEST_CASE("Golden: a production killed at any moment is gone on with, and makes 
   // Many scenes; one scene for all.
   for (const Order& order : {order_of("ties", 200), order_of("bad-queries", 115)}) {
     const Production whole = produced(order);
-    for (const Moment moment : {Moment::after_note, Moment::in_write, Moment::in_note}) {
-      const Folder folder;
-      int batches = 0;
-      for (int kills = 0; kills < 2; ++kills) {
-        const int n = 1 + static_cast<int>(draw.below(2 - kills));
-        INFO("seed " << kSeed << ", killed in batch " << n);
-        killed(order, folder.file("set"), n);
-        batches += n;
-        leave(folder, moment);
-        CHECK(names_in(folder).contains("set.part"));
-        CHECK_FALSE(names_in(folder).contains("set"));
-      }
-      INFO(batches);
-      require_made(folder, {order.set, order.count, kSeed, 1 + draw.below(3)}, whole);
+    const Folder folder;
+    for (int kills = 0; kills < 2; ++kills) {
+      const int n = 1 + static_cast<int>(draw.below(2 - kills));
+      INFO("seed " << kSeed << ", killed in batch " << n);
+      killed(order, folder.file("set"), n);
+      CHECK(names_in(folder).contains("set.part"));
+      CHECK_FALSE(names_in(folder).contains("set"));
     }
+    require_made(folder, {order.set, order.count, kSeed, 1 + draw.below(3)}, whole);
   }
 }
 
 TEST_CASE("Golden: what was made before the kill is not made again", "[golden][golden_production]") {
   const Order order = order_of("ties", 200);
-  for (const Moment moment : {Moment::after_note, Moment::in_write, Moment::in_note}) {
-    const Folder folder;
-    killed(order, folder.file("set"), 4);
-    leave(folder, moment);
-    CHECK(records_made_anew(folder, order) == 40);
-  }
-}
-
-TEST_CASE("Golden: killed before the first note, or after the last", "[golden][golden_production]") {
-  const Order order = order_of("ties", 100);
-  const Production whole = produced(order);
   const Folder folder;
-  folder.write("set.part", whole.text.substr(0, 50));
-  require_made(folder, order, whole);
-  killed(order, folder.file("set"), 4);  // complete, but without its name
-  CHECK((folder.read("set.part") == whole.text));
-  require_made(folder, order, whole);
   killed(order, folder.file("set"), 4);
-  fs::rename(folder.file("set.part"), folder.file("set"));  // named, and the note still there
-  require_made(folder, order, whole);
+  CHECK(records_made_anew(folder, order) == 40);
+  killed(order_of("ties", 100), folder.file("set"), 4);  // complete, but without its name
+  require_made(folder, order_of("ties", 100), produced(order_of("ties", 100)));
 }
 
-TEST_CASE("Golden: a part of another order, or one that does not fit its note, is begun anew",
+TEST_CASE("Golden: a part of another order, or one that was changed, is refused, and stays",
           "[golden][golden_production]") {
   const Order order = order_of("ties", 100);
-  const Production whole = produced(order);
   const Folder folder;
-  const auto begin_with = [&](const Order& other) { killed(other, folder.file("set"), 2); };
+  const std::string set = folder.file("set");
   for (const Order& other :
        {order_of("ties", 101), order_of("ties", 100, 1, kSeed + 1), order_of("crystals", 100)}) {
-    begin_with(other);
-    require_made(folder, order, whole);
+    killed(other, set, 2);
+    CHECK_THROWS_WITH(produce_file(order, set),
+                      Catch::StartsWith(set + ".part: is of another run: its header is "));
+    CHECK(produce_file(other, set).records == other.count);
   }
-  const auto change = [&](const std::string& name, const std::function<std::string(std::string)>& to) {
-    begin_with(order);
-    folder.write(name, to(folder.read(name)));
-    require_made(folder, order, whole);
+  const auto refused = [&](const char* sql, const std::string& why) {
+    killed(order, set, 2);
+    runs::Connection(set + ".part", set + ".part", SQLITE_OPEN_READWRITE).run(sql);
+    CHECK_THROWS_WITH(produce_file(order, set), Catch::Contains(set + ".part: " + why));
+    CHECK(names_in(folder).contains("set.part"));
+    fs::remove(set + ".part");
   };
-  change("set.part.note", [](const std::string& note) { return note.substr(0, note.size() - 5); });
-  change("set.part.note", [](const std::string&) { return ""; });
-  change("set.part.note", [](const std::string&) { return "garbage"; });
-  change("set.part.note", [](const std::string& note) { return replaced(note, " 64 ", " 63 "); });
-  change("set.part", [](const std::string& part) { return part.substr(0, part.size() - 1); });
-  change("set.part", [](const std::string& part) { return replaced(part, "\"time\":1", "\"time\":2"); });
-  change("set.part", [](const std::string& part) { return replaced(part, "{\"id\":\"", "{\"id\":\"zzzz"); });
-  change("set.part", [](const std::string& part) { return part.substr(0, part.size() / 2); });
-  change("set.part", [](const std::string&) { return ""; });
-}
-
-TEST_CASE("Golden: a file that is there is replaced, one that cannot be written is reported",
-          "[golden][golden_production]") {
-  const Order order = order_of("ties", 40);
-  const Production whole = produced(order);
-  const Folder folder;
-  folder.write("set", "something else");
-  require_made(folder, order, whole);
-  folder.write("new", "made by the shell's rules");
-  CHECK(fs::status(folder.file("set")).permissions() == fs::status(folder.file("new")).permissions());
-  CHECK_THROWS_AS(golden::produce_file(order, folder.file("no/folder/set"), {}), FileError);
-  fs::create_directory(folder.file("taken"));
-  CHECK_THROWS_AS(golden::produce_file(order, folder.file("taken"), {}), FileError);
+  refused("UPDATE piece SET text = replace(text, '\"time\":1', '\"time\":2') WHERE number = 1",
+          "piece 1 is damaged");
+  refused("UPDATE piece SET text = '' WHERE number = 2", "piece 2 is damaged");
+  refused("DELETE FROM piece WHERE number = 1", "piece 1 is damaged");
+  // With the right checksum, too.
+  for (const auto& [text, why] : {std::pair{"what is this?", "is not a batch of records"},
+                                  {"77 0 0 0 0 0\n", "has another number of records than it says"}}) {
+    killed(order, set, 2);
+    runs::PieceStore(set + ".part", "golden make", golden::plan_of(order)).add({text});
+    CHECK_THROWS_WITH(produce_file(order, set), Catch::Contains(set + ".part: piece 3 " + why));
+    fs::remove(set + ".part");
+  }
 }
 
 TEST_CASE("Golden: an exception while writing ends the production", "[golden][golden_production]") {

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace lorentz::ranks {
+namespace lorentz::runs {
 
 /// Used by the one thread that made it; a process makes one.
 class World {
@@ -40,4 +40,4 @@ std::unique_ptr<Ranks> join(const char* instead) {
 /// Was this program built with MPI?
 bool has_mpi();
 
-}  // namespace lorentz::ranks
+}  // namespace lorentz::runs

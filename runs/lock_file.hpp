@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace lorentz::store {
+namespace lorentz::runs {
 
 /// FILE.lock, beside the file that a path means (links are followed): held by the process that writes the
 /// file, and removed with it. The system releases it however the process ends. (A lock on the file itself
@@ -29,4 +29,4 @@ class LockFile {
   int lock_ = -1;
 };
 
-}  // namespace lorentz::store
+}  // namespace lorentz::runs

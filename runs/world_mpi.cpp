@@ -1,8 +1,8 @@
-#include "ranks/world_mpi.hpp"
+#include "runs/world_mpi.hpp"
 
 #include <cstdlib>
 
-namespace lorentz::ranks {
+namespace lorentz::runs {
 
 World::World() : mpi_(std::make_unique<Mpi>()) {}
 World::~World() = default;
@@ -22,4 +22,4 @@ bool has_mpi() {
   return true;
 }
 
-}  // namespace lorentz::ranks
+}  // namespace lorentz::runs

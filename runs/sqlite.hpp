@@ -1,4 +1,4 @@
-// SQLite with exceptions: a connection, and statements that are prepared once. Private to store*.cpp.
+// SQLite with exceptions: a connection, and statements that are prepared once.
 #pragma once
 
 #include <sqlite3.h>
@@ -12,7 +12,7 @@
 
 #include <lorentz/errors.hpp>
 
-namespace lorentz::fuzz {
+namespace lorentz::runs {
 
 /// Of a row: a finding's lines are far shorter.
 inline constexpr int kMostBytes = 64 << 20;
@@ -50,7 +50,10 @@ class Connection {
   }
   [[noreturn]] void fail() const {
     if (sqlite3_errcode(handle_) == SQLITE_NOTADB)
-      throw FileError(path_ + ": is no store of lorentz fuzz, nor any database");
+      throw FileError(path_ + ": is not a store of lorentz, nor any database");
+    if (sqlite3_errcode(handle_) == SQLITE_CORRUPT)
+      throw FileError(path_ + ": is damaged (" + sqlite3_errmsg(handle_) +
+                      "); take a copy from before, or name another file");
     const bool is_full = sqlite3_errcode(handle_) == SQLITE_FULL || sqlite3_errcode(handle_) == SQLITE_IOERR;
     throw FileError(path_ + ": " + sqlite3_errmsg(handle_) +
                     (is_full ? "; with more space the same command can be given again" : ""));
@@ -147,4 +150,4 @@ class Statement {
   int bound_ = 0, column_ = 0;
 };
 
-}  // namespace lorentz::fuzz
+}  // namespace lorentz::runs

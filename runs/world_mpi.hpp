@@ -3,13 +3,13 @@
 
 #include <boost/mpi.hpp>
 
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 
-namespace lorentz::ranks {
+namespace lorentz::runs {
 
 struct World::Mpi {
   boost::mpi::environment environment{boost::mpi::threading::funneled, false};
   boost::mpi::communicator world;
 };
 
-}  // namespace lorentz::ranks
+}  // namespace lorentz::runs

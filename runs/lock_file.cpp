@@ -1,4 +1,4 @@
-#include "store/lock_file.hpp"
+#include "runs/lock_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,7 +11,7 @@
 #include <lorentz/errors.hpp>
 #include "src/problem/write_error.hpp"
 
-namespace lorentz::store {
+namespace lorentz::runs {
 
 namespace {
 
@@ -71,4 +71,4 @@ void LockFile::fail(const std::string& what) {
   throw FileError(what);
 }
 
-}  // namespace lorentz::store
+}  // namespace lorentz::runs

@@ -2,9 +2,9 @@
 #include <string>
 
 #include <lorentz/errors.hpp>
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 
-namespace lorentz::ranks {
+namespace lorentz::runs {
 namespace {
 
 // What Open MPI, and what others tell the processes that they start.
@@ -25,4 +25,4 @@ bool are_several(const char* instead) {
       instead);
 }
 
-}  // namespace lorentz::ranks
+}  // namespace lorentz::runs

@@ -1,9 +1,9 @@
 // Built without MPI: one process.
 #include <cstdlib>
 
-#include "ranks/world.hpp"
+#include "runs/world.hpp"
 
-namespace lorentz::ranks {
+namespace lorentz::runs {
 
 struct World::Mpi {};
 
@@ -24,4 +24,4 @@ bool has_mpi() {
   return false;
 }
 
-}  // namespace lorentz::ranks
+}  // namespace lorentz::runs

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace lorentz::store {
+namespace lorentz::runs {
 
 inline constexpr std::uint64_t kCheckOfNothing = 0xcbf29ce484222325;
 
@@ -15,4 +15,4 @@ constexpr std::uint64_t check_of(std::string_view text, std::uint64_t before = k
   return before;
 }
 
-}  // namespace lorentz::store
+}  // namespace lorentz::runs
