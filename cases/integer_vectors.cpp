@@ -125,12 +125,12 @@ NearSquare drawn_near_square(Random& random) {
   return {{8, 9, 0}, 12};  // 145 = 144 + 1
 }
 
-std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h) {
+std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h) {
   // (p + sqrt(d)) / q, q dividing d - p^2.
   const std::int64_t d = n * h, root = floor_root(d);
   std::int64_t p = 0, q = h;
   Wide k1 = 1, k0 = 0, r1 = 0, r0 = 1;
-  std::vector<Fraction> all;
+  std::vector<IntegerRatio> all;
   while (q != 0) {
     const std::int64_t a = (p + root) / q;
     const Wide k = a * k1 + k0, r = a * r1 + r0;

@@ -67,10 +67,10 @@ NearSquare drawn_near_square(Random& random);
 
 /// Convergents k / r of sqrt(n / h), r up to 2^50: n r^2 - h k^2 is as small as it gets, so that r, k solve
 /// Pell's equation or nearly. Ends early if the root is rational.
-struct Fraction {
+struct IntegerRatio {
   std::int64_t k, r;
 };
-std::vector<Fraction> convergents_of_root(std::int64_t n, std::int64_t h);
+std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h);
 
 /// The start x from which the flight along the primitive v passes the origin at the closest point after
 /// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`

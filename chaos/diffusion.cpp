@@ -51,7 +51,7 @@ void add(const Way& way, Sums& sums) {
   ++sums.particles;
 }
 
-bool can_be_displacements(const Sums& sums, Share share) {
+bool can_be_displacements(const Sums& sums, GroupShare share) {
   return sums.values.size() == kDiffusionValues &&
          std::all_of(sums.values.begin(), sums.values.begin() + kTimes, [](double x) { return x >= 0; }) &&
          sums.stopped <= share.last - share.first &&
@@ -59,7 +59,7 @@ bool can_be_displacements(const Sums& sums, Share share) {
 }
 
 // The particles [first, last), to the time T, or until the work is stopped: then the sums are no use.
-void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, Share share,
+void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, GroupShare share,
          const std::vector<double>& times, const Work& work, Sums& sums) {
   Particles particles(engine, plan.scene);
   for (std::uint64_t i = share.first; i < share.last; ++i) particles.add(starts[i]);
@@ -152,7 +152,7 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
       work,
       [&](std::uint64_t group) {
         Sums sums{std::vector<double>(kDiffusionValues)};
-        Share share = share_of(group, plan.count);
+        GroupShare share = share_of(group, plan.count);
         for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
           fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,
               sums);

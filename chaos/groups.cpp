@@ -98,7 +98,7 @@ AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)
   return all;
 }
 
-Share share_of(std::uint64_t group, std::uint64_t count) {
+GroupShare share_of(std::uint64_t group, std::uint64_t count) {
   const std::uint64_t part = count / kGroups, rest = count % kGroups;
   const std::uint64_t first = group * part + std::min(group, rest);
   return {first, first + part + (group < rest ? 1 : 0)};

@@ -51,9 +51,9 @@ std::vector<std::optional<Sums>> for_each_group(
     const std::function<bool(std::uint64_t, const Sums&)>& is_possible);
 
 /// [first, last) of `count` things for a group.
-struct Share {
+struct GroupShare {
   std::uint64_t first, last;
 };
-Share share_of(std::uint64_t group, std::uint64_t count);
+GroupShare share_of(std::uint64_t group, std::uint64_t count);
 
 }  // namespace lorentz::chaos

@@ -171,7 +171,8 @@ class Racers {
     bool failed = false;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       const Speed& speed = speeds[i];
-      cells[cells_[i]].ns = report::Times{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
+      cells[cells_[i]].ns =
+          report::CellTimes{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
       cells[cells_[i]].instructions = speed.instructions;
       failed |= speed.failed;
     }

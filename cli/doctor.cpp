@@ -16,7 +16,7 @@
 namespace lorentz::cli {
 namespace {
 
-using fitness::Finding;
+using fitness::Symptom;
 using fitness::Use;
 
 struct DoctorOptions {
@@ -28,7 +28,7 @@ struct DoctorOptions {
 struct MachineReport {
   report::Manifest manifest;
   std::vector<std::string> instruction_sets, libraries;
-  std::vector<Finding> findings;
+  std::vector<Symptom> findings;
   std::vector<Use> unfit;
 
   bool fit() const { return unfit.empty(); }
@@ -44,7 +44,7 @@ MachineReport diagnose() {
   MachineReport diagnosis{
       report::manifest_of(0, command_line()), Batch::instruction_sets(), library_versions(), {}, {}};
   diagnosis.findings = fitness::examine_arithmetic();
-  for (Finding& finding : fitness::examine_answers()) diagnosis.findings.push_back(std::move(finding));
+  for (Symptom& finding : fitness::examine_answers()) diagnosis.findings.push_back(std::move(finding));
   diagnosis.unfit = fitness::unfit_uses(diagnosis.findings);
   return diagnosis;
 }
@@ -80,7 +80,7 @@ std::string text_of(const MachineReport& diagnosis) {
       diagnosis.manifest.flags, diagnosis.manifest.machine,
       lanes ? diagnosis.instruction_sets.front() : "none: batches take as long as single flights",
       lanes ? "in hardware" : "by splitting: slower, the same answers");
-  for (const Finding& finding : diagnosis.findings)
+  for (const Symptom& finding : diagnosis.findings)
     text +=
         fmt::format("  {:<8}  {:<37}  {}\n", finding.fit ? "fit" : "NOT FIT", finding.name, finding.found);
   text += "\nlibraries: " + fmt::format("{}", fmt::join(diagnosis.libraries, ", ")) + "\n\n";
@@ -94,7 +94,7 @@ std::string json_of(const MachineReport& diagnosis) {
                diagnosis.manifest.compiler, "machine", diagnosis.manifest.machine, "instructions",
                diagnosis.instruction_sets, "findings",
                json::objects(diagnosis.findings,
-                             [](json::Members& one, const Finding& finding) {
+                             [](json::Members& one, const Symptom& finding) {
                                one.add("name", finding.name, "fit", finding.fit, "found", finding.found);
                              }),
                "libraries", diagnosis.libraries);

@@ -23,7 +23,7 @@ namespace lorentz::cli {
 namespace {
 
 using flights::Account;
-using flights::Plan;
+using flights::FlightsPlan;
 
 constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
@@ -37,8 +37,8 @@ struct FlightsOptions {
   std::vector<std::string> radii, parts;
 };
 
-Plan plan_of(const FlightsOptions& options, std::optional<double> radius) {
-  Plan plan;
+FlightsPlan plan_of(const FlightsOptions& options, std::optional<double> radius) {
+  FlightsPlan plan;
   plan.scene = load_scene(options.scene, radius);
   if (!compare::engine_named(options.engine).is_own())
     throw InputError(
@@ -55,7 +55,7 @@ Plan plan_of(const FlightsOptions& options, std::optional<double> radius) {
 // What is flown one after the other: a radius after the other, or the scene as it is.
 struct FlightsTask {
   std::optional<double> radius;  // of several
-  Plan plan;
+  FlightsPlan plan;
 };
 
 std::vector<FlightsTask> tasks_of(const FlightsOptions& options) {
@@ -72,8 +72,8 @@ std::vector<FlightsTask> tasks_of(const FlightsOptions& options) {
   return tasks;
 }
 
-flights::Bounds bounds_of(const FlightsOptions& options) {
-  flights::Bounds bounds;
+flights::FlightBounds bounds_of(const FlightsOptions& options) {
+  flights::FlightBounds bounds;
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
   const auto slash = options.shard.find('/');
@@ -86,7 +86,7 @@ flights::Bounds bounds_of(const FlightsOptions& options) {
 }
 
 // The account of a stored piece, which must be one of this plan.
-Account account_in(const std::string& piece, const Plan& plan) {
+Account account_in(const std::string& piece, const FlightsPlan& plan) {
   Account account = Account::of(piece);
   account.check(plan);
   return account;
@@ -97,7 +97,7 @@ struct Begun {
   Account account;
   runs::PieceStore store;
 
-  Begun(const FlightsOptions& options, const Plan& plan)
+  Begun(const FlightsOptions& options, const FlightsPlan& plan)
       : account(Account::begun(plan)), store(options.store, "flights", plan.words()) {
     store.each(reader(plan));
     if (store.is_file()) say_how_far(*options.store, plan);
@@ -110,7 +110,7 @@ struct Begun {
  private:
   std::uint64_t before = 0;  // blocks of the files before
 
-  runs::ReadPiece reader(const Plan& plan) {
+  runs::ReadPiece reader(const FlightsPlan& plan) {
     return [this, &plan](const std::string& piece) {
       try {
         account.add(account_in(piece, plan));
@@ -119,7 +119,7 @@ struct Begun {
       }
     };
   }
-  void say_how_far(const std::string& file, const Plan& plan) {
+  void say_how_far(const std::string& file, const FlightsPlan& plan) {
     if (account.done.size() > before)
       say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
     before = account.done.size();
@@ -129,7 +129,7 @@ struct Begun {
 // Draws the progress, and stores now and then.
 class News {
  public:
-  News(runs::PieceStore* store, const Plan& plan, flights::Ranks* ranks)
+  News(runs::PieceStore* store, const FlightsPlan& plan, flights::Ranks* ranks)
       : store_(store), progress_("flying", plan.count, 1), count_(plan.count), ranks_(ranks) {}
 
   void operator()(const Account& account) {
@@ -153,7 +153,7 @@ class News {
 };
 
 // Another rank's share: flown, and reported to rank 0.
-void fly_share(const Plan& plan, flights::Bounds bounds, flights::Ranks& ranks) {
+void fly_share(const FlightsPlan& plan, flights::FlightBounds bounds, flights::Ranks& ranks) {
   Account known, own = Account::begun(plan);
   ranks.share(known);
   bounds.done = known.done;
@@ -162,9 +162,9 @@ void fly_share(const Plan& plan, flights::Bounds bounds, flights::Ranks& ranks) 
   ranks.report(own, true);
 }
 
-FlightsReport fly(const FlightsTask& task, const flights::Bounds& bounds, const FlightsOptions& options,
+FlightsReport fly(const FlightsTask& task, const flights::FlightBounds& bounds, const FlightsOptions& options,
                   flights::Ranks* ranks) {
-  const Plan& plan = task.plan;
+  const FlightsPlan& plan = task.plan;
   Begun begun(options, plan);
   FlightsReport result{options.scene, task.radius, plan, begun.account, {}};
   if (ranks) ranks->share(result.account);
@@ -197,7 +197,7 @@ class Files {
 };
 
 // Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
-int fly_all(const std::vector<FlightsTask>& tasks, const flights::Bounds& bounds,
+int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
   Files files(options);
   std::vector<FlightsReport> reports;
@@ -217,7 +217,7 @@ int fly_all(const std::vector<FlightsTask>& tasks, const flights::Bounds& bounds
 int act(const FlightsOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
   const std::vector<FlightsTask> tasks = tasks_of(options);
-  flights::Bounds bounds = bounds_of(options);
+  flights::FlightBounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
   const std::unique_ptr<flights::Ranks> ranks = runs::join<flights::Ranks>("--jobs, or --shard and --add");

@@ -8,7 +8,7 @@ using namespace flights;
 
 FlightsFindings::FlightsFindings(const FlightsReport& report)
     : tails(tails_of(report.plan.scene, report.plan.from)), mean(mean_free_path_of(report.plan.scene)) {
-  const Tally& tally = report.account.tally;
+  const FlightTally& tally = report.account.tally;
   for (int i = 0; i <= Bins::kLogarithmic; ++i) edges.push_back(tally.bins.log_edge(i));
   counts = tally.bins.logarithmic;
   counts.back() += tally.never;

@@ -160,7 +160,7 @@ std::string FlightsReport::name_with_radius() const {
 
 std::string FlightsReport::table() const {
   const FlightsFindings found(*this);
-  const Tally& tally = account.tally;
+  const FlightTally& tally = account.tally;
   std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", name_with_radius(),
                                  name_of(plan.from), plan.engine, plan.seed);
   text += fmt::format("{} flights", tally.flights());
@@ -180,7 +180,7 @@ std::string FlightsReport::table() const {
 
 std::string FlightsReport::json() const {
   const FlightsFindings found(*this);
-  const Tally& tally = account.tally;
+  const FlightTally& tally = account.tally;
   const auto if_any = [&](double x) { return tally.hits > 0 ? finite(x) : std::nullopt; };
   std::vector<std::string> survival;
   for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
@@ -259,7 +259,7 @@ report::FreePathCurve curve_of(const FlightsReport& report, const FlightsFinding
   for (std::size_t i = 0; i < found.edges.size(); i += kStep) {
     const double share = static_cast<double>(found.beyond[i]) / total;
     if (found.beyond[i] == 0 || share > kNearlyAll) continue;
-    report::FreePathCurve::Point point{found.edges[i], share, {}, {}};
+    report::FreePathCurve::CurvePoint point{found.edges[i], share, {}, {}};
     if (law) point.theory = law->survival(point.t);
     curve.points.push_back(point);
   }
@@ -275,7 +275,7 @@ std::string page_json(const std::vector<FlightsReport>& reports, const std::stri
   for (const FlightsReport& report : reports) {
     const FlightsFindings found(report);
     curves.push_back(curve_of(report, found));
-    const Tally& tally = report.account.tally;
+    const FlightTally& tally = report.account.tally;
     line +=
         fmt::format("{}{}: {} flights", line.empty() ? "" : "; ", report.name_with_radius(), tally.flights());
     if (tally.hits > 0) line += fmt::format(", mean {:.6g}", tally.mean());

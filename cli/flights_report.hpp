@@ -13,7 +13,7 @@ namespace lorentz::cli {
 struct FlightsReport {
   std::string scene_name;        ///< as it was asked for
   std::optional<double> radius;  ///< of all balls, where several were asked for
-  flights::Plan plan;
+  flights::FlightsPlan plan;
   flights::Account account;
   std::optional<double> seconds;  ///< of this run
 

@@ -19,7 +19,7 @@ Command fuzz_export_command();
 
 /// What came of a campaign: its manifest, what each target met, and its findings.
 struct FuzzReport {
-  fuzz::Manifest manifest;
+  fuzz::CampaignManifest manifest;
   std::vector<std::string> targets;
   std::vector<fuzz::TargetTally> tallies;  ///< one for each target
   std::vector<fuzz::Stored> findings;      ///< of this campaign

@@ -71,7 +71,7 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   header.description = "What campaigns found, shrunk: the answers are the exact ones.";
   header.version = LORENTZ_VERSION;
   for (const fuzz::Campaign& campaign : campaigns) {
-    const fuzz::Manifest& m = campaign.manifest;
+    const fuzz::CampaignManifest& m = campaign.manifest;
     header.generator += fmt::format("lorentz fuzz --engine {} --seed {} --shard {} --target {} ({}); ",
                                     shell_quoted(m.engine), m.seed, m.shard, m.targets, m.options);
   }

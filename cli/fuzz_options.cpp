@@ -99,8 +99,8 @@ fuzz::Bounds bounds_of(const FuzzOptions& options) {
   return bounds;
 }
 
-fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
-  fuzz::Manifest manifest;
+fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine) {
+  fuzz::CampaignManifest manifest;
   manifest.version = LORENTZ_VERSION;
   manifest.engine = engine;
   for (const cases::Target* target : plan.targets)

@@ -30,7 +30,7 @@ std::vector<Option> rows_of(FuzzOptions& options);
 /// What the options say. Each throws InputError, naming the option, if they say nothing.
 fuzz::Plan plan_of(const FuzzOptions& options);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
-fuzz::Manifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
+fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
 
 /// The command with these options, as a shell takes it.
 std::string command_of(const FuzzOptions& options);

@@ -34,7 +34,7 @@ std::string campaign_table(const Store& store) {
   Table table({"campaign", "engine", "seed", "shard", "version", "options"});
   table.with_prose();
   for (const fuzz::Campaign& campaign : store.campaigns()) {
-    const fuzz::Manifest& m = campaign.manifest;
+    const fuzz::CampaignManifest& m = campaign.manifest;
     table.add({std::to_string(campaign.id), m.engine, std::to_string(m.seed), m.shard, m.version, m.options});
   }
   return table.text();
@@ -154,7 +154,7 @@ int merge_stores(const MergeOptions& options) {
     for (const fuzz::Campaign& campaign : into.campaigns())
       say("{}: campaign {} of {} merged from {} shards{}", options.output, campaign.id,
           campaign.manifest.engine, options.stores.size(),
-          campaign.manifest.shard == fuzz::Manifest::kMerged
+          campaign.manifest.shard == fuzz::CampaignManifest::kMerged
               ? "; they are not all there, or not equally far: to be read, not gone on with"
               : "");
   }

@@ -50,7 +50,7 @@ report::FreePathCurve FlownScene::curve(const std::string& engine) const {
   const flights::Laws laws = flights::laws_of(read_scene(scene, radius), flights::Ensemble::surface);
   if (!laws.laws.empty()) curve.law = fmt::format("{}, {}", laws.laws[0].name, laws.laws[0].when);
   for (const judge::PathPoint& point : paths.points()) {
-    report::FreePathCurve::Point shown{point.t, point.survival, point.exact, {}};
+    report::FreePathCurve::CurvePoint shown{point.t, point.survival, point.exact, {}};
     if (!laws.laws.empty()) shown.theory = laws.laws[0].survival(point.t);
     curve.points.push_back(shown);
   }

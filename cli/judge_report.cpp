@@ -134,7 +134,7 @@ const char* name_of(Severity severity) {
 std::string often(const Finding& finding, const JudgeReport& report) {
   constexpr std::size_t kMost = 3;
   std::vector<std::pair<double, std::string>> shares;
-  for (const judge::Row& row : report.rows)
+  for (const judge::ExaminedRow& row : report.rows)
     if (const auto its = finding.by_row.find(row.name); its != finding.by_row.end())
       shares.emplace_back(static_cast<double>(its->second) / static_cast<double>(row.asked()), row.name);
   std::stable_sort(shares.begin(), shares.end(),
@@ -202,15 +202,15 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 // Of all the rows that are hard, or of the others.
-compare::Tally sum_of(const std::vector<judge::Row>& rows, bool hard) {
+compare::Tally sum_of(const std::vector<judge::ExaminedRow>& rows, bool hard) {
   compare::Tally sum;
-  for (const judge::Row& row : rows)
+  for (const judge::ExaminedRow& row : rows)
     if (row.is_hard == hard) sum.add(row.tally);
   return sum;
 }
 
 // "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
-std::string share_text(const char* what, const std::vector<judge::Row>& rows,
+std::string share_text(const char* what, const std::vector<judge::ExaminedRow>& rows,
                        std::size_t compare::Tally::*count) {
   const compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.*count + hard.*count == 0) return "";
@@ -218,7 +218,7 @@ std::string share_text(const char* what, const std::vector<judge::Row>& rows,
                      percent(hard.*count, hard.queries));
 }
 
-std::string times_text(const std::vector<judge::Row>& rows) {
+std::string times_text(const std::vector<judge::ExaminedRow>& rows) {
   compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.timed_hits + hard.timed_hits == 0) return "";
   const std::size_t wrong = drawn.wrong_time + hard.wrong_time;
@@ -328,7 +328,7 @@ std::vector<std::string> cells_of(const compare::Tally& t, std::size_t nonsense)
 enum class RowState { asked, unsupported, no_time, given_up };
 constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up"};
 
-RowState state_of(const judge::Row& row, const JudgeReport& report) {
+RowState state_of(const judge::ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
   if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
@@ -339,7 +339,7 @@ RowState state_of(const judge::Row& row, const JudgeReport& report) {
 // A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
 std::string given_up_lines(const JudgeReport& report) {
   std::map<std::string, std::vector<std::string>> by_failure;
-  for (const judge::Row& row : report.rows)
+  for (const judge::ExaminedRow& row : report.rows)
     if (row.scenes_given_up > 0)
       by_failure[row.last_failure].push_back(fmt::format("{} ({})", row.name, row.scenes_given_up));
   std::string text;
@@ -351,7 +351,7 @@ std::string given_up_lines(const JudgeReport& report) {
 std::string table_of(const JudgeReport& report) {
   Table table(kColumns);
   std::vector<std::string> unsupported, no_time;
-  for (const judge::Row& row : report.rows) {
+  for (const judge::ExaminedRow& row : report.rows) {
     const RowState state = state_of(row, report);
     if (state == RowState::unsupported) unsupported.push_back(row.name);
     if (state == RowState::no_time) no_time.push_back(row.name);
@@ -366,7 +366,7 @@ std::string table_of(const JudgeReport& report) {
   return text + given_up_lines(report);
 }
 
-void add_row(json::Members& object, const judge::Row& row, const JudgeReport& report) {
+void add_row(json::Members& object, const judge::ExaminedRow& row, const JudgeReport& report) {
   const compare::Tally& t = row.tally;
   object.add("name", row.name, "explanation", row.explanation, "state",
              kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
@@ -388,13 +388,13 @@ compare::Tally JudgeReport::total() const {
 
 std::size_t JudgeReport::nonsense() const {
   std::size_t number = 0;
-  for (const judge::Row& row : rows) number += row.nonsense;
+  for (const judge::ExaminedRow& row : rows) number += row.nonsense;
   return number;
 }
 
 std::size_t JudgeReport::rows_given_up() const {
-  return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const judge::Row& row) { return row.scenes_given_up > 0; }));
+  return static_cast<std::size_t>(std::count_if(
+      rows.begin(), rows.end(), [](const judge::ExaminedRow& row) { return row.scenes_given_up > 0; }));
 }
 
 bool JudgeReport::is_broken() const {
@@ -441,7 +441,7 @@ std::string JudgeReport::json() const {
              "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error, "missing", t.missing,
              "nonsense", nonsense(), "ns_per_query", json::finite(ns_per_query), "ns_of_reduction",
              json::finite(ns_of_reduction), "start_up_seconds", json::finite(start_up));
-    page.add("difficulties", json::objects(rows, [&](json::Members& one, const judge::Row& row) {
+    page.add("difficulties", json::objects(rows, [&](json::Members& one, const judge::ExaminedRow& row) {
                add_row(one, row, *this);
              }));
     page.add("findings", json::objects(findings, [&](json::Members& one, const Finding& finding) {

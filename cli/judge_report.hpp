@@ -15,7 +15,7 @@ struct JudgeReport {
   compare::EngineInfo engine;
   std::uint64_t seed = 0;
   std::string command;  ///< the shell line that was typed
-  std::vector<judge::Row> rows;
+  std::vector<judge::ExaminedRow> rows;
   std::vector<judge::Finding> findings;
   judge::Calls calls;
   std::vector<FlownScene> flown;

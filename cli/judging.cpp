@@ -216,7 +216,7 @@ std::vector<compare::Question> questions_to_race_in(const std::vector<const Name
 std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
   constexpr double kFewest = 32, kMost = 2000;
   double slowest = 1;
-  for (const judge::Row& row : report.rows)
+  for (const judge::ExaminedRow& row : report.rows)
     if (!row.is_hard) slowest = std::max(slowest, row.tally.speed.ns_per_query);
   return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
 }

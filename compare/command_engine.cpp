@@ -70,14 +70,14 @@ void CommandEngine::ask_text(const Id& id, const std::string& question) {
   add({id, {}, scene_, question});
 }
 
-void CommandEngine::append_line(std::string& out, const Id& id, const Asked& asked) {
+void CommandEngine::append_line(std::string& out, const Id& id, const OpenQuery& asked) {
   if (asked.text.empty())
     append_query_line(out, id, asked.query, asked.scene->dimension);
   else
     out += json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
 }
 
-void CommandEngine::add(Asked asked) {
+void CommandEngine::add(OpenQuery asked) {
   open_.push_back(std::move(asked));
   if (given_up_in_) give_up();
   if (open_.empty()) return;
@@ -144,7 +144,7 @@ void CommandEngine::encode() {
   const std::size_t most = run.greeting ? 1 : limit_;
   while (!run.ending && run.outstanding < open_.size() && run.given < most &&
          run.to_write.size() < kWrittenAtOnce) {
-    const Asked& asked = open_[run.outstanding];
+    const OpenQuery& asked = open_[run.outstanding];
     if (run.scene != asked.scene) {
       append_scene_line(run.to_write, *asked.scene);
       run.scene = asked.scene;
@@ -328,7 +328,7 @@ void CommandEngine::settle_nameless() {
 // An answer to a query that is done.
 void CommandEngine::take_unasked(std::uint64_t number) {
   const std::uint64_t back = first_number_ - number;
-  const Asked* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
+  const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
   const bool late = asked && asked->passed_over;
   run_->instead = late ? "answered an earlier query, too late" : "answered an earlier query again";
   complain(late ? "answered this query after a later one" : "answered this query again", asked);
@@ -477,7 +477,7 @@ void CommandEngine::tell(const std::string& what) const {
 }
 
 // Says what went wrong, with a stream that shows it again.
-void CommandEngine::complain(const std::string& what, const Asked* asked) {
+void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
   failed_ = true;
   if (++complaints_ > kMaxComplaints) return;
   std::string stream;

@@ -51,15 +51,15 @@ class CommandEngine final : public Answerer {
   using Seconds = std::chrono::duration<double>;
   static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-  struct Asked {
+  struct OpenQuery {
     Id id;
     Query query;
     std::shared_ptr<const Scene> scene;
     std::string text = {};     // in place of the query, where it is none
     bool passed_over = false;  // it got no answer
   };
-  void add(Asked asked);
-  static void append_line(std::string& out, const Id& id, const Asked& asked);
+  void add(OpenQuery asked);
+  static void append_line(std::string& out, const Id& id, const OpenQuery& asked);
 
   // When a program lets go of its answers, as far as we have seen.
   enum class Manner {
@@ -109,15 +109,15 @@ class CommandEngine final : public Answerer {
   void run_failed(const std::string& what);
   void give_up();
   void tell(const std::string& what) const;
-  void complain(const std::string& what, const Asked* asked);
+  void complain(const std::string& what, const OpenQuery* asked);
 
   std::string command_;
   AnswererOptions options_;
   ExchangeReader reader_;
   std::shared_ptr<const Scene> scene_;
-  std::deque<Asked> open_;          // without an answer, in order
+  std::deque<OpenQuery> open_;      // without an answer, in order
   std::uint64_t first_number_ = 1;  // of open_.front(); the program knows the queries by these
-  std::deque<Asked> recent_;        // the last ones before: should it answer one again, or late
+  std::deque<OpenQuery> recent_;    // the last ones before: should it answer one again, or late
 
   std::shared_ptr<Run> run_;  // or null: it is started when there is something to ask
   Manner manner_ = Manner::unknown;

@@ -6,7 +6,7 @@
 
 namespace lorentz::fitness {
 
-Finding examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known) {
+Symptom examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known) {
   std::vector<std::string> others;
   for (std::size_t i = 0; i < std::max(found.size(), known.size()); ++i)
     if (i >= known.size() || i >= found.size() || !(found[i] == known[i]))
@@ -34,12 +34,12 @@ const char* name_of(Use use) {
   return "";
 }
 
-std::vector<Finding> examine_arithmetic() {
+std::vector<Symptom> examine_arithmetic() {
   return findings_of(arithmetic_checks());
 }
 
-std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks) {
-  std::vector<Finding> findings;
+std::vector<Symptom> findings_of(const std::vector<ArithmeticCheck>& checks) {
+  std::vector<Symptom> findings;
   for (const ArithmeticCheck& check : checks)
     findings.push_back({check.name,
                         check.fit,
@@ -48,16 +48,16 @@ std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks) {
   return findings;
 }
 
-std::vector<Finding> examine_answers() {
-  std::vector<Finding> findings{examine_digests(digests(kKnownFlights), known_digests())};
-  for (Finding& finding : examine_known_answers()) findings.push_back(std::move(finding));
+std::vector<Symptom> examine_answers() {
+  std::vector<Symptom> findings{examine_digests(digests(kKnownFlights), known_digests())};
+  for (Symptom& finding : examine_known_answers()) findings.push_back(std::move(finding));
   return findings;
 }
 
-std::vector<Use> unfit_uses(const std::vector<Finding>& findings) {
+std::vector<Use> unfit_uses(const std::vector<Symptom>& findings) {
   std::vector<Use> uses;
   for (const Use use : kUses)
-    if (std::any_of(findings.begin(), findings.end(), [use](const Finding& finding) {
+    if (std::any_of(findings.begin(), findings.end(), [use](const Symptom& finding) {
           return !finding.fit &&
                  std::find(finding.spoiled.begin(), finding.spoiled.end(), use) != finding.spoiled.end();
         }))

@@ -22,7 +22,7 @@ inline constexpr Use kUses[] = {Use::engines, Use::oracle, Use::certificates, Us
 const char* name_of(Use use);
 
 /// One thing that was looked at.
-struct Finding {
+struct Symptom {
   std::string name;          ///< "rounding mode"
   bool fit = true;           ///< as it has to be
   std::string found;         ///< "upward"; of what failed, also what should have been
@@ -30,19 +30,19 @@ struct Finding {
 };
 
 /// What follows from checks of the arithmetic: one that is not fit spoils everything.
-std::vector<Finding> findings_of(const std::vector<ArithmeticCheck>& checks);
+std::vector<Symptom> findings_of(const std::vector<ArithmeticCheck>& checks);
 
 /// Counts the digests that differ from the known ones, or are missing, and names the first of them.
-Finding examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known);
+Symptom examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known);
 
 /// What is wrong with this thread's arithmetic in this build. Microseconds.
-std::vector<Finding> examine_arithmetic();
+std::vector<Symptom> examine_arithmetic();
 
 /// Known answers, computed again: the digests of all engines, exact answers by both oracles and `certified`,
 /// a proof that must be accepted and one that must not, a certified path. About a second.
-std::vector<Finding> examine_answers();
+std::vector<Symptom> examine_answers();
 
 /// What it is not fit for, by these findings.
-std::vector<Use> unfit_uses(const std::vector<Finding>& findings);
+std::vector<Use> unfit_uses(const std::vector<Symptom>& findings);
 
 }  // namespace lorentz::fitness

@@ -51,7 +51,7 @@ const std::vector<KnownAnswer>& known_answers() {
 }
 
 // What cannot even be computed is not fit either.
-Finding guarded(const char* name, const std::vector<Use>& spoiled, const std::function<Finding()>& examine) {
+Symptom guarded(const char* name, const std::vector<Use>& spoiled, const std::function<Symptom()>& examine) {
   try {
     return examine();
   } catch (const std::exception& error) {
@@ -79,8 +79,8 @@ std::string distance_of_photon() {
 
 }  // namespace
 
-Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask) {
-  return guarded(name, spoiled, [&]() -> Finding {
+Symptom examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask) {
+  return guarded(name, spoiled, [&]() -> Symptom {
     std::size_t right = 0, undecided = 0;
     for (const auto& [scene, query, known] : known_answers()) {
       const Answer answer = ask(scene, query);
@@ -95,10 +95,10 @@ Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leav
   });
 }
 
-Finding examine_certificates(const Refuted& refuted) {
+Symptom examine_certificates(const Refuted& refuted) {
   constexpr const char* kName = "certificates";
   const std::vector<Use> spoiled{Use::certificates};
-  return guarded(kName, spoiled, [&]() -> Finding {
+  return guarded(kName, spoiled, [&]() -> Symptom {
     std::size_t accepted = 0, refused = 0;
     for (const auto& [scene, query, known] : known_answers()) {
       accepted += !refuted(scene, query, known, known);
@@ -117,17 +117,17 @@ Finding examine_certificates(const Refuted& refuted) {
   });
 }
 
-Finding examine_itinerary(const std::function<std::string()>& distance) {
+Symptom examine_itinerary(const std::function<std::string()>& distance) {
   constexpr const char *kName = "problem 2 of the 100-digit challenge",
                        *kDistance = "0.9952629194433541608903118094";
   const std::vector<Use> spoiled{Use::itineraries};
-  return guarded(kName, spoiled, [&]() -> Finding {
+  return guarded(kName, spoiled, [&]() -> Symptom {
     const std::string end = distance();
     return {kName, end == kDistance, end.empty() ? "no answer" : end, spoiled};
   });
 }
 
-std::vector<Finding> examine_known_answers() {
+std::vector<Symptom> examine_known_answers() {
   constexpr std::size_t kTooFarToWalk = 3;  // the second oracle goes cell by cell
   return {
       examine("the oracle", {Use::oracle, Use::certificates, Use::itineraries}, 0,

@@ -18,15 +18,15 @@ using Refuted = std::function<bool(const Scene&, const Query&, const Answer& pro
 
 /// Holds a party's answers to the eight known questions against the known answers. It may leave `may_leave`
 /// of them undecided; an answer that it cannot compute makes it unfit.
-Finding examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask);
+Symptom examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask);
 
 /// Each true answer is proved, and the same with another obstacle, or none where there is one, is not.
-Finding examine_certificates(const Refuted& refuted);
+Symptom examine_certificates(const Refuted& refuted);
 
 /// The certified path of problem 2 of the 100-digit challenge, by its distance from the origin at t = 10.
-Finding examine_itinerary(const std::function<std::string()>& distance);
+Symptom examine_itinerary(const std::function<std::string()>& distance);
 
 /// By both oracles, `certified`, the check of certificates, and the certified path.
-std::vector<Finding> examine_known_answers();
+std::vector<Symptom> examine_known_answers();
 
 }  // namespace lorentz::fitness

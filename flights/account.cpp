@@ -56,8 +56,8 @@ std::uint64_t Ranges::size() const {
 
 // ---- the account
 
-Account Account::begun(const Plan& plan) {
-  return {{}, Tally(unit_exponent(plan.scene))};
+Account Account::begun(const FlightsPlan& plan) {
+  return {{}, FlightTally(unit_exponent(plan.scene))};
 }
 
 void Account::add(const Account& other) {
@@ -134,7 +134,7 @@ Account Account::of(std::string_view text) {
                   [&](std::uint64_t first, std::uint64_t last) { account.done.insert(first, last); });
     const std::int64_t exponent = object["exponent"].integer();
     if (exponent < -1000 || exponent > 900) refuse("its unit of time");
-    Tally& tally = account.tally = Tally(static_cast<int>(exponent));
+    FlightTally& tally = account.tally = FlightTally(static_cast<int>(exponent));
     tally.hits = object["hits"].natural();
     tally.never = object["never"].natural();
     tally.undecided = object["undecided"].natural();
@@ -160,7 +160,7 @@ Account Account::of(std::string_view text) {
 namespace {
 
 // Flights of blocks that the plan has.
-std::uint64_t flights_in(const Ranges& blocks, const Plan& plan) {
+std::uint64_t flights_in(const Ranges& blocks, const FlightsPlan& plan) {
   if (blocks.all().empty()) return 0;
   if (blocks.all().rbegin()->second >= plan.blocks()) refuse("a block that the plan has not");
   const bool has_last = blocks.contains(plan.blocks() - 1);
@@ -200,7 +200,7 @@ bool has_extremes(const Bins& bins, double shortest, double longest) {
 }
 
 // Logarithms may differ in their last digits from one machine to another.
-bool has_logarithms(const Tally& tally) {
+bool has_logarithms(const FlightTally& tally) {
   const double slack = 1e-9 * 745 * static_cast<double>(tally.logarithms);
   const double least = tally.shortest > 0 ? std::log(tally.shortest) : std::log(0x1p-1074);
   const double most = tally.longest > 0 ? std::log(tally.longest) : 0,
@@ -213,8 +213,8 @@ bool has_logarithms(const Tally& tally) {
 
 }  // namespace
 
-void Account::check(const Plan& plan) const {
-  const Tally& t = tally;
+void Account::check(const FlightsPlan& plan) const {
+  const FlightTally& t = tally;
   const std::uint64_t flights = flights_in(done, plan);
   if (t.bins.exponent() != unit_exponent(plan.scene)) refuse("its unit of time is not that of the scene");
   if (!add_up_to(flights, {t.hits, t.never, t.undecided}))
@@ -222,7 +222,7 @@ void Account::check(const Plan& plan) const {
   if (t.inside / starts::Candidates::kMostAttempts > flights) refuse("more draws than a run makes");
   if (!add_up_to(t.hits, t.bins.logarithmic) || !add_up_to(t.hits, t.bins.linear))
     refuse("bins that do not add up to its hits");
-  const Tally none;
+  const FlightTally none;
   const bool has_times = t.hits == 0 ? t.shortest == none.shortest && t.longest == none.longest
                                      : t.shortest >= 0 && t.shortest <= t.longest && std::isfinite(t.longest);
   if (!has_times || (t.hits > 0 && !has_extremes(t.bins, t.shortest, t.longest)))

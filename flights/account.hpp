@@ -38,21 +38,21 @@ class Ranges {
   std::map<std::uint64_t, std::uint64_t> ranges_;
 };
 
-struct Plan;
+struct FlightsPlan;
 
 struct Account {
   Ranges done;  ///< numbers of blocks
-  Tally tally;
+  FlightTally tally;
 
   /// What a run of this plan begins with.
-  static Account begun(const Plan& plan);
+  static Account begun(const FlightsPlan& plan);
 
   /// Another account of the same plan; throws std::invalid_argument if a block is in both.
   void add(const Account& other);
 
   /// Throws InputError if no run of this plan can have come to this: a block that the plan has not, counts
   /// that do not add up to the flights of the blocks, sums or extremes that the bins exclude.
-  void check(const Plan& plan) const;
+  void check(const FlightsPlan& plan) const;
 
   /// A JSON object.
   std::string text() const;

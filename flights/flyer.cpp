@@ -71,10 +71,10 @@ void ColumnFlyer::fly(const QueryColumns& queries, FlightTable& flights) const {
 
 // ---- a thread's flights
 
-Flyer::Flyer(const Plan& plan, const ColumnFlyer& engine)
+Flyer::Flyer(const FlightsPlan& plan, const ColumnFlyer& engine)
     : engine_(engine), starts_(plan.scene, plan.from, plan.seed, plan.cells) {}
 
-void Flyer::fly(std::uint64_t first, std::uint64_t count, Tally& tally) {
+void Flyer::fly(std::uint64_t first, std::uint64_t count, FlightTally& tally) {
   for (std::uint64_t done = 0; done < count; done += kTogether) {
     const std::uint64_t together = std::min(kTogether, count - done);
     starts_.draw(first + done, together, columns_);
@@ -86,7 +86,7 @@ void Flyer::fly(std::uint64_t first, std::uint64_t count, Tally& tally) {
 }
 
 // False: the start lies in an obstacle.
-bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
+bool Flyer::count(const Flight& flight, std::uint64_t index, FlightTally& tally) {
   switch (flight.outcome) {
     case Outcome::hit:
       tally.count_hit(flight.time);
@@ -108,7 +108,7 @@ bool Flyer::count(const Flight& flight, std::uint64_t index, Tally& tally) {
   }
 }
 
-void Flyer::draw_anew(Tally& tally) {
+void Flyer::draw_anew(FlightTally& tally) {
   for (std::uint64_t attempt = 1; !inside_.empty(); ++attempt) {
     again_.clear();
     Query query;

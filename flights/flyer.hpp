@@ -26,15 +26,15 @@ class ColumnFlyer {
 /// A thread's own.
 class Flyer {
  public:
-  Flyer(const Plan& plan, const ColumnFlyer& engine);
+  Flyer(const FlightsPlan& plan, const ColumnFlyer& engine);
 
   /// Flies the starts [first, first + count), and adds what came of them. Throws InputError if a start cannot
   /// be found, or the engine cannot answer.
-  void fly(std::uint64_t first, std::uint64_t count, Tally& tally);
+  void fly(std::uint64_t first, std::uint64_t count, FlightTally& tally);
 
  private:
-  bool count(const Flight& flight, std::uint64_t index, Tally& tally);
-  void draw_anew(Tally& tally);
+  bool count(const Flight& flight, std::uint64_t index, FlightTally& tally);
+  void draw_anew(FlightTally& tally);
 
   const ColumnFlyer& engine_;
   const starts::Candidates starts_;

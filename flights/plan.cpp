@@ -9,11 +9,11 @@
 
 namespace lorentz::flights {
 
-std::uint64_t Plan::blocks() const {
+std::uint64_t FlightsPlan::blocks() const {
   return count / kBlock + (count % kBlock != 0);
 }
 
-std::vector<std::pair<std::string, std::string>> Plan::words() const {
+std::vector<std::pair<std::string, std::string>> FlightsPlan::words() const {
   std::string line;
   append_scene_line(line, scene);
   line.pop_back();

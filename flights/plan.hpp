@@ -15,7 +15,7 @@ namespace lorentz::flights {
 inline constexpr std::uint64_t kCellsOfBox = 100'000'000;
 
 /// The flights 0 to count - 1 from the drawn starts of a scene.
-struct Plan {
+struct FlightsPlan {
   Scene scene;  ///< without flaws
   std::string engine = "batch";
   Ensemble from = Ensemble::uniform;

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kBetweenNews{200};
 // the lock.
 class BlockLedger {
  public:
-  BlockLedger(const Plan& plan, const Bounds& bounds, Account& account)
+  BlockLedger(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
       : plan_(plan), bounds_(bounds), account_(account), next_(bounds.shard) {
     if (bounds.seconds > 0)
       end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -36,7 +36,7 @@ class BlockLedger {
     next_ += bounds_.shards;
     return true;
   }
-  void hand_in(std::uint64_t block, const Tally& tally) {
+  void hand_in(std::uint64_t block, const FlightTally& tally) {
     const std::lock_guard lock(mutex_);
     account_.tally.add(tally);
     account_.done.insert(block);
@@ -69,8 +69,8 @@ class BlockLedger {
     return (bounds_.stop && *bounds_.stop) || (bounds_.seconds > 0 && Clock::now() >= end_);
   }
 
-  const Plan& plan_;
-  const Bounds& bounds_;
+  const FlightsPlan& plan_;
+  const FlightBounds& bounds_;
   Account& account_;
   std::uint64_t next_;
   Clock::time_point end_;
@@ -80,11 +80,11 @@ class BlockLedger {
   std::condition_variable left_;
 };
 
-void work(const Plan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
+void work(const FlightsPlan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
   try {
     Flyer flyer(plan, engine);
     for (std::uint64_t block; ledger.take(block);) {
-      Tally tally(unit_exponent(plan.scene));
+      FlightTally tally(unit_exponent(plan.scene));
       const std::uint64_t first = block * kBlock;
       flyer.fly(first, std::min(kBlock, plan.count - first), tally);
       ledger.hand_in(block, tally);
@@ -97,7 +97,8 @@ void work(const Plan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
 
 }  // namespace
 
-void run(const Plan& plan, const Bounds& bounds, Account& account, const OnProgress& on_progress) {
+void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
+         const OnProgress& on_progress) {
   const ColumnFlyer engine(compare::engine_named(plan.engine), plan.scene);
   BlockLedger ledger(plan, bounds, account);
   std::vector<std::jthread> threads;

@@ -9,7 +9,7 @@
 
 namespace lorentz::flights {
 
-struct Bounds {
+struct FlightBounds {
   unsigned jobs = 1;
   double seconds = 0;                       ///< stop after so long; 0: when all is flown
   std::uint64_t shard = 0, shards = 1;      ///< only the blocks `shard` modulo `shards`
@@ -23,6 +23,7 @@ using OnProgress = std::function<void(const Account&)>;
 /// Adds to the account the blocks that it has not and that are this shard's, until all are done or the bounds
 /// say that it is enough. A block is in it whole, or not at all: at every call of `on_progress` the account
 /// is one that can be gone on from. Throws InputError where the plan cannot be flown.
-void run(const Plan& plan, const Bounds& bounds, Account& account, const OnProgress& on_progress = {});
+void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
+         const OnProgress& on_progress = {});
 
 }  // namespace lorentz::flights

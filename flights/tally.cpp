@@ -5,7 +5,7 @@
 
 namespace lorentz::flights {
 
-void Tally::count_hit(double t) {
+void FlightTally::count_hit(double t) {
   ++hits;
   time.add(t);
   square.add(std::min(t * t, std::numeric_limits<double>::max()));
@@ -18,7 +18,7 @@ void Tally::count_hit(double t) {
   bins.count(t);
 }
 
-void Tally::add(const Tally& other) {
+void FlightTally::add(const FlightTally& other) {
   hits += other.hits, never += other.never, undecided += other.undecided, inside += other.inside;
   time.add(other.time), square.add(other.square), log.add(other.log);
   logarithms += other.logarithms;
@@ -27,18 +27,18 @@ void Tally::add(const Tally& other) {
   bins.add(other.bins);
 }
 
-double Tally::mean() const {
+double FlightTally::mean() const {
   return time.value() / static_cast<double>(hits);
 }
 
-double Tally::standard_error() const {
+double FlightTally::standard_error() const {
   const auto n = static_cast<double>(hits);
   const double m = mean();
   if (hits < 2) return std::numeric_limits<double>::infinity();
   return std::sqrt(std::max(0.0, square.value() / n - m * m) / (n - 1));
 }
 
-double Tally::mean_log() const {
+double FlightTally::mean_log() const {
   return log.value() / static_cast<double>(logarithms);
 }
 

@@ -10,8 +10,8 @@
 namespace lorentz::flights {
 
 /// Tallies of disjoint sets of flights add up to that of their union, to the bit, in any order.
-struct Tally {
-  explicit Tally(int exponent = 0) : bins(exponent) {}
+struct FlightTally {
+  explicit FlightTally(int exponent = 0) : bins(exponent) {}
 
   std::uint64_t hits = 0, never = 0, undecided = 0;
   std::uint64_t inside = 0;      ///< starts that lay in an obstacle, and were drawn anew
@@ -22,7 +22,7 @@ struct Tally {
 
   std::uint64_t flights() const { return hits + never + undecided; }
   void count_hit(double time_of_hit);
-  void add(const Tally& other);
+  void add(const FlightTally& other);
 
   double mean() const;
   /// Of the mean: the root of (the mean of the squares less the square of the mean) / (hits - 1); infinite of
@@ -30,7 +30,7 @@ struct Tally {
   double standard_error() const;
   double mean_log() const;
 
-  bool operator==(const Tally&) const = default;
+  bool operator==(const FlightTally&) const = default;
 };
 
 }  // namespace lorentz::flights

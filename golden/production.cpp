@@ -34,7 +34,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   for (std::uint64_t i = 0; i < kBatch; ++i) {
     const std::uint64_t index = number * kBatch + i;
     if (index >= order.set->most) break;
-    const Question question = order.set->question(order.seed, index);
+    const SetQuestion question = order.set->question(order.seed, index);
     scene_line.clear();
     append_scene_line(scene_line, question.scene);
     scene_line.pop_back();

@@ -23,7 +23,7 @@ std::vector<Set> make_sets() {
 
 }  // namespace
 
-Question Set::question(std::uint64_t seed, std::uint64_t index) const {
+SetQuestion Set::question(std::uint64_t seed, std::uint64_t index) const {
   if (name == kBadQueries) {
     const cases::BadQuery& bad = cases::bad_queries()[index];
     return {cases::bad_query_scene(), bad.text, {}, {bad.tag}};

@@ -11,7 +11,7 @@
 namespace lorentz::golden {
 
 /// One question of a set. `query` is missing if it is none: then the text is all there is.
-struct Question {
+struct SetQuestion {
   Scene scene;
   std::string text;
   std::optional<Query> query;
@@ -25,7 +25,7 @@ struct Set {
   std::uint64_t most;       ///< how many there are
 
   /// Follows from (set, seed, index).
-  Question question(std::uint64_t seed, std::uint64_t index) const;
+  SetQuestion question(std::uint64_t seed, std::uint64_t index) const;
 };
 
 /// All sets: one of each family of cases, and bad-queries.

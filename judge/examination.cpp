@@ -57,7 +57,7 @@ Examination::Start Examination::warm_up() {
   for (int i = 0; i < kTries && !is_over() && (i == 0 || last > kFast); ++i) {
     longest = std::max(longest, last = ask({question}));
     if (!answerer_->failed()) continue;
-    Row row{"first question", "an empty place in the square lattice, before anything else"};
+    ExaminedRow row{"first question", "an empty place in the square lattice, before anything else"};
     if (replies_.empty())
       replies_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
     take(question, replies_[0], row);
@@ -76,7 +76,7 @@ double Examination::ask(const std::vector<Question>& questions) {
   return seconds_since(start);
 }
 
-void Examination::run(Row row, const Source& source, double seconds, const Look& look) {
+void Examination::run(ExaminedRow row, const Source& source, double seconds, const Look& look) {
   const auto start = Clock::now();
   row.tally.name = row.name;
   answerer_->try_again();
@@ -124,7 +124,7 @@ void Examination::take_over(const Examination& other) {
   failed_ |= other.failed();
 }
 
-void Examination::leave(Place& place, Row& row) const {
+void Examination::leave(Place& place, ExaminedRow& row) const {
   if (place.is_given_up()) return;
   place.give_up();
   ++row.scenes_given_up;
@@ -143,7 +143,7 @@ std::optional<Example> Examination::departing(const Question& question, const Re
   return diagnosis ? std::optional(Example{question, reply.answer, judgement, *diagnosis}) : std::nullopt;
 }
 
-void Examination::take(const Question& question, const Reply& reply, Row& row) {
+void Examination::take(const Question& question, const Reply& reply, ExaminedRow& row) {
   if (!reply.was_asked()) return leave(*question.place, row);
   const Judgement judgement = judgement_of(question, reply);
   if (reply.origin == Origin::fault) last_fault_ = reply.answer.message;
@@ -163,7 +163,7 @@ void Examination::take(const Question& question, const Reply& reply, Row& row) {
 
 std::vector<Finding> Examination::findings() const {
   Asked asked;
-  for (const Row& row : rows_)
+  for (const ExaminedRow& row : rows_)
     asked[row.name] = {asked[row.name].number + row.asked() - row.tally.unsupported, row.is_hard};
   return findings_.all(asked);
 }

@@ -24,7 +24,7 @@ using compare::Source;
 using Look = std::function<void(const Question&, const Answer& given)>;
 
 /// One kind of difficulty, and how the engine does there.
-struct Row {
+struct ExaminedRow {
   std::string name, explanation;
   bool is_hard = true;        ///< chosen to be difficult: no flights as they are drawn
   compare::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
@@ -61,7 +61,7 @@ class Examination {
 
   /// Asks for so many seconds at the most (beyond that only what was asked already), or until there is no
   /// more. A scene in which another program is given up is left.
-  void run(Row row, const Source& source, double seconds, const Look& look = {});
+  void run(ExaminedRow row, const Source& source, double seconds, const Look& look = {});
 
   /// Takes over what another examination of the same engine came to in its last row, and adds that to the
   /// last row here.
@@ -78,7 +78,7 @@ class Examination {
   };
   Repeated repeat(const Question& question, std::size_t copies, Diagnosis like);
 
-  const std::vector<Row>& rows() const { return rows_; }
+  const std::vector<ExaminedRow>& rows() const { return rows_; }
   /// As Findings::all; what was unsupported was not asked.
   std::vector<Finding> findings() const;
   /// Of the first questions of each row, so many that rows weigh alike.
@@ -94,8 +94,8 @@ class Examination {
 
   bool is_enough() const { return stop_ || (end_ && Clock::now() >= *end_); }
   double ask(const std::vector<Question>& questions);
-  void take(const Question& question, const Reply& reply, Row& row);
-  void leave(Place& place, Row& row) const;
+  void take(const Question& question, const Reply& reply, ExaminedRow& row);
+  void leave(Place& place, ExaminedRow& row) const;
   oracle::Judgement judgement_of(const Question& question, const Reply& reply) const;
   std::optional<Example> departing(const Question& question, const Reply& reply) const;
 
@@ -108,7 +108,7 @@ class Examination {
   std::unique_ptr<compare::Answerer> answerer_;
   std::vector<Reply> replies_;
   std::string last_fault_;
-  std::vector<Row> rows_;
+  std::vector<ExaminedRow> rows_;
   Findings findings_;
   Calls calls_;
 };

@@ -31,7 +31,7 @@ void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) 
 // w = t v - c; with v2 t = s - sqrt(d), v2 w = (s v - v2 c) - sqrt(d) v. The normal is along w for a ball,
 // along adj(A)^T adj(A) w for an ellipsoid.
 template <std::size_t D>
-Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const Entry<D>& entry) {
+Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const ExactEntry<D>& entry) {
   const ZVec<D>& v = query.velocity.v;
   const ZVec<D> c = centre_of(scene, entry.lattice, entry.atom, entry.n, query.x, query.length_exponent);
   const ExactAtom<D>& atom = scene.lattices[entry.lattice].atoms[entry.atom];
@@ -71,7 +71,7 @@ class Problem {
  private:
   Answer answer_to(const ExactQuery<D>& exact, const Earliest<D>& earliest, const Request& request) const {
     if (!earliest.found()) return request.max_time ? Answer::later() : Answer::never();
-    const Entry<D>& entry = earliest.entry();
+    const ExactEntry<D>& entry = earliest.entry();
     const Quadratic time = exact.time_of(entry);
     if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
     Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));

@@ -18,7 +18,7 @@ namespace lorentz::pictures {
 inline constexpr std::size_t kMostDrawn = 5000;  ///< obstacles in one picture
 inline constexpr double kLongestFlight = 40;  ///< in lengths of a cell; the rest is an arrow, if not before
 
-struct Box {
+struct Extent {
   Vec low{}, high{};
 
   void include(const Vec& point, double margin = 0);
@@ -34,13 +34,13 @@ struct Placed {
 
 /// Obstacles that reach into the box, of lattice after lattice; at most a few times kMostDrawn, `cut` says
 /// whether that was all.
-std::vector<Placed> obstacles_in(const Scene& scene, const Box& box, bool& cut);
+std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cut);
 
 /// Leaves the kMostDrawn nearest to a point, and remarks it.
 void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std::string>& remarks);
 
 /// A flight as a line: to the hit, or cut.
-struct Line {
+struct DrawnLine {
   Vec from{}, to{};
   bool ends = true;  ///< `to` is the hit (or, inside, the start), else it goes on: an arrow
   const DrawnFlight* flight = nullptr;
@@ -48,14 +48,14 @@ struct Line {
 
 /// Flights with their ends. Those whose start is too far from the others to share a picture are left out;
 /// those much longer than nearly all others are cut, for one of them would shrink the rest to a corner.
-std::vector<Line> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
-                           std::vector<std::string>& remarks);
+std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
+                                std::vector<std::string>& remarks);
 
 /// The same for a given window: none is left out, and none is cut that may end there.
-std::vector<Line> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights);
+std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights);
 
 /// The obstacles that the flights hit or start in, each once.
-std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines);
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines);
 
 /// The size of a cell of the first lattice: the d-th root of its volume.
 double cell_size(const Scene& scene);

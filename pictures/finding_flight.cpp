@@ -48,7 +48,7 @@ class FlightDrawing {
   bool add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
   double largest_radius() const;
   void add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
-  void add_ellipse(Point at, const Section& ellipse, const std::string& style, const std::string& hint,
+  void add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style, const std::string& hint,
                    bool is_dot);
   void add_line(const LineStretch& stretch, const Answer& answer, const std::string& style, Ink ink);
   void add_breaks();
@@ -120,7 +120,7 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
 }
 
 // An ellipse about a point, in lengths from it; a dot if the obstacle is too small to be seen.
-void FlightDrawing::add_ellipse(Point at, const Section& ellipse, const std::string& style,
+void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style,
                                 const std::string& hint, bool is_dot) {
   const double size = result_.scale;
   EllipseShape shape{size * ellipse.shape.rx, size * ellipse.shape.ry, -ellipse.shape.angle};
@@ -164,7 +164,7 @@ void FlightDrawing::add_neighbours(const LineStretch& stretch) {
 bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   const Atom& atom = case_.atom_of(id);
-  const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
   const double radius = shadow.shape.rx * result_.scale;
   if (at.y < panel_.top - radius || at.y > panel_.bottom() + radius) return false;
   const double depth = dot(centre, axes_.depth);
@@ -200,7 +200,7 @@ void FlightDrawing::add_obstacle(const LineStretch& stretch, const ObstacleId& i
   if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
   const Ink ink = *ink_of(case_, id);
   const Atom& atom = case_.atom_of(id);
-  const Section shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
   const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
   const std::string hint = hint_of(case_, id);
   const bool is_dot = shadow.shape.rx * result_.scale < kSmallest;

@@ -55,14 +55,14 @@ Axes axes_of(const FindingCase& finding);
 EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up);
 
 /// What a plane cuts out of an obstacle: seen from the foot of its centre there.
-struct Section {
+struct ShapeSection {
   Point centre;
   EllipseShape shape;
 };
 
 /// The plane of `along` and `across`, which the centre stands `depth` in front of, in space; nothing if it
 /// misses the obstacle.
-std::optional<Section> section_of(const Atom& atom, const Axes& axes, double depth);
+std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth);
 
 /// The ink of an obstacle: exact, given, or in question for another reason; nothing for its neighbours.
 std::optional<Ink> ink_of(const FindingCase& finding, const ObstacleId& id);

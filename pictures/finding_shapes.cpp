@@ -13,7 +13,7 @@ EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const 
 }
 
 // y = B w + q, B the two columns of A^-1 for the axes: |w - w0|^2_S < 1, S = B^T B / k.
-std::optional<Section> section_of(const Atom& atom, const Axes& axes, double depth) {
+std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth) {
   const auto rows = to_ball(atom, 3);
   const Vec a = mapped(rows, axes.along), b = mapped(rows, axes.across),
             q = mapped(rows, scaled(axes.depth, -depth));
@@ -25,7 +25,7 @@ std::optional<Section> section_of(const Atom& atom, const Axes& axes, double dep
   if (!(k > 0)) return std::nullopt;
   // w - w0 = L^-T u for S = L L^T, |u| < 1.
   const double l11 = std::sqrt(aa / k), l21 = ab / k / l11, l22 = std::sqrt(det / aa / k);
-  return Section{w0, ellipse_of({1 / l11, -l21 / (l11 * l22), 0}, {0, 1 / l22, 0})};
+  return ShapeSection{w0, ellipse_of({1 / l11, -l21 / (l11 * l22), 0}, {0, 1 / l22, 0})};
 }
 
 }  // namespace lorentz::pictures

@@ -34,9 +34,9 @@ double longest_drawn(const std::vector<DrawnFlight>& flights, double cell) {
 }
 
 // To its hit, or cut there; one that never ends is three cells long.
-Line line_of(const DrawnFlight& flight, double longest, double cell) {
+DrawnLine line_of(const DrawnFlight& flight, double longest, double cell) {
   const Query& query = flight.query;
-  Line line{query.x, query.x, true, &flight};
+  DrawnLine line{query.x, query.x, true, &flight};
   double length = length_of(flight);
   if (!(length <= longest)) {
     line.ends = false;
@@ -51,10 +51,10 @@ Line line_of(const DrawnFlight& flight, double longest, double cell) {
 
 }  // namespace
 
-std::vector<Line> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
-                           std::vector<std::string>& remarks) {
+std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
+                                std::vector<std::string>& remarks) {
   const double cell = cell_size(scene), longest = longest_drawn(flights, cell);
-  std::vector<Line> lines;
+  std::vector<DrawnLine> lines;
   std::size_t far = 0, cut = 0;
   double most = 0;
   for (const DrawnFlight& flight : flights) {
@@ -78,9 +78,9 @@ std::vector<Line> lines_of(const Scene& scene, const std::vector<DrawnFlight>& f
   return lines;
 }
 
-std::vector<Line> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights) {
+std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights) {
   constexpr double kFar = 1e12;  // cells: beyond any window with obstacles in it
-  std::vector<Line> lines;
+  std::vector<DrawnLine> lines;
   for (const DrawnFlight& flight : flights)
     lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));
   return lines;
@@ -102,11 +102,11 @@ bool obstacle_of(const Scene& scene, const DrawnFlight& flight, Placed& obstacle
 
 }  // namespace
 
-std::vector<Placed> hits_of(const Scene& scene, const std::vector<Line>& lines) {
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines) {
   std::vector<Placed> hits;
   std::set<std::tuple<int, int, Vec>> seen;
   Placed hit;
-  for (const Line& line : lines)
+  for (const DrawnLine& line : lines)
     if (line.ends && obstacle_of(scene, *line.flight, hit) &&
         seen.emplace(hit.lattice, hit.atom, hit.centre).second)
       hits.push_back(hit);

@@ -13,7 +13,7 @@ Vec minus(const Vec& a, const Vec& b) {
 }
 
 // A corner more than one would need: around the whole block in a plane.
-Facet square_on(const Vec& normal, double level, const Block& block) {
+Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
   const Vec unit = scaled(normal, 1 / length(normal));
   const Vec side = std::fabs(unit[0]) < 0.7 ? Vec{1, 0, 0} : Vec{0, 1, 0};
   Vec a = cross(unit, side);
@@ -29,7 +29,7 @@ Facet square_on(const Vec& normal, double level, const Block& block) {
 }
 
 // The shares of a line p + t v that are in the block.
-bool part_in_block(const Block& block, const Vec& p, const Vec& v, double& first, double& last) {
+bool part_in_block(const DrawnBlock& block, const Vec& p, const Vec& v, double& first, double& last) {
   first = -1e300, last = 1e300;
   for (const Vec& row : dual_of(block.edges, 3)) {
     const double at = dot(row, minus(p, block.corner)), step = dot(row, v);
@@ -45,7 +45,7 @@ bool part_in_block(const Block& block, const Vec& p, const Vec& v, double& first
 
 }  // namespace
 
-Vec Block::centre() const {
+Vec DrawnBlock::centre() const {
   return sum(corner, scaled(sum(sum(edges[0], edges[1]), edges[2]), 0.5));
 }
 
@@ -63,7 +63,7 @@ Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign)
 }
 
 std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
-                            const Block& block) {
+                            const DrawnBlock& block) {
   // One lattice's planes are 1 apart in normal.x.
   double middle = dot(layer.vector, layer.point);
   if (scene.lattices.size() == 1) middle += std::round(dot(layer.vector, block.centre()) - middle);
@@ -80,7 +80,7 @@ std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_
   return faces;
 }
 
-std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const Block& block) {
+std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const DrawnBlock& block) {
   const auto& u = scene.lattices[0].vectors;
   const auto rows = dual_of(u, 3);
   Vec near = cylinder.point;

@@ -9,7 +9,7 @@
 namespace lorentz::pictures {
 
 /// A parallelepiped.
-struct Block {
+struct DrawnBlock {
   Vec corner{};
   std::array<Vec, 3> edges{};
 
@@ -26,7 +26,8 @@ struct Facet {
 
 /// The two faces of a layer in the block, of its translates the nearest to the block's middle; fewer if they
 /// miss it.
-std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number, const Block& block);
+std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
+                            const DrawnBlock& block);
 
 /// The part of the facet where sign * (normal.x - level) >= 0.
 Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign);
@@ -35,6 +36,6 @@ Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign)
 struct Axis {
   Vec from{}, to{};
 };
-std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const Block& block);
+std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const DrawnBlock& block);
 
 }  // namespace lorentz::pictures

@@ -12,7 +12,7 @@ constexpr const char *kPathColour = "#1f5fa8", *kOtherColour = kFlightColour;
 
 // The plane on paper, y upwards.
 struct PathFrame {
-  Box box;
+  Extent box;
   double scale = 1;
 
   PathFrame(const PathDrawing& drawing) {

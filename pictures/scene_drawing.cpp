@@ -41,7 +41,7 @@ double reach_of(const Atom& atom, int dimension) {
 constexpr double kMostCells = 300'000;
 
 // One atom's obstacles in the box.
-void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>& u, const Box& box,
+void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>& u, const Extent& box,
                    std::vector<Placed>& found, bool& cut) {
   const int d = scene.dimension;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
@@ -79,24 +79,24 @@ void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>
 
 }  // namespace
 
-void Box::include(const Vec& point, double margin) {
+void Extent::include(const Vec& point, double margin) {
   for (int k = 0; k < 3; ++k) {
     low[k] = std::min(low[k], point[k] - margin);
     high[k] = std::max(high[k], point[k] + margin);
   }
 }
 
-bool Box::contains(const Vec& point, double margin) const {
+bool Extent::contains(const Vec& point, double margin) const {
   for (int k = 0; k < 3; ++k)
     if (point[k] < low[k] - margin || point[k] > high[k] + margin) return false;
   return true;
 }
 
-Vec Box::centre() const {
+Vec Extent::centre() const {
   return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
 }
 
-std::vector<Placed> obstacles_in(const Scene& scene, const Box& box, bool& cut) {
+std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cut) {
   std::vector<Placed> found;
   cut = false;
   for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {

@@ -10,7 +10,7 @@ namespace {
 
 // The plane on paper: y upwards.
 struct PaperWindow {
-  Box box;
+  Extent box;
   double scale = 1;  // pixels per unit of length
   double left = kMargin, top = 0;
 
@@ -44,19 +44,20 @@ double half_width(const Scene& scene) {
 
 // Those cells, or all flights that end; those that go on do so beyond the picture, unless there are no
 // others.
-Box box_for(const Scene& scene, const Vec& corner, const std::vector<Line>& lines) {
+Extent box_for(const Scene& scene, const Vec& corner, const std::vector<DrawnLine>& lines) {
   const auto& u = scene.lattices[0].vectors;
   const double cell = cell_size(scene);
   const Vec diagonal = sum(u[0], u[1]);
   const bool needle =
       std::hypot(diagonal[0], diagonal[1]) > 6 * cell;  // the cell reaches far beyond the picture
   const Vec middle = plus(corner, needle ? 0 : 0.5, diagonal);
-  Box box{middle, middle};
+  Extent box{middle, middle};
   box.include(middle, lines.empty() ? half_width(scene) : 0.75 * cell);
   for (const Vec& p : corners_of(scene, corner))
     if (std::hypot(p[0] - middle[0], p[1] - middle[1]) < 3.01 * cell) box.include(p, 0.1 * cell);
-  const bool any_ends = std::any_of(lines.begin(), lines.end(), [](const Line& line) { return line.ends; });
-  for (const Line& line : lines) {
+  const bool any_ends =
+      std::any_of(lines.begin(), lines.end(), [](const DrawnLine& line) { return line.ends; });
+  for (const DrawnLine& line : lines) {
     box.include(line.from, 0.6 * cell);
     if (line.ends || !any_ends) box.include(line.to, 0.6 * cell);
   }
@@ -113,7 +114,7 @@ void add_disc(Svg& svg, const Scene& scene, const PaperWindow& window, const Pla
 }
 
 // The part of a segment that is in the box, as its shares; false if there is none.
-bool part_in(const Box& box, const Vec& from, const Vec& to, double& first, double& last) {
+bool part_in(const Extent& box, const Vec& from, const Vec& to, double& first, double& last) {
   first = 0, last = 1;
   for (const int k : {0, 1}) {
     const double step = to[k] - from[k];
@@ -129,8 +130,8 @@ bool part_in(const Box& box, const Vec& from, const Vec& to, double& first, doub
 }
 
 // What of a flight is in the window: an arrow if it goes on beyond.
-void add_way(Svg& svg, const PaperWindow& window, const Line& line, Legend& legend) {
-  const Box& box = window.box;
+void add_way(Svg& svg, const PaperWindow& window, const DrawnLine& line, Legend& legend) {
+  const Extent& box = window.box;
   Vec to = line.to;
   if (!line.ends) {  // to somewhere beyond
     const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
@@ -160,7 +161,7 @@ bool add_corridor(Svg& svg, const Scene& scene, const PaperWindow& window, const
                   const char* colour) {
   const double length = std::hypot(way.vector[0], way.vector[1]);
   const Vec along{way.vector[0] / length, way.vector[1] / length, 0}, across{-along[1], along[0], 0};
-  const Box& box = window.box;
+  const Extent& box = window.box;
   const Vec arm = plus(box.centre(), -1, way.point);
   const double reach = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]) / 2;
   const double reach_across = (std::fabs(across[0]) * (box.high[0] - box.low[0]) +
@@ -216,7 +217,7 @@ class Picture2D {
   Drawing drawing_;
   Svg svg_;
   Legend legend_;
-  std::vector<Line> lines_;
+  std::vector<DrawnLine> lines_;
   std::vector<Placed> obstacles_, hits_;
   PaperWindow window_;
   Vec corner_{};
@@ -247,7 +248,7 @@ void Picture2D::add_contents() {
   if (!legend_.cell.empty())
     svg_.polygon({window_(corners[0]), window_(corners[1]), window_(corners[2]), window_(corners[3])},
                  "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
-  for (const Line& line : lines_) add_way(svg_, window_, line, legend_);
+  for (const DrawnLine& line : lines_) add_way(svg_, window_, line, legend_);
 }
 
 Drawing Picture2D::draw() {

@@ -59,8 +59,8 @@ class Picture3D {
   void add_contents(const std::vector<SeenObstacle>& obstacles, std::vector<Facet> facets);
   void add_cylinders();
   void add_cell();
-  void add_flight(const Line& line);
-  Block block() const {
+  void add_flight(const DrawnLine& line);
+  DrawnBlock block() const {
     return {corner_,
             {scaled(cell_.vectors[0], cells_), scaled(cell_.vectors[1], cells_),
              scaled(cell_.vectors[2], cells_)}};
@@ -86,11 +86,11 @@ class Picture3D {
   Eye eye_;
   Drawing drawing_;
   Svg svg_;
-  std::vector<Line> lines_;
+  std::vector<DrawnLine> lines_;
   Vec corner_{};
   std::vector<SeenObstacle> seen_;
   std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // of each atom's matrix, as rows
-  Box box_;                                                // of the picture, seen from the eye
+  Extent box_;                                             // of the picture, seen from the eye
   double scale_ = 1, top_ = 0;
 };
 
@@ -103,7 +103,7 @@ void Picture3D::choose_obstacles() {
     expected += static_cast<double>(lattice.atoms.size()) * 27 * cell_volume(scene_.lattices[0], 3) /
                 cell_volume(lattice, 3);
   const double cells = cells_ = expected > 300 || cell_.primitive_cells > 1 ? 1 : 2;
-  Box box{corner_, corner_};
+  Extent box{corner_, corner_};
   for (int n = 0; n < 8; ++n) {
     Vec p = corner_;
     for (int i = 0; i < 3; ++i)
@@ -158,7 +158,7 @@ void Picture3D::explain() {
                      ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
                  : scene_.lattices.size() > 1 ? "a cell of lattice 0"
                                               : "a primitive cell";
-  for (const Line& line : lines_) {
+  for (const DrawnLine& line : lines_) {
     const Outcome outcome = line.flight->answer.outcome;
     legend_.never |= outcome == Outcome::never;
     legend_.inside |= outcome == Outcome::inside;
@@ -192,7 +192,7 @@ void Picture3D::fit() {
       box_.high[k] = std::max(box_.high[k], seen.view[k] + half[k]);
     }
   }
-  for (const Line& line : lines_) {
+  for (const DrawnLine& line : lines_) {
     box_.include(eye_(line.from));
     box_.include(eye_(line.to));
   }
@@ -333,7 +333,7 @@ void Picture3D::add_cell() {
     }
 }
 
-void Picture3D::add_flight(const Line& line) {
+void Picture3D::add_flight(const DrawnLine& line) {
   add_line(line.from, line.to, {kFlightColour, 2, !line.ends});
   svg_.ellipse(at(eye_(line.from)), {3.2, 3.2, 0},
                fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour));
@@ -353,7 +353,7 @@ Drawing Picture3D::draw() {
   add_contents(seen_, std::move(facets));
   add_cylinders();
   add_cell();
-  for (const Line& line : lines_) add_flight(line);
+  for (const DrawnLine& line : lines_) add_flight(line);
   const double height = scale_ * (box_.high[1] - box_.low[1]);
   drawing_.svg = finished(svg_, scene_, options_, legend_, top_ + height);
   return std::move(drawing_);

@@ -16,9 +16,9 @@ py::array_t<Number> array_of(const std::vector<Number>& numbers) {
 }
 
 // Flies while other threads of Python run; Ctrl-C ends it.
-void fly(const flights::Plan& plan, unsigned threads, flights::Account& account) {
+void fly(const flights::FlightsPlan& plan, unsigned threads, flights::Account& account) {
   std::atomic<bool> stop = false;
-  flights::Bounds bounds;
+  flights::FlightBounds bounds;
   bounds.jobs = threads, bounds.stop = &stop;
   {
     const py::gil_scoped_release release;

@@ -8,7 +8,7 @@
 namespace lorentz::report {
 namespace {
 
-void add_times(json::Members& object, const Times& ns) {
+void add_times(json::Members& object, const CellTimes& ns) {
   object.add("median", ns.median, "q1", ns.q1, "q3", ns.q3, "mean", ns.mean);
 }
 
@@ -73,8 +73,8 @@ Share share(json::Object object) {
   return share;
 }
 
-Times times(json::Object object) {
-  Times ns;
+CellTimes times(json::Object object) {
+  CellTimes ns;
   ns.median = number(object, "median");
   ns.q1 = number(object, "q1");
   ns.q3 = number(object, "q3");
@@ -176,7 +176,7 @@ std::string flaw_of(const Cell& cell, std::size_t most) {
               cell.missing >
           n)
     return "counts more answers than queries";
-  const Times ns = cell.ns.value_or(Times());
+  const CellTimes ns = cell.ns.value_or(CellTimes());
   if (!(ns.q1 >= 0 && ns.q1 <= ns.median && ns.median <= ns.q3 && ns.mean >= 0 &&
         std::isfinite(ns.q3 + ns.mean)))
     return "has times out of order";

@@ -12,11 +12,11 @@
 namespace lorentz::report {
 
 /// Nanoseconds a query.
-struct Times {
+struct CellTimes {
   double median = 0, q1 = 0, q3 = 0;  ///< over blocks of queries, of a block's mean
   double mean = 0;
 
-  friend bool operator==(const Times&, const Times&) = default;
+  friend bool operator==(const CellTimes&, const CellTimes&) = default;
 };
 
 /// The input that an engine did worst with: wrong before ill-posed before the right obstacle with the largest
@@ -36,8 +36,8 @@ struct Cell {
   int dimension = 2;
   std::string difficulty, engine;
   std::size_t queries = 0;
-  bool skipped = false;     ///< too slow, or all is unsupported: of what follows only that is known
-  std::optional<Times> ns;  ///< empty if the program broke
+  bool skipped = false;         ///< too slow, or all is unsupported: of what follows only that is known
+  std::optional<CellTimes> ns;  ///< empty if the program broke
   std::optional<double> instructions;  ///< a query, where the processor counts them
   double mean_path = 0;                ///< mean time of the flights that hit, 0 if none does
   Share undecided, ill_posed, wrong, wrong_time;

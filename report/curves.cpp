@@ -16,7 +16,7 @@ void append_json(std::string& out, const FreePathCurve& curve) {
   json::append(out, [&](json::Members& object) {
     add_place(object, curve);
     object.add("from", curve.from, "law", curve.law, "points",
-               json::objects(curve.points, [](json::Members& one, const FreePathCurve::Point& point) {
+               json::objects(curve.points, [](json::Members& one, const FreePathCurve::CurvePoint& point) {
                  one.add("t", point.t, "survival", point.survival, "exact", point.exact, "theory",
                          point.theory);
                }));
@@ -27,7 +27,7 @@ void append_json(std::string& out, const SurvivalCurve& curve) {
   json::append(out, [&](json::Members& object) {
     add_place(object, curve);
     object.add("points",
-               json::objects(curve.points, [](json::Members& one, const SurvivalCurve::Point& point) {
+               json::objects(curve.points, [](json::Members& one, const SurvivalCurve::CurvePoint& point) {
                  one.add("collisions", point.collisions, "share", point.share, "low", point.bounds.low,
                          "high", point.bounds.high);
                }));

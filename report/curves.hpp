@@ -11,7 +11,7 @@ namespace lorentz::report {
 
 /// P(free path > t) in one scene.
 struct FreePathCurve {
-  struct Point {
+  struct CurvePoint {
     double t = 0;
     double survival = 0;           ///< as it was flown
     std::optional<double> exact;   ///< of the same flights
@@ -21,19 +21,19 @@ struct FreePathCurve {
   std::optional<double> radius;  ///< none: the scene's own sizes
   std::string from;              ///< "surface" or "uniform": where flights start
   std::string law;               ///< that `theory` is of, and when it holds; empty: none is known
-  std::vector<Point> points;
+  std::vector<CurvePoint> points;
 };
 
 /// The share of trajectories with so many right collisions, or more.
 struct SurvivalCurve {
-  struct Point {
+  struct CurvePoint {
     std::size_t collisions = 0;
     double share = 0;
     Share bounds = {};
   };
   std::string scene, engine;
   std::optional<double> radius;
-  std::vector<Point> points;
+  std::vector<CurvePoint> points;
 };
 
 /// An object, its keys as the members are called; `low` and `high` stand for `bounds`.

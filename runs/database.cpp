@@ -71,7 +71,7 @@ std::vector<std::string> schema_of(const Connection& connection) {
   return schema;
 }
 
-std::vector<std::string> schema_of(const Kind& kind) {
+std::vector<std::string> schema_of(const FileKind& kind) {
   Connection ours(Database::kMemory, Database::kMemory, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   ours.run(kind.schema);
   return schema_of(ours);
@@ -79,7 +79,7 @@ std::vector<std::string> schema_of(const Kind& kind) {
 
 }  // namespace
 
-Database::Database(const std::string& path, Access access, const Kind& kind)
+Database::Database(const std::string& path, Access access, const FileKind& kind)
     : writes_(access == Access::write),
       is_file_(path != kMemory),
       lock_(is_file_ && access != Access::read ? std::make_unique<LockFile>(path, writes_, kind.busy)
@@ -96,7 +96,7 @@ Database::~Database() {
     sqlite3_exec(connection_.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
 }
 
-void Database::set_up(const Kind& kind) {
+void Database::set_up(const FileKind& kind) {
   const bool is_empty = number_of(connection_, "SELECT count(*) FROM sqlite_master") == 0;
   if (!is_empty || !writes_) check(kind);
   if (!writes_) return connection_.run("BEGIN");  // all that is read is of one moment
@@ -108,7 +108,7 @@ void Database::set_up(const Kind& kind) {
 }
 
 // Before anything is changed, or believed.
-void Database::check(const Kind& kind) const {
+void Database::check(const FileKind& kind) const {
   if (number_of(connection_, "PRAGMA application_id") != kind.application)
     throw FileError(path() + ": is a database, but no " + kind.name);
   if (const auto format = number_of(connection_, "PRAGMA user_version"); format != kind.format)

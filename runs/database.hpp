@@ -17,7 +17,7 @@ enum class Access {
 };
 
 /// Files of one kind.
-struct Kind {
+struct FileKind {
   std::string name;     ///< "store of lorentz fuzz"
   int application = 0;  ///< tells them from other databases
   int format = 1;
@@ -32,7 +32,7 @@ class Database {
 
   /// The path kMemory is a store that goes with this object. A file must have the tables of the kind, and
   /// nothing else; what it has of views and triggers never runs.
-  Database(const std::string& path, Access access, const Kind& kind);
+  Database(const std::string& path, Access access, const FileKind& kind);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -45,8 +45,8 @@ class Database {
   void commit();
 
  private:
-  void set_up(const Kind& kind);
-  void check(const Kind& kind) const;
+  void set_up(const FileKind& kind);
+  void check(const FileKind& kind) const;
   void write_ahead();
 
   const bool writes_, is_file_;

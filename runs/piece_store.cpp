@@ -8,9 +8,9 @@
 namespace lorentz::runs {
 namespace {
 
-const Kind& kind() {
-  static const Kind kind{"store of a run of lorentz", 0x6c6f7270,  // "lorp"
-                         1, R"sql(
+const FileKind& kind() {
+  static const FileKind kind{"store of a run of lorentz", 0x6c6f7270,  // "lorp"
+                             1, R"sql(
   CREATE TABLE plan (place INTEGER PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL);
   CREATE TABLE piece (number INTEGER PRIMARY KEY, text TEXT NOT NULL, "check" TEXT NOT NULL);
 )sql"};

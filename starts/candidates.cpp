@@ -55,13 +55,13 @@ void Candidates::choose_by_surface(const Scene& scene) {
   const auto shares = shares_of(scene);
   double largest = 0, sum = 0, before = 0;
   if (shares)
-    for (const AtomShares::Share& share : shares->atoms) largest = std::max(largest, share.surface);
+    for (const AtomShares::AtomShare& share : shares->atoms) largest = std::max(largest, share.surface);
   if (!std::isnormal(largest))
     throw InputError(
         "the obstacles are too large, too small or too slender for their surface to be known in binary64; no "
         "start on it can be drawn");
   const auto steps = [largest](double surface) { return std::round(surface / largest * 0x1p40); };
-  for (const AtomShares::Share& share : shares->atoms) sum += steps(share.surface);
+  for (const AtomShares::AtomShare& share : shares->atoms) sum += steps(share.surface);
   std::size_t number = 0;
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];

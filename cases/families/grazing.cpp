@@ -91,7 +91,7 @@ Case make_pell(Source& source) {
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   IntVec v{}, h{0, 0, 1};
-  std::vector<Fraction> fractions;
+  std::vector<IntegerRatio> fractions;
   for (int tries = 0; tries < 16 && fractions.size() < 8; ++tries) {
     v = drawn_primitive(drawn, dimension, dimension == 2 ? 60 : 12);
     if (dimension == 3) h = across_of(v)[0];

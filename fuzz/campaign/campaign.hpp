@@ -62,7 +62,7 @@ struct TargetTally {
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,
   std::uint64_t margin_index = 0;                           ///< from this case
 
-  /// Adds what another stretch of indices met. `next` is the caller's to set.
+  /// Adds what another stint of indices met. `next` is the caller's to set.
   void add(const TargetTally& other);
 };
 

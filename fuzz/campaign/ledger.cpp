@@ -7,16 +7,16 @@
 namespace lorentz::fuzz {
 namespace {
 
-// How many stretches of a target may be under way for each thread.
+// How many stints of a target may be under way for each thread.
 constexpr std::size_t kAhead = 64;
 
 // What a case, or shrinking, is taken to cost before the first of its target is done, in seconds.
 constexpr double kUsual = 0.025, kUsualShrinking = 0.1;
 
-// Stretches of cheap cases are made longer, as long as they take no longer than this: handing out and recording
-// is to cost nothing to speak of, and going home in the middle of a stretch is to lose little. Far away there
+// Stints of cheap cases are made longer, as long as they take no longer than this: handing out and recording
+// is to cost nothing to speak of, and going home in the middle of a stint is to lose little. Far away there
 // is the way there and back. Somebody who likes many cases at once gets as many as take no longer than
-// kSecondsOfMany: another program's answers are waited for once in a stretch.
+// kSecondsOfMany: another program's answers are waited for once in a stint.
 constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05, kSecondsOfMany = 0.25;
 constexpr std::uint64_t kMostCasesAhead = 1024;
 
@@ -112,7 +112,7 @@ Assignment Ledger::assign_shrinking(Track& track) {
   return one;
 }
 
-// One case until it is known what one takes. Ends on a multiple of its length, so that stretches share a scene
+// One case until it is known what one takes. Ends on a multiple of its length, so that stints share a scene
 // where cases do.
 Assignment Ledger::assign_cases(Track& track, std::uint64_t batch_size, double seconds) {
   const std::uint64_t begin = track.handed_out;
@@ -153,14 +153,13 @@ std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_
 
 void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
-  Track& track = tracks_[done.stretch.target];
+  Track& track = tracks_[done.stint.target];
   track.seconds += done.seconds;
-  if (const std::uint64_t cases = done.stretch.end - done.stretch.begin) {
+  if (const std::uint64_t cases = done.stint.end - done.stint.begin) {
     const double each = done.seconds / static_cast<double>(cases);
     track.usual = track.usual ? (*track.usual + each) / 2 : each;
     track.pending -= cases;
-    if (done.result)
-      track.ready.emplace(done.stretch.begin, std::pair(done.stretch, std::move(*done.result)));
+    if (done.result) track.ready.emplace(done.stint.begin, std::pair(done.stint, std::move(*done.result)));
   } else {
     track.shrinking_seconds += done.seconds;
     ++track.shrinkings;
@@ -222,14 +221,14 @@ bool Ledger::record(std::size_t target) {
 }
 
 // Only now it is certain how many findings of each sort come before.
-void Ledger::record(Track& track, const Stretch& stretch, StretchResult& result, std::vector<Finding>& kept) {
-  for (StretchResult::Kept& one : result.kept) {
+void Ledger::record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) {
+  for (StintResult::Kept& one : result.kept) {
     if (track.tally.sorts[one.finding.sort] + one.ordinal > plan_.keep) continue;
     if (one.finding.shrinking == Shrinking::due) track.due.emplace(rank_of(one.finding.kind), one.finding);
     kept.push_back(std::move(one.finding));
   }
   track.tally.add(result.met);
-  track.tally.next = stretch.end;
+  track.tally.next = stint.end;
   --track.in_work;
   is_closing_ |= first_ && !result.met.sorts.empty();
 }

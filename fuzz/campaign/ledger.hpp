@@ -1,4 +1,4 @@
-// Who does which indices of a campaign, and what came of them: hands out stretches, and records their results
+// Who does which indices of a campaign, and what came of them: hands out stints, and records their results
 // in the order of the indices, so that it does not matter who did them, or when. Hands out the findings that
 // were recorded, too, to be shrunk.
 #pragma once
@@ -34,13 +34,13 @@ class Ledger final : public WorkSource {
  private:
   // A target in a running campaign.
   struct Track {
-    TargetTally tally;             // of what is recorded
-    std::uint64_t handed_out = 0;  // the first index that nobody has
-    std::size_t in_work = 0;       // stretches handed out and not recorded
-    double seconds = 0;            // of all threads, shrinking included
-    std::optional<double> usual;   // seconds that a case took, of late
-    std::uint64_t pending = 0;     // indices handed out and not handed in
-    std::map<std::uint64_t, std::pair<Stretch, StretchResult>> ready;  // by first index: done, not recorded
+    TargetTally tally;                                             // of what is recorded
+    std::uint64_t handed_out = 0;                                  // the first index that nobody has
+    std::size_t in_work = 0;                                       // stints handed out and not recorded
+    double seconds = 0;                                            // of all threads, shrinking included
+    std::optional<double> usual;                                   // seconds that a case took, of late
+    std::uint64_t pending = 0;                                     // indices handed out and not handed in
+    std::map<std::uint64_t, std::pair<Stint, StintResult>> ready;  // by first index: done, not recorded
 
     std::multimap<int, Finding> due;  // to be shrunk, by rank_of()
     std::size_t in_shrinking = 0;     // handed out and not handed in
@@ -59,7 +59,7 @@ class Ledger final : public WorkSource {
   double time_of(const Track& track) const;
   bool is_complete(const Track& track) const;
   bool record(std::size_t target);
-  void record(Track& track, const Stretch& stretch, StretchResult& result, std::vector<Finding>& kept);
+  void record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept);
 
   const Plan& plan_;
   const std::uint64_t count_;

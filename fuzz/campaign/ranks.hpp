@@ -1,4 +1,4 @@
-// The processes of one campaign. Rank 0 keeps the ledger (and the store); the others ask it for stretches and
+// The processes of one campaign. Rank 0 keeps the ledger (and the store); the others ask it for stints and
 // send it what came of them.
 #pragma once
 

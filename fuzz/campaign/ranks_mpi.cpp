@@ -25,7 +25,7 @@ enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
-// A rank's threads always have a few stretches before them.
+// A rank's threads always have a few stints before them.
 constexpr std::size_t kBatchesAhead = 4;
 
 }  // namespace
@@ -42,7 +42,7 @@ void transfer(Archive& archive, std::optional<T>& value) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Stretch& s, unsigned) {
+void serialize(Archive& archive, Stint& s, unsigned) {
   archive& s.target& s.begin& s.end;
 }
 template <class Archive>
@@ -60,22 +60,22 @@ void serialize(Archive& archive, Finding& f, unsigned) {
   archive& f.shrinking& f.bits& f.complexity& f.tries;
 }
 template <class Archive>
-void serialize(Archive& archive, StretchResult::Kept& k, unsigned) {
+void serialize(Archive& archive, StintResult::Kept& k, unsigned) {
   archive& k.finding& k.ordinal;
 }
 template <class Archive>
-void serialize(Archive& archive, StretchResult& r, unsigned) {
+void serialize(Archive& archive, StintResult& r, unsigned) {
   archive& r.met& r.kept;
 }
 template <class Archive>
 void serialize(Archive& archive, Done& d, unsigned) {
-  archive& d.stretch& d.seconds;
+  archive& d.stint& d.seconds;
   transfer(archive, d.result);
   transfer(archive, d.shrunk);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& a, unsigned) {
-  archive& a.stretch& a.known& a.most_seconds;
+  archive& a.stint& a.known& a.most_seconds;
   transfer(archive, a.due);
 }
 namespace {

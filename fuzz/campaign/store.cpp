@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "fuzz/campaign/stretch.hpp"
+#include "fuzz/campaign/stint.hpp"
 #include "runs/database.hpp"
 
 namespace lorentz::fuzz {
@@ -47,8 +47,8 @@ constexpr const char* kFindingColumns =
     "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
     "bits, complexity, tries";
 
-const runs::Kind& kind() {
-  static const runs::Kind kind{
+const runs::FileKind& kind() {
+  static const runs::FileKind kind{
       "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
       3, kSchema,                           // format 2 had no findings that are still to be shrunk
       "another process is running a campaign on this store; wait for it, stop it, or use another store "
@@ -118,7 +118,7 @@ std::vector<Campaign> Store::campaigns() const {
   return campaigns;
 }
 
-std::int64_t Store::open_campaign(const Manifest& manifest) {
+std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
   for (const Campaign& campaign : campaigns())
     if (campaign.manifest == manifest) return campaign.id;
   impl_->database.begin();

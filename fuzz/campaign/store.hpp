@@ -14,7 +14,7 @@
 namespace lorentz::fuzz {
 
 /// All that the findings of a campaign depend on, in words. Two campaigns with the same manifest are one.
-struct Manifest {
+struct CampaignManifest {
   static constexpr const char* kMerged = "merged";
 
   std::string version, engine;
@@ -24,12 +24,12 @@ struct Manifest {
   std::uint64_t keep = 3;     ///< as in Plan
   std::string shard = "0/1";  ///< i/N; kMerged for shards that did not all come equally far
 
-  friend bool operator==(const Manifest&, const Manifest&) = default;
+  friend bool operator==(const CampaignManifest&, const CampaignManifest&) = default;
 };
 
 struct Campaign {
   std::int64_t id = 0;
-  Manifest manifest;
+  CampaignManifest manifest;
 };
 
 /// A finding, and its campaign's id.
@@ -58,7 +58,7 @@ class Store {
   std::vector<Campaign> campaigns() const;
 
   /// The id of the campaign with this manifest, which is added if there is none.
-  std::int64_t open_campaign(const Manifest& manifest);
+  std::int64_t open_campaign(const CampaignManifest& manifest);
 
   /// A tally that was never put is empty.
   TargetTally tally(std::int64_t campaign, std::string_view target) const;

@@ -34,7 +34,7 @@ std::string number_of_shards(const std::string& shard) {
 }
 
 // What is different between two manifests that should be of shards of one campaign, or nothing.
-std::string difference(const Manifest& a, const Manifest& b) {
+std::string difference(const CampaignManifest& a, const CampaignManifest& b) {
   if (a.version != b.version) return "version " + a.version + " and " + b.version;
   if (a.engine != b.engine) return "engine " + a.engine + " and " + b.engine;
   if (a.targets != b.targets) return "targets " + a.targets + " and " + b.targets;
@@ -108,7 +108,7 @@ void merge(const std::vector<std::string>& paths, Store& into) {
   }
   check_all(shards);
   for (std::size_t c = 0; c < shards.front().campaigns.size(); ++c) {
-    Manifest manifest = shards.front().campaigns[c].manifest;
+    CampaignManifest manifest = shards.front().campaigns[c].manifest;
     bool even = std::to_string(shards.size()) == number_of_shards(manifest.shard);
     std::map<std::string, TargetTally> sums;
     for (const std::string& target : names_in(manifest.targets)) {
@@ -120,7 +120,7 @@ void merge(const std::vector<std::string>& paths, Store& into) {
         sum.add(one);
       }
     }
-    manifest.shard = even ? "0/1" : Manifest::kMerged;
+    manifest.shard = even ? "0/1" : CampaignManifest::kMerged;
     const std::int64_t id = into.open_campaign(manifest);
     for (const auto& [target, sum] : sums) into.put(id, target, sum);
     for (const Finding& finding : kept_of(shards, c)) into.put(id, finding);

@@ -17,14 +17,14 @@ void Workers::join() {
 void Workers::work() {
   using Clock = std::chrono::steady_clock;
   try {
-    StretchRunner runner(plan_, make_answerer_, source_.stop());
+    StintRunner runner(plan_, make_answerer_, source_.stop());
     while (const auto assignment = source_.take(runner.batch_size())) {
       const auto start = Clock::now();
-      Done done{assignment->stretch};
+      Done done{assignment->stint};
       if (assignment->due)
         done.shrunk = runner.shrink(*assignment->due, assignment->most_seconds);
       else
-        done.result = runner.run(assignment->stretch, assignment->known);
+        done.result = runner.run(assignment->stint, assignment->known);
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
       if (runner.answerer_failed()) source_.answerer_failed();
       source_.hand_in(std::move(done));

@@ -10,14 +10,14 @@
 #include <thread>
 #include <vector>
 
-#include "fuzz/campaign/stretch.hpp"
+#include "fuzz/campaign/stint.hpp"
 
 namespace lorentz::fuzz {
 
-/// A stretch for somebody, and how many findings of each sort its target has for certain from earlier indices.
-/// Or, with an empty stretch, a finding of its target that is to be shrunk.
+/// A stint for somebody, and how many findings of each sort its target has for certain from earlier indices.
+/// Or, with an empty stint, a finding of its target that is to be shrunk.
 struct Assignment {
-  Stretch stretch;
+  Stint stint;
   std::map<std::string, std::uint64_t> known = {};
   std::optional<Finding> due = {};
   double most_seconds = std::numeric_limits<double>::infinity();  ///< for that
@@ -25,8 +25,8 @@ struct Assignment {
 
 /// What was done; without a result, or the finding, if it was stopped in between.
 struct Done {
-  Stretch stretch;
-  std::optional<StretchResult> result = {};
+  Stint stint;
+  std::optional<StintResult> result = {};
   std::optional<Finding> shrunk = {};
   double seconds = 0;
 };

@@ -28,9 +28,9 @@ bool same_bits(const Flight& a, const Flight& b) {
 }
 
 /// A scene with everyone who answers in it.
-class EngineCheck {
+class HarnessCheck {
  public:
-  explicit EngineCheck(const Scene& scene)
+  explicit HarnessCheck(const Scene& scene)
       : scene_(scene), oracle_(scene), certified_(scene), judge_(scene), prover_(scene), check_(scene) {
     if (Reduction::beyond(scene)) return;
     fused_.emplace(scene);
@@ -126,7 +126,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lorentz::harness;
   Decoder decoder(data, size);
   const Scene scene = decoder.scene();
-  const EngineCheck engines(scene);
+  const HarnessCheck engines(scene);
   std::optional<Query> query = decoder.query(scene);
   for (int i = 0; query && i < kFlights; ++i) {
     const Answer exact = engines.check(*query);

@@ -23,9 +23,9 @@ auto read_or_refused(const Read& read) -> std::optional<decltype(read())> {
 }
 
 // What the committed store of flights is of.
-const flights::Plan& plan() {
-  static const flights::Plan plan = [] {
-    flights::Plan made;
+const flights::FlightsPlan& plan() {
+  static const flights::FlightsPlan plan = [] {
+    flights::FlightsPlan made;
     made.scene = unit_scene(2, 0.25);
     made.seed = 1, made.count = 140'000;
     return made;

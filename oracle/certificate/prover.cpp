@@ -70,15 +70,15 @@ std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
 // The product of two vectors' parts across v, times v^2.
 template <std::size_t D>
 struct AcrossForm {
-  const Velocity<D>& velocity;
+  const ExactVelocity<D>& velocity;
   Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
     return velocity.v2 * dot(a.p, b.p) - dot(velocity.v, a.p) * dot(velocity.v, b.p);
   }
 };
 
-void shorten_across(Basis<2>&, const Velocity<2>&) {}
+void shorten_across(Basis<2>&, const ExactVelocity<2>&) {}
 
-void shorten_across(Basis<3>& basis, const Velocity<3>& velocity) {
+void shorten_across(Basis<3>& basis, const ExactVelocity<3>& velocity) {
   std::array<LatticePoint<3>, 2> pair{basis[1], basis[2]};
   reduce(pair, AcrossForm<3>{velocity});
   basis[1] = std::move(pair[0]);
@@ -131,7 +131,7 @@ class Writer {
   void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
                    const Z& high) {
     const long exponent = query_.length_exponent - query_.velocity_exponent;
-    Stretches<D>(view, view.radius2 * view.velocity.v2).cut(low, high, [&](const Stretch<D>& stretch) {
+    Stretches<D>(view, view.radius2 * view.velocity.v2).cut(low, high, [&](const RowStretch<D>& stretch) {
       const Ends ends(stretch.low, stretch.high, rho_above, view.velocity.v2, exponent);
       certificate_.windows.push_back(
           {lattice, atom, ends.from, ends.to, certificate_basis<D>(stretch.basis)});

@@ -15,7 +15,7 @@ namespace {
 // - A row along v is a strip of constant width: the entries increase along the flight, and the first is the
 // one
 //   next to t = 0.
-std::optional<Z> index_near_first(const Row<3>& row, const Z& rho2) {
+std::optional<Z> index_near_first(const ExactRow<3>& row, const Z& rho2) {
   if (row.A == 0) {
     const Z d = rho2 - row.C;
     if (d <= 0) return std::nullopt;
@@ -68,7 +68,7 @@ void offer_first_of_many(const Search<2>& search, const FlightPoint& start, cons
 }
 
 void offer_first_of_many(const Search<3>& search, const LatticePoint<3>& start, const LatticePoint<3>& step) {
-  const Row<3> row(search.velocity, start, step);
+  const ExactRow<3> row(search.velocity, start, step);
   const std::optional<Z> near = index_near_first(row, search.rho2);
   if (!near) return;
   for (int i = -1; i <= 2; ++i) {
@@ -117,7 +117,7 @@ RowsInSpace::RowsInSpace(const Search<3>& search, const LatticePoint<3>& step)
 }
 
 void RowsInSpace::offer_first(const LatticePoint<3>& start) const {
-  const Velocity<3>& velocity = search_.velocity;
+  const ExactVelocity<3>& velocity = search_.velocity;
   if (!short_) return offer_first_of_many(search_, start, step_);
   if (compare_sizes(dot(h_g_, start.p), most_beside_) > 0) return;
   const Z s0 = dot(velocity.v, start.p);

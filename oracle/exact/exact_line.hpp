@@ -17,7 +17,7 @@ namespace lorentz::oracle {
 /// An entry at t = (s - sqrt(d)) / v2 into the obstacle with coordinates n. v2 differs from atom to atom if
 /// their obstacles are balls in different coordinates; t does not.
 template <std::size_t D>
-struct Entry {
+struct ExactEntry {
   Z s, d, v2;
   ZVec<D> n;
   int lattice = 0, atom = 0;
@@ -28,7 +28,7 @@ template <std::size_t D>
 class Earliest {
  public:
   bool found() const { return entry_.has_value(); }
-  const Entry<D>& entry() const { return *entry_; }
+  const ExactEntry<D>& entry() const { return *entry_; }
 
   /// Negative, 0 or positive as an entry at (s - sqrt(d)) / v2 would come before the earliest one, with it or
   /// after it.
@@ -43,21 +43,21 @@ class Earliest {
   }
 
   /// `order` is that of its time, and not positive.
-  void offer(Entry<D> other, int order) {
+  void offer(ExactEntry<D> other, int order) {
     if (order == 0 && key(*entry_) <= key(other)) return;
     entry_ = std::move(other);
   }
 
  private:
-  static auto key(const Entry<D>& e) { return std::tie(e.lattice, e.atom, e.n); }
-  std::optional<Entry<D>> entry_;
+  static auto key(const ExactEntry<D>& e) { return std::tie(e.lattice, e.atom, e.n); }
+  std::optional<ExactEntry<D>> entry_;
 };
 
 /// What the search for one atom's first obstacle needs throughout.
 template <std::size_t D>
 struct Search {
   const View<D>& view;
-  const Velocity<D>& velocity;  ///< the view's
+  const ExactVelocity<D>& velocity;  ///< the view's
   int lattice, atom;
   const ZVec<D>* from;  ///< coordinates of the obstacle to ignore, or null
   Z rho2;               ///< r^2 v^2
@@ -70,7 +70,7 @@ struct FlightPoint {
   Z s, h;
   ZVec<2> n;
 
-  FlightPoint(const Velocity<2>& velocity, const LatticePoint<2>& point)
+  FlightPoint(const ExactVelocity<2>& velocity, const LatticePoint<2>& point)
       : s(dot(velocity.v, point.p)), h(cross(velocity.v, point.p)), n(point.n) {}
   void add_multiple(const Z& k, const FlightPoint& other) {
     s.add_product(k, other.s);
@@ -83,10 +83,10 @@ struct FlightPoint {
 /// The quadratic functions of k along a row, c(k) = start + k step:
 ///   v^2 |c|^2 = cc + 2 k cg + k^2 gg,   s = s0 + k sg,   |h|^2 = C + 2 k B + k^2 A.
 template <std::size_t D>
-struct Row {
+struct ExactRow {
   Z cc, cg, gg, s0, sg, A, B, C;
 
-  Row(const Velocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step)
+  ExactRow(const ExactVelocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step)
       : cc(velocity.v2 * dot(start.p, start.p)),
         cg(velocity.v2 * dot(start.p, step.p)),
         gg(velocity.v2 * dot(step.p, step.p)),

@@ -153,7 +153,7 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
 
 template <std::size_t D>
 View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const Velocity<D>& velocity, long exponent) {
+                const ExactVelocity<D>& velocity, long exponent) {
   const auto& exact = scene.lattices[lattice];
   const auto& obstacle = exact.atoms[atom];
   const long shift = scene.exponent - exponent;
@@ -213,8 +213,8 @@ template IntegerScene<2> integer_scene(const Scene&);
 template IntegerScene<3> integer_scene(const Scene&);
 template struct ExactScene<2>;
 template struct ExactScene<3>;
-template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const Velocity<2>&, long);
-template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const Velocity<3>&, long);
+template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ExactVelocity<2>&, long);
+template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ExactVelocity<3>&, long);
 template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, long);
 template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, long);
 template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);

@@ -131,7 +131,7 @@ struct ExactScene {
 
 /// The velocity v scaled to integers, and v^2.
 template <std::size_t D>
-struct Velocity {
+struct ExactVelocity {
   ZVec<D> v;
   Z v2;
 };
@@ -140,7 +140,7 @@ struct Velocity {
 /// the lattice, relative to x.
 template <std::size_t D>
 struct View {
-  Velocity<D> velocity;
+  ExactVelocity<D> velocity;
   Basis<D> basis;          ///< reduced
   LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
   bool near = true;        ///< false: no centre is within `radius` of x (as the view was made)
@@ -152,7 +152,7 @@ struct View {
 /// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).
 template <std::size_t D>
 View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const Velocity<D>& velocity, long exponent);
+                const ExactVelocity<D>& velocity, long exponent);
 
 /// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
 template <std::size_t D>

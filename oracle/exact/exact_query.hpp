@@ -28,7 +28,7 @@ template <std::size_t D>
 struct ExactQuery {
   long length_exponent, velocity_exponent;
   ZVec<D> x;
-  Velocity<D> velocity;
+  ExactVelocity<D> velocity;
   std::optional<ObstacleId> from;
   ZVec<D> from_cell;
 
@@ -68,7 +68,7 @@ struct ExactQuery {
   }
 
   /// t = (s - sqrt(d)) / v^2 in the query's own units.
-  Quadratic time_of(const Entry<D>& entry) const {
+  Quadratic time_of(const ExactEntry<D>& entry) const {
     return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
   }
 };

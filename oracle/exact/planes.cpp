@@ -7,7 +7,7 @@ PlaneForm PlaneSection::form() const {
   return {std::max(scale, 0L), std::max(-scale, 0L)};
 }
 
-Planes::Planes(const Velocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
+Planes::Planes(const ExactVelocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
                const LatticePoint<3>& b2, const LatticePoint<3>& b3)
     : velocity(velocity), next(b3) {
   normal = cross(b1.p, b2.p);

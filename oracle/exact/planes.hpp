@@ -22,7 +22,7 @@ struct WindowVector {
 /// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2: makes a stretch of about 2^(j+1) rho of the cylinder round.
 class WindowForm {
  public:
-  WindowForm(const Velocity<3>& velocity, long j)
+  WindowForm(const ExactVelocity<3>& velocity, long j)
       : whole_(shifted_left(velocity.v2, 2 * j)), along_(shifted_left(1, 2 * j) - 1) {}
   Z operator()(const WindowVector& a, const WindowVector& b) const {
     return whole_ * dot(a.point.p, b.point.p) - along_ * (a.s * b.s);
@@ -88,7 +88,7 @@ struct PlaneSection {
 /// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
 /// angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
 struct Planes {
-  const Velocity<3>& velocity;
+  const ExactVelocity<3>& velocity;
   LatticePoint<3> next;  ///< b3: from plane to plane
   ZVec<3> normal, e, f;
   Z a, gap;
@@ -97,8 +97,8 @@ struct Planes {
   bool head_on;       ///< v is normal to the planes
   Z across2, across;  ///< rho^2 |e|^2 with the e in use, and its root
 
-  Planes(const Velocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1, const LatticePoint<3>& b2,
-         const LatticePoint<3>& b3);
+  Planes(const ExactVelocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
+         const LatticePoint<3>& b2, const LatticePoint<3>& b3);
 
   /// The k3 whose planes offset + k3 b3 come within reach somewhere in low <= s <= high.
   Range levels(const LatticePoint<3>& offset, const Z& low, const Z& high) const;

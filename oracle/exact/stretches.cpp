@@ -14,7 +14,7 @@ constexpr long kManyRows = 1000;  // more than a stretch ought to have that is n
 
 // 4^across |h|^2 + 4^along s^2 in the plane.
 struct StripForm {
-  const Velocity<2>& velocity;
+  const ExactVelocity<2>& velocity;
   long across, along;
   Z operator()(const LatticePoint<2>& a, const LatticePoint<2>& b) const {
     return shifted_left(cross(velocity.v, a.p) * cross(velocity.v, b.p), 2 * across) +
@@ -124,12 +124,12 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
 
 template <std::size_t D>
 bool Stretches<D>::cut(const Z& low, const Z& high,
-                       const std::function<bool(const Stretch<D>&)>& take) const {
+                       const std::function<bool(const RowStretch<D>&)>& take) const {
   // What is left to do, the first of it at the back; not on the stack, for halves may be of thousands of
   // bits.
-  std::vector<Stretch<D>> left{{low, high, view_.basis}};
+  std::vector<RowStretch<D>> left{{low, high, view_.basis}};
   while (!left.empty()) {
-    Stretch<D> stretch = std::move(left.back());
+    RowStretch<D> stretch = std::move(left.back());
     left.pop_back();
     const Z rows = shorten(stretch.basis, stretch.low, stretch.high);
     if (rows <= kFewRowsOfStretch || !is_long(stretch.low, stretch.high)) {
@@ -144,9 +144,9 @@ bool Stretches<D>::cut(const Z& low, const Z& high,
 }
 
 template <std::size_t D>
-bool Stretches<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch,
+bool Stretches<D>::visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch,
                              const RowVisitor<D>& visit) const {
-  const Row<D> row(view_.velocity, start, stretch.basis[0]);
+  const ExactRow<D> row(view_.velocity, start, stretch.basis[0]);
   Range k;
   if (row.sg != 0) {
     k = multiples_between(stretch.low - row.s0, stretch.high - row.s0, row.sg);
@@ -169,7 +169,7 @@ bool Stretches<D>::visit_row(const LatticePoint<D>& start, const Stretch<D>& str
 }
 
 template <>
-bool Stretches<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) const {
+bool Stretches<2>::visit(const RowStretch<2>& stretch, const RowVisitor<2>& visit) const {
   const Range rows = rows_of_strip(view_, reach_, stretch.basis, stretch.low, stretch.high);
   LatticePoint<2> row = view_.offset;
   row.add_multiple(rows.first, stretch.basis[1]);
@@ -179,7 +179,7 @@ bool Stretches<2>::visit(const Stretch<2>& stretch, const RowVisitor<2>& visit) 
 }
 
 template <>
-bool Stretches<3>::visit(const Stretch<3>& stretch, const RowVisitor<3>& visit) const {
+bool Stretches<3>::visit(const RowStretch<3>& stretch, const RowVisitor<3>& visit) const {
   const LatticePoint<3>& b2 = stretch.basis[1];
   const Planes planes(view_.velocity, reach2_, stretch.basis[0], b2, stretch.basis[2]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,

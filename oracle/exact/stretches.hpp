@@ -13,7 +13,7 @@ namespace lorentz::oracle {
 
 /// The centres with low <= s <= high, and the basis in which they are looked for.
 template <std::size_t D>
-struct Stretch {
+struct RowStretch {
   Z low, high;
   Basis<D> basis;
 };
@@ -28,11 +28,11 @@ class Stretches {
   /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
   /// shorter than about the cylinder is wide), and hands them out in order, until `take` returns true.
   /// Returns whether it did. Two neighbours share their ends.
-  bool cut(const Z& low, const Z& high, const std::function<bool(const Stretch<D>&)>& take) const;
+  bool cut(const Z& low, const Z& high, const std::function<bool(const RowStretch<D>&)>& take) const;
 
   /// The rows of a stretch that hold centres of the cylinder, each as its first such centre, the step, and
   /// the last index, until `visit` returns true. Returns whether it did.
-  bool visit(const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
+  bool visit(const RowStretch<D>& stretch, const RowVisitor<D>& visit) const;
 
  private:
   /// Makes the basis short for the stretch; returns the number of rows, or a lower bound that is many.
@@ -41,7 +41,8 @@ class Stretches {
   Z shorten_in_planes(Basis<D>& basis, const Z& low, const Z& high) const;
   /// Longer than the cylinder is wide: it may be cut.
   bool is_long(const Z& low, const Z& high) const { return high - low > reach_ + 1; }
-  bool visit_row(const LatticePoint<D>& start, const Stretch<D>& stretch, const RowVisitor<D>& visit) const;
+  bool visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch,
+                 const RowVisitor<D>& visit) const;
 
   const View<D>& view_;
   const Z reach2_;
@@ -53,8 +54,8 @@ class Stretches {
 /// monotone along a row on either side of the line, being a quotient of linear functions, so these are the
 /// ones.)
 template <std::size_t D, class Visit>
-void visit_extremes(const Velocity<D>& velocity, const LatticePoint<D>& first, const LatticePoint<D>& step,
-                    const Z& last, const Visit& visit) {
+void visit_extremes(const ExactVelocity<D>& velocity, const LatticePoint<D>& first,
+                    const LatticePoint<D>& step, const Z& last, const Visit& visit) {
   constexpr long kManyPoints = 64, kFewPoints = 16;
   const auto visit_range = [&](Z begin, Z end) {
     begin = std::max(begin, Z(0));
@@ -64,7 +65,7 @@ void visit_extremes(const Velocity<D>& velocity, const LatticePoint<D>& first, c
     for (Z k = begin; k <= end; ++k, point.add_multiple(1, step)) visit(point);
   };
   if (last < kManyPoints) return visit_range(0, last);
-  const Row<D> row(velocity, first, step);
+  const ExactRow<D> row(velocity, first, step);
   const Z nearest = row.A == 0 ? Z(0) : floor_div(-row.B, row.A);
   visit_range(0, kFewPoints);
   visit_range(nearest - kFewPoints, nearest + kFewPoints);

@@ -107,14 +107,14 @@ struct RealEntry {
 
 std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<3>& start,
                                     const LatticePoint<3>& step) {
-  const Row<3> row(search.velocity, start, step);
+  const ExactRow<3> row(search.velocity, start, step);
   const Z strip = row.B * row.B - row.A * (row.C - search.rho2);
   if (row.A == 0 || strip <= 0) return std::nullopt;
   return RealEntry{row.A * row.s0 - row.B * row.sg, strip * row.gg, row.A};
 }
 
 // An entry as this view times it: another atom's may be in other coordinates, with another v^2.
-RealEntry as_timed_in(const Velocity<3>& velocity, const Entry<3>& entry) {
+RealEntry as_timed_in(const ExactVelocity<3>& velocity, const ExactEntry<3>& entry) {
   if (entry.v2 == velocity.v2) return {entry.s, entry.d, 1};
   return {entry.s * velocity.v2, entry.d * velocity.v2 * velocity.v2, entry.v2};
 }
@@ -127,7 +127,7 @@ int compare(const RealEntry& a, const RealEntry& b) {
 // The real entry is convex in the row number, so start where the ball touches the plane and go both ways,
 // until it comes after the earliest entry found and grows.
 void Solver::solve_many_rows(const Planes& planes, const Section& section) {
-  const Velocity<3>& velocity = search_.velocity;
+  const ExactVelocity<3>& velocity = search_.velocity;
   // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding here
   // costs time only; but the right row is one of many, and |N| can be a small integer, so its root gets bits
   // behind the point.
@@ -202,7 +202,7 @@ Z Solver::jump_beyond(const Planes& planes, const Z& high) const {
 }
 
 void Solver::run() {
-  const Velocity<3>& velocity = search_.velocity;
+  const ExactVelocity<3>& velocity = search_.velocity;
   const View<3>& view = search_.view;
   WindowBasis basis(velocity, view.basis);
   std::optional<PlaneFamily> family;

@@ -14,12 +14,12 @@ double product(const std::array<double, 4>& a, const std::array<double, 4>& b) {
 
 }  // namespace
 
-void WindowBasis::Vector::add_multiple(const Z& k, const Vector& other) {
+void WindowBasis::BasisVector::add_multiple(const Z& k, const BasisVector& other) {
   WindowVector::add_multiple(k, other);
   for (std::size_t i = 0; i < 3; ++i) h[i].add_product(k, other.h[i]);
 }
 
-WindowBasis::WindowBasis(const Velocity<3>& velocity, const Basis<3>& basis) : velocity_(velocity) {
+WindowBasis::WindowBasis(const ExactVelocity<3>& velocity, const Basis<3>& basis) : velocity_(velocity) {
   for (std::size_t i = 0; i < 3; ++i) {
     vectors_[i].point = basis[i];
     vectors_[i].s = dot(velocity.v, basis[i].p);
@@ -93,7 +93,7 @@ bool WindowBasis::shorten(long j) {
     if (steps == 0) return changed || order_ != before;
     changed = true;
   }
-  std::array<Vector, 3> ordered;
+  std::array<BasisVector, 3> ordered;
   for (std::size_t i = 0; i < 3; ++i) ordered[i] = std::move(vectors_[order_[i]]);
   vectors_ = std::move(ordered);
   order_ = {0, 1, 2};

@@ -12,7 +12,7 @@ namespace lorentz::oracle {
 
 class WindowBasis {
  public:
-  WindowBasis(const Velocity<3>& velocity, const Basis<3>& basis);
+  WindowBasis(const ExactVelocity<3>& velocity, const Basis<3>& basis);
 
   /// Makes the basis short for windows of about 2^(j+1) rho. Returns false if it stays as it was.
   bool shorten(long j);
@@ -21,9 +21,9 @@ class WindowBasis {
   const LatticePoint<3>& operator[](std::size_t i) const { return vectors_[order_[i]].point; }
 
  private:
-  struct Vector : WindowVector {
+  struct BasisVector : WindowVector {
     ZVec<3> h;
-    void add_multiple(const Z& k, const Vector& other);
+    void add_multiple(const Z& k, const BasisVector& other);
   };
   /// 2^j h and s of the vectors, times one power of two, rounded.
   using Rounded = std::array<std::array<double, 4>, 3>;
@@ -33,8 +33,8 @@ class WindowBasis {
   Step shorten(Rounded& vectors);
   Step take(Rounded& vectors, std::size_t from, std::size_t a, double k, std::size_t b, double m);
 
-  const Velocity<3>& velocity_;
-  std::array<Vector, 3> vectors_;
+  const ExactVelocity<3>& velocity_;
+  std::array<BasisVector, 3> vectors_;
   std::array<std::size_t, 3> order_{0, 1, 2};
 };
 

@@ -62,7 +62,7 @@ Z ObstacleLattice<D>::period(const ZVec<D>& normal) const {
 }
 
 template <std::size_t D>
-Block ObstacleLattice<D>::block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const {
+Blocked ObstacleLattice<D>::block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const {
   const Z centre = dot(obstacle.position, normal), half2 = obstacle.half_width2(normal);
   return {centre, half2, centre, half2};
 }
@@ -108,7 +108,7 @@ template <std::size_t D>
 std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period,
                          std::size_t& work) {
   // Of many obstacles the first few mostly cover the circle already.
-  std::vector<Block> blocks;
+  std::vector<Blocked> blocks;
   for (std::size_t count = 8;; count *= 4) {
     count = std::min(count, lattice.obstacles.size());
     while (blocks.size() < count) blocks.push_back(lattice.block(lattice.obstacles[blocks.size()], normal));

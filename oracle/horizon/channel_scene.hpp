@@ -36,7 +36,7 @@ struct ObstacleLattice {
 
   /// Distance of the lattice's planes with this normal, times the normal's length.
   Z period(const ZVec<D>& normal) const;
-  Block block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const;
+  Blocked block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const;
 };
 
 /// The scene with every length multiplied by 2^-exponent, so that `unit` too (0: none) is an integer.

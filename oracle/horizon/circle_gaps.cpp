@@ -19,24 +19,24 @@ int compare_ends(const Z& a, const Z& a2, const Z& b, const Z& b2) {
 }
 
 // Each block with its start in [0, period), in ascending order of the starts.
-void put_in_order(std::vector<Block>& blocks, const Z& period) {
-  for (Block& block : blocks) {
+void put_in_order(std::vector<Blocked>& blocks, const Z& period) {
+  for (Blocked& block : blocks) {
     const Z turns = period * floor_surd(block.start, -1, block.start2, period);
     block.start -= turns;
     block.end -= turns;
   }
-  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
+  std::sort(blocks.begin(), blocks.end(), [](const Blocked& a, const Blocked& b) {
     return compare_entries(a.start, a.start2, b.start, b.start2) < 0;
   });
 }
 
 // Calls visit(reach, reach2, block) for each block in order: reach + sqrt(reach2) is the furthest end before.
 template <class Visit>
-void sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
+void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
   put_in_order(blocks, period);
   Z reach, reach2;
   bool any = false;
-  for (const Block& block : blocks) {
+  for (const Blocked& block : blocks) {
     if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
       reach = block.end, reach2 = block.end2;
     any = true;
@@ -44,7 +44,7 @@ void sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
   // The blocks of the period before come first. One that reaches further than a period leaves nothing anyhow,
   // so one turn is all it takes.
   reach -= period;
-  for (const Block& block : blocks) {
+  for (const Blocked& block : blocks) {
     visit(reach, reach2, block);
     if (compare_ends(block.end, block.end2, reach, reach2) > 0) reach = block.end, reach2 = block.end2;
   }
@@ -52,17 +52,17 @@ void sweep(std::vector<Block>& blocks, const Z& period, Visit visit) {
 
 }  // namespace
 
-std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period) {
+std::vector<Gap> gaps_between(std::vector<Blocked> blocks, const Z& period) {
   std::vector<Gap> gaps;
-  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Blocked& block) {
     if (end_against_start(reach, reach2, block.start, block.start2) < 0)
       gaps.push_back({reach, reach2, block.start, block.start2});
   });
   return gaps;
 }
 
-std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies) {
-  std::vector<Block> blocks;
+std::vector<Blocked> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies) {
+  std::vector<Blocked> blocks;
   blocks.reserve(gaps.size() * copies);
   for (unsigned long copy = 0; copy < copies; ++copy)
     for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -74,9 +74,9 @@ std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period,
   return blocks;
 }
 
-Cover cover_of(std::vector<Block> blocks, const Z& period) {
+Cover cover_of(std::vector<Blocked> blocks, const Z& period) {
   bool touch = false, gap = false;
-  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Block& block) {
+  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Blocked& block) {
     const int order = end_against_start(reach, reach2, block.start, block.start2);
     touch |= order == 0;
     gap |= order < 0;

@@ -9,7 +9,7 @@
 namespace lorentz::oracle {
 
 /// The open interval (start - sqrt(start2), end + sqrt(end2)), repeated with a period.
-struct Block {
+struct Blocked {
   Z start, start2, end, end2;
 };
 
@@ -24,14 +24,14 @@ struct Gap {
 
 /// The gaps of the union of the blocks modulo `period`, one period of them in ascending order. A gap has a
 /// width above 0: touching blocks leave none. No blocks, no gaps.
-std::vector<Gap> gaps_between(std::vector<Block> blocks, const Z& period);
+std::vector<Gap> gaps_between(std::vector<Blocked> blocks, const Z& period);
 
 /// The blocks between gaps, `copies` periods of them.
-std::vector<Block> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
+std::vector<Blocked> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
 
 /// How blocks, at least one, cover a circle: leaving gaps, touching somewhere so that points stay free, or
 /// all of it.
 enum class Cover { gaps, touching, full };
-Cover cover_of(std::vector<Block> blocks, const Z& period);
+Cover cover_of(std::vector<Blocked> blocks, const Z& period);
 
 }  // namespace lorentz::oracle

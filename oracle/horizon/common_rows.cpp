@@ -34,11 +34,11 @@ struct LatticeForm {
 
 // Normals of a lattice's rows, and how large the coefficients of those are between which the largest obstacle
 // leaves a gap: 2 |A^T N| < volume.
-struct Rows {
+struct CommonRows {
   std::array<ZVec<2>, 2> normals;
   std::array<Z, 2> most;
 
-  explicit Rows(const ObstacleLattice<2>& lattice) {
+  explicit CommonRows(const ObstacleLattice<2>& lattice) {
     Basis<2> images = lattice.cofactors;
     for (auto& image : images) {
       const ZVec<2> cofactor = image.p;
@@ -95,7 +95,7 @@ std::optional<std::vector<Product>> of_rank_one(const Product& a, const Product&
 }  // namespace
 
 std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, const ObstacleLattice<2>& b) {
-  const Rows first(a), second(b);
+  const CommonRows first(a), second(b);
   ZVec<4> c, most;
   Z largest = 1;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -23,12 +23,12 @@ constexpr std::size_t kMostCylinderWork =
 template <class BlockOf>
 Cover cover_by_balls(const ObstacleLattice<3>& lattice, const Z& period, std::size_t& work,
                      BlockOf block_of) {
-  std::vector<Block> blocks;
+  std::vector<Blocked> blocks;
   std::size_t used = 0;
   for (std::size_t count = 8;; count *= 4) {
     count = std::min(count, lattice.obstacles.size());
     for (; used < count; ++used)
-      if (std::optional<Block> block = block_of(lattice.obstacles[used])) blocks.push_back(*block);
+      if (std::optional<Blocked> block = block_of(lattice.obstacles[used])) blocks.push_back(*block);
     work += count;
     const Cover cover = cover_of(blocks, period);
     if (cover == Cover::full || count == lattice.obstacles.size()) return cover;
@@ -38,7 +38,7 @@ Cover cover_by_balls(const ObstacleLattice<3>& lattice, const Z& period, std::si
 // Between the planes with this normal.
 Cover cover_of_planes(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, std::size_t& work) {
   return cover_by_balls(lattice, lattice.period(normal), work, [&](const Obstacle<3>& ball) {
-    return std::optional<Block>(lattice.block(ball, normal));
+    return std::optional<Blocked>(lattice.block(ball, normal));
   });
 }
 
@@ -48,11 +48,11 @@ Cover shrunk_cover(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, uns
   const unsigned long bits = (m + 1) / 2;
   const Z largest = lattice.obstacles[0].axes[0][0], normal2 = dot(normal, normal);
   const Z less2 = shifted_left(largest * largest, 2 * bits - m);
-  const auto block_of = [&](const Obstacle<3>& ball) -> std::optional<Block> {
+  const auto block_of = [&](const Obstacle<3>& ball) -> std::optional<Blocked> {
     const Z half2 = shifted_left(ball.axes[0][0] * ball.axes[0][0], 2 * bits) - less2;
     if (half2 <= 0) return std::nullopt;
     const Z centre = shifted_left(dot(ball.position, normal), bits);
-    return Block{centre, half2 * normal2, centre, half2 * normal2};
+    return Blocked{centre, half2 * normal2, centre, half2 * normal2};
   };
   return cover_by_balls(lattice, shifted_left(lattice.period(normal), bits), work, block_of);
 }

@@ -30,7 +30,7 @@ struct HoleFrame {
   std::array<double, 2> coordinates(const ZVec<3>& fine) const {
     return {quotient(dot(fine, axes[0]), units[0]), quotient(dot(fine, axes[1]), units[1])};
   }
-  ZVec<3> vector(const Step& step) const {
+  ZVec<3> vector(const WideStep& step) const {
     ZVec<3> fine;
     const double parts[] = {step.x, step.y};
     for (int i : {0, 1}) {
@@ -98,7 +98,7 @@ class RoughPlace {
     }
   }
   const std::vector<Wall>& walls() const { return walls_; }
-  RoughPlace moved(const Step& step) const { return {*around_, x_ + step.x, y_ + step.y}; }
+  RoughPlace moved(const WideStep& step) const { return {*around_, x_ + step.x, y_ + step.y}; }
   double x() const { return x_; }
   double y() const { return y_; }
 
@@ -126,7 +126,7 @@ class ExactPlace {
     }
   }
   const std::vector<Wall>& walls() const { return walls_; }
-  ExactPlace moved(const Step& step) const {
+  ExactPlace moved(const WideStep& step) const {
     ZVec<3> to = around_->frame.vector(step);
     for (std::size_t k = 0; k < 3; ++k) to[k] += place_[k];
     return {*around_, to};
@@ -178,15 +178,15 @@ double rough_clearance(const HoleSurroundings& around, double x, double y, doubl
 
 // Hops to where there is more room, in ever smaller steps and over discs too: a hole may be wide far from the
 // start, or another one be wider.
-Step hop(const HoleSurroundings& around, const Step& start, double limit) {
+WideStep hop(const HoleSurroundings& around, const WideStep& start, double limit) {
   constexpr int kWays = 24;
-  Step place = start;
+  WideStep place = start;
   double best = 0;
   for (double step = limit / 4; step > limit / 200;) {
     bool better = false;
     for (int i = 0; i < kWays && !better; ++i) {
       const double angle = 2 * M_PI * i / kWays;
-      const Step to{place.x + step * std::cos(angle), place.y + step * std::sin(angle)};
+      const WideStep to{place.x + step * std::cos(angle), place.y + step * std::sin(angle)};
       const double there = rough_clearance(around, to.x, to.y, best);
       if (there <= best || std::hypot(to.x - start.x, to.y - start.y) > limit) continue;
       best = there;
@@ -209,7 +209,7 @@ Place climb(Place place, double limit) {
     const double dx = place.x() - start_x, dy = place.y() - start_y;
     const auto low = [&](double at) { return -std::min(longest, std::max(0.0, limit + at)); };
     const auto high = [&](double at) { return std::min(longest, std::max(0.0, limit - at)); };
-    const Step step = widest_step(place.walls(), {low(dx), high(dx), low(dy), high(dy)});
+    const WideStep step = widest_step(place.walls(), {low(dx), high(dx), low(dy), high(dy)});
     Place next = place.moved(step);
     const double there = clearance_at(next);
     if (!(there > best)) {
@@ -271,7 +271,7 @@ HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
   const double limit = quotient(reach, r) / 3;
   HoleSurroundings around = surroundings_of(shadow, hole, reach);
   const auto [x, y] = around.frame.coordinates(hole.offset);
-  const Step hopped = hop(around, {x, y}, limit);
+  const WideStep hopped = hop(around, {x, y}, limit);
   const RoughPlace rough = climb(RoughPlace(around, hopped.x, hopped.y), limit);
   constexpr double kWide = 1e-5;  // what binary64 finds well
   const bool wide = clearance_at(rough) > kWide;

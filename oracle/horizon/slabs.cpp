@@ -18,7 +18,7 @@ constexpr std::size_t kPairWork = 10;               // of two lattices' periods,
 
 // A ball of reciprocal lattice points that holds the normal of every slab.
 template <std::size_t D>
-struct Candidates {
+struct SlabCandidates {
   const ObstacleLattice<D>* lattice;
   Basis<D> basis;
   Z bound2;
@@ -27,9 +27,9 @@ struct Candidates {
 };
 
 template <std::size_t D>
-Candidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::array<ZVec<D>, D>& axes,
-                              const Z& bound2) {
-  Candidates<D> result{&lattice, lattice.cofactors, bound2, 0};
+SlabCandidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::array<ZVec<D>, D>& axes,
+                                  const Z& bound2) {
+  SlabCandidates<D> result{&lattice, lattice.cofactors, bound2, 0};
   for (auto& b : result.basis) {
     const ZVec<D> cofactor = b.p;
     for (std::size_t i = 0; i < D; ++i) b.p[i] = dot(axes[i], cofactor);
@@ -50,8 +50,8 @@ std::array<ZVec<D>, D> multiple_of_identity(const Z& factor) {
 // is found in a ball of the image of the reciprocal lattice under 2 r + W, 2 A^T, or W. Of all obstacles take
 // the one with the fewest candidates.
 template <std::size_t D>
-Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
-  std::vector<Candidates<D>> all;
+SlabCandidates<D> fewest_candidates(const ChannelScene<D>& scene) {
+  std::vector<SlabCandidates<D>> all;
   for (const ObstacleLattice<D>& lattice : scene.lattices) {
     const Obstacle<D>& largest = lattice.obstacles.front();
     const Z one2 = lattice.volume * lattice.volume;
@@ -72,8 +72,8 @@ Candidates<D> fewest_candidates(const ChannelScene<D>& scene) {
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.expected < b.expected; });
   if (all.size() > kMostCounted) all.resize(kMostCounted);
-  const Candidates<D>* fewest = nullptr;
-  for (Candidates<D>& one : all) {
+  const SlabCandidates<D>* fewest = nullptr;
+  for (SlabCandidates<D>& one : all) {
     one.points = points_in_ball<D>(one.basis, one.bound2, fewest ? fewest->points : 2 * kMostCandidates);
     if (!fewest || one.points < fewest->points) fewest = &one;
   }
@@ -87,8 +87,8 @@ struct Class {
 };
 
 std::vector<Gap> common_gaps(const Class& a, const Class& b, const Z& period) {
-  std::vector<Block> blocks = blocks_between(a.gaps, a.period, Z(period / a.period).get_ui());
-  const std::vector<Block> more = blocks_between(b.gaps, b.period, Z(period / b.period).get_ui());
+  std::vector<Blocked> blocks = blocks_between(a.gaps, a.period, Z(period / a.period).get_ui());
+  const std::vector<Blocked> more = blocks_between(b.gaps, b.period, Z(period / b.period).get_ui());
   blocks.insert(blocks.end(), more.begin(), more.end());
   return gaps_between(std::move(blocks), period);
 }
@@ -246,7 +246,7 @@ struct SlabSearch {
 
   // One by one. False if there are too many.
   bool look_along_all(const SearchProgress& progress) {
-    const Candidates<D> candidates = fewest_candidates(scene);
+    const SlabCandidates<D> candidates = fewest_candidates(scene);
     // The points come as their images: back to normals by their coefficients.
     const auto look_at = [&](const LatticePoint<D>& point) {
       LatticePoint<D> normal;

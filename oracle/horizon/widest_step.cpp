@@ -60,7 +60,7 @@ Corner highest(const std::vector<Constraint>& some) {
 
 // Few walls matter: those that the step for the walls before comes too near to are added one by one, each
 // once, for it comes to none of those before by more than its slack.
-Step widest_step(const std::vector<Wall>& walls, const StepBounds& bounds) {
+WideStep widest_step(const std::vector<Wall>& walls, const StepBounds& bounds) {
   std::vector<Constraint> some{{1, 0, 0, bounds.high_x},
                                {-1, 0, 0, -bounds.low_x},
                                {0, 1, 0, bounds.high_y},

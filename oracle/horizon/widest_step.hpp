@@ -12,7 +12,7 @@ struct Wall {
   double far;
 };
 
-struct Step {
+struct WideStep {
   double x = 0, y = 0;
 };
 
@@ -21,6 +21,6 @@ struct StepBounds {
 };
 
 /// The step within the bounds after which the nearest of the walls is farthest away.
-Step widest_step(const std::vector<Wall>& walls, const StepBounds& bounds);
+WideStep widest_step(const std::vector<Wall>& walls, const StepBounds& bounds);
 
 }  // namespace lorentz::oracle

@@ -151,15 +151,15 @@ class Z {
   std::string get_str(int base = 10) const;
 
   /// The number as GMP's own functions read it; it must not outlive the number, nor a change of it.
-  class View {
+  class LimbView {
    public:
-    explicit View(const Z& a) { mpz_roinit_n(value_, a.limbs_, a.size_); }
+    explicit LimbView(const Z& a) { mpz_roinit_n(value_, a.limbs_, a.size_); }
     operator mpz_srcptr() const { return value_; }
 
    private:
     mpz_t value_;
   };
-  View view() const { return View(*this); }
+  LimbView view() const { return LimbView(*this); }
 
  private:
   static constexpr std::size_t kInline = 10, kAtOnce = 4;

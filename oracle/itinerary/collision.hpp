@@ -61,7 +61,7 @@ inline Ball across_squared(const BallVec<3>& w, const BallVec<3>& u) {
 }
 
 template <std::size_t D>
-struct Collision {
+struct EnclosedCollision {
   Ball flight;      ///< t
   Ball root;        ///< sqrt(D), above 0
   BallVec<D> w, m;  ///< w', m
@@ -72,8 +72,8 @@ struct Collision {
 
 /// The collision of a particle with the obstacle around 0; nothing if it is not certain that it meets it.
 template <std::size_t D>
-std::optional<Collision<D>> collide(const State<D>& state, const Form<D>& form) {
-  Collision<D> c;
+std::optional<EnclosedCollision<D>> collide(const State<D>& state, const Form<D>& form) {
+  EnclosedCollision<D> c;
   c.before = state;
   const BallVec<D> w = form.in_ball(state.y), u = form.in_ball(state.v);
   const Ball a = dot(u, u), d = form.radius2 * a - across_squared(w, u);
@@ -96,7 +96,7 @@ std::optional<Collision<D>> collide(const State<D>& state, const Form<D>& form) 
 ///   dt = w'.dq / sqrt(D),   dw' = dq + u dt,   dm = K^T dw',   d(v.m) = dv.m + v.dm,
 ///   dv' = dv - 2 (d(v.m) m + (v.m) dm) / m^2 + 4 (v.m) (m.dm) m / m^4.
 template <std::size_t D>
-State<D> derivative(const Collision<D>& c, const Form<D>& form, const State<D>& change) {
+State<D> derivative(const EnclosedCollision<D>& c, const Form<D>& form, const State<D>& change) {
   BallVec<D> drift;
   for (std::size_t i = 0; i < D; ++i) drift[i] = change.y[i] + c.flight * change.v[i];
   BallVec<D> dw = form.in_ball(drift);

@@ -47,9 +47,9 @@ bool Passage<D>::go() {
   for (;;) {
     const Ball::WorkingPrecision precision(working_bits());
     const bool is_stopped = route_.journey.stop && *route_.journey.stop;
-    const Step result = is_stopped ? Step::lost : step();
-    if (result == Step::done) continue;
-    if (result == Step::arrived) return true;
+    const PassageStep result = is_stopped ? PassageStep::lost : step();
+    if (result == PassageStep::done) continue;
+    if (result == PassageStep::arrived) return true;
     arrival_.collisions = route_.told;
     arrival_.bits = bits_;
     return false;
@@ -57,7 +57,7 @@ bool Passage<D>::go() {
 }
 
 template <std::size_t D>
-typename Passage<D>::Step Passage<D>::step() {
+typename Passage<D>::PassageStep Passage<D>::step() {
   const auto& most = route_.journey.collisions;
   if (route_.stopped && collisions_ == route_.told) return arrive(JourneyEnd::collisions);
   if (most && collisions_ == *most) return arrive(JourneyEnd::collisions);
@@ -78,39 +78,40 @@ typename Passage<D>::Step Passage<D>::step() {
     case Unseen::never:
       return arrive(route_.journey.time ? JourneyEnd::time : JourneyEnd::never);
     default:
-      return Step::lost;
+      return PassageStep::lost;
   }
 }
 
 template <std::size_t D>
-typename Passage<D>::Step Passage<D>::collide_with(const ObstacleId& obstacle) {
+typename Passage<D>::PassageStep Passage<D>::collide_with(const ObstacleId& obstacle) {
   const ZVec<D> centre = route_.sight.centre_of(obstacle);
   const Form<D>& form = route_.sight.form_of(obstacle);
   State<D> state = state_;
   for (std::size_t i = 0; i < D; ++i) state.y[i] += Ball(centre_[i] - centre[i]);
   const auto middle = collide(state, form);
-  if (!middle) return Step::lost;
+  if (!middle) return PassageStep::lost;
   std::optional<typename ErrorBox<N>::Matrix> derivative;
   Ball time = middle->after.t;
   if (!box_.is_point()) {
     const auto anywhere = collision_anywhere(centre, form);
-    if (!anywhere) return Step::lost;
+    if (!anywhere) return PassageStep::lost;
     derivative = derivative_of(*anywhere, form);
     time = time.widened(box_.width_of((*derivative)[kTime]));
   }
   const auto beyond = is_beyond_end(time);
-  if (!beyond) return Step::lost;
+  if (!beyond) return PassageStep::lost;
   if (*beyond) return arrive(JourneyEnd::time);
   move_on(*middle, derivative ? &*derivative : nullptr);
   centre_ = centre;
   from_ = obstacle;
   ++collisions_;
-  return tell(obstacle) ? Step::done : Step::lost;
+  return tell(obstacle) ? PassageStep::done : PassageStep::lost;
 }
 
 // The collision from anywhere in the box.
 template <std::size_t D>
-std::optional<Collision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre, const Form<D>& form) const {
+std::optional<EnclosedCollision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre,
+                                                                   const Form<D>& form) const {
   const auto with_bits = [&](long bits) {
     const Ball::WorkingPrecision precision(bits);
     State<D> state = state_;
@@ -125,7 +126,7 @@ std::optional<Collision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre
 }
 
 template <std::size_t D>
-typename ErrorBox<Passage<D>::N>::Matrix Passage<D>::derivative_of(const Collision<D>& anywhere,
+typename ErrorBox<Passage<D>::N>::Matrix Passage<D>::derivative_of(const EnclosedCollision<D>& anywhere,
                                                                    const Form<D>& form) const {
   const Ball::WorkingPrecision precision(kDerivativeBits);
   typename ErrorBox<N>::Matrix result;
@@ -143,7 +144,7 @@ typename ErrorBox<Passage<D>::N>::Matrix Passage<D>::derivative_of(const Collisi
 }
 
 template <std::size_t D>
-void Passage<D>::move_on(const Collision<D>& middle, const typename ErrorBox<N>::Matrix* derivative) {
+void Passage<D>::move_on(const EnclosedCollision<D>& middle, const typename ErrorBox<N>::Matrix* derivative) {
   typename ErrorBox<N>::Bounds rounding;
   for (std::size_t i = 0; i < D; ++i) {
     rounding[i] = middle.after.y[i].radius();
@@ -198,7 +199,7 @@ bool Passage<D>::tell(const ObstacleId& obstacle) {
 }
 
 template <std::size_t D>
-typename Passage<D>::Step Passage<D>::arrive(JourneyEnd end) {
+typename Passage<D>::PassageStep Passage<D>::arrive(JourneyEnd end) {
   Arrival arrival;
   arrival.end = end;
   arrival.collisions = collisions_;
@@ -206,9 +207,10 @@ typename Passage<D>::Step Passage<D>::arrive(JourneyEnd end) {
   std::optional<Ball> time;
   if (end == JourneyEnd::time) time = end_time();
   const Ball* at = time ? &*time : nullptr;
-  if (!describe(at, arrival.x, arrival.v) || !describe_distance(at, arrival.distance)) return Step::lost;
+  if (!describe(at, arrival.x, arrival.v) || !describe_distance(at, arrival.distance))
+    return PassageStep::lost;
   arrival_ = std::move(arrival);
-  return Step::arrived;
+  return PassageStep::arrived;
 }
 
 // The particle's place at a time after the last collision, or there; in the problem's unit.

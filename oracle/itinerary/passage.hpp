@@ -50,7 +50,7 @@ class Passage {
   static constexpr int N = 2 * static_cast<int>(D) + 1;  // y, v, t
   static constexpr int kTime = N - 1;
   using Gradient = BallVec<N>;
-  enum class Step { done, arrived, lost };
+  enum class PassageStep { done, arrived, lost };
 
   /// A function of the state: its value in the middle, rounded, and its gradient anywhere in the box.
   struct Function {
@@ -58,14 +58,14 @@ class Passage {
     Gradient gradient;
   };
 
-  Step step();
-  Step collide_with(const ObstacleId& obstacle);
-  std::optional<Collision<D>> collision_anywhere(const ZVec<D>& centre, const Form<D>& form) const;
-  typename ErrorBox<N>::Matrix derivative_of(const Collision<D>& anywhere, const Form<D>& form) const;
-  void move_on(const Collision<D>& middle, const typename ErrorBox<N>::Matrix* derivative);
+  PassageStep step();
+  PassageStep collide_with(const ObstacleId& obstacle);
+  std::optional<EnclosedCollision<D>> collision_anywhere(const ZVec<D>& centre, const Form<D>& form) const;
+  typename ErrorBox<N>::Matrix derivative_of(const EnclosedCollision<D>& anywhere, const Form<D>& form) const;
+  void move_on(const EnclosedCollision<D>& middle, const typename ErrorBox<N>::Matrix* derivative);
   std::optional<bool> is_beyond_end(const Ball& time) const;
   bool tell(const ObstacleId& obstacle);
-  Step arrive(JourneyEnd end);
+  PassageStep arrive(JourneyEnd end);
 
   Function place(int component, const Ball* time) const;
   Ball distance(const std::array<Function, D>& place) const;

@@ -45,7 +45,7 @@ class Rounded final : public RoundedItinerary::Impl {
   static Ball rounded(const Ball& a) { return (a + Ball()).middle(); }
 
   // On the surface, and at the speed of the start, as good programs do.
-  void settle(const Collision<D>& collision, const Form<D>& form) {
+  void settle(const EnclosedCollision<D>& collision, const Form<D>& form) {
     const Ball onto = form.radius / sqrt(dot(collision.w, collision.w));
     const Ball faster = sqrt(speed2_ / dot(collision.after.v, collision.after.v));
     for (std::size_t i = 0; i < D; ++i) {

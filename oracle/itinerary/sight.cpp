@@ -31,13 +31,13 @@ ExactQuery<D> rational_ray(const Seen<D>& seen, long bits) {
 }
 
 template <std::size_t D>
-Ball time_of(const ExactQuery<D>& query, const Entry<D>& entry) {
+Ball time_of(const ExactQuery<D>& query, const ExactEntry<D>& entry) {
   return scaled((Ball(entry.s) - sqrt(Ball(entry.d))) / Ball(entry.v2),
                 query.length_exponent - query.velocity_exponent);
 }
 
 template <std::size_t D>
-ObstacleId obstacle_of(const Entry<D>& entry) {
+ObstacleId obstacle_of(const ExactEntry<D>& entry) {
   return {entry.lattice, entry.atom, to_cell(entry.n)};
 }
 
@@ -234,7 +234,8 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
 
 // True if no grown obstacle but this one is entered by the ray before the true collision is over.
 template <std::size_t D>
-bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const Entry<D>& entry, const Ball& flight) {
+bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D>& entry,
+                        const Ball& flight) {
   const Ball entered = time_of(ray, entry);
   // theta, a time shortly before that: the ray moves by less than a grown obstacle has grown
   const Bound speed = Ball(ceil_sqrt(ray.velocity.v2)).size() * Bound::power_of_two(ray.velocity_exponent);

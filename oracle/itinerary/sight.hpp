@@ -56,7 +56,7 @@ class Sight {
   enum class Doubt { grow_less, look_closer };
   std::variant<ObstacleId, Unseen> next_exactly(const Seen<D>& seen) const;
   std::variant<ObstacleId, Unseen, Doubt> next_at(const Seen<D>& seen, long level);
-  bool is_alone(long level, const ExactQuery<D>& ray, const Entry<D>& entry, const Ball& flight);
+  bool is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D>& entry, const Ball& flight);
   const ExactScene<D>& grown(long level);
   const ExactScene<D>& shrunk(long level);
 

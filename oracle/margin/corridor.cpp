@@ -119,7 +119,7 @@ class CorridorSearch {
   // corridor (2D) or the plane channel (3D) with the normal G, if these have any width.
   bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
     const ExactQuery<D>& query = query_.query();
-    const Velocity<D> velocity{direction, dot(direction, direction)};
+    const ExactVelocity<D> velocity{direction, dot(direction, direction)};
     for (const Uncertain<D>& atom : query_.atoms()) {
       const ExactScene<D>& scene = query_.scene();
       View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);

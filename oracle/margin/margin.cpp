@@ -117,7 +117,7 @@ class MarginSearch {
       });
       return budget_ < 0;
     };
-    stretches.cut(low, high, [&](const Stretch<D>& stretch) {
+    stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
       return --budget_ < 0 || stretches.visit(stretch, visit);
     });
   }
@@ -199,7 +199,7 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
         });
         return budget < 0;
       };
-      stretches.cut(1, ceiling(target_time * v2) + ceiling(rho), [&](const Stretch<D>& stretch) {
+      stretches.cut(1, ceiling(target_time * v2) + ceiling(rho), [&](const RowStretch<D>& stretch) {
         return --budget < 0 || stretches.visit(stretch, visit);
       });
     }

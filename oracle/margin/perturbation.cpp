@@ -93,7 +93,7 @@ Real Uncertain<D>::margin_of_containing(const Centre<D>& centre) const {
 
 template <std::size_t D>
 Real Uncertain<D>::margin_of_meeting(const Centre<D>& centre) const {
-  const Velocity<D>& velocity = view_.velocity;
+  const ExactVelocity<D>& velocity = view_.velocity;
   const std::array<Real, D> ulp = ulps_at(real(centre.s) / real(velocity.v2));
   // From the centre to the nearest point of the line: (s v - v^2 c) / v^2, of length |h| / |v|.
   ZVec<D> nearest;
@@ -120,9 +120,9 @@ Real Uncertain<D>::time_of(const Centre<D>& centre) const {
 
 // t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
 template <std::size_t D>
-Arrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
-  const Velocity<D>& velocity = view_.velocity;
-  Arrival<D> arrival;
+PerturbedArrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
+  const ExactVelocity<D>& velocity = view_.velocity;
+  PerturbedArrival<D> arrival;
   arrival.t = time_of(centre);
   const Real chord = sqrt(real(Z(rho2_ - centre.h2))), v2 = real(velocity.v2);
   ZVec<D> nearest;
@@ -148,7 +148,7 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
   const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().velocity.v2, centre2.s,
                                     atom2.rho2() - centre2.h2, atom2.view().velocity.v2);
   if (order == 0) return Real(0);
-  const Arrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
+  const PerturbedArrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
   const bool same_radius = atom1.lattice() == atom2.lattice() && atom1.atom() == atom2.atom();
   Real change = same_radius ? abs(two.by_radius - one.by_radius) * atom1.radius_ulp()
                             : two.by_radius * atom2.radius_ulp() + one.by_radius * atom1.radius_ulp();
@@ -163,7 +163,7 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
 }
 
 template <std::size_t D>
-Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const Arrival<D>& arrival) {
+Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const PerturbedArrival<D>& arrival) {
   Real change = arrival.by_radius * atom.radius_ulp();
   for (std::size_t i = 0; i < D; ++i)
     change += abs(arrival.by_x[i]) * (ulps.x[i] + abs(arrival.t) * ulps.v[i]);
@@ -178,7 +178,7 @@ template Real margin_of_order(const InputUlps<2>&, const Uncertain<2>&, const Ce
                               const Centre<2>&);
 template Real margin_of_order(const InputUlps<3>&, const Uncertain<3>&, const Centre<3>&, const Uncertain<3>&,
                               const Centre<3>&);
-template Real largest_change(const InputUlps<2>&, const Uncertain<2>&, const Arrival<2>&);
-template Real largest_change(const InputUlps<3>&, const Uncertain<3>&, const Arrival<3>&);
+template Real largest_change(const InputUlps<2>&, const Uncertain<2>&, const PerturbedArrival<2>&);
+template Real largest_change(const InputUlps<3>&, const Uncertain<3>&, const PerturbedArrival<3>&);
 
 }  // namespace lorentz::oracle

@@ -27,7 +27,7 @@ struct Centre {
   LatticePoint<D> point;
   Z s, c2, h2;  ///< v.c, |c|^2, |h|^2 = v^2 c^2 - s^2
 
-  Centre(const Velocity<D>& velocity, LatticePoint<D> centre)
+  Centre(const ExactVelocity<D>& velocity, LatticePoint<D> centre)
       : point(std::move(centre)),
         s(dot(velocity.v, point.p)),
         c2(dot(point.p, point.p)),
@@ -44,7 +44,7 @@ struct InputUlps {
 
 /// A time of entry with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
 template <std::size_t D>
-struct Arrival {
+struct PerturbedArrival {
   Real t;
   std::array<Real, D> by_x;
   Real by_radius;
@@ -71,7 +71,7 @@ class Uncertain {
   Real margin_of_ahead(const Centre<D>& centre) const;
   /// Of an obstacle that is met. One that is missed counts as entered where the line is nearest to it
   /// (derivatives: infinite, so none).
-  Arrival<D> arrival(const Centre<D>& centre) const;
+  PerturbedArrival<D> arrival(const Centre<D>& centre) const;
   Real time_of(const Centre<D>& centre) const;
 
   /// The largest change of the place of x along a direction, and of r.
@@ -103,7 +103,7 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
 
 /// The largest change of a time of entry.
 template <std::size_t D>
-Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const Arrival<D>& arrival);
+Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const PerturbedArrival<D>& arrival);
 
 /// Distance to the next binary64 away from zero; of an infinity that of the largest finite one.
 double ulp(double value);

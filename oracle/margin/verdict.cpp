@@ -135,7 +135,7 @@ class DepartureBound {
       return exceeds_tolerance() || passed_over_ > kMostPassedOver;
     };
     if (end >= 1)
-      stretches.cut(1, end, [&](const Stretch<D>& stretch) {
+      stretches.cut(1, end, [&](const RowStretch<D>& stretch) {
         return stretches.visit(stretch, visit) || ++passed_over_ > kMostPassedOver;
       });
   }

@@ -145,7 +145,7 @@ std::optional<Filling> filling_of(const Scene& scene) {
   const auto shares = shares_of(scene);
   if (!shares) return std::nullopt;
   Filling filling;
-  for (const AtomShares::Share& share : shares->atoms) {
+  for (const AtomShares::AtomShare& share : shares->atoms) {
     filling.fraction += share.fraction;
     filling.surface += share.surface;
   }

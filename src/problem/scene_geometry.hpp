@@ -25,11 +25,11 @@ double carlson_rd(double x, double y, double z);
 /// Of each atom, lattice by lattice: the share of space that its obstacles take, were there no overlaps, and
 /// their surface per volume, times `unit`: a power of two, of about the size of the first lattice's cell.
 struct AtomShares {
-  struct Share {
+  struct AtomShare {
     double fraction = 0, surface = 0;
   };
   double unit = 1;
-  std::vector<Share> atoms;
+  std::vector<AtomShare> atoms;
 };
 
 /// Nothing if an obstacle is so large, small or slender that it is beyond the range of binary64.

@@ -7,7 +7,7 @@ namespace lorentz {
 
 /// The obstacle A y, |y| < 1, around its centre.
 template <class Real>
-struct Shape {
+struct MeetingShape {
   bool ball = true;
   Real radius = 0;                  ///< of a ball
   std::array<Point<Real>, 3> axes;  ///< of an ellipsoid: the columns of A,
@@ -16,7 +16,7 @@ struct Shape {
 };
 
 template <class Real>
-struct Meeting {
+struct LineMeeting {
   Real time;                ///< from now
   Point<Real> offset;       ///< from the centre, on the surface
   Point<Real> velocity;     ///< after the reflection, not yet brought to the first speed
@@ -28,13 +28,13 @@ struct Meeting {
 /// nearest to 0 without cancellation, and what is left of the radius leads from there to the sphere: the
 /// point is on it by construction, however long the flight. A line that passes by less than `slack` grazes.
 template <class Real>
-struct Entry {
+struct MeetingEntry {
   Real time;
   Point<Real> point;
   Real root;  ///< - u . point
   bool there;
 
-  Entry(const Point<Real>& w, const Point<Real>& u, Real radius, double slack) {
+  MeetingEntry(const Point<Real>& w, const Point<Real>& u, Real radius, double slack) {
     const Real u2 = inner(u, u), inverse = Real(1) / u2;
     const Point<Real> p = times(inverse, outer(u, outer(w, u)));
     const Real p2 = inner(p, p), square = radius * radius - p2;
@@ -53,13 +53,14 @@ struct Entry {
 
 /// The line w + t v from the obstacle's centre; `far`: the largest number that went into w as it was asked.
 template <class Real>
-Meeting<Real> meeting_of(const Shape<Real>& shape, const Point<Real>& w, const Point<Real>& v, double far) {
+LineMeeting<Real> meeting_of(const MeetingShape<Real>& shape, const Point<Real>& w, const Point<Real>& v,
+                             double far) {
   constexpr double kRounding = 0x1p-48;
   const double size =
       std::fabs(high_part(w[0])) + std::fabs(high_part(w[1])) + std::fabs(high_part(w[2])) + far;
-  Meeting<Real> meeting;
+  LineMeeting<Real> meeting;
   if (shape.ball) {
-    const Entry<Real> entry(w, v, shape.radius, kRounding * size);
+    const MeetingEntry<Real> entry(w, v, shape.radius, kRounding * size);
     const Real turn = (entry.root + entry.root) / (shape.radius * shape.radius);
     meeting.time = entry.time;
     meeting.offset = meeting.normal = entry.point;
@@ -70,7 +71,7 @@ Meeting<Real> meeting_of(const Shape<Real>& shape, const Point<Real>& w, const P
   const auto in_frame = [&](const Point<Real>& a) {
     return Point<Real>{inner(shape.dual[0], a), inner(shape.dual[1], a), inner(shape.dual[2], a)};
   };
-  const Entry<Real> entry(in_frame(w), in_frame(v), Real(1), kRounding * size * shape.inverse_size);
+  const MeetingEntry<Real> entry(in_frame(w), in_frame(v), Real(1), kRounding * size * shape.inverse_size);
   const Point<Real>& y = entry.point;
   meeting.time = entry.time;
   meeting.offset = plus(plus(times(y[0], shape.axes[0]), y[1], shape.axes[1]), y[2], shape.axes[2]);

@@ -20,8 +20,8 @@ std::array<Point<Real>, 3> inverse_of(const std::array<Point<Real>, 3>& axes) {
 }
 
 template <class Real>
-Shape<Real> shape_of(const Atom& atom, int dimension) {
-  Shape<Real> shape;
+MeetingShape<Real> shape_of(const Atom& atom, int dimension) {
+  MeetingShape<Real> shape;
   shape.ball = atom.is_ball();
   shape.radius = Real(atom.radius);
   if (shape.ball) return shape;
@@ -72,7 +72,7 @@ Point<Real> at_first_speed(const Point<Real>& v, const Particle& particle) {
 }
 
 template <class Real>
-void tell(const Particle& before, const Meeting<Real>& meeting, Collision& collision) {
+void tell(const Particle& before, const LineMeeting<Real>& meeting, Collision& collision) {
   const Vec normal = high_part(meeting.normal);
   const double size = length(normal);
   collision.flight = high_part(meeting.time);
@@ -87,7 +87,7 @@ void tell(const Particle& before, const Meeting<Real>& meeting, Collision& colli
 template <class Real>
 Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.lattices.size() == 1) {
   for (const Lattice& lattice : scene.lattices) {
-    Rows& rows = lattices_.emplace_back();
+    MotionRows& rows = lattices_.emplace_back();
     for (int i = 0; i < 3; ++i)
       rows.vectors[i] = exact_point<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
     for (const Atom& atom : lattice.atoms)
@@ -96,7 +96,7 @@ Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.la
 }
 
 template <class Real>
-Asked Motion<Real>::asked(const Particle& particle) const {
+Inquiry Motion<Real>::asked(const Particle& particle) const {
   if (one_lattice_) {
     const Point<Real>& position = lattices_[0].obstacles[particle.atom].position;
     return {sum(high_part(position), particle.offset), particle.velocity, {}};
@@ -108,7 +108,7 @@ Asked Motion<Real>::asked(const Particle& particle) const {
 // From the centre of the obstacle that the offset counts from to that of the one named.
 template <class Real>
 Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Named& named) const {
-  const Rows& rows = lattices_[0];
+  const MotionRows& rows = lattices_[0];
   Point<Real> step =
       plus(rows.obstacles[named.atom].position, Real(-1), rows.obstacles[particle.atom].position);
   for (int i = 0; i < places_.scene().dimension; ++i)
@@ -138,14 +138,14 @@ bool Motion<Real>::see(const Particle& particle, const Named& named, Point<Real>
 }
 
 template <class Real>
-Stop Motion<Real>::meet(Particle& particle, const Asked& asked, const Named& named, double until,
+Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
                         Collision& collision) const {
   Point<Real> w;
   std::array<std::int64_t, 3> cell;
   if (!see(particle, named, w, cell)) return Stop::overflow;
   const double far = std::fabs(asked.x[0]) + std::fabs(asked.x[1]) + std::fabs(asked.x[2]);
-  const Meeting<Real> meeting = meeting_of(lattices_[named.lattice].obstacles[named.atom].shape, w,
-                                           joined<Real>(particle.velocity, particle.velocity_low), far);
+  const LineMeeting<Real> meeting = meeting_of(lattices_[named.lattice].obstacles[named.atom].shape, w,
+                                               joined<Real>(particle.velocity, particle.velocity_low), far);
   if (!meeting.on_the_line) return Stop::missed;
   const Wide flight(high_part(meeting.time), low_part(meeting.time));
   if (until < HUGE_VAL && (time_left(particle, until) - flight).hi < 0) {

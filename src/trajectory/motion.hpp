@@ -16,7 +16,7 @@ struct Named {
 };
 
 /// Where a flight starts, as an engine is asked, and the cell of the obstacle that is left.
-struct Asked {
+struct Inquiry {
   Vec x, v;
   std::array<std::int64_t, 3> cell;
 };
@@ -54,10 +54,10 @@ class Motion {
 
   const Places& places() const { return places_; }
 
-  Asked asked(const Particle& particle) const;
+  Inquiry asked(const Particle& particle) const;
 
   /// The collision with the obstacle that was named; or, if it comes after the time `until`, the way there.
-  Stop meet(Particle& particle, const Asked& asked, const Named& named, double until,
+  Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
             Collision& collision) const;
 
   /// Nothing is met: on to the time `until`, or if that is no time, `otherwise`.
@@ -66,9 +66,9 @@ class Motion {
  private:
   struct Obstacle {
     Point<Real> position;
-    Shape<Real> shape;
+    MeetingShape<Real> shape;
   };
-  struct Rows {
+  struct MotionRows {
     std::array<Point<Real>, 3> vectors;
     std::vector<Obstacle> obstacles;
   };
@@ -80,7 +80,7 @@ class Motion {
 
   Places places_;
   bool one_lattice_;
-  std::vector<Rows> lattices_;
+  std::vector<MotionRows> lattices_;
 };
 
 extern template class Motion<double>;

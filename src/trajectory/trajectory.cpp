@@ -26,7 +26,7 @@ struct Trajectory::Inside {
 
 namespace {
 
-void set(const Particle& particle, const Asked& asked, Query& query) {
+void set(const Particle& particle, const Inquiry& asked, Query& query) {
   query.x = asked.x, query.v = asked.v;
   if (!particle.leaves) {
     query.from.reset();
@@ -99,7 +99,7 @@ bool Trajectory::advance(double until) {
 
 template <class Motion>
 Stop Trajectory::advance(const Motion& motion, double until) {
-  const Asked asked = motion.asked(particle_);
+  const Inquiry asked = motion.asked(particle_);
   Query& query = inside_->query;
   Answer& answer = inside_->answer;
   set(particle_, asked, query);

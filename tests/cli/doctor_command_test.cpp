@@ -106,21 +106,21 @@ const std::vector<Use> kSpoiled{Use::oracle, Use::itineraries};
 
 TEST_CASE("Who gives one wrong answer, or leaves one too many undecided, is not fit", "[doctor]") {
   const auto nothing = [](Answer&) {};
-  const Finding good = examine("it", kSpoiled, 0, oracle_but(-1, nothing));
+  const Symptom good = examine("it", kSpoiled, 0, oracle_but(-1, nothing));
   CHECK(good.fit);
   CHECK(good.name == "it");
   CHECK(good.found == "8 of 8 answers right");
   CHECK(good.spoiled == kSpoiled);
   for (int which = 0; which < 8; ++which) {
     INFO("question " << which);
-    const Finding wrong =
+    const Symptom wrong =
         examine("it", kSpoiled, 3, oracle_but(which, [](Answer& answer) {
                   answer = answer.outcome == Outcome::never ? Answer::hit({}, 1) : Answer::never();
                 }));
     CHECK_FALSE(wrong.fit);
     CHECK(wrong.found == "7 of 8 answers right");
     const Ask silent = oracle_but(which, [](Answer& answer) { answer = Answer::undecided(); });
-    const Finding left = examine("it", kSpoiled, 0, silent);
+    const Symptom left = examine("it", kSpoiled, 0, silent);
     CHECK_FALSE(left.fit);
     CHECK(left.found == "7 of 8 answers right, 1 left undecided");
     CHECK(examine("it", kSpoiled, 1, oracle_but(which, [](Answer& answer) { answer = Answer::undecided(); }))
@@ -141,7 +141,7 @@ TEST_CASE("Who gives one wrong answer, or leaves one too many undecided, is not 
                                                    }};
     for (const auto& spoil : spoils) {
       bool changes = false;
-      const Finding found = examine("it", kSpoiled, 0, oracle_but(which, [&](Answer& answer) {
+      const Symptom found = examine("it", kSpoiled, 0, oracle_but(which, [&](Answer& answer) {
                                       const Answer before = answer;
                                       spoil(answer);
                                       changes =
@@ -153,7 +153,7 @@ TEST_CASE("Who gives one wrong answer, or leaves one too many undecided, is not 
     CHECK(spoilt == (which == 1 ? 0 : which == 3 ? 1 : 3));
   }
   CHECK_FALSE(examine("it", kSpoiled, 3, [](const Scene&, const Query&) { return Answer::undecided(); }).fit);
-  const Finding broken = examine(
+  const Symptom broken = examine(
       "it", kSpoiled, 8, [](const Scene&, const Query&) -> Answer { throw std::runtime_error("no memory"); });
   CHECK_FALSE(broken.fit);
   CHECK(broken.found == "no memory");
@@ -172,13 +172,13 @@ TEST_CASE("A check of certificates that refuses a true one, or takes a false one
   };
   CHECK(with(0, false).fit);
   for (int which = 0; which < 16; ++which) {
-    const Finding found = with(which, true);
+    const Symptom found = with(which, true);
     CHECK_FALSE(found.fit);
     CHECK(found.found == (which % 2 == 0 ? "7 of 8 true ones accepted, 8 false ones refused"
                                          : "8 of 8 true ones accepted, 7 false ones refused"));
     CHECK(found.spoiled == std::vector<Use>{Use::certificates});
   }
-  const Finding broken =
+  const Symptom broken =
       examine_certificates([](const Scene&, const Query&, const Answer&, const Answer&) -> bool {
         throw std::runtime_error("no proof");
       });
@@ -189,7 +189,7 @@ TEST_CASE("A check of certificates that refuses a true one, or takes a false one
 
 TEST_CASE("A path whose last digit is another is not fit", "[doctor]") {
   CHECK(examine_itinerary([] { return "0.9952629194433541608903118094"; }).fit);
-  const Finding other = examine_itinerary([] { return "0.9952629194433541608903118095"; });
+  const Symptom other = examine_itinerary([] { return "0.9952629194433541608903118095"; });
   CHECK_FALSE(other.fit);
   CHECK(other.found == "0.9952629194433541608903118095");
   CHECK(other.spoiled == std::vector<Use>{Use::itineraries});
@@ -229,7 +229,7 @@ TEST_CASE("Digests are of the families that are asked for", "[doctor]") {
 }
 
 TEST_CASE("What is spoiled is what some unfit finding spoils, and nothing else", "[doctor]") {
-  const Finding fit{"a", true, "", {Use::engines, Use::oracle}}, one{"b", false, "", {Use::certificates}},
+  const Symptom fit{"a", true, "", {Use::engines, Use::oracle}}, one{"b", false, "", {Use::certificates}},
       two{"c", false, "", {Use::oracle, Use::certificates}};
   CHECK(unfit_uses({fit}).empty());
   CHECK(unfit_uses({fit, one}) == std::vector<Use>{Use::certificates});
@@ -243,7 +243,7 @@ TEST_CASE("What is spoiled is what some unfit finding spoils, and nothing else",
   CHECK(findings[1].found == "24; it should be: 53");
   CHECK(unfit_uses(findings).size() == 4);
   std::map<std::string, std::vector<Use>> spoiled;
-  for (const Finding& finding : examine_known_answers()) {
+  for (const Symptom& finding : examine_known_answers()) {
     CHECK(finding.fit);
     spoiled[finding.name] = finding.spoiled;
   }

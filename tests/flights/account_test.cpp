@@ -71,7 +71,7 @@ namespace {
 Account drawn_account(std::uint64_t seed, int flights) {
   cases::Random random(seed, "accounts", 0);
   Account account;
-  account.tally = Tally(-3);
+  account.tally = FlightTally(-3);
   for (int i = 0; i < flights; ++i) account.tally.count_hit(random.octave(-50, 70));
   account.tally.never = seed, account.tally.undecided = 2 * seed, account.tally.inside = 3;
   account.done.insert(10 * seed, 10 * seed + 4);
@@ -104,7 +104,7 @@ TEST_CASE("An account is read as it was written", "[flights]") {
 }
 
 TEST_CASE("An account that no run of its plan can have come to is refused", "[flights]") {
-  Plan plan;
+  FlightsPlan plan;
   plan.scene = unit_scene(2, 0.3);
   plan.seed = 7402, plan.count = 2 * kBlock + 100;
   Account account = Account::begun(plan);
@@ -142,7 +142,7 @@ TEST_CASE("An account that no run of its plan can have come to is refused", "[fl
       [&](Account& a) { first(a.tally.bins.linear) = most; },
       [&](Account& a) { first(a.tally.bins.logarithmic) += most, ++a.tally.bins.logarithmic.back(); },
       [](Account& a) { a.tally.bins = Bins(a.tally.bins.exponent()); },
-      [](Account& a) { a.tally = Tally(a.tally.bins.exponent() + 1); }};
+      [](Account& a) { a.tally = FlightTally(a.tally.bins.exponent() + 1); }};
   for (std::size_t i = 0; i < edits.size(); ++i) {
     Account bad = account;
     edits[i](bad);

@@ -198,14 +198,14 @@ TEST_CASE("Flights: means, survivals and p-values of 1000 seeds", "[flights][cov
   constexpr std::uint64_t kFlights = 4000;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const auto tally_of = [&](const Scene& scene, Ensemble from) {
-      Plan plan;
+      FlightsPlan plan;
       plan.scene = scene, plan.from = from;
       plan.seed = static_cast<std::uint64_t>(seed), plan.count = kFlights;
       Account account = Account::begun(plan);
       run(plan, {}, account);
       return account.tally;
     };
-    const Tally one = tally_of(finite, Ensemble::surface), other = tally_of(small, Ensemble::uniform);
+    const FlightTally one = tally_of(finite, Ensemble::surface), other = tally_of(small, Ensemble::uniform);
     means += std::fabs(one.mean() - exact) < 1.96 * one.standard_error();
     std::vector<double> edges;
     std::vector<std::uint64_t> counts{other.bins.logarithmic};

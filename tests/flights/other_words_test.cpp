@@ -14,11 +14,11 @@ using namespace lorentz::flights;
 
 namespace {
 
-Tally flown(const Scene& scene, Ensemble from, std::uint64_t seed, std::uint64_t count,
-            const char* engine = "batch") {
-  Plan plan{scene, engine, from, seed, count};
+FlightTally flown(const Scene& scene, Ensemble from, std::uint64_t seed, std::uint64_t count,
+                  const char* engine = "batch") {
+  FlightsPlan plan{scene, engine, from, seed, count};
   Account account;
-  account.tally = Tally(unit_exponent(scene));
+  account.tally = FlightTally(unit_exponent(scene));
   run(plan, {.jobs = 2}, account);
   return account.tally;
 }
@@ -98,8 +98,8 @@ TEST_CASE("In units of a power of two all counts are the same, and all times tha
       for (const char* engine : {"batch", "certified-batch", "reduction"})
         for (const int power : {1, -7, 40}) {
           const double unit = std::ldexp(1, power);
-          const Tally one = flown(scene, from, 7601, 5000, engine),
-                      other = flown(scaled_by(scene, unit), from, 7601, 5000, engine);
+          const FlightTally one = flown(scene, from, 7601, 5000, engine),
+                            other = flown(scaled_by(scene, unit), from, 7601, 5000, engine);
           INFO(engine << ", 2^" << power << ", dimension " << scene.dimension);
           CHECK(one.hits + one.undecided == 5000);
           CHECK(other.hits == one.hits);
@@ -122,10 +122,10 @@ constexpr std::uint64_t kFlights = 1 << 17;
 // The shares that fly farther than t, once an octave, of independent flights: by how many standard errors
 // they differ at worst. `unit` is what a length 1 of the first has become in the second: 1 or 3, so that 3 t
 // is an edge of bins, too.
-double worst_departure(const Tally& one, const Tally& other, double unit) {
+double worst_departure(const FlightTally& one, const FlightTally& other, double unit) {
   double worst = 0;
   for (double t = 0.25; t <= 16; t *= 2) {
-    const auto farther = [](const Tally& tally, double t) {
+    const auto farther = [](const FlightTally& tally, double t) {
       std::uint64_t count = 0;
       for (int i = 0; i <= Bins::kLogarithmic; ++i)
         if (tally.bins.log_edge(i) >= t) count += tally.bins.logarithmic[static_cast<std::size_t>(i) + 1];
@@ -142,9 +142,9 @@ double worst_departure(const Tally& one, const Tally& other, double unit) {
 TEST_CASE("In other units, in another basis, turned: the same law within chance", "[flights][other_words]") {
   for (const Scene& scene : {two_discs(), two_balls()})
     for (const Ensemble from : {Ensemble::uniform, Ensemble::surface}) {
-      const Tally as_it_is = flown(scene, from, 7602, kFlights);
+      const FlightTally as_it_is = flown(scene, from, 7602, kFlights);
       const auto departure = [&](const Scene& told, std::uint64_t seed, double unit = 1) {
-        const Tally other = flown(told, from, seed, kFlights);
+        const FlightTally other = flown(told, from, seed, kFlights);
         REQUIRE(other.hits == kFlights);
         return worst_departure(as_it_is, other, unit);
       };

@@ -23,8 +23,8 @@ using test::Folder;
 
 namespace {
 
-Plan plan_of(Scene scene, std::uint64_t count, Ensemble from = Ensemble::uniform) {
-  Plan plan;
+FlightsPlan plan_of(Scene scene, std::uint64_t count, Ensemble from = Ensemble::uniform) {
+  FlightsPlan plan;
   plan.scene = std::move(scene);
   plan.from = from;
   plan.seed = 7401;
@@ -32,7 +32,7 @@ Plan plan_of(Scene scene, std::uint64_t count, Ensemble from = Ensemble::uniform
   return plan;
 }
 
-Account flown(const Plan& plan, const Bounds& bounds = {}) {
+Account flown(const FlightsPlan& plan, const FlightBounds& bounds = {}) {
   Account account = Account::begun(plan);
   run(plan, bounds, account);
   return account;
@@ -46,7 +46,7 @@ Scene fcc_like() {
 
 TEST_CASE("Any number of threads and shards counts the same", "[flights]") {
   for (const Ensemble from : {Ensemble::uniform, Ensemble::surface}) {
-    const Plan plan = plan_of(unit_scene(2, 0.3), 5 * kBlock + 321, from);
+    const FlightsPlan plan = plan_of(unit_scene(2, 0.3), 5 * kBlock + 321, from);
     const Account one = flown(plan);
     CHECK(one.tally.flights() == plan.count);
     CHECK(one.done.size() == 6);
@@ -67,7 +67,7 @@ TEST_CASE("A tally counts what the oracle says of each start", "[flights]") {
   for (const Scene& scene : {unit_scene(2, 0.2), fcc_like()})
     for (const Ensemble from : {Ensemble::uniform, Ensemble::surface})
       for (const char* engine : {"batch", "certified-batch", "reduction", "certified", "oracle"}) {
-        Plan plan = plan_of(scene, 3000, from);
+        FlightsPlan plan = plan_of(scene, 3000, from);
         plan.engine = engine;
         INFO(engine);
         const Candidates starts(scene, from, plan.seed, plan.cells);
@@ -94,7 +94,7 @@ TEST_CASE("A tally counts what the oracle says of each start", "[flights]") {
 
 // The plan takes minutes, so that no run is done before it is killed: it is killed by what it has done.
 TEST_CASE("A run killed at any moment is gone on with, and counts the same", "[flights]") {
-  const Plan plan = plan_of(unit_scene(2, 1e-3), 100'000 * kBlock);
+  const FlightsPlan plan = plan_of(unit_scene(2, 1e-3), 100'000 * kBlock);
   const Folder folder;
   const std::string path = folder.file("store");
   const auto stored = [&] {
@@ -120,21 +120,21 @@ TEST_CASE("A run killed at any moment is gone on with, and counts the same", "[f
   const Account account = stored();
   CHECK(account.done.size() < plan.blocks());
   CHECK_NOTHROW(account.check(plan));
-  Bounds these{.jobs = 2};  // the same blocks at one go
+  FlightBounds these{.jobs = 2};  // the same blocks at one go
   for (std::uint64_t block = 0; block < plan.blocks(); ++block)
     if (!account.done.contains(block)) these.done.insert(block);
   CHECK(flown(plan, these).text() == account.text());
 }
 
 TEST_CASE("Where obstacles leave no room there is nowhere to start", "[flights]") {
-  Plan plan = plan_of(unit_scene(2, 0.75), 10'000);
+  FlightsPlan plan = plan_of(unit_scene(2, 0.75), 10'000);
   CHECK_THROWS_WITH(flown(plan), Catch::Contains("certified does such scenes"));
   plan.engine = "certified";
   CHECK_THROWS_WITH(flown(plan), Catch::Contains("no free start in 100000 draws"));
 }
 
 TEST_CASE("A run that has time enough is whole", "[flights]") {
-  const Plan plan = plan_of(unit_scene(2, 0.3), 3 * kBlock);
+  const FlightsPlan plan = plan_of(unit_scene(2, 0.3), 3 * kBlock);
   for (const double seconds : {3600.0, 1e300}) CHECK(flown(plan, {.seconds = seconds}) == flown(plan));
 }
 

@@ -75,7 +75,7 @@ inline std::string text_of(const fuzz::Stored& stored) {
 inline std::string text_of(const fuzz::Store& store) {
   std::string out;
   for (const fuzz::Campaign& campaign : store.campaigns()) {
-    const fuzz::Manifest& m = campaign.manifest;
+    const fuzz::CampaignManifest& m = campaign.manifest;
     out += m.engine + ' ' + m.targets + ' ' + std::to_string(m.seed) + ' ' + m.options + ' ' + m.shard + '\n';
     for (const cases::Target& target : cases::targets())
       if (m.targets.find(target.name()) != std::string::npos)

@@ -38,13 +38,13 @@ Plan plan_of(std::initializer_list<const char*> names) {
 void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
             const compare::MakeAnswerer& answerers = skewed_answerers(),
             double seconds = std::numeric_limits<double>::infinity()) {
-  fuzz::Manifest manifest{"1",
-                          "skewed",
-                          "",
-                          plan.seed,
-                          "",
-                          plan.keep,
-                          std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
+  fuzz::CampaignManifest manifest{"1",
+                                  "skewed",
+                                  "",
+                                  plan.seed,
+                                  "",
+                                  plan.keep,
+                                  std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
   for (const cases::Target* target : plan.targets)
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   const std::int64_t id = store.open_campaign(manifest);
@@ -300,7 +300,7 @@ TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
     }
     fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
     fuzz::merge(paths, uneven);
-    CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::Manifest::kMerged);
+    CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::CampaignManifest::kMerged);
     CHECK(uneven.tally(1, "leaving").next == 150);
     CHECK(uneven.tally(1, "leaving").cases == 153);
   }

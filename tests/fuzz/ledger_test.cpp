@@ -32,14 +32,14 @@ fuzz::Finding finding_of(const char* target, const char* kind, std::uint64_t ind
   return one;
 }
 
-// A stretch that was done, with findings of these kinds.
-fuzz::Done done_with(const fuzz::Stretch& stretch, double seconds,
+// A stint that was done, with findings of these kinds.
+fuzz::Done done_with(const fuzz::Stint& stint, double seconds,
                      std::initializer_list<const char*> kinds = {}) {
-  fuzz::Done done{stretch, fuzz::StretchResult{}, {}, seconds};
-  done.result->met.cases = stretch.end - stretch.begin;
+  fuzz::Done done{stint, fuzz::StintResult{}, {}, seconds};
+  done.result->met.cases = stint.end - stint.begin;
   for (const char* kind : kinds) {
     ++done.result->met.sorts[kind];
-    done.result->kept.push_back({finding_of("generic", kind, stretch.begin), 1});
+    done.result->kept.push_back({finding_of("generic", kind, stint.begin), 1});
   }
   return done;
 }
@@ -56,14 +56,14 @@ std::vector<double> times_of(const std::vector<double>& seconds_a_case, double s
   std::vector<double> times(4);
   for (double now = 0; now < seconds;) {
     const fuzz::Assignment next = *ledger.take(kManyAtOnce);
-    const std::size_t t = next.stretch.target;
-    double took = static_cast<double>(next.stretch.end - next.stretch.begin) * seconds_a_case[t];
+    const std::size_t t = next.stint.target;
+    double took = static_cast<double>(next.stint.end - next.stint.begin) * seconds_a_case[t];
     fuzz::Done done;
     if (next.due) {
       took = next.most_seconds;  // it would go on and on
-      done = {next.stretch, {}, next.due, took};
+      done = {next.stint, {}, next.due, took};
     } else {
-      done = done_with(next.stretch, took, t == 0 ? kinds : std::initializer_list<const char*>{});
+      done = done_with(next.stint, took, t == 0 ? kinds : std::initializer_list<const char*>{});
     }
     now += took;
     if (now < seconds) times[t] += took;
@@ -94,17 +94,17 @@ TEST_CASE("Shrinking is of a target's own time, and has its share of that", "[fu
   check_fair(times_of({0.001, 0.5, 0.001, 0.001}, 60, {"wrong", "error"}), 1.3);
 }
 
-TEST_CASE("A stretch is one case at first, and as long as it was quick then", "[fuzz][ledger]") {
+TEST_CASE("A stint is one case at first, and as long as it was quick then", "[fuzz][ledger]") {
   const fuzz::Plan plan = plan_of({"generic"});
   std::vector<fuzz::TargetTally> tallies(1);
   NoJournal journal;
   const auto second_batch = [&](double seconds, std::uint64_t liked) {
     fuzz::Ledger ledger(plan, {}, 1, tallies, journal);
     const fuzz::Assignment first = *ledger.take(liked);
-    CHECK(first.stretch.end - first.stretch.begin == 1);
-    ledger.hand_in(done_with(first.stretch, seconds));
+    CHECK(first.stint.end - first.stint.begin == 1);
+    ledger.hand_in(done_with(first.stint, seconds));
     const fuzz::Assignment next = *ledger.take(liked);
-    return next.stretch.end;
+    return next.stint.end;
   };
   CHECK(second_batch(0.0175, kManyAtOnce) == 8);
   CHECK(second_batch(0.5, kManyAtOnce) == 2);
@@ -133,7 +133,7 @@ TEST_CASE("What is wrong is shrunk first, and what was cut short when there is t
       CHECK((one.most_seconds < 1e9) == bounds.limits_time());
       indices.push_back(one.due->index);
       CHECK(ledger.record());
-      ledger.hand_in({one.stretch, {}, one.due, 0.1});
+      ledger.hand_in({one.stint, {}, one.due, 0.1});
     }
     CHECK_FALSE(ledger.record());
     return indices;
@@ -159,16 +159,16 @@ TEST_CASE("Shrinking under way counts as long as it usually takes", "[fuzz][ledg
     return next;
   };
   const fuzz::Assignment first = take(), other = take();
-  CHECK(first.stretch.target == 0);  // of equal ones the first
-  CHECK(other.stretch.target == 1);
+  CHECK(first.stint.target == 0);  // of equal ones the first
+  CHECK(other.stint.target == 1);
   const auto hand_in = [&](const fuzz::Assignment& one, double seconds) {
-    ledger.hand_in({one.stretch, {}, one.due, seconds});
+    ledger.hand_in({one.stint, {}, one.due, seconds});
   };
   hand_in(first, 0.1);
   hand_in(other, 0.35);
   hand_in(take(), 0.1);  // 0.2 against 0.35, and 0.1 for each that is under way
   std::string targets;
-  for (int i = 0; i < 3; ++i) targets += std::to_string(take().stretch.target);
+  for (int i = 0; i < 3; ++i) targets += std::to_string(take().stint.target);
   CHECK(targets == "001");
 }
 

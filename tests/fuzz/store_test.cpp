@@ -19,7 +19,7 @@ using fuzz::Store;
 
 namespace {
 
-fuzz::Manifest manifest(const std::string& shard = "0/1") {
+fuzz::CampaignManifest manifest(const std::string& shard = "0/1") {
   return {"1.2", "an engine", "leaving,scale", ~std::uint64_t{0}, "options", 3, shard};
 }
 
@@ -221,8 +221,8 @@ TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
   const Folder folder;
   const std::string text =
       folder.write("text", "this is no database, however long it may be: " + std::string(2000, 'x'));
-  CHECK(
-      contains(message_of([&] { Store store(text, Store::Access::write); }), "is not a store of lorentz, nor any database"));
+  CHECK(contains(message_of([&] { Store store(text, Store::Access::write); }),
+                 "is not a store of lorentz, nor any database"));
   const std::string other = folder.file("other");
   sqlite3* database = nullptr;
   REQUIRE(sqlite3_open(other.c_str(), &database) == SQLITE_OK);
@@ -411,13 +411,13 @@ TEST_CASE("Whatever an engine answered is kept so that it can be read", "[fuzz][
 
 TEST_CASE("Only shards of one campaign are merged", "[fuzz][store]") {
   const Folder folder;
-  const auto store_with = [&](const std::string& name, const fuzz::Manifest& m) {
+  const auto store_with = [&](const std::string& name, const fuzz::CampaignManifest& m) {
     Store store(folder.file(name), Store::Access::write);
     store.open_campaign(m);
     return folder.file(name);
   };
-  fuzz::Manifest seeded = manifest("1/2"), versioned = manifest("1/2"), engined = manifest("1/2"),
-                 targeted = manifest("1/2"), optioned = manifest("1/2");
+  fuzz::CampaignManifest seeded = manifest("1/2"), versioned = manifest("1/2"), engined = manifest("1/2"),
+                         targeted = manifest("1/2"), optioned = manifest("1/2");
   seeded.seed = 1;
   versioned.version = "2";
   engined.engine = "other";

@@ -140,7 +140,7 @@ TEST_CASE("Golden: what was made is counted", "[golden][golden_production]") {
       CHECK(counted == times_in(made.text, std::string("\"expect\":{\"outcome\":\"") + outcome + '"'));
     std::uint64_t walked = 0;
     for (std::uint64_t index = 0; index < 70; ++index) {
-      const golden::Question question = order.set->question(kSeed, index);
+      const golden::SetQuestion question = order.set->question(kSeed, index);
       walked += golden::Maker(question.scene).make(question.text, question.query).walked;
     }
     CHECK(a.walked == walked);

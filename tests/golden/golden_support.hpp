@@ -49,7 +49,7 @@ inline std::string set_of(const std::vector<GoldenCase>& cases) {
 
 /// A question as it stands in a set, made into a record.
 inline GoldenCase golden_case(const golden::Set& set, std::uint64_t seed, std::uint64_t index) {
-  const golden::Question question = set.question(seed, index);
+  const golden::SetQuestion question = set.question(seed, index);
   golden::Record record = golden::Maker(question.scene).make(question.text, question.query).record;
   record.tags = question.tags;
   return {question.scene, question.query, std::move(record)};

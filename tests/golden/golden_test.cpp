@@ -328,7 +328,7 @@ TEST_CASE("Golden: made records are proved, and nothing is wrong with them", "[g
   for (const golden::Set& set : golden::sets()) {
     int walked = 0;
     for (std::uint64_t index = 0; index < std::min<std::uint64_t>(set.most, 160); index += 3) {
-      const golden::Question question = set.question(kSeed, index);
+      const golden::SetQuestion question = set.question(kSeed, index);
       const golden::Maker maker(question.scene);
       const golden::MadeRecord made = maker.make(question.text, question.query);
       const Record& record = made.record;

@@ -67,7 +67,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   examination.run({"plane again", ""}, questions({2}, 20), kForEver);
   examination.run({"both", ""}, questions({3, 2, 3}, 20), kForEver);
   examination.finish();
-  const std::vector<Row>& rows = examination.rows();
+  const std::vector<ExaminedRow>& rows = examination.rows();
   REQUIRE(rows.size() == 4);
   for (const std::size_t i : {0, 2}) {
     CHECK(rows[i].tally.agree == 20);

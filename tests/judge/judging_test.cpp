@@ -160,7 +160,7 @@ TEST_CASE("Two threads of a judge's campaign ask different questions, and all of
   INFO(second << " of the second, " << both << " of both");
   CHECK(second >= 100);
   CHECK(both * 4 < second);  // constructed cases may be equal
-  const judge::Row& last = report.rows.back();
+  const judge::ExaminedRow& last = report.rows.back();
   CHECK(last.name == "campaign");
   CHECK(last.asked() > second);
   CHECK(last.tally.wrong > 0);

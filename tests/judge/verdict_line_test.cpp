@@ -10,20 +10,20 @@ using lorentz::test::contains;
 
 namespace {
 
-judge::Row row(bool hard, std::size_t queries) {
-  judge::Row row{hard ? "hard" : "plain", "", hard};
+judge::ExaminedRow row(bool hard, std::size_t queries) {
+  judge::ExaminedRow row{hard ? "hard" : "plain", "", hard};
   row.tally.name = row.name;
   row.tally.queries = row.tally.agree = queries;
   return row;
 }
 
 // So many of what agreed are something else.
-void turn(judge::Row& row, std::size_t compare::Tally::*verdict, std::size_t number) {
+void turn(judge::ExaminedRow& row, std::size_t compare::Tally::*verdict, std::size_t number) {
   row.tally.agree -= number;
   row.tally.*verdict += number;
 }
 
-JudgeReport report_of(std::vector<judge::Row> rows) {
+JudgeReport report_of(std::vector<judge::ExaminedRow> rows) {
   JudgeReport report;
   report.engine = compare::engine_named("cmd:it");
   report.rows = std::move(rows);

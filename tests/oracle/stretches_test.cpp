@@ -167,17 +167,17 @@ Basis<D> some_basis(Draw& draw, Basis<D> basis) {
 }
 
 // Is v normal to the planes of the first two vectors?
-bool is_head_on(const Velocity<2>&, const Basis<2>&) {
+bool is_head_on(const ExactVelocity<2>&, const Basis<2>&) {
   return false;
 }
-bool is_head_on(const Velocity<3>& velocity, const Basis<3>& basis) {
+bool is_head_on(const ExactVelocity<3>& velocity, const Basis<3>& basis) {
   return dot(velocity.v, basis[0].p) == 0 && dot(velocity.v, basis[1].p) == 0;
 }
 
 // Visits a stretch; each centre once, and where it says that it is.
 template <std::size_t D>
 std::set<Ints<D>> visited(const Problem<D>& problem, const Stretches<D>& stretches,
-                          const Stretch<D>& stretch) {
+                          const RowStretch<D>& stretch) {
   std::set<Ints<D>> found;
   const bool stopped =
       stretches.visit(stretch, [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
@@ -232,7 +232,7 @@ Met hold(std::uint64_t seed, int cases) {
     Z end = problem.low;
     std::set<Ints<D>> together;
     int pieces = 0;
-    const bool stopped = stretches.cut(problem.low, problem.high, [&](const Stretch<D>& stretch) {
+    const bool stopped = stretches.cut(problem.low, problem.high, [&](const RowStretch<D>& stretch) {
       ++pieces;
       REQUIRE(stretch.low == end);
       REQUIRE(stretch.high >= stretch.low);
@@ -281,7 +281,7 @@ TEST_CASE("Stretches: a visitor that has enough ends the visit, and one of stret
     CHECK(visits == any);
     stops += any;
     int seen = 0;
-    CHECK(stretches.cut(problem.low, problem.high, [&](const Stretch<3>&) { return ++seen > 0; }));
+    CHECK(stretches.cut(problem.low, problem.high, [&](const RowStretch<3>&) { return ++seen > 0; }));
     CHECK(seen == 1);
     ++cuts;
   }
@@ -291,7 +291,7 @@ TEST_CASE("Stretches: a visitor that has enough ends the visit, and one of stret
 
 TEST_CASE("Stretches: of a long row the ends and the points nearest to the line are visited",
           "[oracle][stretches]") {
-  const Velocity<2> velocity{{Z(1), Z(0)}, Z(1)};
+  const ExactVelocity<2> velocity{{Z(1), Z(0)}, Z(1)};
   const auto visits = [&](long x, long y, long dx, long dy, long last) {
     LatticePoint<2> first{{Z(x), Z(y)}, {Z(0), Z(0)}}, step{{Z(dx), Z(dy)}, {Z(1), Z(0)}};
     std::set<long> seen;

@@ -68,7 +68,7 @@ Z z_of(const mpz_class& a) {
 }
 
 bool same(const Z& a, const mpz_class& b) {
-  const Z::View view(a);
+  const Z::LimbView view(a);
   return mpz_cmp(view, b.get_mpz_t()) == 0 && mpz_size(view) == mpz_size(b.get_mpz_t());
 }
 

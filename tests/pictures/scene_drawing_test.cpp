@@ -199,7 +199,7 @@ TEST_CASE("Corridors, layers and cylinders, where they are", "[pictures][scene_d
 
   // Half way between the planes of the cubic lattice; beyond it obstacles are drawn first, then nearer ones.
   const Scene cubic = unit_scene(3, 0.2);
-  const Block block{{}, {Vec{2, 0, 0}, Vec{0, 2, 0}, Vec{0, 0, 2}}};
+  const DrawnBlock block{{}, {Vec{2, 0, 0}, Vec{0, 2, 0}, Vec{0, 0, 2}}};
   const FreeWay layer{FreeWay::Kind::layer, {0, -3.5, 0}, {0, 1, 0}, 0.6, "layer"};
   const auto faces = faces_of(cubic, layer, 0, block);
   REQUIRE(faces.size() == 2);

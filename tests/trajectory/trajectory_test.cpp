@@ -532,7 +532,7 @@ TEST_CASE("A displacement is exact where both places are far away", "[trajectory
 
 TEST_CASE("A way whose square is beyond the range leads nowhere", "[trajectory]") {
   const auto on_the_line = [](double way) {
-    Shape<double> shape;
+    MeetingShape<double> shape;
     shape.radius = 1;
     return meeting_of(shape, Point<double>{-way, 0, 0}, Point<double>{1, 0, 0}, 0).on_the_line;
   };

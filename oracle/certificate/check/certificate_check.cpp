@@ -15,7 +15,7 @@ namespace {
 using namespace certificate;
 
 /// Integers from lo to hi; none if lo > hi.
-struct Range {
+struct TimeRange {
   Z lo, hi;
 
   bool empty() const { return lo > hi; }
@@ -23,25 +23,25 @@ struct Range {
   bool contains(const Z& a) const { return lo <= a && a <= hi; }
 };
 
-Range intersection(const Range& a, const Range& b) {
+TimeRange intersection(const TimeRange& a, const TimeRange& b) {
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
 /// The range that factor * a + offset, +- slack, lies in for a in a non-empty range.
-Range image(const Z& factor, const Range& a, const Z& offset, const Z& slack) {
+TimeRange image(const Z& factor, const TimeRange& a, const Z& offset, const Z& slack) {
   const Z one = factor * a.lo, other = factor * a.hi;
   return {Z(std::min(one, other) + offset - slack), Z(std::max(one, other) + offset + slack)};
 }
 
 /// The k with k * divisor + offset in the range, divisor != 0.
-Range quotients(const Range& a, const Z& offset, const Z& divisor) {
+TimeRange quotients(const TimeRange& a, const Z& offset, const Z& divisor) {
   const Z low = a.lo - offset, high = a.hi - offset;
   if (divisor > 0) return {ceil_div(low, divisor), floor_div(high, divisor)};
   return {ceil_div(high, divisor), floor_div(low, divisor)};
 }
 
 /// The k with a k^2 + 2 b k + c < 0, for a > 0: times a this is (a k + b)^2 < b^2 - a c.
-Range below_zero(const Z& a, const Z& b, const Z& c) {
+TimeRange below_zero(const Z& a, const Z& b, const Z& c) {
   const Z square = b * b - a * c;
   if (square <= 0) return {1, 0};
   const Z root = root_below(square);
@@ -83,20 +83,20 @@ struct Claim {
   Outcome outcome;
   Obstacle<D> obstacle;
   std::optional<Obstacle<D>> from;
-  Time time{};  // of `inside`: 0
+  ProofTime time{};  // of `inside`: 0
 
   bool is_from(const Obstacle<D>& other) const { return from && from->key() == other.key(); }
 
   /// Refutes if an obstacle that is met, with d = r^2 v^2 - |h|^2 > 0, contradicts the claim. It contains x
   /// iff v^2 w^2 = s^2 + |h|^2 < r^2 v^2, that is s^2 < d; else the ray enters it iff s > 0.
   template <class CellOf>
-  void hold_against(const View<D>& view, const Z& s, const Z& d, const CellOf& cell_of) const {
+  void hold_against(const CertificateView<D>& view, const Z& s, const Z& d, const CellOf& cell_of) const {
     if (outcome == Outcome::never) refute("the line meets " + name_of(view.lattice, view.atom, cell_of()));
     const bool contains_x = s * s < d, hit = outcome == Outcome::hit;
     int order = -1;
     if (!contains_x) {
       if (!hit || s <= 0) return;
-      order = compare(Time{s, d, view.v2}, time);
+      order = compare(ProofTime{s, d, view.v2}, time);
       if (order > 0) return;
     }
     const Obstacle<D> other{view.lattice, view.atom, cell_of()};
@@ -116,8 +116,8 @@ struct Claim {
 template <std::size_t D>
 class WindowSearch {
  public:
-  WindowSearch(const View<D>& view, const Basis<D>& basis, const Range& s, const Claim<D>& claim,
-               Budget& budget)
+  WindowSearch(const CertificateView<D>& view, const Basis<D>& basis, const TimeRange& s,
+               const Claim<D>& claim, Budget& budget)
       : view_(view), basis_(basis), b_(basis.b), window_(s), claim_(claim), budget_(budget) {
     most_h2_ = view.rho2 - 1;
     s1_ = dot(view.v, b_[0]), s2_ = dot(view.v, b_[1]);
@@ -130,7 +130,7 @@ class WindowSearch {
 
  private:
   /// The obstacles w + k_1 b_1 + k_2 b_2 with s in the window and k_2 in the range.
-  void search_plane(const ZVec<D>& w, const Z& k3, const Range& k2) {
+  void search_plane(const ZVec<D>& w, const Z& k3, const TimeRange& k2) {
     if (k2.empty()) return;
     budget_.spend(k2.size());
     const Z s0 = dot(view_.v, w), h01 = view_.across(w, s0, b_[0], s1_),
@@ -144,7 +144,7 @@ class WindowSearch {
   /// h_1^2 k_1^2 + 2 b k_1 + c < 0. If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met.
   /// h_1 and s_1 are not both 0.
   void search_row(const Z& s0, const Z& b, const Z& c, const Z& k2, const Z& k3) {
-    Range k;
+    TimeRange k;
     if (h11_ == 0) {
       if (c >= 0) return;
       k = quotients(window_, s0, s1_);
@@ -165,12 +165,12 @@ class WindowSearch {
       });
   }
 
-  Range rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const;
+  TimeRange rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const;
 
-  const View<D>& view_;
+  const CertificateView<D>& view_;
   const Basis<D>& basis_;
   const ZMatrix<D>& b_;
-  const Range& window_;
+  const TimeRange& window_;
   const Claim<D>& claim_;
   Budget& budget_;
   Z most_h2_;                    // H
@@ -183,7 +183,7 @@ template <>
 void WindowSearch<2>::run() {
   budget_.spend(1);  // the plane
   const Z slack = floor_sqrt(most_h2_ * s1_ * s1_);
-  const Range bounds = image(cross(b_[0], view_.v), window_, 0, slack);
+  const TimeRange bounds = image(cross(b_[0], view_.v), window_, 0, slack);
   search_plane(view_.w0, 0,
                quotients(bounds, view_.v2 * cross(b_[0], view_.w0), view_.v2 * cross(b_[0], b_[1])));
 }
@@ -196,17 +196,17 @@ void WindowSearch<2>::run() {
 ///   e^2 k_2 = (e.b_1)(s' - s) - (v.b_1)(e.w' - e.w), here times v^2.
 /// And (h_1.w')^2 v^2 <= h_1^2 H, for h_1.v = 0; h_1.b_1 = 0 and h_1.b_2 = N.v. Not both of e and N.v are 0.
 template <>
-Range WindowSearch<3>::rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const {
+TimeRange WindowSearch<3>::rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const {
   const Z along = dot(normal, view_.v), e2 = dot(e, e);
   const Z most = floor_sqrt(h11_ * most_h2_ / view_.v2);  // |h_1.w'|
   const ZVec<3> h1 = cross(view_.v, b_[0]);
   if (e2 == 0) return quotients({Z(-most), most}, dot(h1, w), along);
-  const Range off = image(along, window_, -(view_.v2 * dot(normal, w)), 0);
+  const TimeRange off = image(along, window_, -(view_.v2 * dot(normal, w)), 0);
   const Z m = off.contains(0) ? Z(0) : std::min(Z(abs(off.lo)), Z(abs(off.hi)));
   const Z square = e2 * most_h2_ - m * m;  // of a plane that is looked at, not below 0
   const Z e1 = dot(e, b_[0]), at_w = e1 * dot(view_.v, w) - s1_ * dot(e, w);
-  const Range bounds = image(e1 * view_.v2, window_, 0, floor_sqrt(s1_ * s1_ * view_.v2 * square));
-  const Range k2 = quotients(bounds, view_.v2 * at_w, view_.v2 * e2);
+  const TimeRange bounds = image(e1 * view_.v2, window_, 0, floor_sqrt(s1_ * s1_ * view_.v2 * square));
+  const TimeRange k2 = quotients(bounds, view_.v2 * at_w, view_.v2 * e2);
   return along == 0 ? k2 : intersection(k2, quotients({Z(-most), most}, dot(h1, w), along));
 }
 
@@ -214,8 +214,8 @@ Range WindowSearch<3>::rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, co
 template <>
 void WindowSearch<3>::run() {
   const ZVec<3> normal = cross(b_[0], b_[1]), e = cross(view_.v, normal);
-  const Range bounds = image(dot(normal, view_.v), window_, 0, floor_sqrt(most_h2_ * dot(e, e)));
-  const Range k3 = quotients(bounds, view_.v2 * dot(normal, view_.w0), view_.v2 * dot(normal, b_[2]));
+  const TimeRange bounds = image(dot(normal, view_.v), window_, 0, floor_sqrt(most_h2_ * dot(e, e)));
+  const TimeRange k3 = quotients(bounds, view_.v2 * dot(normal, view_.w0), view_.v2 * dot(normal, b_[2]));
   if (k3.empty()) return;
   budget_.spend(k3.size());
   for (Z k = k3.lo; k <= k3.hi; ++k) {
@@ -277,7 +277,7 @@ class Check {
 
  private:
   /// A query in integers: as each atom sees it.
-  using Flight = std::vector<std::vector<View<D>>>;
+  using Flight = std::vector<std::vector<CertificateView<D>>>;
 
   Flight flight_of(const Query& query) const;
   bool has(int lattice, int atom) const {
@@ -307,7 +307,7 @@ typename Check<D>::Flight Check<D>::flight_of(const Query& query) const {
     for (std::size_t a = 0; a < bodies_[l].size(); ++a) {
       const Body<D>& body = bodies_[l][a];
       const unsigned long bits = body.bits_of_coordinates(unit);
-      View<D> view{static_cast<int>(l), static_cast<int>(a), {}, {}, {}, {}, {}};
+      CertificateView<D> view{static_cast<int>(l), static_cast<int>(a), {}, {}, {}, {}, {}};
       view.v = shifted(body.in_own_coordinates(v), bits);
       for (std::size_t i = 0; i < D; ++i) view.u[i] = shifted(body.u[i], bits + shift);
       view.w0 = sum(shifted(body.p, bits + shift), -1, shifted(body.in_own_coordinates(x), bits));
@@ -334,7 +334,7 @@ Claim<D> Check<D>::claim_of(const Query& query, const Answer& answer, const Flig
   }
   const std::string name = "the answer's " + claim.obstacle.name();
   if (claim.is_from(claim.obstacle)) refute(name + " is `from`");
-  const View<D>& view = flight[lattice][atom];
+  const CertificateView<D>& view = flight[lattice][atom];
   const ZVec<D> w = sum(view.w0, 1, combination(claim.obstacle.n, view.u));
   const Z s = dot(view.v, w), d = view.rho2 - view.across(w, s, w, s);
   if (d <= 0) refute(name + " is not met by the line");
@@ -356,7 +356,7 @@ class Coverage {
  public:
   /// T = n / 2^bits <= -r/|v| iff n v^2 <= -2^bits r |v|.
   template <std::size_t D>
-  void add(const View<D>& view, const End& from, const End& to) {
+  void add(const CertificateView<D>& view, const End& from, const End& to) {
     if (from > to) refute("ends before it begins");
     const Z unit = shifted_left(1, from.bits);
     const bool begins_late = sign_of(-from.n * view.v2, 0, unit * unit * view.rho2) < 0;
@@ -368,7 +368,7 @@ class Coverage {
   /// T >= t + r/|v| for the time t = (s - sqrt(d)) / q, times q: n v^2 q >= 2^bits (v^2 (s - sqrt(d)) + q r
   /// |v|).
   template <std::size_t D>
-  bool reaches(const View<D>& view, const Time& time) const {
+  bool reaches(const CertificateView<D>& view, const ProofTime& time) const {
     if (!reached_) return false;
     const Z unit = shifted_left(1, reached_->bits), factor = unit * view.v2, other = unit * time.q;
     return sign_of(reached_->n * view.v2 * time.q - factor * time.s, factor * factor * time.d,
@@ -389,10 +389,10 @@ void Check<D>::check_windows(const Claim<D>& claim, const Flight& flight,
     const auto& [lattice, atom, from_end, to_end, of_basis] = windows[i];
     try {
       if (!has(lattice, atom)) refute("no such atom");
-      const View<D>& view = flight[lattice][atom];
+      const CertificateView<D>& view = flight[lattice][atom];
       const End from(from_end), to(to_end);
       coverage[lattice][atom].add(view, from, to);
-      const Range s{Z(-(-(from.n * view.v2) >> from.bits)), Z(to.n * view.v2 >> to.bits)};
+      const TimeRange s{Z(-(-(from.n * view.v2) >> from.bits)), Z(to.n * view.v2 >> to.bits)};
       const Basis<D> basis = read_basis(of_basis, view);
       WindowSearch<D>(view, basis, s, claim, budget).run();
     } catch (Refuted& refuted) {
@@ -402,7 +402,7 @@ void Check<D>::check_windows(const Claim<D>& claim, const Flight& flight,
   }
   const auto last = std::tie(claim.obstacle.lattice, claim.obstacle.atom);
   for (const auto& views : flight)
-    for (const View<D>& view : views)
+    for (const CertificateView<D>& view : views)
       if ((claim.outcome == Outcome::hit || std::tie(view.lattice, view.atom) <= last) &&
           !coverage[view.lattice][view.atom].reaches(view, claim.time))
         refute(name_of(view.lattice, view.atom) + ": no window, or its windows end too early");
@@ -421,7 +421,7 @@ void Check<D>::check_never(const Flight& flight, const Certificate& certificate)
       if (!has(lattice, atom)) refute("no such atom");
       if (seen[lattice][atom]) refute("the atom's second");
       seen[lattice][atom] = true;
-      const View<D>& view = flight[lattice][atom];
+      const CertificateView<D>& view = flight[lattice][atom];
       const Basis<D> basis = read_basis(of_basis, view);
       const Z s1 = dot(view.v, basis.b[0]);
       if (view.across(basis.b[0], s1, basis.b[0], s1) != 0) refute("b_1 is not parallel to v");

@@ -21,7 +21,7 @@ int sign_of(const Z& a, const Z& c, const Z& b) {
 }
 
 // Times q_a q_b: (q_b s_a - q_a s_b) + sqrt(q_a^2 d_b) - sqrt(q_b^2 d_a).
-int compare(const Time& a, const Time& b) {
+int compare(const ProofTime& a, const ProofTime& b) {
   return sign_of(b.q * a.s - a.q * b.s, a.q * a.q * b.d, b.q * b.q * a.d);
 }
 

@@ -12,16 +12,16 @@ namespace lorentz::oracle::certificate {
 int sign_of(const Z& a, const Z& c, const Z& b);
 
 /// The time (s - sqrt(d)) / q of an entry, q > 0.
-struct Time {
+struct ProofTime {
   Z s = 0, d = 0, q = 1;
 };
 
 /// Sign of a - b.
-int compare(const Time& a, const Time& b);
+int compare(const ProofTime& a, const ProofTime& b);
 
 /// An entry in the query's own unit: time * 2^exponent.
 struct ScaledTime {
-  Time time;
+  ProofTime time;
   long exponent;
 
   /// Sign of this minus n / m, m > 0.

@@ -145,7 +145,7 @@ struct Body {
 
 /// A flight as an atom sees it.
 template <std::size_t D>
-struct View {
+struct CertificateView {
   int lattice, atom;
   ZMatrix<D> u;  // the lattice
   ZVec<D> w0;    // the obstacle of cell 0, seen from the start
@@ -180,7 +180,7 @@ ZVec<D> read_cell(const Cell& cell) {
 }
 
 template <std::size_t D>
-Basis<D> read_basis(const CertificateBasis& given, const View<D>& view) {
+Basis<D> read_basis(const CertificateBasis& given, const CertificateView<D>& view) {
   for (std::size_t i = D; i < 3; ++i)
     for (const Integer& component : given[i])
       if (!(component == Integer(0))) refute("holds a third vector in two dimensions");

@@ -43,11 +43,11 @@ T most_columns() {
   return T(std::ldexp(1.0, NumberType<T>::kDigits - 1));
 }
 
-enum class Found { disc, channel, gave_up, no_octant };
+enum class Proposed { disc, channel, gave_up, no_octant };
 
 template <class T>
 struct PlaneResult {
-  Found found = Found::disc;
+  Proposed found = Proposed::disc;
   Disc<T> disc{};
 };
 
@@ -78,7 +78,7 @@ T first_denominator(const T& m, const T& tolerance) {
 // Step 3: from height b at a column, how many columns on the line comes within eps of an integer height.
 template <class T>
 struct Columns {
-  Found found;
+  Proposed found;
   T k = 0;
 };
 
@@ -96,11 +96,11 @@ Columns<T> columns_ahead(const T& m, T b, const T& eps, long& passes_left) {
   const T first = b;
   if (distance_to_integers(b) < eps) step();
   while (b > eps && 1 - b > eps) {
-    if (passes_left-- <= 0 || k > most) return {Found::gave_up};
+    if (passes_left-- <= 0 || k > most) return {Proposed::gave_up};
     step();
-    if (b == first) return {Found::channel};
+    if (b == first) return {Proposed::channel};
   }
-  return {Found::disc, k};
+  return {Proposed::disc, k};
 }
 
 // First octant, 0 < v2 <= v1, v of unit length.
@@ -116,10 +116,10 @@ PlaneResult<T> first_octant(T x1, T x2, const T& v1, const T& v2, const T& r, co
     const bool left = from && *from == Disc<T>{n1 + c1, n2 + c2};
     return ahead && !left && fabs(miss) < eps;
   };
-  if (is_next(1, 0, b1)) return {Found::disc, {n1 + 1, n2}};
-  if (is_next(0, 1, 1 - b2)) return {Found::disc, {n1, n2 + 1}};
-  if (is_next(1, 1, 1 - b1)) return {Found::disc, {n1 + 1, n2 + 1}};
-  if (is_next(1, 2, 2 - b1)) return {Found::disc, {n1 + 1, n2 + 2}};
+  if (is_next(1, 0, b1)) return {Proposed::disc, {n1 + 1, n2}};
+  if (is_next(0, 1, 1 - b2)) return {Proposed::disc, {n1, n2 + 1}};
+  if (is_next(1, 1, 1 - b1)) return {Proposed::disc, {n1 + 1, n2 + 1}};
+  if (is_next(1, 2, 2 - b1)) return {Proposed::disc, {n1 + 1, n2 + 2}};
   const Columns<T> columns = columns_ahead<T>(m, b1 - floor(b1), eps, passes_left);
   return {columns.found, {n1 + 1 + columns.k, n2 + round(b1 + m * columns.k)}};
 }
@@ -130,8 +130,8 @@ PlaneResult<T> first_disc(const Disc<T>& x, const Disc<T>& v, const T& r, const 
                           long& passes_left) {
   const Disc<T> home{round(x[0]), round(x[1])};
   const bool left = from && *from == home;
-  if (!left && length<T>(x[0] - home[0], x[1] - home[1]) < r) return {Found::disc, home};
-  if (v[0] == 0 || v[1] == 0) return {Found::no_octant, {}};
+  if (!left && length<T>(x[0] - home[0], x[1] - home[1]) < r) return {Proposed::disc, home};
+  if (v[0] == 0 || v[1] == 0) return {Proposed::no_octant, {}};
   const T speed = length(v[0], v[1]);
   const T sign[2] = {copysign(T(1), v[0]), copysign(T(1), v[1])};
   const int long_axis = fabs(v[0]) >= fabs(v[1]) ? 0 : 1, short_axis = 1 - long_axis;
@@ -186,15 +186,15 @@ T exit_time(const Triple<T>& x, const Triple<T>& v, const T& r) {
 }
 
 // Why a search found no disc, as the answer that this makes; nothing if it found one.
-inline std::optional<Answer> answer_for(Found found) {
+inline std::optional<Answer> answer_for(Proposed found) {
   switch (found) {
-    case Found::channel:
+    case Proposed::channel:
       return Answer::never();
-    case Found::gave_up:
+    case Proposed::gave_up:
       return Answer::undecided();
-    case Found::no_octant:
+    case Proposed::no_octant:
       return Answer::unsupported_because("published has no octant for directions along an axis");
-    case Found::disc:
+    case Proposed::disc:
       break;
   }
   return std::nullopt;

@@ -16,10 +16,10 @@ ObstacleId obstacle_of(const Triple<T>& n) {
 
 // A ray in the number type: what of a binary64 it does not hold is rounded away.
 template <class T>
-struct Line {
+struct ColumnLine {
   Triple<T> x, v;
 
-  explicit Line(const Ray& ray) {
+  explicit ColumnLine(const Ray& ray) {
     for (int i = 0; i < 3; ++i) x[i] = static_cast<T>(ray.x[i]), v[i] = static_cast<T>(ray.v[i]);
   }
 };
@@ -27,7 +27,7 @@ struct Line {
 // The collision with a disc or sphere that the search came up with; its closest approach if the line misses
 // it.
 template <class T>
-Answer hit_on(const Triple<T>& centre, const Line<T>& line, const T& r) {
+Answer hit_on(const Triple<T>& centre, const ColumnLine<T>& line, const T& r) {
   const Triple<T> relative = minus(line.x, centre);
   const T closest = -dot(relative, line.v) / dot(line.v, line.v);
   return Answer::hit(obstacle_of(centre),
@@ -35,16 +35,16 @@ Answer hit_on(const Triple<T>& centre, const Line<T>& line, const T& r) {
 }
 
 template <class T>
-Answer published_2d(const Line<T>& line, const T& r, const Triple<T>* from, Proposals& proposals) {
+Answer published_2d(const ColumnLine<T>& line, const T& r, const Triple<T>* from, Proposals& proposals) {
   const auto& [x, v] = line;
   const Disc<T> leaving = from ? Disc<T>{(*from)[0], (*from)[1]} : Disc<T>{}, direction{v[0], v[1]};
   long passes = Published::kMaxPasses;
   PlaneResult<T> result = first_disc<T>({x[0], x[1]}, direction, r, from ? &leaving : nullptr, passes);
-  if (from && result.found == Found::disc && result.disc == leaving) {
+  if (from && result.found == Proposed::disc && result.disc == leaving) {
     // The paper has no `from`, and its search in columns may end there: it goes on where the line leaves it.
     const T there = exit_time(minus(x, *from), v, r);
     result = first_disc<T>({x[0] + there * v[0], x[1] + there * v[1]}, direction, r, &leaving, passes);
-    if (result.found == Found::disc && result.disc == leaving) return Answer::undecided();
+    if (result.found == Proposed::disc && result.disc == leaving) return Answer::undecided();
   }
   proposals.passes += Published::kMaxPasses - passes + 1;
   if (auto answer = answer_for(result.found)) return *answer;
@@ -53,7 +53,7 @@ Answer published_2d(const Line<T>& line, const T& r, const Triple<T>* from, Prop
 }
 
 template <class T>
-Answer published_3d(const Line<T>& line, const T& r, const Triple<T>* from, Proposals& proposals) {
+Answer published_3d(const ColumnLine<T>& line, const T& r, const Triple<T>* from, Proposals& proposals) {
   const T speed = sqrt(dot(line.v, line.v));
   const Triple<T> v{line.v[0] / speed, line.v[1] / speed, line.v[2] / speed};
   const auto is_hit = [&](const Triple<T>& centre, const Triple<T>& x, const T&) {
@@ -82,7 +82,7 @@ Answer unit_flight(const Ray& ray, int dimension, double radius, Proposals& prop
       return Answer::unsupported_because(NumberType<T>::kDigits < 53
                                              ? "start too far from the origin for its numbers"
                                              : "start too far from the origin for binary64");
-  const Line<T> line(ray);
+  const ColumnLine<T> line(ray);
   const T r = static_cast<T>(radius);
   Triple<T> from{};
   const Triple<T>* leaving = ray.from && cell_of(*ray.from, from) ? &from : nullptr;

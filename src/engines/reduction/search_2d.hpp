@@ -134,17 +134,17 @@ class Search2 {
   // The balls of row n from m on, until one is met or the row has left the strip.
   bool look_from(double n, double m) {
     for (int step = 0; step < kMaxCandidatesInRow; ++step) {
-      const Look look = look_at(n, m + step);
-      if (look == Look::doubtful) return false;
-      if (look != Look::before) return true;
+      const Look2 look = look_at(n, m + step);
+      if (look == Look2::doubtful) return false;
+      if (look != Look2::before) return true;
     }
     return false;
   }
 
-  enum class Look { before, taken, beyond, doubtful };
+  enum class Look2 { before, taken, beyond, doubtful };
 
   // The ball at n R + m L: before the strip or behind the start, met, or beyond the strip.
-  Look look_at(double n, double m) {
+  Look2 look_at(double n, double m) {
     const Arm2 &R = to_.R, &L = to_.L;
     const double h = height_in_row(y_, n, R.D, m, L.D);
     double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) + y_error_;
@@ -153,16 +153,16 @@ class Search2 {
     double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
     if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;
     const Decision meets = is_below(h, to_.rho, error, rho_error());
-    if (meets == Decision::no) return h < 0 || L.D == 0 ? Look::beyond : Look::before;
-    if (s < -s_error) return Look::before;
-    if (s - s_error > std::min(found.s + found.s_error, s_limit_)) return Look::beyond;
+    if (meets == Decision::no) return h < 0 || L.D == 0 ? Look2::beyond : Look2::before;
+    if (s < -s_error) return Look2::before;
+    if (s - s_error > std::min(found.s + found.s_error, s_limit_)) return Look2::beyond;
     double N[2] = {anchor_[0] + n * R.n[0] + m * L.n[0], anchor_[1] + n * R.n[1] + m * L.n[1]};
     for (int i = 0; i < 2; ++i)
       if (!(std::fabs(N[i]) < kMaxCoefficient && std::fabs(n * R.n[i]) < kMaxCoefficient &&
             std::fabs(m * L.n[i]) < kMaxCoefficient))
-        return Look::doubtful;
+        return Look2::doubtful;
     if (from_ && N[0] == from_[0].hi && N[1] == from_[1].hi && from_[0].lo == 0 && from_[1].lo == 0)
-      return Look::before;
+      return Look2::before;
     if (meets == Decision::yes && s > s_error)
       return offer(N, s, s_error, slack_scale() * ((to_.rho - h) * (to_.rho + h)),
                    slack_scale() * (4 * to_.rho * (error + rho_error() * to_.rho)), h);
@@ -179,27 +179,27 @@ class Search2 {
     return to_.shape.slack_scale;
   }
 
-  Look offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
-    if (!(s + s_error < found.s - found.s_error)) return Look::doubtful;
+  Look2 offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
+    if (!(s + s_error < found.s - found.s_error)) return Look2::doubtful;
     found.N[0] = Wide(N[0]), found.N[1] = Wide(N[1]);
     found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
     if constexpr (!kBall) found.h = to_.sigma * h;
-    return Look::taken;
+    return Look2::taken;
   }
 
   // The same decisions in double-double.
-  [[gnu::noinline]] Look look_closely(const double* N, double h) {
+  [[gnu::noinline]] Look2 look_closely(const double* N, double h) {
     found.needs(Stage::double_double);
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
     const StableMeeting<SplitProduct, 2, kBall> meeting(to_.v, d, error, lattice_);
     const Decision meets = meeting.meets();
-    if (meets == Decision::doubtful) return Look::doubtful;
-    if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look::beyond : Look::before;
+    if (meets == Decision::doubtful) return Look2::doubtful;
+    if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look2::beyond : Look2::before;
     const Decision ahead = meeting.is_ahead();
-    if (ahead == Decision::doubtful) return Look::doubtful;
-    if (ahead == Decision::no) return Look::before;
+    if (ahead == Decision::doubtful) return Look2::doubtful;
+    if (ahead == Decision::no) return Look2::before;
     return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,
                  meeting.slack_error + kRoundoff * meeting.slack.hi, h);
   }

@@ -14,7 +14,7 @@ struct Particles::Inside {
   const Batch& engine;
   Precision precision;
   Motions motion;
-  Column<Asked> asked;
+  Column<Inquiry> asked;
   std::array<Column<double>, 3> x, v;
   Column<double> max_time, time;
   Column<std::int32_t> from_lattice, from_atom, lattice, atom;

@@ -1,4 +1,4 @@
-#include "fuzz/campaign/stretch.hpp"
+#include "fuzz/campaign/stint.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -89,7 +89,7 @@ void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, c
 }  // namespace
 
 // A case or a variant that was asked about, as it was made or in other words.
-struct StretchRunner::Case {
+struct StintRunner::Case {
   const Target* target;
   std::uint64_t index;
   int step;
@@ -101,7 +101,7 @@ struct StretchRunner::Case {
 };
 
 // A scene, with all that is needed to ask and to judge in it.
-struct StretchRunner::SceneContext {
+struct StintRunner::SceneContext {
   SceneContext(Answerer& answerer, const Scene& scene, const Plan& plan, std::size_t number)
       : number(number), examiner(answerer, std::make_shared<Place>(scene, plan.truth), plan.counts.ulps) {}
   const std::size_t number;  // in the order in which they were needed
@@ -117,8 +117,8 @@ struct StretchRunner::SceneContext {
   std::map<std::uint64_t, OtherWords> other_words;
 };
 
-// All that is asked about in one stretch, and the margins met in its climbs.
-struct StretchRunner::Questions {
+// All that is asked about in one stint, and the margins met in its climbs.
+struct StintRunner::Questions {
   std::deque<SceneContext> contexts;
   std::vector<Case> cases;
   std::vector<std::size_t> asked;  // of the cases, in the order in which they were asked
@@ -131,7 +131,7 @@ struct StretchRunner::Questions {
   }
 
   // The case's scene in the words of this number. They follow from the scene and where it is, so that they
-  // are the same in whichever stretch.
+  // are the same in whichever stint.
   SceneContext::OtherWords& other_words(const Plan& plan, Answerer& answerer, const Case& one,
                                         std::uint64_t number) {
     auto& known = one.context->other_words;
@@ -144,17 +144,16 @@ struct StretchRunner::Questions {
   }
 };
 
-StretchRunner::StretchRunner(const Plan& plan, const MakeAnswerer& make_answerer,
-                             const std::atomic<bool>& stop)
+StintRunner::StintRunner(const Plan& plan, const MakeAnswerer& make_answerer, const std::atomic<bool>& stop)
     : plan_(plan), make_answerer_(make_answerer), stop_(stop), answerer_(make_answerer()) {}
-StretchRunner::~StretchRunner() = default;
+StintRunner::~StintRunner() = default;
 
-std::optional<StretchResult> StretchRunner::run(const Stretch& stretch,
-                                                const std::map<std::string, std::uint64_t>& known) {
+std::optional<StintResult> StintRunner::run(const Stint& stint,
+                                            const std::map<std::string, std::uint64_t>& known) {
   Questions questions;
-  pose(stretch, questions);
+  pose(stint, questions);
   if (stop_) return std::nullopt;
-  StretchResult result;
+  StintResult result;
   result.met = questions.met;
   take(questions, known, result);
   replace_broken_answerer();
@@ -162,16 +161,16 @@ std::optional<StretchResult> StretchRunner::run(const Stretch& stretch,
   return result;
 }
 
-void StretchRunner::replace_broken_answerer() {
+void StintRunner::replace_broken_answerer() {
   if (!answerer_->failed()) return;
   answerer_failed_ = true;
   answerer_ = make_answerer_();
 }
 
 // Makes the cases and variants, with their exact answers, and asks about them.
-void StretchRunner::pose(const Stretch& stretch, Questions& questions) {
-  const Target& target = *plan_.targets[stretch.target];
-  for (std::uint64_t index = stretch.begin; index < stretch.end && !stop_; ++index) {
+void StintRunner::pose(const Stint& stint, Questions& questions) {
+  const Target& target = *plan_.targets[stint.target];
+  for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index);
     if (!plan_.scope.admits(base.scene)) continue;
@@ -209,7 +208,7 @@ void StretchRunner::pose(const Stretch& stretch, Questions& questions) {
 
 // The cases from `first` on, each in other words: one of a few for the scene, in turn, and its own. The
 // answer comes with it, where it can.
-void StretchRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
+void StintRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
   for (std::size_t i = first, last = questions.cases.size(); i < last && !stop_; ++i) {
     const Case& one = questions.cases[i];
     if (random.one_in(kCasesPerNotation)) {
@@ -237,7 +236,7 @@ void StretchRunner::pose_in_other_words(Random& random, Questions& questions, st
 }
 
 // The same words in other digits, if they are read otherwise; by the engine they are not seen.
-std::optional<StretchRunner::Case> StretchRunner::in_other_digits(Random& random, const Case& one) {
+std::optional<StintRunner::Case> StintRunner::in_other_digits(Random& random, const Case& one) {
   auto misread = misreading(random, one.context->examiner.scene(), one.question.query);
   if (!misread) return std::nullopt;
   Examined examined;
@@ -249,7 +248,7 @@ std::optional<StretchRunner::Case> StretchRunner::in_other_digits(Random& random
 }
 
 // Scene by scene, so that an engine is prepared once for each scene.
-void StretchRunner::ask(Questions& questions) {
+void StintRunner::ask(Questions& questions) {
   for (std::size_t i = 0; i < questions.cases.size(); ++i)
     if (!questions.cases[i].misread) questions.asked.push_back(i);
   const auto place = [&](std::size_t i) { return questions.cases[i].context->number; };
@@ -263,8 +262,8 @@ void StretchRunner::ask(Questions& questions) {
 }
 
 // Judges the replies. Of a case and its variants one finding of a sort is enough.
-void StretchRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
-                         StretchResult& result) {
+void StintRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
+                       StintResult& result) {
   std::vector<Reply>& replies = questions.replies;
   std::vector<Reply*> reply_to(questions.cases.size(), nullptr);
   for (std::size_t i = 0; i < replies.size(); ++i) reply_to[questions.asked[i]] = &replies[i];
@@ -292,7 +291,7 @@ void StretchRunner::take(Questions& questions, const std::map<std::string, std::
   }
 }
 
-Finding StretchRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
+Finding StintRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
   const Scene& scene = one.context->examiner.scene();
   Finding finding;
   finding.target = one.target->name();
@@ -309,7 +308,7 @@ Finding StretchRunner::finding_of(const Case& one, const std::string& sort, cons
   return finding;
 }
 
-std::optional<Finding> StretchRunner::shrink(Finding finding, double seconds) {
+std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto is_late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; };
