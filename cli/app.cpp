@@ -12,10 +12,10 @@
 #include "cli/exit_status.hpp"
 #include "cli/file_options.hpp"
 #include "cli/manual.hpp"
-#include "cli/messages.hpp"
 #include "cli/numbers.hpp"
-#include "cli/signals.hpp"
+#include "cli/output.hpp"
 #include "cli/versions.hpp"
+#include "files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
 

@@ -5,14 +5,15 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/bench_cells.hpp"
-#include "cli/bench_report.hpp"
-#include "cli/bench_store.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
-#include "cli/scene_option.hpp"
-#include "cli/whole_file.hpp"
+#include "cli/numbers.hpp"
+#include "cli/output.hpp"
+#include "cli/terminal.hpp"
+#include "compare/cells/cell_store.hpp"
 #include "compare/engines.hpp"
+#include "files/scene_file.hpp"
+#include "files/whole_file.hpp"
+#include "report/bench_report.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -52,7 +53,7 @@ std::vector<BenchGroup> groups_of(const BenchOptions& options) {
   for (const std::string& scene : options.scenes)
     for (const auto& radius : radii_of(options, scene))
       for (const std::string& difficulty : options.difficulties)
-        groups.push_back({scene, radius, difficulty});
+        groups.push_back({scene, positive_number(radius, "--radius"), difficulty});
   return groups;
 }
 
@@ -69,6 +70,7 @@ BenchPlan plan_of(const BenchOptions& options) {
   plan.seed = options.seed;
   plan.count = options.count;
   plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  plan.listener = terminal();
   return plan;
 }
 
@@ -92,11 +94,11 @@ int act(const BenchOptions& options) {
     }
     cells.insert(cells.end(), kept->begin(), kept->end());
   }
-  const std::string json = bench_json(cells, store.manifest());
+  const std::string json = report::bench_json(cells, store.manifest());
   print(options.json ? json
                      : fmt::format("Speed against error, one thread (seed {}).\n\n{}", plan.seed,
-                                   bench_text(cells, names_of(plan.engines))));
-  csv.write([&] { return bench_csv(cells); });
+                                   report::bench_text(cells, names_of(plan.engines))));
+  csv.write([&] { return report::bench_csv(cells); });
   html.write([&] { return report::page(json); });
   return failed ? kFailed : kDone;
 }

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "cli/finding_json.hpp"
-#include "cli/messages.hpp"
-#include "cli/reason.hpp"
-#include "cli/whole_file.hpp"
+#include "files/messages.hpp"
+#include "files/whole_file.hpp"
 #include "pictures/finding_drawing.hpp"
+#include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "report/query_text.hpp"
+#include "report/reason.hpp"
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
@@ -18,7 +18,8 @@ namespace {
 
 // What makes this answer again from nothing but the program.
 std::vector<std::string> commands_of(const CaseReport& report) {
-  const std::string lines = printed(report.scene, query_members(report.query, report.scene.dimension));
+  const std::string lines =
+      report::printed(report.scene, report::query_members(report.query, report.scene.dimension));
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};
   if (!report.engine.empty())
     commands.push_back(
@@ -29,10 +30,10 @@ std::vector<std::string> commands_of(const CaseReport& report) {
 std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Margins& margins) {
   std::vector<std::string> lines;
   if (report.given) {
-    lines = lines_of(
-        reason_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive, ""));
+    lines = report::lines_of(report::reason_of(margins, report.scene, report.query, report.exact,
+                                               *report.given, report.decisive, ""));
   } else if (const auto decision = margins.hardest_decision(report.query, report.exact)) {
-    lines.push_back(decision_text(*decision, report.scene.dimension));
+    lines.push_back(report::decision_text(*decision, report.scene.dimension));
   }
   lines.insert(lines.end(), report.more.begin(), report.more.end());
   return lines;
@@ -41,7 +42,7 @@ std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Ma
 std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& margins) {
   if (!report.given) return std::nullopt;
   const auto dispute =
-      dispute_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive);
+      report::dispute_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive);
   return dispute ? std::optional(dispute->radii) : std::nullopt;
 }
 

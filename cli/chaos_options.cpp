@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "cli/interrupt.hpp"
-#include "cli/messages.hpp"
 #include "cli/progress.hpp"
-#include "cli/scene_option.hpp"
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
 #include "runs/piece_store.hpp"
 #include "starts/free_starts.hpp"
 

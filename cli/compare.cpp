@@ -8,11 +8,11 @@
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/logged_answers.hpp"
-#include "cli/messages.hpp"
-#include "cli/reason.hpp"
+#include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
+#include "report/reason.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -125,9 +125,9 @@ class Departures {
     if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
     const Question& question = judged.question;
     const Place& place = *question.place;
-    text_[name] +=
-        description(judged) + reason_of(place.margins(), place.scene(), question.query, question.exact,
-                                        judged.reply.answer, judgement.obstacle, "    ");
+    text_[name] += description(judged) + report::reason_of(place.margins(), place.scene(), question.query,
+                                                           question.exact, judged.reply.answer,
+                                                           judgement.obstacle, "    ");
   }
 
   /// The first wrong answers of an engine, for people; empty if there are none.

@@ -1,9 +1,9 @@
 #include "cli/compare_questions.hpp"
 
 #include <lorentz/exchange.hpp>
-#include "cli/messages.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/table.hpp"
 #include "report/share.hpp"
+#include "report/table.hpp"
 
 namespace lorentz::cli {
 
@@ -24,14 +24,14 @@ std::string nanoseconds(double ns) {
 
 std::string table_of(const std::vector<Tally>& tallies, bool judged) {
   if (!judged) {
-    Table table({"engine", "queries", "ns/query", "ns median"});
+    report::Table table({"engine", "queries", "ns/query", "ns median"});
     for (const Tally& t : tallies)
       table.add({t.name, std::to_string(t.queries), nanoseconds(t.speed.ns_per_query),
                  nanoseconds(t.speed.ns_median)});
     return table.text();
   }
-  Table table({"engine", "queries", "agree", "ill-posed", "wrong", "wrong time", "undecided", "unsupported",
-               "error", "missing", "max ulp", "mean ulp", "ns/query", "ns median"});
+  report::Table table({"engine", "queries", "agree", "ill-posed", "wrong", "wrong time", "undecided",
+                       "unsupported", "error", "missing", "max ulp", "mean ulp", "ns/query", "ns median"});
   for (const Tally& t : tallies) {
     const std::size_t answers = t.agree + t.ill_posed + t.wrong;
     table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), std::to_string(t.ill_posed),

@@ -7,8 +7,8 @@
 
 #include "cases/families/target.hpp"
 #include "cli/golden.hpp"
-#include "cli/scene_option.hpp"
 #include "compare/engines.hpp"
+#include "files/scene_file.hpp"
 #include "golden/sets.hpp"
 
 namespace lorentz::cli {

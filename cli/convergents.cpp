@@ -3,8 +3,8 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
+#include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
@@ -33,7 +33,7 @@ int act(const ConvergentsOptions& options) {
     }));
     return kDone;
   }
-  Table table({"n", "a", "p", "q", "q m - p"});
+  report::Table table({"n", "a", "p", "q", "q m - p"});
   for (std::size_t i = 0; i < convergents.size(); ++i) {
     const auto& c = convergents[i];
     table.add(

@@ -6,11 +6,11 @@
 #include "cli/app.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "compare/examine.hpp"
 #include "compare/race.hpp"
+#include "report/table.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
@@ -105,8 +105,8 @@ class DemoReport {
   }
 
   DisagreementFile disagreements_;
-  Table table_{{"flights", "number", "engine", "right", "ill-posed", "wrong", "wrong time", "undecided",
-                "mean error", "worst", "us/query"}};
+  report::Table table_{{"flights", "number", "engine", "right", "ill-posed", "wrong", "wrong time",
+                        "undecided", "mean error", "worst", "us/query"}};
   Tally published_;  // of all flights together
 };
 

@@ -6,11 +6,11 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/finding_json.hpp"
-#include "cli/messages.hpp"
-#include "cli/table.hpp"
-#include "cli/whole_file.hpp"
+#include "cli/output.hpp"
+#include "files/whole_file.hpp"
 #include "flights/theory/laws.hpp"
+#include "report/finding_json.hpp"
+#include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -87,7 +87,7 @@ std::string DiffusionReport::table() const {
   text += '\n' + remark_on_end(found.is_whole) + '\n';
   std::vector<std::string> header{"t", "MSD", "+-", "MSD / (2 d t)", "+-"};
   if (is_uniform()) header.insert(header.end(), {"MSD by velocities", "+-"});
-  Table table(header);
+  report::Table table(header);
   for (const Displacement& at : found.displacements) {
     std::vector<std::string> row{fmt::format("{:.6g}", at.time), fmt::format("{:.6g}", at.square.value),
                                  fmt::format("{:.1e}", at.square.error),
@@ -141,7 +141,7 @@ int act(const DiffusionOptions& options) {
                          {"time", fmt::format("{}", report.plan.time)},
                          {"starts", options.from},
                          {"seed", std::to_string(report.plan.seed)},
-                         {"scene", scene_line(report.plan.scene)}};
+                         {"scene", report::scene_line(report.plan.scene)}};
   with_work(options, "diffusion", words,
             [&](const chaos::Work& work) { report.found = chaos::diffusion_of(report.plan, work); });
   // Those that are left after others ended are the ones that met nothing.

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "cli/whole_file.hpp"
 #include "compare/examine.hpp"
+#include "files/whole_file.hpp"
 
 namespace lorentz::cli {
 

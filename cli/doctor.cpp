@@ -6,7 +6,7 @@
 
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/versions.hpp"
 #include "fitness/examination.hpp"
 #include "report/manifest.hpp"

@@ -1,4 +1,5 @@
 #include "cli/file_options.hpp"
+#include "golden/find_sets.hpp"
 
 #include <filesystem>
 
@@ -6,7 +7,7 @@
 
 #include <lorentz/errors.hpp>
 #include "cli/golden.hpp"
-#include "cli/scene_option.hpp"
+#include "files/scene_file.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::string> files_read(const std::string& type, const std::string& 
   try {
     if (type == "FILE") return {value == "-" ? kStandardInput : value};
     if (type == "SCENE") return {find_scene(value)};
-    if (type == "SET") return find_sets({value});
+    if (type == "SET") return golden::find_sets({value});
     if (type == "NAME=FILE") return {value.substr(value.find('=') + 1)};
   } catch (const std::exception&) {
   }
@@ -37,7 +38,7 @@ std::vector<std::string> files_read(const std::string& type, const std::string& 
 
 std::vector<std::string> values_of(const Option& option) {
   const std::vector<std::string> values = option.values();
-  return values.empty() && option.type == "SET" && option.is_argument() ? committed_sets() : values;
+  return values.empty() && option.type == "SET" && option.is_argument() ? golden::committed_sets() : values;
 }
 
 // What stands beside a store while it is written.

@@ -5,13 +5,13 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/first_hit_columns.hpp"
-#include "cli/messages.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
 #include "compare/engines.hpp"
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {

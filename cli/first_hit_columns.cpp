@@ -5,10 +5,10 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
 #include "cli/output.hpp"
-#include "cli/unknown_keys.hpp"
 #include "compare/column_engine.hpp"
+#include "files/messages.hpp"
+#include "files/unknown_keys.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 

@@ -4,15 +4,15 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/flights_report.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/messages.hpp"
 #include "cli/numbers.hpp"
+#include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "cli/scene_option.hpp"
-#include "cli/whole_file.hpp"
 #include "compare/engines.hpp"
+#include "files/scene_file.hpp"
+#include "files/whole_file.hpp"
 #include "flights/ranks.hpp"
+#include "flights/report.hpp"
 #include "flights/run.hpp"
 #include "report/page.hpp"
 #include "runs/piece_store.hpp"
@@ -24,6 +24,7 @@ namespace {
 
 using flights::Account;
 using flights::FlightsPlan;
+using flights::FlightsReport;
 
 constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;

@@ -6,7 +6,7 @@
 #include "cli/fuzz_options.hpp"
 #include "cli/fuzz_progress.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "compare/answerer.hpp"
 #include "fuzz/campaign/ranks.hpp"

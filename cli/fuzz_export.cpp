@@ -6,7 +6,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "compare/engines.hpp"
 #include "golden/maker.hpp"
 

@@ -5,10 +5,10 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
-#include "cli/messages.hpp"
 #include "cli/numbers.hpp"
 #include "compare/answerer.hpp"
 #include "compare/engines.hpp"
+#include "files/messages.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "cli/fuzz_options.hpp"
-#include "cli/messages.hpp"
+#include "files/messages.hpp"
 
 namespace lorentz::cli {
 namespace {

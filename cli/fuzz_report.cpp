@@ -5,11 +5,11 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
-#include "cli/messages.hpp"
-#include "cli/reason.hpp"
-#include "cli/table.hpp"
 #include "compare/engines.hpp"
+#include "files/messages.hpp"
+#include "report/reason.hpp"
 #include "report/share.hpp"
+#include "report/table.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -80,8 +80,8 @@ std::uint64_t FuzzReport::total(Kind kind) const {
 }
 
 std::string FuzzReport::target_table() const {
-  Table table({"target", "cases", "variants", "reworded", "wrong", "times", "error", "undecided", "slow",
-               "unsupported", "smallest margin"});
+  report::Table table({"target", "cases", "variants", "reworded", "wrong", "times", "error", "undecided",
+                       "slow", "unsupported", "smallest margin"});
   TargetTally all;
   const auto add = [&](const std::string& name, const TargetTally& tally) {
     std::vector<std::string> row{name, std::to_string(tally.cases), std::to_string(tally.variants),
@@ -172,7 +172,7 @@ std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings) {
 }
 
 std::string table_of(const std::vector<FindingCause>& causes) {
-  Table table({"simplest finding", "bits", "kept", "targets", "cause"});
+  report::Table table({"simplest finding", "bits", "kept", "targets", "cause"});
   table.with_prose();
   for (const FindingCause& cause : causes)
     table.add({cause.simplest->label(), std::to_string(cause.simplest->finding.bits),
@@ -190,8 +190,8 @@ std::string reason_in(const fuzz::CaseText& text) {
            answer.outcome == Outcome::never;
   };
   if (!says_what(one.given) || !says_what(one.exact)) return "";
-  return reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given,
-                   decisive_of(one.scene, one.query, one.exact, one.given), "");
+  return report::reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given,
+                           report::decisive_of(one.scene, one.query, one.exact, one.given), "");
 }
 
 }  // namespace

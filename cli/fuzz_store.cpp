@@ -4,13 +4,13 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
-#include "cli/beside.hpp"
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/messages.hpp"
-#include "cli/reason.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
+#include "files/beside.hpp"
+#include "report/reason.hpp"
+#include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
@@ -31,7 +31,7 @@ struct MergeOptions {
 };
 
 std::string campaign_table(const Store& store) {
-  Table table({"campaign", "engine", "seed", "shard", "version", "options"});
+  report::Table table({"campaign", "engine", "seed", "shard", "version", "options"});
   table.with_prose();
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const fuzz::CampaignManifest& m = campaign.manifest;
@@ -41,7 +41,7 @@ std::string campaign_table(const Store& store) {
 }
 
 std::string finding_table(const std::vector<Stored>& findings) {
-  Table table({"finding", "bits", "margin", "cause"});
+  report::Table table({"finding", "bits", "margin", "cause"});
   table.with_prose();
   for (const Stored& one : findings)
     table.add({one.label(), std::to_string(one.finding.bits),
@@ -115,9 +115,9 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.query = read.query;
   report.given = read.given;
   report.exact = read.exact;
-  report.decisive = decisive_of(report.scene, report.query, report.exact, *report.given);
-  const auto dispute = dispute_of(oracle::Margins(report.scene), report.scene, report.query, report.exact,
-                                  *report.given, report.decisive);
+  report.decisive = report::decisive_of(report.scene, report.query, report.exact, *report.given);
+  const auto dispute = report::dispute_of(oracle::Margins(report.scene), report.scene, report.query,
+                                          report.exact, *report.given, report.decisive);
   if (dispute) report.explanation = dispute->text;
   if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;

@@ -5,12 +5,13 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
-#include "cli/data_folder.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
+#include "files/data_folder.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
+#include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -20,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 int list(bool as_json) {
-  Table table({"set", "records", "committed", "tags", "what"});
+  report::Table table({"set", "records", "committed", "tags", "what"});
   table.with_prose();
   std::vector<std::string> json;
   for (const golden::Set& set : golden::sets()) {
     std::string committed = "-";
     std::uint64_t count = 0;
-    for (const std::string& file : committed_sets())
+    for (const std::string& file : golden::committed_sets())
       if (fs::path(file).stem() == set.name)
         committed = std::to_string(count = golden::Reader(file).header().count);
     const bool endless = set.most > set.committed;
@@ -45,58 +46,6 @@ int list(bool as_json) {
 }
 
 }  // namespace
-
-std::vector<std::string> committed_sets() {
-  return data_files("golden", ".ndjson");
-}
-
-namespace {
-
-// Every *.ndjson in a folder, by name.
-std::vector<std::string> sets_in(const std::string& folder) {
-  std::vector<std::string> files;
-  for (const auto& file : fs::directory_iterator(folder))
-    if (file.path().extension() == ".ndjson") files.push_back(file.path().string());
-  if (files.empty()) throw FileError(folder + ": no file in it is called *.ndjson");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-}  // namespace
-
-std::string find_set(const std::string& name_or_file) {
-  std::error_code error;
-  if (fs::exists(name_or_file, error) || name_or_file == "-") return name_or_file;
-  std::vector<std::string> names;
-  for (const std::string& file : committed_sets()) {
-    names.push_back(fs::path(file).stem());
-    if (names.back() == name_or_file) return file;
-  }
-  if (names.empty())
-    throw FileError(fmt::format("no file is called {}, and there are no committed sets (looked for in {})",
-                                json_quoted(name_or_file), data_places("golden")));
-  throw FileError(fmt::format("no file and no committed set is called {}{}; the sets are {}",
-                              json_quoted(name_or_file), did_you_mean(name_or_file, names),
-                              fmt::join(names, ", ")));
-}
-
-std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files) {
-  std::vector<std::string> files;
-  for (const std::string& one : names_or_files) {
-    const std::string found = find_set(one);
-    if (!fs::is_directory(found)) {
-      files.push_back(found);
-      continue;
-    }
-    const std::vector<std::string> sets = sets_in(found);
-    files.insert(files.end(), sets.begin(), sets.end());
-  }
-  if (names_or_files.empty()) files = committed_sets();
-  if (files.empty())
-    throw FileError(
-        fmt::format("there are no committed sets (looked for in {}); name files", data_places("golden")));
-  return files;
-}
 
 Command golden_list_command() {
   auto json = std::make_shared<bool>(false);

@@ -8,15 +8,16 @@
 #include "cli/compare_table.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "cli/reason.hpp"
-#include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "compare/engines.hpp"
 #include "compare/examine.hpp"
 #include "compare/tally.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/questions.hpp"
+#include "report/reason.hpp"
+#include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/problem/safe_text.hpp"
 
@@ -122,8 +123,8 @@ class EngineCheck {
                          judgement, question.margin, question.exact, reply.answer, place.scene().dimension,
                          ""});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
-      failures_.back().reason = reason_of(place.margins(), place.scene(), question.query, question.exact,
-                                          reply.answer, judgement.obstacle, "    ");
+      failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
+                                                  question.exact, reply.answer, judgement.obstacle, "    ");
   }
 
   const std::string engine_;
@@ -211,7 +212,7 @@ Tally total_of(const std::vector<SetTally>& tallies) {
 
 void show(const std::string& engine, const std::vector<SetTally>& tallies,
           const std::vector<Failure>& failures, std::size_t not_asked) {
-  Table table(kColumns);
+  report::Table table(kColumns);
   for (const SetTally& set : tallies) {
     table.add(cells_of(set.all.name, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
@@ -306,7 +307,7 @@ int act(const CheckOptions& options) {
   auto most = static_cast<std::size_t>(options.failures);
   if (options.json) most = 0;  // which counts only
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
-  const std::vector<std::string> files = find_sets(options.sets);
+  const std::vector<std::string> files = golden::find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
   std::vector<std::vector<SetTally>> all_tallies;

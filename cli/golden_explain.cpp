@@ -6,10 +6,11 @@
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
-#include "cli/messages.hpp"
-#include "cli/reason.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
+#include "report/reason.hpp"
+#include "report/table.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -23,9 +24,9 @@ struct ExplainOptions {
 
 std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, const ObstacleId& hit,
                          int dimension) {
-  Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
+  report::Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
   for (const oracle::PassedObstacle& one : passed)
-    table.add({name_of(one.obstacle, dimension), one.time_decimal, fmt::format("{:.6g}", one.gap),
+    table.add({report::name_of(one.obstacle, dimension), one.time_decimal, fmt::format("{:.6g}", one.gap),
                fmt::format("{:.6g}", one.margin), one.obstacle == hit ? "hit" : ""});
   return table.text();
 }
@@ -51,12 +52,13 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
     return;
   }
   const bool hit = expect.outcome == Outcome::hit;
-  print(fmt::format("\n{} {}{}\n", hit ? "It hits" : "It starts inside", name_of(expect.obstacle, dimension),
+  print(fmt::format("\n{} {}{}\n", hit ? "It hits" : "It starts inside",
+                    report::name_of(expect.obstacle, dimension),
                     hit ? " at t = " + expect.time_decimal : ""));
   if (hit)
     print(fmt::format("An ulp in each input moves that time by up to {:.4g} of its ulps (its condition).\n",
                       margins.condition(*read.query, expect)));
-  print(decision_text(*margins.hardest_decision(*read.query, expect), dimension) + '\n');
+  print(report::decision_text(*margins.hardest_decision(*read.query, expect), dimension) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
           passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
@@ -90,7 +92,7 @@ int act(const ExplainOptions& options) {
   const auto most = static_cast<std::size_t>(options.most);
   std::set<std::string> ids;
   std::string place;  // the set of the first
-  for (const std::string& path : find_sets(options.sets)) {
+  for (const std::string& path : golden::find_sets(options.sets)) {
     golden::Reader reader(path);
     for (golden::ReadRecord read; reader.next(read);) {
       if (!read.record.id.starts_with(options.id)) continue;

@@ -7,9 +7,9 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "cli/whole_file.hpp"
+#include "files/whole_file.hpp"
 #include "golden/production.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"

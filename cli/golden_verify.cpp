@@ -4,8 +4,9 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/maker.hpp"
 #include "golden/reader.hpp"
 
@@ -58,7 +59,7 @@ VerifyFindings verify(const std::string& path, bool walk) {
 int act(const std::vector<std::string>& names, bool walk) {
   std::size_t flaws = 0;
   bool bad = false;
-  for (const std::string& path : find_sets(names)) {
+  for (const std::string& path : golden::find_sets(names)) {
     VerifyFindings findings;
     try {
       findings = verify(path, walk);

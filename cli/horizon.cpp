@@ -1,44 +1,13 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
-#include "cli/horizon_verdict.hpp"
-
-#include <algorithm>
-#include <cmath>
-
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
-#include "cli/scene_option.hpp"
+#include "cli/output.hpp"
 #include "cli/search_progress.hpp"
-#include "cli/table.hpp"
-#include "src/exchange/exchange_write.hpp"
+#include "files/scene_file.hpp"
+#include "report/horizon_report.hpp"
 
 namespace lorentz::cli {
-namespace {
-
-std::string number(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-}  // namespace
-
-std::string verdict_of(const oracle::Horizon& h, bool limited) {
-  if (h.is_finite() && !limited) return "finite horizon: every path ends";
-  if (!h.is_infinite())
-    return limited && h.is_finite() ? "no channel is so wide" : "no open channel found, but not all is known";
-  std::vector<std::string> parts;
-  if (!h.channels.empty())
-    parts.push_back(h.dimension == 2 ? number(h.normals, "corridor direction")
-                                     : number(h.normals, "normal") + " of planar channels");
-  if (h.channels.size() > h.normals) parts.back() += ", " + number(h.channels.size(), "channel");
-  if (!h.cylinders.empty())
-    parts.push_back(number(h.cylinders.size(), "direction") + " of cylindrical channels");
-  std::size_t infinite = 0;
-  for (const auto& family : h.families) infinite += family.infinite;
-  if (infinite) parts.push_back("infinitely many cylindrical channels in " + number(infinite, "plane"));
-  return fmt::format("infinite horizon: {}", fmt::join(parts, "; "));
-}
-
 namespace {
 
 struct HorizonOptions {
@@ -47,157 +16,6 @@ struct HorizonOptions {
   std::uint64_t limit = 20;
   bool no_cylinders = false, json = false;
 };
-
-using Indices = std::array<Integer, 3>;
-
-std::string text_of(const Indices& indices, int dimension) {
-  std::string out;
-  for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
-  return out;
-}
-
-std::string text_of(const Vec& a, int dimension) {
-  std::string out;
-  for (int i = 0; i < dimension; ++i) out += fmt::format("{}{:.6g}", i ? " " : "", a[i]);
-  return out;
-}
-
-std::string rest_of(std::size_t all, std::size_t shown) {
-  return all > shown ? fmt::format("... and {} more (--limit {} shows them)\n", all - shown, all) : "";
-}
-
-// A * behind points that rounding took out of the channel. What is nothing but the rounding of another
-// component shows as 0.
-std::string point_text(Vec point, bool inside, int dimension) {
-  double largest = 0;
-  for (const double component : point) largest = std::max(largest, std::fabs(component));
-  for (double& component : point)
-    if (std::fabs(component) < 0x1p-50 * largest) component = 0;
-  return text_of(point, dimension) + (inside ? "" : " *");
-}
-
-std::string channel_table(const oracle::Horizon& h, std::size_t limit) {
-  const bool flat = h.dimension == 2;
-  bool counts = false;
-  for (const auto& channel : h.channels) counts |= !(channel.count == Integer(1));
-  std::vector<std::string> header{flat ? "direction" : "planes", "width", flat ? "vector" : "normal",
-                                  "through"};
-  if (counts) header.push_back("count");
-  Table table(header);
-  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) {
-    const auto& c = h.channels[i];
-    const std::string indices = text_of(c.indices, h.dimension);
-    std::vector<std::string> row{flat ? "[" + indices + "]" : "(" + indices + ")",
-                                 fmt::format("{:.10g}", c.width), text_of(c.vector, h.dimension),
-                                 point_text(c.point, c.inside, h.dimension)};
-    if (counts) row.push_back(c.count.decimal());
-    table.add(row);
-  }
-  return table.text() + rest_of(h.channels.size(), limit);
-}
-
-std::string cylinder_table(const oracle::Horizon& h, std::size_t limit) {
-  Table table({"cylinder", "radius", "vector", "through"});
-  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) {
-    const auto& c = h.cylinders[i];
-    table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("{:.6g}", c.radius), text_of(c.vector, 3),
-               point_text(c.point, c.inside, 3)});
-  }
-  return table.text() + rest_of(h.cylinders.size(), limit);
-}
-
-std::string families_text(const oracle::Horizon& h, std::size_t limit) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(limit, h.families.size()); ++i) {
-    const auto& family = h.families[i];
-    const std::string planes = text_of(family.indices, 3);
-    if (family.infinite)
-      out += fmt::format(
-          "planes ({}): the obstacles just touch; cylindrical channels in all but finitely many directions\n",
-          planes);
-    else
-      out += fmt::format(
-          "planes ({}): the obstacles overlap by little; of about {:.2g} directions only the shortest "
-          "searched\n",
-          planes, family.directions);
-  }
-  return out + rest_of(h.families.size(), limit);
-}
-
-std::string tail_text(const oracle::Horizon& h, bool limited) {
-  if (h.is_finite() && !limited) return "tail: none, the free path is bounded\n";
-  if (!h.tail_constant) return fmt::format("tail constant: not given ({})\n", h.no_tail_constant);
-  if (h.channels.empty())
-    return "tail: P(free path > t) falls faster than 1/t, for no planar channel is open\n";
-  return fmt::format("tail: P(free path > t) ~ C / t from a uniform start, C = {:.6g}\n", *h.tail_constant);
-}
-
-std::string human_text(const oracle::Horizon& h, std::size_t limit, bool limited) {
-  std::string out = verdict_of(h, limited) + "\n";
-  bool outside = false;
-  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) outside |= !h.channels[i].inside;
-  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
-  if (!h.channels.empty()) out += "\n" + channel_table(h, limit);
-  if (!h.cylinders.empty()) out += "\n" + cylinder_table(h, limit);
-  if (!h.families.empty()) out += "\n" + families_text(h, limit);
-  if (outside) out += "* too narrow there: the rounded point is not inside\n";
-  if (!h.undecided.empty())
-    out += fmt::format("\nundecided: {}, three lattices or more with long common periods\n",
-                       number(h.undecided.size(), h.dimension == 2 ? "direction" : "normal"));
-  out += "\n" + tail_text(h, limited);
-  if (!h.no_cylinders.empty()) out += "cylinders: undecided (" + h.no_cylinders + ")\n";
-  return out;
-}
-
-// Each item on a line of its own.
-constexpr const char* kNewLine = "\n ";
-
-void add_channel(json::Members& object, const oracle::Channel& c, int d) {
-  const auto indices = components(c.indices, d);
-  const auto vector = components(c.vector, d);
-  if (d == 2)
-    object.add("direction", indices, "vector", vector);
-  else
-    object.add("planes", indices, "normal", vector);
-  object.add("width", c.width, "point", components(c.point, d), "point_inside", c.inside, "count", c.count);
-}
-
-void add_cylinders(json::Members& object, const oracle::Horizon& h) {
-  object.add("complete", h.no_cylinders.empty());
-  if (!h.no_cylinders.empty()) object.add("reason", h.no_cylinders);
-  const auto cylinder = [](json::Members& one, const oracle::Cylinder& c) {
-    one.add("direction", c.direction, "vector", c.vector, "point", c.point, "point_inside", c.inside,
-            "radius", c.radius);
-  };
-  const auto family = [](json::Members& one, const oracle::CylinderFamily& f) {
-    one.add("planes", f.indices, "infinite", f.infinite);
-    if (!f.infinite) one.add("directions", f.directions);
-  };
-  object.add("open", json::objects(h.cylinders, cylinder, kNewLine), "families",
-             json::objects(h.families, family, kNewLine));
-}
-
-}  // namespace
-
-std::string json_of(const oracle::Horizon& h, const std::string& scene, bool limited) {
-  const int d = h.dimension;
-  const bool is_finite = h.is_finite() && !limited;
-  const auto channel = [d](json::Members& one, const oracle::Channel& c) { add_channel(one, c, d); };
-  const auto undecided = [d](std::string& out, const Indices& i) { json::append(out, components(i, d)); };
-  return json::line_of([&](json::Members& object) {
-    object.add("scene", scene, "dimension", d, "horizon",
-               h.is_infinite() ? "infinite" : (is_finite ? "finite" : "undecided"), "directions", h.normals);
-    object.add("channels", json::objects(h.channels, channel, kNewLine), "undecided",
-               json::array(h.undecided, undecided, kNewLine));
-    if (d == 3) object.add("cylinders", [&](json::Members& cylinders) { add_cylinders(cylinders, h); });
-    if (h.tail_constant)
-      object.add("tail_constant", *h.tail_constant);
-    else
-      object.add("no_tail_constant", h.no_tail_constant);
-  });
-}
-
-namespace {
 
 int act(const HorizonOptions& options) {
   if (options.name && options.scene)
@@ -209,8 +27,8 @@ int act(const HorizonOptions& options) {
   try {
     const oracle::Horizon horizon =
         oracle::horizon_of(scene, options.min_width.value_or(0), !options.no_cylinders, search_progress());
-    print(options.json ? json_of(horizon, name, options.min_width.has_value())
-                       : human_text(horizon, options.limit, options.min_width.has_value()));
+    print(options.json ? report::json_of(horizon, name, options.min_width.has_value())
+                       : report::text_of(horizon, options.limit, options.min_width.has_value()));
   } catch (const oracle::TooManyChannels& error) {
     throw InputError(fmt::format("{}: {}; --min-width W restricts the search to channels {}", name,
                                  error.what(), options.min_width ? "wider than that" : "at least W wide"));

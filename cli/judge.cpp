@@ -6,13 +6,17 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/judging.hpp"
+#include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
-#include "cli/whole_file.hpp"
+#include "files/whole_file.hpp"
+#include "judge/judging.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::cli {
+
+using judge::JudgeOrder;
+using judge::JudgeReport;
 
 namespace {
 
@@ -81,7 +85,7 @@ int act(const JudgeOptions& options) {
   RequestedFile html(options.html);
   const Interrupt interrupt;
   order.on_progress = clock_of(order.seconds());
-  const JudgeReport report = judged(order, Interrupt::came());
+  const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
   html.write([&] { return report::page(report.json()); });

@@ -1,6 +1,6 @@
 #include "cli/logged_answers.hpp"
 
-#include "cli/messages.hpp"
+#include "files/messages.hpp"
 
 namespace lorentz::cli {
 

@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "cli/unknown_keys.hpp"
 #include "compare/answerer.hpp"
+#include "files/unknown_keys.hpp"
 #include "src/exchange/columns.hpp"
 
 namespace lorentz::cli {

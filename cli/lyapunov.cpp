@@ -5,10 +5,10 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/finding_json.hpp"
-#include "cli/messages.hpp"
-#include "cli/table.hpp"
+#include "cli/output.hpp"
 #include "flights/theory/laws.hpp"
+#include "report/finding_json.hpp"
+#include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
@@ -53,7 +53,7 @@ std::string LyapunovReport::table() const {
                   plan.seed, found.collisions, chaos::kGroups * chaos::kParticles);
   if (found.stopped > 0) text += fmt::format(", {} of which ended on the way", found.stopped);
   text += '\n' + remark_on_end(found.is_whole) + '\n';
-  Table table({"exponent", "a collision", "+-", "a unit of time", "+-"});
+  report::Table table({"exponent", "a collision", "+-", "a unit of time", "+-"});
   for (std::size_t k = 0; k < found.map.size(); ++k)
     table.add({fmt::format("{}", k + 1), fmt::format("{:.6f}", found.map[k].value),
                fmt::format("{:.1e}", found.map[k].error), fmt::format("{:.6g}", flow(k).value),
@@ -96,7 +96,7 @@ int act(const LyapunovOptions& options) {
   const runs::Plan words{{"collisions", std::to_string(report.plan.collisions)},
                          {"spectrum", report.plan.whole_spectrum ? "whole" : "above zero"},
                          {"seed", std::to_string(report.plan.seed)},
-                         {"scene", scene_line(scene)}};
+                         {"scene", report::scene_line(scene)}};
   with_work(options, "lyapunov", words,
             [&](const chaos::Work& work) { report.found = chaos::lyapunov_of(report.plan, work); });
   if (report.found.collisions == 0) {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {

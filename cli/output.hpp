@@ -1,10 +1,24 @@
-// Standard output of streams, gathered into large writes, none of which is held back for long.
+// Standard output: texts, and streams that are gathered into large writes, none of which is held back for long.
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <string>
+#include <string_view>
+
+#include "files/messages.hpp"
 
 namespace lorentz::cli {
+
+/// Text on stdout, with what acts on a terminal escaped; line ends and tabs stay. JSON and SVG contain no
+/// such characters. The end of the program checks that all text arrived (finish_output).
+inline void print(std::string_view text) {
+  const std::string shown = printable(text, Lines::kept);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
+
+/// Throws FileError if something printed did not arrive.
+void finish_output();
 
 class Output {
  public:

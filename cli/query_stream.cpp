@@ -4,8 +4,8 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cli/messages.hpp"
-#include "cli/scene_option.hpp"
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
 
 namespace lorentz::cli {
 

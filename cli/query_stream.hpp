@@ -7,7 +7,7 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
-#include "cli/unknown_keys.hpp"
+#include "files/unknown_keys.hpp"
 
 namespace lorentz::cli {
 

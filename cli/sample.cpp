@@ -4,10 +4,10 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
 #include "cli/output.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/terminal.hpp"
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 #include "src/exchange/nearest_name.hpp"

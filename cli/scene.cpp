@@ -4,14 +4,14 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/app.hpp"
-#include "cli/data_folder.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/horizon_verdict.hpp"
-#include "cli/messages.hpp"
+#include "cli/output.hpp"
 #include "cli/scene_draw.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
-#include "cli/table.hpp"
+#include "files/data_folder.hpp"
+#include "files/scene_file.hpp"
+#include "report/horizon_report.hpp"
+#include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/problem/scene_geometry.hpp"
 
@@ -44,7 +44,7 @@ std::size_t atoms_in(const Scene& scene) {
 }
 
 int list(const SceneOptions& options) {
-  Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
+  report::Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
   table.with_prose();
   std::vector<std::string> json;
   bool bad = false;
@@ -76,7 +76,7 @@ std::string horizon_verdict(const Scene& scene) {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
     std::string verdict =
-        verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, search_progress()), false);
+        report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, search_progress()), false);
     const std::string word = " horizon";  // said by the row's name
     if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
     return verdict;

@@ -11,13 +11,13 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 #include "cli/exit_status.hpp"
-#include "cli/messages.hpp"
 #include "cli/numbers.hpp"
+#include "cli/output.hpp"
 #include "cli/query_stream.hpp"
-#include "cli/scene_option.hpp"
 #include "cli/search_progress.hpp"
-#include "cli/whole_file.hpp"
 #include "compare/engines.hpp"
+#include "files/scene_file.hpp"
+#include "files/whole_file.hpp"
 #include "pictures/scene_drawing.hpp"
 
 namespace lorentz::cli {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "cli/messages.hpp"
 #include "cli/progress.hpp"
 #include "compare/listener.hpp"
+#include "files/messages.hpp"
 
 namespace lorentz::cli {
 

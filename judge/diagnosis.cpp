@@ -75,24 +75,24 @@ Fault of_another_answer(const Question& question, const Answer& given,
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
 
-constexpr std::array<std::string_view, kCauses> kNames{"passed-over-grazing",
-                                                       "passed-over",
-                                                       "never-for-grazing",
-                                                       "never-for-hit",
-                                                       "false-hit-grazing",
-                                                       "false-hit",
-                                                       "behind",
-                                                       "leaving",
-                                                       "inside-unseen",
-                                                       "inside-not-so",
-                                                       "inside-another",
-                                                       "tie",
-                                                       "no-obstacle",
-                                                       "not-the-time",
-                                                       "wrong-time",
-                                                       "refused",
-                                                       "no-answer",
-                                                       "answers-nonsense"};
+constexpr std::array<std::string_view, kCauses> kCauseNames{"passed-over-grazing",
+                                                            "passed-over",
+                                                            "never-for-grazing",
+                                                            "never-for-hit",
+                                                            "false-hit-grazing",
+                                                            "false-hit",
+                                                            "behind",
+                                                            "leaving",
+                                                            "inside-unseen",
+                                                            "inside-not-so",
+                                                            "inside-another",
+                                                            "tie",
+                                                            "no-obstacle",
+                                                            "not-the-time",
+                                                            "wrong-time",
+                                                            "refused",
+                                                            "no-answer",
+                                                            "answers-nonsense"};
 
 }  // namespace
 
@@ -110,7 +110,12 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
 }
 
 std::string_view name_of(Cause cause) {
-  return kNames[static_cast<std::size_t>(cause)];
+  return kCauseNames[static_cast<std::size_t>(cause)];
+}
+
+std::string_view name_of(Severity severity) {
+  constexpr std::string_view kSeverityNames[] = {"wrong", "error", "wrong-time", "ill-posed", "nonsense"};
+  return kSeverityNames[static_cast<int>(severity)];
 }
 
 std::string power_of_ten_above(double x) {

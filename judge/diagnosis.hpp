@@ -58,6 +58,7 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
 
 /// "passed-over-grazing"
 std::string_view name_of(Cause cause);
+std::string_view name_of(Severity severity);
 
 /// "passes over obstacles that the line enters by less than 1e-09 of their radii": of all answers that went
 /// wrong so, `by_radii` the most of any.

@@ -61,9 +61,8 @@ std::vector<PathPoint> FreePaths::points() const {
 
 std::optional<PathPoint> FreePaths::farthest_apart() const {
   std::optional<PathPoint> farthest;
-  const auto apart = [](const PathPoint& point) { return std::fabs(point.survival - point.exact); };
   for (const PathPoint& point : points())
-    if (apart(point) > (farthest ? apart(*farthest) : 0)) farthest = point;
+    if (point.apart() > (farthest ? farthest->apart() : 0)) farthest = point;
   return farthest;
 }
 

@@ -1,6 +1,8 @@
 // The free paths that an engine flies, beside the exact ones of the same starts.
 #pragma once
 
+#include <cmath>
+
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,8 @@ using compare::Question;
 struct PathPoint {
   double t = 0;
   double survival = 0, exact = 0;
+
+  double apart() const { return std::fabs(survival - exact); }
 };
 
 /// Of one scene. Paths are times of flight: starts have unit speed. What the engine did not decide is in

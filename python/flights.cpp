@@ -3,9 +3,10 @@
 #include <atomic>
 
 #include <lorentz/exchange.hpp>
-#include "cli/flights_findings.hpp"
+#include "flights/findings.hpp"
 #include "flights/run.hpp"
 #include "python/engine.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -36,13 +37,13 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   own_engine(engine);
   if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
-  cli::FlightsReport report;
+  flights::FlightsReport report;
   report.plan.scene = scene.scene(), report.plan.engine = engine,
   report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
   fly(report.plan, threads, report.account);
-  const cli::FlightsFindings found(report);
+  const flights::FlightsFindings found(report);
   return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));
 }
 

@@ -1,5 +1,5 @@
 // Golden sets, record by record.
-#include "cli/golden.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
 #include "python/certificates.hpp"
 #include "python/lines.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 class PyGoldenSet {
  public:
-  explicit PyGoldenSet(const std::string& name_or_file) : reader_(cli::find_set(name_or_file)) {}
+  explicit PyGoldenSet(const std::string& name_or_file) : reader_(golden::find_set(name_or_file)) {}
 
   const golden::Header& header() const { return reader_.header(); }
   const std::string& path() const { return reader_.path(); }
@@ -63,7 +63,7 @@ void bind_golden(py::module_& module) {
       .def_property_readonly("description", [](const PyGoldenSet& set) { return set.header().description; })
       .def_property_readonly("count", [](const PyGoldenSet& set) { return set.header().count; })
       .def("__next__", &PyGoldenSet::next);
-  module.def("golden_sets", cli::committed_sets);
+  module.def("golden_sets", golden::committed_sets);
 }
 
 }  // namespace lorentz::python

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <set>
 
-#include "cli/judging.hpp"
-#include "cli/whole_file.hpp"
+#include "files/whole_file.hpp"
+#include "judge/judging.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"
 #include "python/signals.hpp"
@@ -124,18 +124,18 @@ class FunctionAnswerer final : public compare::Answerer {
 };
 
 // Without the interpreter's lock, so that a function's answerers can take it in any thread.
-cli::JudgeReport report_of(const cli::JudgeOrder& order, JudgeRun& run) {
-  cli::JudgeReport report;
+lorentz::judge::JudgeReport report_of(const lorentz::judge::JudgeOrder& order, JudgeRun& run) {
+  lorentz::judge::JudgeReport report;
   {
     const py::gil_scoped_release release;
-    report = watched(run.stop, [&] { return cli::judged(order, run.stop); });
+    report = watched(run.stop, [&] { return lorentz::judge::judged(order, run.stop); });
   }
   run.rethrow();
   return report;
 }
 
 void write_page(const std::string& path, const std::string& json) {
-  cli::WholeFile file(path);
+  WholeFile file(path);
   file.write(report::page(json));
   file.commit();
 }
@@ -143,7 +143,7 @@ void write_page(const std::string& path, const std::string& json) {
 py::tuple judge(const py::object& function, const std::string& engine, const std::string& command, bool quick,
                 std::optional<double> time, std::uint64_t seed, unsigned threads, double ulps, bool times,
                 const std::optional<std::string>& html) {
-  cli::JudgeOrder order;
+  lorentz::judge::JudgeOrder order;
   order.command = command, order.quick = quick, order.time = time;
   order.seed = seed, order.jobs = threads, order.ulps = ulps, order.times = times;
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
@@ -160,7 +160,7 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
       return std::make_unique<FunctionAnswerer>(ask, run);
     });
   }
-  const cli::JudgeReport report = report_of(order, run);
+  const lorentz::judge::JudgeReport report = report_of(order, run);
   if (html) write_page(*html, report.json());
   return py::make_tuple(report.json(), report.text());
 }

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
-#include "cli/data_folder.hpp"
+#include "files/data_folder.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::python {
@@ -45,7 +45,7 @@ PYBIND11_MODULE(_lorentz, module) {
   module.doc() = "What `lorentz` is made of; use the package.";
   bind_errors(module);
   module.attr("VERSION") = LORENTZ_VERSION;
-  module.def("add_data_folder", &lorentz::cli::add_data_folder, py::arg("path"),
+  module.def("add_data_folder", &lorentz::add_data_folder, py::arg("path"),
              "Another folder to look for scenes and golden sets in, after the usual ones.");
   bind_scene(module);
   bind_first_hit(module);

@@ -3,7 +3,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cli/scene_option.hpp"
+#include "files/scene_file.hpp"
 #include "python/lines.hpp"
 
 namespace lorentz::python {
@@ -51,7 +51,7 @@ py::dict scene_dict(const PyScene& scene) {
 
 py::list catalogue_names() {
   py::list names;
-  for (const cli::CatalogueEntry& entry : cli::catalogue()) names.append(entry.name);
+  for (const CatalogueEntry& entry : catalogue()) names.append(entry.name);
   return names;
 }
 
@@ -77,7 +77,7 @@ PyScene PyScene::from_json(const std::string& text) {
 }
 
 PyScene PyScene::load(const std::string& name_or_file) {
-  const std::string file = cli::find_scene(name_or_file);
+  const std::string file = find_scene(name_or_file);
   try {
     return either([&] { return checked(read_scene_file(file, refuse_key)); },
                   [&] { return read_rational_scene_file(file, refuse_key); });

@@ -102,7 +102,7 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
                  "\"fits\":[\n{\"scene\":\"square\",\"engine\":\"published\",\"difficulty\":\"drawn\","));
   CHECK(contains(first.out, "\"command\":\"lorentz bench --scene square --count 32 "));
   const std::string call =
-      "lorentz compare --scene square --radius 0.0001 --queries - --engine published-float";
+      "lorentz compare --scene square --radius 1e-04 --queries - --engine published-float";
   std::string line = first.out.substr(first.out.rfind("echo '"));
   line.resize(line.find("\"}"));
   line.erase(std::remove(line.begin(), line.end(), '\\'), line.end());

@@ -1,8 +1,8 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
 #include "tests/support/command_line.hpp"
-#include "cli/finding_json.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/messages.hpp"
+#include "files/messages.hpp"
+#include "report/finding_json.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -43,7 +43,7 @@ TEST_CASE("Words in quotes are what bash makes of them, and act on no terminal",
   const Folder folder;
   for (const std::string word : {"plain", "two words", "it's", "$(rm -rf x)", "\x1b[31m'\\n",
                                  "\u009b\u202e\u00fc", "two\nlines", "\x9b\x7f"}) {
-    const std::string quoted = cli::shell_quoted(word);
+    const std::string quoted = shell_quoted(word);
     INFO(quoted);
     CHECK(printable(quoted, Lines::kept) == quoted);
     CHECK(folder.run("bash " + folder.write("script", "printf %s " + quoted)).out == word);
@@ -225,13 +225,13 @@ TEST_CASE("The command that prints a question prints it as often as it is to be 
           "[cli][command_line]") {
   const Folder folder;
   const Scene scene = unit_scene(2, 0.25);
-  const std::string asked = cli::query_members({{0.5, 0.25}, {1, 0.5}, {}}, 2);
+  const std::string asked = report::query_members({{0.5, 0.25}, {1, 0.5}, {}}, 2);
   for (const std::size_t times : {1, 2, 7}) {
     const std::string file = folder.file("asked");
-    REQUIRE(std::system((cli::printed(scene, asked, times) + " >" + file).c_str()) == 0);
-    const std::vector<std::string> lines = cli::lines_of(folder.read("asked"));
+    REQUIRE(std::system((report::printed(scene, asked, times) + " >" + file).c_str()) == 0);
+    const std::vector<std::string> lines = report::lines_of(folder.read("asked"));
     REQUIRE(lines.size() == times + 1);
-    CHECK(lines[0] == cli::scene_line(scene));
+    CHECK(lines[0] == report::scene_line(scene));
     for (std::size_t i = 1; i <= times; ++i) CHECK(lines[i] == "{\"id\":1," + asked + '}');
   }
 }

@@ -47,27 +47,31 @@ def commands(text):
 class Examples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = Path(cls.folder.name)
-        (cls.path / "build").symlink_to(LORENTZ.parent)
+        cls.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        cls.path, cls.number = Path(cls.folder.name), 0
+        begun = cls.path / "begun"
+        begun.mkdir()
+        (begun / "build").symlink_to(LORENTZ.parent)
         for name in ("examples", "data"):
-            (cls.path / name).symlink_to(SOURCE / name)
+            (begun / name).symlink_to(SOURCE / name)
         for name, text in FILES.items():
-            (cls.path / name).write_text(text)
-        (cls.path / "mine").chmod(0o755)
+            (begun / name).write_text(text)
+        (begun / "mine").chmod(0o755)
         cls.environment = dict(os.environ, PATH=f"{LORENTZ.parent}:{os.environ['PATH']}")
-        stores = ["fuzz", "--engine", "published", "--target", "published-faults,leaving", "--count", "99", "--store", "made"]
-        subprocess.run([LORENTZ, *stores], cwd=cls.path, stdout=subprocess.DEVNULL, check=False)
+        stores = ["fuzz", "--engine", "published", "--target", "published-faults,leaving", "--count", "99", "--store", "published.campaign"]
+        subprocess.run([LORENTZ, *stores], cwd=begun, stdout=subprocess.DEVNULL, check=False)
 
     @classmethod
     def tearDownClass(cls):
         cls.folder.cleanup()
 
     def run_for_a_moment(self, command):
-        """Status and output, or nothing if it was still at it."""
-        shutil.copy(self.path / "made", self.path / "published.campaign")
-        with open(self.path / "out", "wb") as out, open(self.path / "err", "wb") as err:
-            process = subprocess.Popen(["sh", "-c", command], cwd=self.path, env=self.environment, stdin=subprocess.DEVNULL,
+        """Status and output, or nothing if it was still at it. In a folder of its own: who is told to end may take a while."""
+        self.number += 1
+        path = self.path / str(self.number)
+        shutil.copytree(self.path / "begun", path, symlinks=True)
+        with open(path / "out", "wb") as out, open(path / "err", "wb") as err:
+            process = subprocess.Popen(["sh", "-c", command], cwd=path, env=self.environment, stdin=subprocess.DEVNULL,
                                        stdout=out, stderr=err, start_new_session=True)
         try:
             status = process.wait(timeout=MOMENT)
@@ -75,7 +79,7 @@ class Examples(unittest.TestCase):
             os.killpg(process.pid, signal.SIGTERM)  # it ends the programs that it has started
             process.wait()
             return None
-        return status, (self.path / "out").read_bytes(), (self.path / "err").read_bytes()
+        return status, (path / "out").read_bytes(), (path / "err").read_bytes()
 
     def test_documents(self):
         number = 0

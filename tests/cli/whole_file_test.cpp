@@ -1,5 +1,5 @@
 // Files that are put in their place when they are whole.
-#include "cli/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <signal.h>
 #include <sys/stat.h>
@@ -12,7 +12,6 @@
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
-using cli::WholeFile;
 using test::contains;
 using test::Folder;
 using test::Run;
@@ -98,7 +97,7 @@ TEST_CASE("Nobody foresees the name of a file that is not whole, and no link lea
   // What an earlier version, and the process id, would have made of it.
   const std::string victim = folder.write("victim", "precious\n");
   std::filesystem::create_symlink(victim, path + '.' + std::to_string(::getpid()) + ".new");
-  cli::write_whole(path, "new\n");
+  write_whole(path, "new\n");
   CHECK(folder.read("victim") == "precious\n");
 }
 
@@ -118,7 +117,7 @@ TEST_CASE("A new file has the permissions of any new file, whatever its name's l
   const Folder folder;
   const mode_t before = ::umask(027);
   const std::string name(255, 'x');
-  cli::write_whole(folder.file(name), "text");
+  write_whole(folder.file(name), "text");
   ::umask(before);
   CHECK(folder.read(name) == "text");
   CHECK(entries(folder) == 1);
@@ -132,7 +131,7 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   const pid_t child = ::fork();
   if (child == 0) {
     WholeFile file(path);
-    cli::Beside store(path, cli::Beside::Kind::folder);
+    Beside store(path, Beside::Kind::folder);
     std::ofstream(store.path() + "/store") << "half";
     ::raise(SIGKILL);
   }
@@ -149,7 +148,7 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   for (const std::string& name : others) folder.write(name, "mine\n");
   std::filesystem::create_symlink(path, folder.file("f.00000000000000aa.new"));
   {
-    const cli::Beside alive(folder.file("h"), cli::Beside::Kind::file);
+    const Beside alive(folder.file("h"), Beside::Kind::file);
     // Of a place that this process has not written to yet. (A process looks once.)
     const std::string other = folder.write("h.00000000000000bb.new", "left by another\n");
     const Run run =

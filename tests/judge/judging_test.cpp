@@ -1,6 +1,6 @@
 // More than one of a thing: threads of a campaign, parts of a source, examinations that are added up, flaws
 // of one engine.
-#include "cli/judging.hpp"
+#include "judge/judging.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -144,13 +144,13 @@ TEST_CASE("Two threads of a judge's campaign ask different questions, and all of
           "[judge][judging]") {
   Log asked;
   const auto engine = guest("two-threads", two_faults, &asked);
-  cli::JudgeOrder order;
+  judge::JudgeOrder order;
   order.engine = engine;
   order.quick = true;
   order.time = 1e6;  // it ends when both have asked enough, however long that takes
   order.jobs = 2;
   order.on_progress = [&](const std::string& row) { asked.is_on = row == "campaign"; };
-  const cli::JudgeReport report = cli::judged(order, asked.is_enough);
+  const judge::JudgeReport report = judge::judged(order, asked.is_enough);
   REQUIRE(asked.by_thread.size() == 2);
   const auto& first = asked.by_thread[std::this_thread::get_id()];
   std::size_t both = 0, second = 0;

@@ -1,11 +1,11 @@
 // The verdict in one line: which fault comes first, and how numbers are written.
 #include <catch2/catch.hpp>
 
-#include "cli/judge_report.hpp"
+#include "judge/judge_report.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
-using namespace lorentz::cli;
+using namespace lorentz::judge;
 using lorentz::test::contains;
 
 namespace {

@@ -1,0 +1,118 @@
+#include "files/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/itinerary.hpp>
+#include <lorentz/scene_check.hpp>
+#include "files/data_folder.hpp"
+#include "files/messages.hpp"
+#include "src/exchange/nearest_name.hpp"
+#include "src/problem/safe_text.hpp"
+
+namespace lorentz {
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+std::vector<CatalogueEntry> catalogue() {
+  std::vector<CatalogueEntry> entries;
+  for (const std::string& file : data_files("scenes", ".toml"))
+    entries.push_back({fs::path(file).stem(), file});
+  return entries;
+}
+
+const std::string& queries_file(const std::string& file) {
+  std::error_code error;
+  if (file == "-" || fs::exists(file, error) || error) return file;
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  if (const std::string scene = nearest_name(file, names); !scene.empty())
+    throw FileError(fmt::format("{}: no such file (a scene is given by --scene {})", file, scene));
+  return file;
+}
+
+std::string find_scene(const std::string& name_or_file) {
+  std::error_code error;
+  const bool is_name = name_or_file.find('/') == std::string::npos;
+  const fs::file_status status = fs::status(name_or_file, error);
+  if (fs::exists(status) && !(is_name && fs::is_directory(status))) return name_or_file;
+  if (is_name)
+    for (const CatalogueEntry& entry : catalogue())
+      if (entry.name == name_or_file) return entry.file;
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  const std::string shown = shortened(name_or_file, 200);
+  if (names.empty())
+    throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
+                                data_places("scenes")));
+  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}", shown,
+                              did_you_mean(shown, names), fmt::join(names, ", ")));
+}
+
+namespace {
+
+// Every ball gets this radius, if there is one.
+template <class AScene, class Number>
+void set_radius(AScene& scene, const std::optional<Number>& radius, const std::string& name) {
+  if (!radius) return;
+  for (auto& lattice : scene.lattices)
+    for (auto& atom : lattice.atoms) {
+      if (!atom.is_ball())
+        throw InputError("--radius: " + name + " has semiaxes, which have no radius to override");
+      atom.radius = *radius;
+    }
+}
+
+}  // namespace
+
+RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
+                                  UnknownKeys unknown) {
+  KeyCheck keys(name_or_file, unknown);
+  RationalScene scene =
+      read_rational_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
+  set_radius(scene, radius, name_or_file);
+  const oracle::Itinerary check(scene);  // throws InputError
+  warn_of_overlaps(oracle::nearest(scene), name_or_file);
+  return scene;
+}
+
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
+  KeyCheck keys(name_or_file, unknown);
+  Scene scene = read_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
+  set_radius(scene, radius, name_or_file);
+  if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
+  return scene;
+}
+
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
+  Scene scene = read_scene(name_or_file, radius, unknown);
+  warn_of_overlaps(scene, name_or_file);
+  return scene;
+}
+
+void warn_of_overlaps(const Scene& scene, const std::string& place) {
+  if (flaw_of(scene) || oracle::dependence_in(scene)) return;  // what binary64 has left of rational numbers
+  const oracle::Contacts contacts = oracle::contacts_in(scene, 20, oracle::Pairs::within_lattices);
+  const oracle::Contact* worst = nullptr;  // one that touches, unless some overlap
+  for (const oracle::Contact& contact : contacts.found)
+    if (!worst || (contact.overlap && !worst->overlap)) worst = &contact;
+  if (worst)
+    say("warning: {}: {}; answers stay exact, but is {} what you meant?", place,
+        oracle::description_of(*worst),
+        scene.lattices[worst->lattice].atoms[worst->atom].is_ball() ? "the radius" : "that");
+  else if (contacts.end == oracle::SearchEnd::budget)
+    say("{}: whether obstacles overlap was not checked: there are too many pairs to look at; answers stay "
+        "exact",
+        place);
+}
+
+}  // namespace lorentz

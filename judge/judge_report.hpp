@@ -1,0 +1,48 @@
+// What `lorentz judge` says in the end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/engines.hpp"
+#include "judge/examination.hpp"
+#include "judge/judge_paths.hpp"
+
+namespace lorentz::judge {
+
+struct JudgeReport {
+  compare::EngineInfo engine;
+  std::uint64_t seed = 0;
+  std::string command;  ///< the shell line that was typed
+  std::vector<ExaminedRow> rows;
+  std::vector<Finding> findings;
+  Calls calls;
+  std::vector<FlownScene> flown;
+  double timeout = 0;       ///< seconds of silence that are a failure of another program
+  double start_up = 0;      ///< seconds that another program took to start
+  double first_answer = 0;  ///< seconds until its first answer
+  std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
+  std::string speed_of;                                 ///< which flights these were
+  bool misbehaved = false;  ///< another program broke, or did what it should not, at least once
+  bool times = false;       ///< wrong times count
+  bool strict = false;      ///< answers to invalid questions count
+
+  compare::Tally total() const;
+  /// Answers to invalid questions, which are not in the total.
+  std::size_t nonsense() const;
+  /// Rows in which another program was given up.
+  std::size_t rows_given_up() const;
+  /// More than one answer in a hundred is missing.
+  bool is_broken() const;
+
+  /// right, wrong, ill-posed, undecided, broken: the worst that applies (docs/judge.md).
+  std::string verdict() const;
+  /// The verdict in one line, with the most frequent fault, shares, times, free paths and speed.
+  std::string line() const;
+
+  std::string text() const;
+  std::string json() const;
+};
+
+}  // namespace lorentz::judge

@@ -1,0 +1,315 @@
+#include "judge/judging.hpp"
+#include "golden/find_sets.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <future>
+
+#include <fmt/format.h>
+
+#include <lorentz/exchange.hpp>
+
+#include "compare/race.hpp"
+#include "files/scene_file.hpp"
+#include "judge/judge_paths.hpp"
+#include "judge/questions.hpp"
+#include "judge/repetition.hpp"
+#include "judge/simplest.hpp"
+
+namespace lorentz::judge {
+
+using starts::Kind;
+
+namespace {
+
+// How long each part takes at the most, in seconds, and how many flights are drawn.
+struct TimePlan {
+  double drawn, hard, paths, golden, campaign, speed, simplest;
+  std::size_t count;
+  double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
+  /// The same in another time.
+  TimePlan lasting(double other) const {
+    const double k = other / seconds();
+    return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
+  }
+};
+constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
+
+// The catalogue's scenes that are flown in, and their radii; without any at their own size.
+struct Scenery {
+  const char* scene;
+  std::vector<const char*> radii;
+};
+const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001", "1e-06"}},
+                                      {"cubic", {"0.3", "0.1", "0.01", "0.001"}},
+                                      {"triangular", {"0.1", "0.001"}},
+                                      {"oblique", {}},
+                                      {"honeycomb", {}},
+                                      {"fcc", {}},
+                                      {"hcp", {}},
+                                      {"diamond", {}},
+                                      {"superposition-pi-5", {}},
+                                      {"overlapping", {}},
+                                      {"ellipse", {}},
+                                      {"ellipsoid", {}}};
+
+std::vector<NamedPlace> places_of(const Scenery& scenery) {
+  const auto place = [&](const std::optional<std::string>& radius) {
+    const std::string name =
+        radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
+    return NamedPlace{
+        name, std::make_shared<compare::Place>(
+                  read_scene(scenery.scene, radius ? std::optional(parse_number(*radius)) : std::nullopt))};
+  };
+  std::vector<NamedPlace> places;
+  for (const char* radius : scenery.radii) places.push_back(place(radius));
+  if (places.empty()) places.push_back(place(std::nullopt));
+  return places;
+}
+
+using JudgingClock = std::chrono::steady_clock;
+
+// A stretch of time.
+class Countdown {
+ public:
+  explicit Countdown(double seconds)
+      : end_(JudgingClock::now() +
+             std::chrono::duration_cast<JudgingClock::duration>(std::chrono::duration<double>(seconds))) {}
+  double left() const {
+    return std::max(std::chrono::duration<double>(end_ - JudgingClock::now()).count(), 0.0);
+  }
+
+ private:
+  JudgingClock::time_point end_;
+};
+
+// Parts of one stretch of time: what one leaves over is the others'.
+class Shares {
+ public:
+  Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
+  double next() { return all_.left() / static_cast<double>(std::max<std::size_t>(parts_--, 1)); }
+
+ private:
+  Countdown all_;
+  std::size_t parts_;
+};
+
+// Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
+std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan, std::uint64_t seed) {
+  std::vector<NamedPlace> all;
+  Shares shares(plan.drawn, kSceneries.size());
+  for (const Scenery& scenery : kSceneries) {
+    const std::vector<NamedPlace> places = places_of(scenery);
+    examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
+                    drawn(places, Kind::uniform, seed, plan.count), shares.next());
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  Shares hard(plan.hard, 2);
+  examination.run(
+      {"near-rational", "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
+      drawn(all, Kind::near_rational, seed, 2 * plan.count), hard.next());
+  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
+                  drawn(all, Kind::grazing, seed, 2 * plan.count), hard.next());
+  return all;
+}
+
+void check_golden_sets(Examination& examination, double seconds) {
+  const std::vector<std::string> files = golden::committed_sets();
+  Shares shares(seconds, files.size());
+  for (const std::string& file : files)
+    examination.run(
+        {"golden " + std::filesystem::path(file).stem().string(), "a committed set of hard cases"},
+        golden_set(file), shares.next());
+}
+
+// In a thread for each examination, each with scenes of its own.
+void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
+                  const fuzz::Scope& scope, std::uint64_t seed, double seconds) {
+  const auto parts = static_cast<unsigned>(1 + others.size());
+  const auto run = [&](Examination& one, unsigned part) {
+    one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
+            campaign(seed, scope, part, parts), seconds);
+  };
+  std::vector<std::future<void>> threads;
+  for (unsigned part = 1; part < parts; ++part)
+    threads.push_back(std::async(std::launch::async, run, std::ref(*others[part - 1]), part));
+  run(first, 0);
+  for (std::future<void>& thread : threads) thread.get();
+  for (const auto& other : others) {
+    other->finish();
+    first.take_over(*other);
+  }
+}
+
+// Who is examined, and on which terms.
+struct Terms {
+  compare::EngineInfo engine;
+  double ulps;
+  compare::AnswererOptions answerer;
+  const std::atomic<bool>& stop;
+
+  std::unique_ptr<Examination> examination() const {
+    return std::make_unique<Examination>(engine, answerer, ulps, stop);
+  }
+  /// That tells nobody what it meets.
+  std::unique_ptr<Examination> silent_examination() const {
+    Terms silent = *this;
+    silent.answerer.listener = {};
+    return silent.examination();
+  }
+};
+
+void find_simplest(std::vector<Finding>& findings, Examination& examination, double seconds) {
+  examination.limit(seconds);  // also if the questions took longer than they should
+  Shares shares(seconds, findings.size());
+  for (Finding& finding : findings) finding.simplest = simplest(finding, examination, shares.next());
+}
+
+// Does another program go wrong with a simplest case by itself? Besides its share of the time a new start of
+// it has what the first one took until it answered, several times over; all starts together have that kMost
+// times.
+void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seconds, double first_answer) {
+  constexpr double kForOne = 4, kMost = 10;
+  const Countdown all(seconds + kMost * first_answer);
+  Shares shares(seconds, 2 * findings.size());
+  for (Finding& finding : findings)
+    if (finding.severity() != Severity::ill_posed)
+      judge::recheck(
+          finding, [&] { return terms.silent_examination(); },
+          std::min(shares.next() + kForOne * first_answer, all.left()));
+}
+
+// The simplest case of each.
+void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms, double seconds,
+              double first_answer) {
+  if (!terms.engine.is_command()) return find_simplest(findings, examination, seconds);
+  find_simplest(findings, examination, seconds / 2);
+  recheck_all(findings, terms, seconds / 2, first_answer);
+}
+
+// ---- Speed
+
+// Of the places where the engine answered: the square and cubic lattice at r = 0.1, if these are among them.
+std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& places) {
+  std::vector<const NamedPlace*> chosen;
+  for (const NamedPlace& place : places)
+    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") && place.place->was_answered() &&
+        !place.place->is_beyond_engine())
+      chosen.push_back(&place);
+  for (const NamedPlace& place : places)
+    if (chosen.empty() && place.place->was_answered() && !place.place->is_beyond_engine())
+      chosen.push_back(&place);
+  return chosen;
+}
+
+// As many of each place as can be afforded.
+std::vector<compare::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
+                                                    std::uint64_t seed, std::size_t count) {
+  std::vector<compare::Question> all;
+  for (const NamedPlace* named : places)
+    for (compare::Question& question : compare::questions_of(
+             named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed, count)))
+      all.push_back(std::move(question));
+  return all;
+}
+
+std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
+  constexpr double kFewest = 32, kMost = 2000;
+  double slowest = 1;
+  for (const ExaminedRow& row : report.rows)
+    if (!row.is_hard) slowest = std::max(slowest, row.tally.speed.ns_per_query);
+  return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
+}
+
+void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms, double seconds) {
+  constexpr int kRounds = 5;
+  constexpr double kTooLong = 2;  // times as long as it should take
+  const std::vector<const NamedPlace*> chosen = places_to_race_in(places);
+  if (chosen.empty()) return;
+  const std::size_t count = affordable(report, kRounds, seconds);
+  const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
+  compare::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
+  options.start_timeout = terms.answerer.start_timeout;
+  options.enough = [&] { return terms.stop || until.left() == 0; };
+  const std::vector<compare::Speed> speeds =
+      compare::race(questions_to_race_in(chosen, report.seed, count),
+                    {report.engine, compare::engine_named("reduction")}, options);
+  const bool is_cut = report.engine.is_command() && options.enough();
+  if (speeds[0].failed || is_cut) return;
+  report.ns_per_query = speeds[0].ns_per_query;
+  report.ns_of_reduction = speeds[1].ns_per_query;
+  std::vector<std::string> names;
+  for (const NamedPlace* place : chosen) names.push_back(place->name);
+  report.speed_of =
+      fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
+}
+
+// Without an order: much more than any answer should take here, and little of the time there is. A program's
+// first answer may take as long as elsewhere.
+Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
+  constexpr double kShortest = 2, kPart = 0.1;
+  Terms terms{order.engine, order.ulps, {}, stop};
+  const double most = compare::AnswererOptions::kDefaultTimeout;
+  terms.answerer.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
+  terms.answerer.start_timeout = most;
+  terms.answerer.listener = order.listener;
+  return terms;
+}
+
+// All that it is asked in turn; returns where.
+std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const TimePlan& plan,
+                                unsigned jobs, JudgeReport& report) {
+  const Countdown all(plan.seconds());
+  std::vector<NamedPlace> places = fly_drawn(examination, plan, report.seed);
+  report.flown = fly_free_paths(examination, report.seed, plan.paths);
+  check_golden_sets(examination, plan.golden);
+  std::vector<std::unique_ptr<Examination>> others;
+  for (unsigned i = 1; i < jobs; ++i) {
+    others.push_back(terms.examination());
+    others.back()->limit(all.left());
+  }
+  run_campaign(examination, others, scope_of(places), report.seed, plan.campaign);
+  report.rows = examination.rows();
+  report.findings = examination.findings();
+  report.calls = examination.calls();
+  if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest, report.first_answer);
+  return places;
+}
+
+TimePlan plan_of(const JudgeOrder& order) {
+  const TimePlan& plan = order.quick ? kQuick : kWhole;
+  return order.time ? plan.lasting(*order.time) : plan;
+}
+
+}  // namespace
+
+double JudgeOrder::seconds() const {
+  return plan_of(*this).seconds();
+}
+
+JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
+  const TimePlan plan = plan_of(order);
+  const Terms terms = terms_of(order, plan, stop);
+  JudgeReport report;
+  report.engine = order.engine;
+  report.command = order.command;
+  report.times = order.times;
+  report.strict = order.strict;
+  report.seed = order.seed;
+  report.timeout = terms.answerer.timeout;
+  const std::unique_ptr<Examination> examination = terms.examination();
+  examination->on_progress(order.on_progress);
+  examination->limit(plan.seconds());
+  const Examination::Start start = examination->warm_up();
+  report.start_up = start.start_up, report.first_answer = start.first_answer;
+  if (!examination->is_over()) examination->limit(plan.seconds());
+  const std::vector<NamedPlace> places = examine(*examination, terms, plan, order.jobs, report);
+  report.misbehaved = examination->failed();
+  examination->on_progress({});
+  examination->finish();
+  if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
+  return report;
+}
+
+}  // namespace lorentz::judge

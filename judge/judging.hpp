@@ -1,0 +1,38 @@
+// Judges one engine: what `lorentz judge` does between its options and its report.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <lorentz/verdict.hpp>
+#include "judge/judge_report.hpp"
+#include "starts/free_starts.hpp"
+
+namespace lorentz::judge {
+
+/// What is to be done.
+struct JudgeOrder {
+  compare::EngineInfo engine;
+  std::string command;         ///< that was typed, for the report
+  bool quick = false;          ///< fewer flights in less time
+  std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
+  std::uint64_t seed = starts::kDefaultSeed;
+  unsigned jobs = 1;  ///< threads of the campaign
+  double ulps = oracle::kDefaultUlps;
+  std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time
+  bool times = false;             ///< wrong times count
+  bool strict = false;            ///< answers to invalid questions count
+  compare::Listener listener = {};
+  std::function<void(const std::string& row)> on_progress = {};  ///< called often, with what is asked
+
+  /// How long it will take, about.
+  double seconds() const;
+};
+
+/// All that can be said of the engine; when `stop` is set, what was found until then. Throws
+/// FileError without the catalogue or the golden sets.
+JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop);
+
+}  // namespace lorentz::judge

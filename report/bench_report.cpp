@@ -1,0 +1,211 @@
+#include "report/bench_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <lorentz/exchange.hpp>
+#include "report/table.hpp"
+#include "src/exchange/json_writer.hpp"
+
+namespace lorentz::report {
+
+namespace {
+
+constexpr double kSmall = 0.01;
+
+std::string radius_of(const Cell& cell) {
+  if (!cell.radius) return "own";
+  std::string text;
+  append_number(text, *cell.radius);
+  return text;
+}
+
+bool same_queries(const Cell& a, const Cell& b) {
+  return a.scene == b.scene && a.radius == b.radius && a.difficulty == b.difficulty;
+}
+
+}  // namespace
+
+std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::pair<double, double>>> points;
+  for (const Cell& cell : cells)
+    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.ns && cell.ns->median > 0)
+      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.ns->median);
+  std::vector<BenchFit> fits;
+  for (const auto& [key, values] : points)
+    if (const auto fit = power_fit(values))
+      fits.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), *fit});
+  return fits;
+}
+
+namespace {
+
+std::string table_of(const std::vector<Cell>& cells) {
+  Table table({"queries", "engine", "number", "ns", "quartiles", "undecided", "ill-posed", "wrong",
+               "wrong time", "mean ulp", "99 % ulp", "max ulp"});
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& cell = cells[i];
+    const std::string what =
+        i > 0 && same_queries(cell, cells[i - 1])
+            ? ""
+            : fmt::format("{}, r = {}, {}", cell.scene, radius_of(cell), cell.difficulty);
+    if (cell.skipped) {
+      table.add({what, cell.engine, "-", cell.unsupported > 0 ? "unsupported" : "too slow", "", "", "", "",
+                 "", "", "", ""});
+      continue;
+    }
+    table.add({what, cell.engine, std::to_string(cell.queries),
+               cell.ns ? fmt::format("{:.0f}", cell.ns->median) : "-",
+               cell.ns ? fmt::format("{:.0f}-{:.0f}", cell.ns->q1, cell.ns->q3) : "-",
+               std::to_string(cell.undecided.count), std::to_string(cell.ill_posed.count),
+               std::to_string(cell.wrong.count), std::to_string(cell.wrong_time.count),
+               fmt::format("{:.3g}", cell.ulps.mean), fmt::format("{:.3g}", cell.ulps.p99),
+               fmt::format("{:.3g}", cell.ulps.max)});
+  }
+  return table.text();
+}
+
+std::string fits_text(const std::vector<BenchFit>& fits) {
+  if (fits.empty()) return "";
+  Table table({"ns as r to the power", "engine", "power", "95 %", "r from", "r to"});
+  for (const auto& [scene, engine, difficulty, fit] : fits)
+    table.add({fmt::format("{}, {}", scene, difficulty), engine, fmt::format("{:.3f}", fit.exponent),
+               fmt::format("{:.3f} to {:.3f}", fit.low, fit.high), fmt::format("{:.3g}", fit.from),
+               fmt::format("{:.3g}", fit.to)});
+  return table.text() + '\n';
+}
+
+// What one engine did over all cells of the table.
+class Summary {
+ public:
+  void add(const Cell& cell) {
+    if (cell.skipped) {
+      ++(cell.unsupported > 0 ? beyond_ : skipped_);
+      return;
+    }
+    if (cell.ns) {
+      fastest_ = std::min(fastest_.value_or(cell.ns->median), cell.ns->median);
+      slowest_ = std::max(slowest_, cell.ns->median);
+    }
+    queries_ += cell.queries;
+    wrong_ += cell.wrong.count, ill_posed_ += cell.ill_posed.count, undecided_ += cell.undecided.count;
+    wrong_time_ += cell.wrong_time.count;
+    unsupported_ += cell.unsupported, failed_ += cell.error + cell.missing;
+    has_times_ |= cell.ulps.exact > 0 || !cell.ulps.counts.empty();
+    max_ulp_ = std::max(max_ulp_, cell.ulps.max);
+    max_condition_ = std::max(max_condition_, cell.conditions.max);
+  }
+
+  std::string conclusion(const std::string& name) const {
+    if (queries_ == 0)
+      return fmt::format("{}: too slow for {} cells of this table, {} unsupported\n", name, skipped_,
+                         beyond_);
+    std::string text = name + ": " + wrong_text();
+    for (const auto& [count, what] : {std::pair{ill_posed_, "ill-posed"},
+                                      {undecided_, "undecided"},
+                                      {unsupported_, "unsupported"},
+                                      {failed_, "without an answer"}})
+      if (count > 0) text += fmt::format("; {} {}", count, what);
+    text += '\n';
+    if (wrong_time_ > 0)
+      text +=
+          fmt::format("  {} wrong {} of right obstacles\n", wrong_time_, wrong_time_ == 1 ? "time" : "times");
+    text += fastest_ ? fmt::format("  {:.0f} to {:.0f} ns", *fastest_, slowest_) : "  no times, for it broke";
+    if (has_times_)
+      text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,
+                          max_condition_);
+    if (skipped_ > 0) text += fmt::format("; too slow for {} {}", skipped_, skipped_ == 1 ? "cell" : "cells");
+    if (beyond_ > 0) text += fmt::format("; {} {} unsupported", beyond_, beyond_ == 1 ? "cell" : "cells");
+    return text + '\n';
+  }
+
+ private:
+  std::string wrong_text() const {
+    const std::size_t answers = queries_ - undecided_ - unsupported_ - failed_;
+    if (answers == 0) return "no answer to judge";
+    const Share share = share_of(wrong_, answers);
+    if (wrong_ == 0)
+      return fmt::format("no wrong answer in {} (0 to {:.2g} % of all, with 95 %)", answers,
+                         100 * share.high);
+    return fmt::format("wrong in {} of {} answers ({:.2g} to {:.2g} % of all, with 95 %)", wrong_, answers,
+                       100 * share.low, 100 * share.high);
+  }
+
+  std::size_t queries_ = 0, wrong_ = 0, ill_posed_ = 0, undecided_ = 0, wrong_time_ = 0, unsupported_ = 0,
+              failed_ = 0, skipped_ = 0, beyond_ = 0;
+  bool has_times_ = false;
+  std::optional<double> fastest_;
+  double slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
+};
+
+}  // namespace
+
+std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::string>& engines) {
+  std::string text = table_of(cells) +
+                     "\nns: median over blocks of 16 queries of a block's mean, and its quartiles; ulp: "
+                     "error of the time of "
+                     "right hits.\n\n" +
+                     fits_text(bench_fits(cells));
+  for (const std::string& engine : engines) {
+    Summary summary;
+    for (const Cell& cell : cells)
+      if (cell.engine == engine) summary.add(cell);
+    text += summary.conclusion(engine);
+  }
+  return text;
+}
+
+namespace {
+
+// A field: the command of another program may have commas in it, or quotes.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string bench_csv(const std::vector<Cell>& cells) {
+  std::string csv =
+      "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,wrong,"
+      "wrong_time,mean_ulp,ulp_99_percent,max_ulp,path_mean,ill_posed,undecided_low,undecided_high,"
+      "ill_posed_low,ill_posed_high,wrong_low,wrong_high,wrong_time_low,wrong_time_high,"
+      "condition_99_percent,max_condition,instructions\n";
+  for (const Cell& cell : cells) {
+    if (cell.skipped) continue;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", field(cell.scene),
+                       radius_of(cell), cell.difficulty, field(cell.engine), cell.queries,
+                       cell.ns ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.ns->mean, cell.ns->median,
+                                             cell.ns->q1, cell.ns->q3)
+                               : ",,,",
+                       cell.undecided.count, cell.wrong.count, cell.wrong_time.count, cell.ulps.mean,
+                       cell.ulps.p99, cell.ulps.max, cell.mean_path, cell.ill_posed.count);
+    for (const Share& share : {cell.undecided, cell.ill_posed, cell.wrong, cell.wrong_time})
+      csv += fmt::format(",{:.4g},{:.4g}", share.low, share.high);
+    csv += fmt::format(",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,
+                       cell.instructions ? fmt::format("{:.1f}", *cell.instructions) : "");
+  }
+  return csv;
+}
+
+std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest) {
+  constexpr const char* kNewLine = "\n";
+  const auto fits = bench_fits(cells);
+  const auto fit = [](json::Members& one, const BenchFit& its) {
+    one.add("scene", its.scene, "engine", its.engine, "difficulty", its.difficulty, "exponent",
+            its.fit.exponent, "low", its.fit.low, "high", its.fit.high, "from", its.fit.from, "to",
+            its.fit.to);
+  };
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "bench", "title", "Speed against error", "manifest", json::Raw{manifest});
+    page.add("cells", json::array(cells, json::append<Cell>, kNewLine), "fits",
+             json::objects(fits, fit, kNewLine));
+  });
+}
+
+}  // namespace lorentz::report

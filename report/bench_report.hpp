@@ -1,0 +1,31 @@
+// What `lorentz bench` says of its cells: a table and conclusions for people, CSV, and the report as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/cell.hpp"
+#include "report/power_fit.hpp"
+
+namespace lorentz::report {
+
+/// The median time of an engine as a power of the radius, in one scene, of one difficulty.
+struct BenchFit {
+  std::string scene, engine, difficulty;
+  PowerFit fit;
+};
+
+/// Of all that were measured at three radii or more up to 0.01: of larger ones the obstacles, not the space
+/// between them, decide the time.
+std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells);
+
+/// Table, fits, and one conclusion an engine.
+std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::string>& engines);
+
+/// One line a cell that was measured, and a header.
+std::string bench_csv(const std::vector<Cell>& cells);
+
+/// One JSON object; `manifest` is one, too.
+std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest);
+
+}  // namespace lorentz::report

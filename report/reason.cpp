@@ -1,0 +1,111 @@
+#include "report/reason.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <lorentz/verdict.hpp>
+
+namespace lorentz::report {
+namespace {
+
+std::string margin_text(double margin) {
+  return margin >= oracle::kLargestMargin ? "2^20 ulps or more" : fmt::format("{:.6g} ulps", margin);
+}
+
+bool names_obstacle(const Answer& answer) {
+  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+}
+
+Dispute about_start(const oracle::Approach& approach, const ObstacleId& obstacle, const std::string& name) {
+  const char* side = approach.start_gap < 0 ? "inside" : "outside of";
+  return {obstacle, approach.start_gap,
+          fmt::format("x lies {} {} by {:.6g} of its radii", side, name, std::fabs(approach.start_gap))};
+}
+
+Dispute about_line(const oracle::Approach& approach, const ObstacleId& obstacle, const std::string& name,
+                   const char* then) {
+  const char* does = approach.gap < 0 ? "meets" : "misses";
+  return {obstacle, approach.gap,
+          fmt::format("the line {} {} by {:.6g} of its radii{}", does, name, std::fabs(approach.gap), then)};
+}
+
+}  // namespace
+
+std::string name_of(const ObstacleId& obstacle, int dimension) {
+  std::string cell;
+  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + obstacle.cell[i].decimal();
+  return fmt::format("lattice {}, atom {}, cell ({})", obstacle.lattice, obstacle.atom, cell);
+}
+
+std::string decision_text(const oracle::HardestDecision& decision, int dimension) {
+  const std::string name = name_of(decision.obstacle, dimension);
+  if (decision.margin >= oracle::kLargestMargin)
+    return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
+  const std::string answer =
+      fmt::format("{}, by {}.", decision.yes ? "Yes" : "No", margin_text(decision.margin));
+  switch (decision.kind) {
+    case oracle::DecisionKind::containing:
+      return fmt::format("The hard decision: does {} contain x? {}", name, answer);
+    case oracle::DecisionKind::meeting:
+      return fmt::format("The hard decision: does the line meet {}? {}", name, answer);
+    case oracle::DecisionKind::order:
+      return fmt::format("The hard decision: is {} entered before the obstacle that is hit? No, by {}.", name,
+                         margin_text(decision.margin));
+  }
+  return "";
+}
+
+namespace {
+
+// The answer names another obstacle than the exact one, and that is why it is wrong.
+std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
+                                   const std::string& name) {
+  if (given.outcome == Outcome::inside)
+    return approach.start_gap >= 0 ? std::optional(about_start(approach, given.obstacle, name))
+                                   : std::nullopt;
+  if (approach.start_gap >= 0 && !approach.ahead)
+    return Dispute{given.obstacle, approach.start_gap, name + " lies behind the start"};
+  return approach.gap >= 0 ? std::optional(about_line(approach, given.obstacle, name, "")) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                                  const Answer& exact, const Answer& given,
+                                  const std::optional<ObstacleId>& decisive) {
+  const bool names = names_obstacle(given) && !flaw_of(Query{query.x, query.v, given.obstacle}, scene);
+  if (names && given.outcome == exact.outcome && given.obstacle == exact.obstacle) return std::nullopt;
+  if (names && decisive.value_or(given.obstacle) == given.obstacle)
+    if (auto dispute = about_named(margins.approach(query, given.obstacle), given,
+                                   name_of(given.obstacle, scene.dimension)))
+      return dispute;
+  if (!names_obstacle(exact)) return std::nullopt;
+  const ObstacleId& obstacle = decisive ? *decisive : exact.obstacle;
+  const oracle::Approach approach = margins.approach(query, obstacle);
+  const std::string name = name_of(obstacle, scene.dimension);
+  if (exact.outcome == Outcome::inside && approach.start_gap < 0)
+    return about_start(approach, obstacle, name);
+  const bool later = given.outcome == Outcome::hit;
+  const char* before = obstacle == exact.obstacle ? ", and enters it first" : ", and enters it earlier";
+  return about_line(approach, obstacle, name, later ? before : "");
+}
+
+std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
+                                      const Answer& given) {
+  if (!names_obstacle(exact)) return std::nullopt;
+  return oracle::Judge(scene).judge(query, exact, given).obstacle;
+}
+
+std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
+                      const std::string& indent) {
+  const auto dispute = dispute_of(margins, scene, query, exact, given, decisive);
+  if (!dispute) return "";
+  std::string text = indent + dispute->text + '\n';
+  if (const auto decision = margins.hardest_decision(query, exact))
+    text += indent + decision_text(*decision, scene.dimension) + '\n';
+  return text;
+}
+
+}  // namespace lorentz::report

@@ -1,0 +1,43 @@
+// Why an answer departs from the exact one, for people: by how much the obstacle in question is met or
+// missed, and which decision is hard.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <lorentz/margin.hpp>
+
+namespace lorentz::report {
+
+/// "lattice 0, atom 1, cell (2, -1)".
+std::string name_of(const ObstacleId& obstacle, int dimension);
+
+/// The decision that an exact answer rests on with the smallest margin, in a sentence.
+std::string decision_text(const oracle::HardestDecision& decision, int dimension);
+
+/// What an answer comes down to that names another obstacle or outcome than the exact one.
+struct Dispute {
+  ObstacleId obstacle;  ///< the one in question: missed by the line though named, or passed over
+  /// By so many of its radii the line misses it, or (below 0) meets it; of a start in question x lies outside
+  /// or inside of it.
+  double radii = 0;
+  std::string text;  ///< a sentence
+};
+
+/// Nothing if the two agree but for a time, or if an answer names no obstacle of the scene. `decisive` is the
+/// obstacle that the judgement rests on (Judgement::obstacle), the exact one if it is not known.
+std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                                  const Answer& exact, const Answer& given,
+                                  const std::optional<ObstacleId>& decisive);
+
+/// The obstacle that such an answer is judged by, with the usual tolerance; nothing if the exact answer names
+/// none.
+std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
+                                      const Answer& given);
+
+/// The dispute, and the decision that is hard, a line each; both lines end. Empty if the two agree.
+std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
+                      const std::string& indent);
+
+}  // namespace lorentz::report
