@@ -28,7 +28,7 @@ double rate(const cases::Target& target, fuzz::Truth truth, std::uint64_t mutate
   std::vector<fuzz::TargetTally> tallies(1);
   NoJournal journal;
   const std::clock_t start = std::clock();
-  fuzz::run(plan, bounds, fuzz::answerer_maker(compare::engine_named("certified")), tallies, journal);
+  fuzz::run(plan, bounds, fuzz::answerer_maker(question::engine_named("certified")), tallies, journal);
   return static_cast<double>(tallies[0].cases + tallies[0].variants) * CLOCKS_PER_SEC /
          static_cast<double>(std::clock() - start);
 }

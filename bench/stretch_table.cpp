@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/examine.hpp"
-#include "compare/race.hpp"
+#include "question/examine.hpp"
+#include "question/race.hpp"
 #include "src/engines/published/published.hpp"
 #include "starts/free_starts.hpp"
 
@@ -107,27 +107,27 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
   const std::string head =
       fmt::format("| {} | {} | {:.2f} |", family.name, relative_radius, stretch_of(family));
   if (const auto why = Published::beyond(scene)) return head + " unsupported | | | | | | |\n";
-  const auto place = std::make_shared<compare::Place>(scene);
-  std::vector<compare::Question> questions = compare::questions_of(
+  const auto place = std::make_shared<question::Place>(scene);
+  std::vector<question::Question> questions = question::questions_of(
       place, starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count));
-  compare::answer_exactly(questions, compare::Truth::oracle);
-  const auto engines = compare::engines_named({"published", "reduction"});
+  question::answer_exactly(questions, question::Truth::oracle);
+  const auto engines = question::engines_named({"published", "reduction"});
   std::size_t wrong = 0;
-  compare::examine(
-      compare::all_of(questions), *engines[0].answerer({}), oracle::kDefaultUlps,
-      [&](const compare::Judged& judged) { wrong += judged.judgement.verdict == oracle::Verdict::wrong; });
-  const std::vector<compare::Speed> speeds = compare::race(questions, engines);
+  question::examine(
+      question::all_of(questions), *engines[0].answerer({}), oracle::kDefaultUlps,
+      [&](const question::Judged& judged) { wrong += judged.judgement.verdict == oracle::Verdict::wrong; });
+  const std::vector<question::Speed> speeds = question::race(questions, engines);
   Proposals proposals;
   const Published published(scene);
   std::size_t hits = 0;
-  for (const compare::Question& one : questions)
+  for (const question::Question& one : questions)
     hits +=
         published.first_hit_counted(one.query, std::numeric_limits<double>::infinity(), proposals).outcome ==
         Outcome::hit;
   const double per_hit = 1 / static_cast<double>(std::max<std::size_t>(hits, 1));
-  const compare::Speed &known = speeds[0], &ours = speeds[1];
+  const question::Speed &known = speeds[0], &ours = speeds[1];
   if (plain == 0) plain = known.ns_median;
-  const auto time = [](const compare::Speed& t) {
+  const auto time = [](const question::Speed& t) {
     return fmt::format("{:.0f} ({:.0f} to {:.0f})", t.ns_median, t.ns_low, t.ns_high);
   };
   const std::string tricylinder =

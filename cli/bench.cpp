@@ -9,10 +9,10 @@
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "compare/cells/cell_store.hpp"
-#include "compare/engines.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
+#include "question/cells/cell_store.hpp"
+#include "question/engines.hpp"
 #include "report/bench_report.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
@@ -22,7 +22,7 @@
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 

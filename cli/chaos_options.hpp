@@ -7,10 +7,10 @@
 #include <string>
 
 #include <lorentz/scene.hpp>
-#include "chaos/groups.hpp"
 #include "cli/command.hpp"
 #include "runs/piece_store.hpp"
 #include "starts/free_starts.hpp"
+#include "statistics/chaos/groups.hpp"
 
 namespace lorentz::cli {
 

@@ -10,8 +10,8 @@
 #include "cli/logged_answers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "compare/examine.hpp"
-#include "compare/race.hpp"
+#include "question/examine.hpp"
+#include "question/race.hpp"
 #include "report/reason.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
@@ -19,7 +19,7 @@
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 namespace lorentz::cli {
 
-using compare::Place, compare::Question;
+using question::Place, question::Question;
 
 ComparedQuestions::ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements)
     : options_(options), disagreements_(disagreements) {

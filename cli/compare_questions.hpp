@@ -9,7 +9,7 @@
 
 #include "cli/disagreement_file.hpp"
 #include "cli/query_stream.hpp"
-#include "compare/question.hpp"
+#include "question/question.hpp"
 #include "src/exchange/columns.hpp"
 #include "starts/free_starts.hpp"
 
@@ -38,7 +38,7 @@ class ComparedQuestions {
   ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements);
 
   /// The next questions, at most `most`; empty at the end.
-  std::vector<compare::Question> next(std::size_t most);
+  std::vector<question::Question> next(std::size_t most);
 
   bool had_bad_input() const { return bad_rows_ > 0 || bad_ids_ || (stream_ && stream_->had_bad_input()); }
   std::size_t count() const { return count_; }
@@ -49,7 +49,7 @@ class ComparedQuestions {
   int dimension() const { return place_ ? place_->scene().dimension : 0; }
 
  private:
-  using Questions = std::vector<compare::Question>;
+  using Questions = std::vector<question::Question>;
 
   void enter(const Scene& scene);
   void open_columns(const std::string& path);
@@ -64,7 +64,7 @@ class ComparedQuestions {
   DisagreementFile& disagreements_;
   std::optional<QueryStream> stream_;      // or
   std::unique_ptr<ColumnReader> columns_;  // or drawn
-  std::shared_ptr<compare::Place> place_;
+  std::shared_ptr<question::Place> place_;
   std::optional<starts::FreeStarts> starts_;  // of drawn queries
   bool is_new_ = false, bad_ids_ = false;
   std::size_t rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;

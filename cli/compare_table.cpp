@@ -7,7 +7,7 @@
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 

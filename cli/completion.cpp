@@ -7,9 +7,9 @@
 
 #include "cases/families/target.hpp"
 #include "cli/golden.hpp"
-#include "compare/engines.hpp"
 #include "files/scene_file.hpp"
 #include "golden/sets.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -26,7 +26,7 @@ struct Values {
 
 std::vector<Word> engines() {
   std::vector<Word> words;
-  for (const std::string& name : compare::own_names()) words.push_back({name, "an engine"});
+  for (const std::string& name : question::own_names()) words.push_back({name, "an engine"});
   return words;
 }
 

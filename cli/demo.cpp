@@ -8,14 +8,14 @@
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "compare/examine.hpp"
-#include "compare/race.hpp"
+#include "question/examine.hpp"
+#include "question/race.hpp"
 #include "report/table.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 

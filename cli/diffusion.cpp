@@ -1,18 +1,18 @@
 // lorentz diffusion: how far particles come.
-#include "chaos/diffusion.hpp"
+#include "statistics/chaos/diffusion.hpp"
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
-#include "chaos/theory.hpp"
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "files/whole_file.hpp"
-#include "flights/theory/laws.hpp"
 #include "report/finding_json.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/exchange/nearest_name.hpp"
+#include "statistics/chaos/theory.hpp"
+#include "statistics/theory/laws.hpp"
 
 namespace lorentz::cli {
 namespace {

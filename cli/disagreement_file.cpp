@@ -7,7 +7,7 @@
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 DisagreementFile::DisagreementFile(const std::optional<std::string>& path) {
   if (path) file_.emplace(*path);

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "compare/examine.hpp"
 #include "files/whole_file.hpp"
+#include "question/examine.hpp"
 
 namespace lorentz::cli {
 
@@ -16,17 +16,17 @@ class DisagreementFile {
   explicit DisagreementFile(const std::optional<std::string>& path);
 
   /// Writes the scene of the first place, so that the file is a stream even if nothing disagrees.
-  void begin(const std::shared_ptr<compare::Place>& place);
-  void add(const compare::Judged& judged, const std::string& engine);
+  void begin(const std::shared_ptr<question::Place>& place);
+  void add(const question::Judged& judged, const std::string& engine);
 
   /// Puts the file in its place. Throws FileError if something was not written.
   void close();
 
  private:
-  void enter(const std::shared_ptr<compare::Place>& place);
+  void enter(const std::shared_ptr<question::Place>& place);
 
   std::optional<WholeFile> file_;
-  std::shared_ptr<compare::Place> place_;  // of the scene that was written last
+  std::shared_ptr<question::Place> place_;  // of the scene that was written last
 };
 
 }  // namespace lorentz::cli

@@ -8,15 +8,15 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "compare/answerer.hpp"
-#include "compare/engines.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
+#include "question/answerer.hpp"
+#include "question/engines.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 
@@ -137,7 +137,7 @@ int act_on_lines(const FirstHitOptions& options) {
   QueryStream stream(options.queries, initial, unknown);
   Output output;
   AnswerOrder order(output.buffer());
-  answerer->on_reply([&](const compare::Reply& reply) { order.answered(reply.answer); });
+  answerer->on_reply([&](const question::Reply& reply) { order.answered(reply.answer); });
   // While the input pauses, answers go on coming.
   stream.lines().before_waiting([&] {
     do output.flush();

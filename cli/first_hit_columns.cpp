@@ -6,9 +6,9 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "compare/column_engine.hpp"
 #include "files/messages.hpp"
 #include "files/unknown_keys.hpp"
+#include "question/column_engine.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 
@@ -93,7 +93,7 @@ class Npy {
 
 template <class Format>
 int answer_all(const ColumnOrder& order) {
-  compare::ColumnEngine engine(order.engine, order.scene, order.max_time, order.jobs);
+  question::ColumnEngine engine(order.engine, order.scene, order.max_time, order.jobs);
   Output output;
   Format format(order, output.buffer());
   ColumnReader& reader = format.reader();

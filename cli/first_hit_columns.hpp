@@ -5,7 +5,7 @@
 #include <string>
 
 #include <lorentz/scene.hpp>
-#include "compare/engines.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 
@@ -14,7 +14,7 @@ struct ColumnOrder {
   enum class Format { csv, npy };
   Format format{};
   std::string queries;
-  compare::EngineInfo engine;
+  question::EngineInfo engine;
   Scene scene{};
   std::optional<double> max_time{};
   int jobs = 1;

@@ -8,16 +8,16 @@
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "compare/engines.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
-#include "flights/ranks.hpp"
-#include "flights/report.hpp"
-#include "flights/run.hpp"
+#include "question/engines.hpp"
 #include "report/page.hpp"
 #include "runs/piece_store.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "starts/free_starts.hpp"
+#include "statistics/flights/ranks.hpp"
+#include "statistics/flights/report.hpp"
+#include "statistics/flights/run.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -41,7 +41,7 @@ struct FlightsOptions {
 FlightsPlan plan_of(const FlightsOptions& options, std::optional<double> radius) {
   FlightsPlan plan;
   plan.scene = load_scene(options.scene, radius);
-  if (!compare::engine_named(options.engine).is_own())
+  if (!question::engine_named(options.engine).is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
         "starts for others");
@@ -252,7 +252,7 @@ Command flights_command() {
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
            "collision to the next (cosine law)"},
           {"-e,--engine", &options->engine, "ENGINE",
-           "one of " + fmt::format("{}", fmt::join(compare::own_names(), ", "))},
+           "one of " + fmt::format("{}", fmt::join(question::own_names(), ", "))},
           {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
           {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each radius)"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},

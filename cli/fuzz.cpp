@@ -8,13 +8,13 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "compare/answerer.hpp"
 #include "fuzz/campaign/ranks.hpp"
 #include "fuzz/examine/answerers.hpp"
+#include "question/answerer.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 
@@ -68,7 +68,7 @@ Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) 
 
 // What the plan, the store and the other processes make of it; reports.
 int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
-                 const compare::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
+                 const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
@@ -98,8 +98,8 @@ int act(const FuzzOptions& options) {
   const fuzz::Plan plan = plan_of(options);
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  const compare::MakeAnswerer make_answerer =
-      fuzz::answerer_maker(compare::engine_named(options.engine), {{}, timeout, terminal()});
+  const question::MakeAnswerer make_answerer =
+      fuzz::answerer_maker(question::engine_named(options.engine), {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       runs::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
   if (!ranks) return run_campaign(options, plan, make_answerer, nullptr);

@@ -7,8 +7,8 @@
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/output.hpp"
-#include "compare/engines.hpp"
 #include "golden/maker.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -61,7 +61,7 @@ std::string tag_of(const std::string& kind) {
 // What a set has to say of its tags: where there are no findings, what was aimed at.
 void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std::string, std::string>& tags) {
   for (const fuzz::Campaign& campaign : campaigns)
-    for (const std::string& name : compare::names_in({campaign.manifest.targets}))
+    for (const std::string& name : question::names_in({campaign.manifest.targets}))
       if (const cases::Target* target = cases::target_named(name)) tags.emplace(name, target->description());
 }
 

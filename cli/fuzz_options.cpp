@@ -6,14 +6,14 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/numbers.hpp"
-#include "compare/answerer.hpp"
-#include "compare/engines.hpp"
 #include "files/messages.hpp"
+#include "question/answerer.hpp"
+#include "question/engines.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 
@@ -75,7 +75,7 @@ void set_shard(const std::string& text, fuzz::Plan& plan) {
 
 fuzz::Plan plan_of(const FuzzOptions& options) {
   fuzz::Plan plan;
-  const compare::EngineInfo engine = compare::engine_named(options.engine);
+  const question::EngineInfo engine = question::engine_named(options.engine);
   plan.seed = options.seed;
   plan.scope = scope_of(options);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));

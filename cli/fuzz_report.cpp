@@ -5,8 +5,8 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
-#include "compare/engines.hpp"
 #include "files/messages.hpp"
+#include "question/engines.hpp"
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"
@@ -41,7 +41,7 @@ std::string layers(const FuzzReport& report) {
     return fmt::format("{} ({:.3g} %)", all.stages[stage],
                        100 * static_cast<double>(all.stages[stage]) / static_cast<double>(sum));
   };
-  const compare::EngineInfo* engine = compare::own_engine(report.manifest.engine);
+  const question::EngineInfo* engine = question::own_engine(report.manifest.engine);
   return fmt::format("decided in binary64: {}; in double-double: {}; {}: {}\n", share(0), share(1),
                      engine && engine->traits.is_exact ? "by exact arithmetic" : "not decided", share(2));
 }
@@ -66,7 +66,7 @@ void say_left_out(const std::string& message) {
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
   FuzzReport report;
   report.manifest = campaign.manifest;
-  report.targets = compare::names_in({campaign.manifest.targets});
+  report.targets = question::names_in({campaign.manifest.targets});
   for (const std::string& target : report.targets) report.tallies.push_back(store.tally(campaign.id, target));
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign.id) report.findings.push_back(std::move(one));

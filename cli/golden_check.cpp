@@ -11,11 +11,11 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
-#include "compare/engines.hpp"
-#include "compare/examine.hpp"
-#include "compare/tally.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/questions.hpp"
+#include "question/engines.hpp"
+#include "question/examine.hpp"
+#include "question/tally.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -23,7 +23,7 @@
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <ctime>
 
-#include "compare/process.hpp"
+#include "question/process.hpp"
 
 namespace lorentz::cli {
 
@@ -48,7 +48,7 @@ class Interrupt {
       return;
     }
     if (now - first_ < kSameWish) return;
-    compare::kill_programs();
+    question::kill_programs();
     for (std::size_t i = 0; i < kSignals.size(); ++i)
       if (kSignals[i] == number) sigaction(number, &before_[i], nullptr);
     raise(number);  // blocked until this returns

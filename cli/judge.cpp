@@ -29,7 +29,7 @@ struct JudgeOptions {
 };
 
 int exit_status(const JudgeReport& report, const JudgeOptions& options) {
-  const compare::Tally t = report.total();
+  const question::Tally t = report.total();
   if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   if (t.wrong + t.error > 0 || (options.times && t.wrong_time > 0) ||
       (options.strict && t.ill_posed + t.undecided + t.missing + report.nonsense() > 0))
@@ -65,7 +65,7 @@ std::string command_of(const JudgeOptions& o) {
 
 JudgeOrder order_of(const JudgeOptions& options) {
   JudgeOrder order;
-  order.engine = compare::engine_named(options.engine);
+  order.engine = question::engine_named(options.engine);
   order.command = command_of(options);
   order.quick = options.quick;
   order.time = options.seconds;
@@ -102,7 +102,7 @@ Command judge_command() {
       "judge",
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",
       {
-          {"-e,--engine", &options->engine, "ENGINE", compare::names_for_help(), kRequired},
+          {"-e,--engine", &options->engine, "ENGINE", question::names_for_help(), kRequired},
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights"},
           {"--time", Positive{&options->seconds}, "SECONDS",
            "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)"},

@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "compare/answerer.hpp"
 #include "files/unknown_keys.hpp"
+#include "question/answerer.hpp"
 #include "src/exchange/columns.hpp"
 
 namespace lorentz::cli {
@@ -14,7 +14,7 @@ namespace lorentz::cli {
 /// Answers are matched by id; a query without an answer is `not_asked`. A file in the order of the queries is
 /// read as they are asked; answers that come early are kept until then. Bad lines, and ids that come twice, are
 /// complained of; answers without an id (to lines that were no queries) are passed over.
-class LoggedAnswers final : public compare::Answerer {
+class LoggedAnswers final : public question::Answerer {
  public:
   /// A stream in JSON; or columns. Throws FileError, and InputError for columns that are not of answers.
   LoggedAnswers(const std::string& path, UnknownKeys unknown);

@@ -1,15 +1,15 @@
 // lorentz lyapunov: how fast neighbouring particles part.
-#include "chaos/lyapunov.hpp"
+#include "statistics/chaos/lyapunov.hpp"
 #include <lorentz/exchange.hpp>
-#include "chaos/theory.hpp"
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "flights/theory/laws.hpp"
 #include "report/finding_json.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "statistics/chaos/theory.hpp"
+#include "statistics/theory/laws.hpp"
 
 namespace lorentz::cli {
 namespace {

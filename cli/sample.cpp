@@ -89,7 +89,7 @@ int act(const SampleOptions& options) {
   constexpr std::uint64_t kRowsTogether = 1024;
   const SampleOrder order = order_of(options);
   const FreeStarts starts(order.scene, order.kind, order.seed);
-  const compare::Listener listener = terminal();
+  const question::Listener listener = terminal();
   Output output;
   QueryRows rows;
   Query start;

@@ -15,14 +15,14 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/search_progress.hpp"
-#include "compare/engines.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/scene_drawing.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 
-using namespace compare;
+using namespace question;
 using namespace pictures;
 
 namespace {
@@ -78,7 +78,7 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
         say("the picture shows the first {} flights", kMostFlights);
         break;
       }
-      if (!first_hit) first_hit = compare::engine_named("certified").first_hit(*scene);
+      if (!first_hit) first_hit = question::engine_named("certified").first_hit(*scene);
       DrawnFlight flight{item.query, {}};
       first_hit(item.query, {}, flight.answer);
       if (flight.answer.outcome == Outcome::error) {

@@ -11,10 +11,10 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/trajectory_rival.hpp"
-#include "compare/engines.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/free_path_plot.hpp"
+#include "question/engines.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
@@ -63,7 +63,7 @@ struct Arithmetic {
 // One start in one arithmetic, as long as it is right.
 class Runner {
  public:
-  Runner(const Arithmetic& arithmetic, const compare::EngineInfo& engine, const RationalScene& scene,
+  Runner(const Arithmetic& arithmetic, const question::EngineInfo& engine, const RationalScene& scene,
          const Start& start) {
     if (arithmetic.bits == 53 || arithmetic.bits == 106)
       rival_ = std::make_unique<Rival>(
@@ -91,7 +91,7 @@ class Runner {
 
 struct Survival {
   std::string scene;
-  compare::EngineInfo engine;
+  question::EngineInfo engine;
   std::optional<double> radius;
   std::uint64_t seed = 0, collisions = 0;
   std::vector<Arithmetic> arithmetics;
@@ -210,14 +210,14 @@ void follow(const RationalScene& scene, const Start& start, Survival& survival) 
 
 std::vector<Arithmetic> arithmetics_of(const SurvivalOptions& options) {
   std::vector<Arithmetic> all;
-  for (const std::string& name : compare::names_in(options.bits))
+  for (const std::string& name : question::names_in(options.bits))
     all.push_back({static_cast<long>(whole_number(name, "--bits", 24, 100'000))});
   return all;
 }
 
 int act(const SurvivalOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
-  const compare::EngineInfo engine = compare::engine_named(options.engine);
+  const question::EngineInfo engine = question::engine_named(options.engine);
   if (!engine.is_own())
     throw InputError(
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
@@ -256,7 +256,7 @@ Command survival_command() {
               {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
               {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
               {"-e,--engine", &options->engine, "ENGINE",
-               "whose flights binary64 and double-double have: one of " + compare::names_for_help()},
+               "whose flights binary64 and double-double have: one of " + question::names_for_help()},
               {"--bits", &options->bits, "LIST",
                "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain "
                "arithmetic of that many bits"},

@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "cli/progress.hpp"
-#include "compare/listener.hpp"
 #include "files/messages.hpp"
+#include "question/listener.hpp"
 
 namespace lorentz::cli {
 
 /// Messages on stderr; progress bars, one after the other, if that is a terminal.
-inline compare::Listener terminal() {
-  compare::Listener listener;
+inline question::Listener terminal() {
+  question::Listener listener;
   listener.message = [](const std::string& text) { say_text(text, Lines::kept); };
   if (isatty(STDERR_FILENO) == 1)
     listener.progress = [bar = std::shared_ptr<Progress>()](const std::string& what, std::size_t done,

@@ -8,11 +8,11 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/trajectory_rival.hpp"
-#include "compare/engines.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/path_drawing.hpp"
+#include "question/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/exchange/nearest_name.hpp"
@@ -201,7 +201,7 @@ class Picture {
 
 struct TrajectoryRun {
   const TrajectoryOptions& options;
-  std::optional<compare::EngineInfo> engine;
+  std::optional<question::EngineInfo> engine;
   const Journey& journey;
   Precision precision;
   StartReport& report;
@@ -243,8 +243,8 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
 }
 
 int act(const TrajectoryOptions& options) {
-  std::optional<compare::EngineInfo> engine;
-  if (options.engine) engine = compare::engine_named(*options.engine);
+  std::optional<question::EngineInfo> engine;
+  if (options.engine) engine = question::engine_named(*options.engine);
   const Journey journey = journey_of(options);
   const Precision precision = precision_of(options);
   StartStream stream(options.starts, scene_of(options),
@@ -305,7 +305,8 @@ Command trajectory_command() {
           {"--max-bits", Whole{&options->most_bits, 32, kMostBits}, "B",
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",
-           "holds the trajectory with this engine's flights against it: one of " + compare::names_for_help()},
+           "holds the trajectory with this engine's flights against it: one of " +
+               question::names_for_help()},
           {"--precision", &options->precision, "binary64|double-double",
            "of the engine's trajectory: binary64, double-double"},
           {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cli/terminal.hpp"
-#include "compare/engines.hpp"
+#include "question/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::cli {
@@ -20,15 +20,15 @@ oracle::Request request_until(double max_time) {
 }
 
 // Another program is asked one query at a time: the next depends on its answer.
-AskFirstHit ask_command(compare::Answerer& program) {
+AskFirstHit ask_command(question::Answerer& program) {
   return [&program](const Query& query, double, Answer& answer) {
-    program.on_reply([&](const compare::Reply& reply) { answer = reply.answer; });
+    program.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
     program.ask("0", query);
     program.drain();
   };
 }
 
-AskFirstHit ask_engine(const compare::EngineInfo& engine, const Scene& scene) {
+AskFirstHit ask_engine(const question::EngineInfo& engine, const Scene& scene) {
   return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
     first_hit(query, request_until(max_time), answer);
   };
@@ -53,12 +53,12 @@ double bits_in_common(const Vec& a, const Vec& b) {
 
 }  // namespace
 
-Rival::Rival(const compare::EngineInfo& engine, Precision precision, const RationalScene& scene,
+Rival::Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
              const Start& start)
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
   if (engine.is_command()) {
-    compare::AnswererOptions options;
+    question::AnswererOptions options;
     options.listener = terminal();
     command_ = engine.answerer(options);
     command_->set_scene(scene_);

@@ -8,8 +8,8 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/trajectory.hpp>
-#include "compare/answerer.hpp"
-#include "compare/engines.hpp"
+#include "question/answerer.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 
@@ -18,7 +18,7 @@ namespace lorentz::cli {
 class Rival {
  public:
   /// Throws InputError for a start that the engine's trajectory cannot have.
-  Rival(const compare::EngineInfo& engine, Precision precision, const RationalScene& scene,
+  Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
         const Start& start);
 
   /// The next certified collision: the rival makes its own, and is compared, as long as it has not diverged.
@@ -41,7 +41,7 @@ class Rival {
   const std::vector<Vec>& path() const { return path_; }
 
  private:
-  std::unique_ptr<compare::Answerer> command_;
+  std::unique_ptr<question::Answerer> command_;
   Scene scene_;
   std::unique_ptr<Trajectory> trajectory_;
   std::optional<std::uint64_t> diverged_;

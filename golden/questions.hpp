@@ -1,12 +1,12 @@
 // The records of a golden set as questions.
 #pragma once
 
-#include "compare/question.hpp"
 #include "golden/reader.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::golden {
 
 /// The next records; `where` is the record's id. Throws as the reader does. The reader must outlast the source.
-compare::Source questions_of(Reader& reader);
+question::Source questions_of(Reader& reader);
 
 }  // namespace lorentz::golden

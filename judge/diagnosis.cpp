@@ -38,7 +38,7 @@ Fault of_false_inside(const Question& question, const Answer& given, const Obsta
 
 // The answer says that another obstacle is hit than the exact one, or that one is where none is.
 Fault of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
-  const compare::Place& place = *question.place;
+  const question::Place& place = *question.place;
   const oracle::Approach approach = place.margins().approach(question.query, decisive);
   if (decisive == given.obstacle) {
     if (!approach.ahead && approach.start_gap >= 0) return {Cause::behind};

@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "compare/question.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::judge {
 
-using compare::Place;
-using compare::Question;
+using question::Place;
+using question::Question;
 
 /// The ways of being wrong. docs/judge.md has them.
 enum class Cause {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <chrono>
 
-#include "compare/engines.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::judge {
 namespace {
 
-using compare::Origin;
 using oracle::Judgement;
 using oracle::Verdict;
+using question::Origin;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -34,7 +34,7 @@ constexpr std::size_t kCompared = 500;
 
 }  // namespace
 
-Examination::Examination(const compare::EngineInfo& engine, compare::AnswererOptions options, double ulps,
+Examination::Examination(const question::EngineInfo& engine, question::AnswererOptions options, double ulps,
                          const std::atomic<bool>& stop)
     : ulps_(ulps), stop_(stop), is_command_(engine.is_command()) {
   options.enough = [this] { return is_enough(); };
@@ -71,8 +71,8 @@ Examination::Start Examination::warm_up() {
 double Examination::ask(const std::vector<Question>& questions) {
   replies_.clear();
   const auto start = Clock::now();
-  compare::ask_all(compare::all_of(questions), *answerer_,
-                   [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });
+  question::ask_all(question::all_of(questions), *answerer_,
+                    [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });
   return seconds_since(start);
 }
 
@@ -108,9 +108,9 @@ void Examination::run(ExaminedRow row, const Source& source, double seconds, con
 }
 
 void Examination::take_over(const Examination& other) {
-  compare::Tally& its = rows_.back().tally;
-  const compare::Tally& more = other.rows_.back().tally;
-  const auto time = [](const compare::Tally& t) {
+  question::Tally& its = rows_.back().tally;
+  const question::Tally& more = other.rows_.back().tally;
+  const auto time = [](const question::Tally& t) {
     return t.speed.ns_per_query * static_cast<double>(t.queries);
   };
   const double ns = time(its) + time(more);
@@ -133,7 +133,7 @@ void Examination::leave(Place& place, ExaminedRow& row) const {
 
 Judgement Examination::judgement_of(const Question& question, const Reply& reply) const {
   if (reply.origin == Origin::fault) return {Verdict::missing};
-  return compare::judgement_of(question, reply.answer, ulps_);
+  return question::judgement_of(question, reply.answer, ulps_);
 }
 
 std::optional<Example> Examination::departing(const Question& question, const Reply& reply) const {

@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "compare/answerer.hpp"
-#include "compare/engines.hpp"
-#include "compare/examine.hpp"
-#include "compare/tally.hpp"
 #include "judge/calls.hpp"
 #include "judge/findings.hpp"
+#include "question/answerer.hpp"
+#include "question/engines.hpp"
+#include "question/examine.hpp"
+#include "question/tally.hpp"
 
 namespace lorentz::judge {
 
-using compare::Reply;
-using compare::Source;
+using question::Reply;
+using question::Source;
 
 /// Sees each answer of a row.
 using Look = std::function<void(const Question&, const Answer& given)>;
@@ -26,8 +26,8 @@ using Look = std::function<void(const Question&, const Answer& given)>;
 /// One kind of difficulty, and how the engine does there.
 struct ExaminedRow {
   std::string name, explanation;
-  bool is_hard = true;        ///< chosen to be difficult: no flights as they are drawn
-  compare::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
+  bool is_hard = true;         ///< chosen to be difficult: no flights as they are drawn
+  question::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
   /// Invalid questions that were answered as if they were valid; these are not in the tally.
   std::size_t nonsense = 0;
   bool is_exhausted = false;        ///< its source had no more questions that the engine does
@@ -40,7 +40,7 @@ struct ExaminedRow {
 class Examination {
  public:
   /// If another thread sets `stop`, everything ends soon.
-  Examination(const compare::EngineInfo& engine, compare::AnswererOptions options, double ulps,
+  Examination(const question::EngineInfo& engine, question::AnswererOptions options, double ulps,
               const std::atomic<bool>& stop);
   Examination(const Examination&) = delete;
   Examination& operator=(const Examination&) = delete;
@@ -105,7 +105,7 @@ class Examination {
   std::function<void(const std::string&)> tell_;
   bool failed_ = false;  // of those that were taken over
   const bool is_command_;
-  std::unique_ptr<compare::Answerer> answerer_;
+  std::unique_ptr<question::Answerer> answerer_;
   std::vector<Reply> replies_;
   std::string last_fault_;
   std::vector<ExaminedRow> rows_;

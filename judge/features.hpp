@@ -3,12 +3,12 @@
 
 #include <limits>
 
-#include "compare/question.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::judge {
 
-using compare::Place;
-using compare::Question;
+using question::Place;
+using question::Question;
 
 struct Features {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "compare/question.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::judge {
 
-using compare::Place;
-using compare::Question;
+using question::Place;
+using question::Question;
 
 /// P(free path > t), twice: of the same flights, so that whatever sets the two apart is the engine's.
 struct PathPoint {

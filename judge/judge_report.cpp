@@ -58,7 +58,7 @@ std::string lines_of_question(const Finding& finding) {
 }
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
-  if (report.engine.kind == compare::EngineInfo::Kind::guest)
+  if (report.engine.kind == question::EngineInfo::Kind::guest)
     return {};                                                      // a function of a caller's has no command
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
@@ -76,7 +76,7 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
 
 // Why an answer is not the exact one: what decides, and whether rounding explains it.
 std::vector<std::string> lines_of_dispute(const Example& example) {
-  const compare::Place& place = *example.question.place;
+  const question::Place& place = *example.question.place;
   std::vector<std::string> lines;
   if (const auto dispute =
           report::dispute_of(place.margins(), place.scene(), example.question.query, example.question.exact,
@@ -184,7 +184,7 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
 
 // ---- The verdict
 
-std::size_t answers(const compare::Tally& t) {
+std::size_t answers(const question::Tally& t) {
   return t.agree + t.ill_posed + t.wrong;
 }
 
@@ -193,8 +193,8 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 // Of all the rows that are hard, or of the others.
-compare::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
-  compare::Tally sum;
+question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
+  question::Tally sum;
   for (const ExaminedRow& row : rows)
     if (row.is_hard == hard) sum.add(row.tally);
   return sum;
@@ -202,15 +202,15 @@ compare::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
 
 // "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
 std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows,
-                        std::size_t compare::Tally::*count) {
-  const compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
+                        std::size_t question::Tally::*count) {
+  const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.*count + hard.*count == 0) return "";
   return fmt::format("; {} {} of drawn flights, {} of hard ones", what, percent(drawn.*count, drawn.queries),
                      percent(hard.*count, hard.queries));
 }
 
 std::string times_text(const std::vector<ExaminedRow>& rows) {
-  compare::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
+  question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.timed_hits + hard.timed_hits == 0) return "";
   const std::size_t wrong = drawn.wrong_time + hard.wrong_time;
   if (wrong == 0)
@@ -219,7 +219,7 @@ std::string times_text(const std::vector<ExaminedRow>& rows) {
                : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp);
   drawn.add(hard);
   return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
-                     compare::quantile(drawn.wrong_ulps, 1));
+                     question::quantile(drawn.wrong_ulps, 1));
 }
 
 std::string paths_text(const std::vector<FlownScene>& flown) {
@@ -259,7 +259,7 @@ std::string faults_text(const JudgeReport& report) {
 }
 
 std::string heading(const JudgeReport& report) {
-  const compare::Tally total = report.total();
+  const question::Tally total = report.total();
   const std::string verdict = report.verdict(), faults = faults_text(report);
   if (verdict == "broken")
     return fmt::format("broken: {} of {} {} without an answer that could be read", total.missing,
@@ -277,7 +277,7 @@ std::string heading(const JudgeReport& report) {
 
 // What it was asked and did not answer, and what it was not asked; nothing if there is nothing.
 std::string missing_text(const JudgeReport& report) {
-  const compare::Tally total = report.total();
+  const question::Tally total = report.total();
   std::string text;
   if (total.missing > 0 && !report.is_broken())
     text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
@@ -299,7 +299,7 @@ const std::vector<std::string> kColumns{"questions",  "number",    "agree",     
                                         "wrong time", "undecided", "unsupported", "error",     "missing",
                                         "nonsense",   "max ulp",   "ns/query"};
 
-std::vector<std::string> cells_of(const compare::Tally& t, std::size_t nonsense) {
+std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense) {
   const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
   return {t.name,
           std::to_string(t.queries),
@@ -323,7 +323,7 @@ RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
   if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
-  const compare::Tally all = report.total();
+  const question::Tally all = report.total();
   return row.is_exhausted && all.queries == all.unsupported ? RowState::unsupported : RowState::no_time;
 }
 
@@ -348,7 +348,7 @@ std::string table_of(const JudgeReport& report) {
     if (state == RowState::no_time) no_time.push_back(row.name);
     if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense));
   }
-  compare::Tally total = report.total();
+  question::Tally total = report.total();
   total.name = "all";
   table.add(cells_of(total, report.nonsense()));
   std::string text = table.text();
@@ -358,7 +358,7 @@ std::string table_of(const JudgeReport& report) {
 }
 
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
-  const compare::Tally& t = row.tally;
+  const question::Tally& t = row.tally;
   object.add("name", row.name, "explanation", row.explanation, "state",
              kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
              "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
@@ -371,8 +371,8 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
 
 }  // namespace
 
-compare::Tally JudgeReport::total() const {
-  compare::Tally total = sum_of(rows, false);
+question::Tally JudgeReport::total() const {
+  question::Tally total = sum_of(rows, false);
   total.add(sum_of(rows, true));
   return total;
 }
@@ -389,12 +389,12 @@ std::size_t JudgeReport::rows_given_up() const {
 }
 
 bool JudgeReport::is_broken() const {
-  const compare::Tally t = total();
+  const question::Tally t = total();
   return 100 * t.missing > t.queries;
 }
 
 std::string JudgeReport::verdict() const {
-  const compare::Tally t = total();
+  const question::Tally t = total();
   if (is_broken()) return "broken";
   if (t.wrong + t.error > 0 || (times && t.wrong_time > 0) || (strict && nonsense() > 0)) return "wrong";
   if (t.agree + t.ill_posed <= t.undecided) return "undecided";
@@ -402,8 +402,8 @@ std::string JudgeReport::verdict() const {
 }
 
 std::string JudgeReport::line() const {
-  return heading(*this) + missing_text(*this) + shares_text("ill-posed", rows, &compare::Tally::ill_posed) +
-         shares_text("undecided", rows, &compare::Tally::undecided) + times_text(rows) + paths_text(flown) +
+  return heading(*this) + missing_text(*this) + shares_text("ill-posed", rows, &question::Tally::ill_posed) +
+         shares_text("undecided", rows, &question::Tally::undecided) + times_text(rows) + paths_text(flown) +
          speed_text(*this) + nonsense_text(*this);
 }
 
@@ -422,7 +422,7 @@ std::string JudgeReport::text() const {
 }
 
 std::string JudgeReport::json() const {
-  const compare::Tally t = total();
+  const question::Tally t = total();
   std::vector<report::FreePathCurve> curves;
   for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {

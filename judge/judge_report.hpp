@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "compare/engines.hpp"
 #include "judge/examination.hpp"
 #include "judge/judge_paths.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::judge {
 
 struct JudgeReport {
-  compare::EngineInfo engine;
+  question::EngineInfo engine;
   std::uint64_t seed = 0;
   std::string command;  ///< the shell line that was typed
   std::vector<ExaminedRow> rows;
@@ -28,7 +28,7 @@ struct JudgeReport {
   bool times = false;       ///< wrong times count
   bool strict = false;      ///< answers to invalid questions count
 
-  compare::Tally total() const;
+  question::Tally total() const;
   /// Answers to invalid questions, which are not in the total.
   std::size_t nonsense() const;
   /// Rows in which another program was given up.

@@ -10,12 +10,12 @@
 
 #include <lorentz/exchange.hpp>
 
-#include "compare/race.hpp"
 #include "files/scene_file.hpp"
 #include "judge/judge_paths.hpp"
 #include "judge/questions.hpp"
 #include "judge/repetition.hpp"
 #include "judge/simplest.hpp"
+#include "question/race.hpp"
 
 namespace lorentz::judge {
 
@@ -59,7 +59,7 @@ std::vector<NamedPlace> places_of(const Scenery& scenery) {
     const std::string name =
         radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
     return NamedPlace{
-        name, std::make_shared<compare::Place>(
+        name, std::make_shared<question::Place>(
                   read_scene(scenery.scene, radius ? std::optional(parse_number(*radius)) : std::nullopt))};
   };
   std::vector<NamedPlace> places;
@@ -144,9 +144,9 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
 
 // Who is examined, and on which terms.
 struct Terms {
-  compare::EngineInfo engine;
+  question::EngineInfo engine;
   double ulps;
-  compare::AnswererOptions answerer;
+  question::AnswererOptions answerer;
   const std::atomic<bool>& stop;
 
   std::unique_ptr<Examination> examination() const {
@@ -204,11 +204,11 @@ std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& 
 }
 
 // As many of each place as can be afforded.
-std::vector<compare::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
-                                                    std::uint64_t seed, std::size_t count) {
-  std::vector<compare::Question> all;
+std::vector<question::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
+                                                     std::uint64_t seed, std::size_t count) {
+  std::vector<question::Question> all;
   for (const NamedPlace* named : places)
-    for (compare::Question& question : compare::questions_of(
+    for (question::Question& question : question::questions_of(
              named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed, count)))
       all.push_back(std::move(question));
   return all;
@@ -229,12 +229,12 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   if (chosen.empty()) return;
   const std::size_t count = affordable(report, kRounds, seconds);
   const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
-  compare::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
+  question::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
   options.start_timeout = terms.answerer.start_timeout;
   options.enough = [&] { return terms.stop || until.left() == 0; };
-  const std::vector<compare::Speed> speeds =
-      compare::race(questions_to_race_in(chosen, report.seed, count),
-                    {report.engine, compare::engine_named("reduction")}, options);
+  const std::vector<question::Speed> speeds =
+      question::race(questions_to_race_in(chosen, report.seed, count),
+                     {report.engine, question::engine_named("reduction")}, options);
   const bool is_cut = report.engine.is_command() && options.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
@@ -250,7 +250,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
 Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
   constexpr double kShortest = 2, kPart = 0.1;
   Terms terms{order.engine, order.ulps, {}, stop};
-  const double most = compare::AnswererOptions::kDefaultTimeout;
+  const double most = question::AnswererOptions::kDefaultTimeout;
   terms.answerer.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
   terms.answerer.start_timeout = most;
   terms.answerer.listener = order.listener;

@@ -14,7 +14,7 @@ namespace lorentz::judge {
 
 /// What is to be done.
 struct JudgeOrder {
-  compare::EngineInfo engine;
+  question::EngineInfo engine;
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
@@ -24,7 +24,7 @@ struct JudgeOrder {
   std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time
   bool times = false;             ///< wrong times count
   bool strict = false;            ///< answers to invalid questions count
-  compare::Listener listener = {};
+  question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with what is asked
 
   /// How long it will take, about.

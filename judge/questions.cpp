@@ -69,7 +69,7 @@ class Golden {
 
  private:
   golden::Reader reader_;
-  const compare::Source records_;
+  const question::Source records_;
 };
 
 class CampaignQuestions {

@@ -12,7 +12,7 @@ namespace {
 
 // Rows that are flown together: so few that they stay in the cache, so many that threads have enough; and of
 // engines that take their time with each row, so few that Ctrl-C does not wait.
-std::size_t rows_together(const compare::EngineInfo& engine, int threads) {
+std::size_t rows_together(const question::EngineInfo& engine, int threads) {
   return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(threads) : 16;
 }
 
@@ -55,8 +55,8 @@ void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
 }
 
 // A column engine.
-compare::EngineInfo checked(const std::string& name, int threads) {
-  compare::EngineInfo engine = own_engine(name);
+question::EngineInfo checked(const std::string& name, int threads) {
+  question::EngineInfo engine = own_engine(name);
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
   if (threads > 1 && !engine.traits.in_bulk)
     throw InputError("threads: only the engines batch and certified-batch use more than one");
@@ -71,8 +71,8 @@ void refuse_first(const AnswerRows& answers, std::size_t begin) {
 
 }  // namespace
 
-compare::EngineInfo own_engine(const std::string& name) {
-  compare::EngineInfo engine = compare::engine_named(name);
+question::EngineInfo own_engine(const std::string& name) {
+  question::EngineInfo engine = question::engine_named(name);
   if (!engine.is_own())
     throw InputError("engine: arrays are for engines of this program; judge() takes others");
   return engine;

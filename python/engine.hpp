@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "compare/column_engine.hpp"
 #include "python/scene.hpp"
+#include "question/column_engine.hpp"
 
 namespace lorentz::python {
 
 /// Throws InputError unless it is the name of an engine of this program.
-compare::EngineInfo own_engine(const std::string& name);
+question::EngineInfo own_engine(const std::string& name);
 
 /// Columns of queries where NumPy has them, of any layout.
 struct QueryArrays {
@@ -52,11 +52,11 @@ class PyEngine {
  private:
   void answer(const QueryArrays& queries, bool refuse, AnswerRows& answers);
 
-  const compare::EngineInfo info_;
+  const question::EngineInfo info_;
   const int dimension_;
   const std::size_t together_;  // rows
   std::mutex in_use_;           // one call at a time: the engine has room for one part of the rows
-  compare::ColumnEngine engine_;
+  question::ColumnEngine engine_;
 };
 
 }  // namespace lorentz::python

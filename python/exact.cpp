@@ -35,7 +35,7 @@ const char* name_of(Verdict verdict) {
 class PyOracle {
  public:
   explicit PyOracle(const PyScene& scene)
-      : place_(std::make_shared<compare::Place>(scene.scene())), scene_(place_->scene()) {}
+      : place_(std::make_shared<question::Place>(scene.scene())), scene_(place_->scene()) {}
 
   std::string first_hit(const std::string& query, int digits, bool detail,
                         std::optional<double> max_time) const {
@@ -126,7 +126,7 @@ class PyOracle {
     return py::make_tuple(obstacle.lattice, obstacle.atom, to_python(obstacle.cell, scene_.dimension));
   }
 
-  std::shared_ptr<compare::Place> place_;
+  std::shared_ptr<question::Place> place_;
   const Scene& scene_;
   mutable std::optional<oracle::Prover> prover_;
   mutable std::optional<oracle::CertificateCheck> check_;

@@ -101,7 +101,7 @@ void bind_first_hit(py::module_& module) {
           },
           py::arg("x"), py::arg("v"), py::arg("max_time"), py::arg("start_from"), py::arg("refuse"),
           py::arg("out"));
-  module.def("engines", compare::own_names);
+  module.def("engines", question::own_names);
 }
 
 }  // namespace lorentz::python

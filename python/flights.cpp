@@ -3,10 +3,10 @@
 #include <atomic>
 
 #include <lorentz/exchange.hpp>
-#include "flights/findings.hpp"
-#include "flights/run.hpp"
 #include "python/engine.hpp"
 #include "starts/free_starts.hpp"
+#include "statistics/flights/findings.hpp"
+#include "statistics/flights/run.hpp"
 
 namespace lorentz::python {
 namespace {

@@ -36,7 +36,7 @@ constexpr std::size_t kGathered = 8192;
 
 // Gathers queries of one scene, and asks `ask(scene, x, v, start_from)`, which returns as many answers as
 // lines of JSON. The interpreter's lock is held for each such call, and no longer.
-class FunctionAnswerer final : public compare::Answerer {
+class FunctionAnswerer final : public question::Answerer {
  public:
   FunctionAnswerer(const py::function& ask, JudgeRun& run) : ask_(&ask), run_(run) {}
   ~FunctionAnswerer() override {
@@ -59,7 +59,7 @@ class FunctionAnswerer final : public compare::Answerer {
     answers.resize(queries_.size(), Answer::error("not asked"));
     queries_.clear();
     for (std::size_t i = 0; i < answers.size(); ++i)
-      deliver({std::move(answers[i]), i < asked ? compare::Origin::engine : compare::Origin::not_asked});
+      deliver({std::move(answers[i]), i < asked ? question::Origin::engine : question::Origin::not_asked});
   }
   void finish() override { drain(); }
 
@@ -153,10 +153,10 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
   JudgeRun run;
   py::function ask;
   if (function.is_none()) {
-    order.engine = compare::engine_named(engine);
+    order.engine = question::engine_named(engine);
   } else {
     ask = function.cast<py::function>();
-    order.engine = compare::guest_engine(engine, [&](const compare::AnswererOptions&) {
+    order.engine = question::guest_engine(engine, [&](const question::AnswererOptions&) {
       return std::make_unique<FunctionAnswerer>(ask, run);
     });
   }

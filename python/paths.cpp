@@ -5,10 +5,10 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "compare/engines.hpp"
 #include "python/engine.hpp"
 #include "python/lines.hpp"
 #include "python/signals.hpp"
+#include "question/engines.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::python {
@@ -79,7 +79,7 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
   }
 }
 
-AskFirstHit asked(const compare::EngineInfo& engine, const Scene& scene) {
+AskFirstHit asked(const question::EngineInfo& engine, const Scene& scene) {
   return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
     oracle::Request request;
     if (max_time < kForEver) request.max_time = max_time;
@@ -87,7 +87,7 @@ AskFirstHit asked(const compare::EngineInfo& engine, const Scene& scene) {
   };
 }
 
-void follow_one_by_one(const compare::EngineInfo& engine, const Scene& scene,
+void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
                        const std::vector<Query>& starts, double until, Precision precision, Paths& paths) {
   const AskFirstHit ask = asked(engine, scene);
   SignalWatch watch;
@@ -104,7 +104,7 @@ void follow_one_by_one(const compare::EngineInfo& engine, const Scene& scene,
 
 std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, std::size_t collisions,
                               double until, const std::string& engine, bool double_double) {
-  const compare::EngineInfo info = own_engine(engine);
+  const question::EngineInfo info = own_engine(engine);
   const std::vector<Query> starts = starts_of(arrays, scene.scene());
   auto paths = std::make_shared<Paths>(starts.size(), collisions, scene.dimension());
   const Precision precision = double_double ? Precision::double_double : Precision::binary64;

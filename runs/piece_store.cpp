@@ -47,11 +47,11 @@ PieceStore::PieceStore(const std::optional<std::string>& path, const std::string
       database_(path.value_or(Database::kMemory), access, kind()),
       begin_(check_of_plan(whole_plan(command, plan))),
       check_(begin_) {
-  begin_or_check(whole_plan(command, plan));
+  begin_or_check(whole_plan(command, plan), access);
   check_all();
 }
 
-void PieceStore::begin_or_check(const Plan& plan) {
+void PieceStore::begin_or_check(const Plan& plan, Access access) {
   Statement row(database_.connection(), "SELECT name, value FROM plan ORDER BY place");
   std::size_t same = 0;
   for (; row.step(); ++same) {
@@ -65,7 +65,8 @@ void PieceStore::begin_or_check(const Plan& plan) {
                                            json_quoted(value), json_quoted(plan[same].second)));
   }
   if (same == plan.size()) return;
-  if (same > 0) refuse(database_.path(), "is of another version of this program");
+  if (same > 0 || access != Access::write)
+    refuse(database_.path(), same > 0 ? "is of another version of this program" : "holds no run yet");
   database_.begin();
   Statement word(database_.connection(), "INSERT INTO plan (name, value) VALUES (?, ?)");
   for (const auto& [name, value] : plan) word.bind(name).bind(value).done();

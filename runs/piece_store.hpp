@@ -46,7 +46,7 @@ class PieceStore {
   void add(const std::vector<std::string>& pieces);
 
  private:
-  void begin_or_check(const Plan& plan);
+  void begin_or_check(const Plan& plan, Access access);
   void check_all();
   void append(const std::string& piece);
 

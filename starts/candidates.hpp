@@ -8,9 +8,9 @@
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "cases/box.hpp"
-#include "flights/theory/ensemble.hpp"
 #include "starts/start_columns.hpp"
 #include "starts/surface.hpp"
+#include "statistics/theory/ensemble.hpp"
 
 namespace lorentz::starts {
 

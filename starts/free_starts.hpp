@@ -8,7 +8,7 @@
 
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
-#include "flights/theory/ensemble.hpp"
+#include "statistics/theory/ensemble.hpp"
 
 namespace lorentz::starts {
 

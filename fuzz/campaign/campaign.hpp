@@ -18,8 +18,8 @@
 
 namespace lorentz::fuzz {
 
-using compare::Answerer;
-using compare::MakeAnswerer;
+using question::Answerer;
+using question::MakeAnswerer;
 
 /// Which scenes a campaign keeps to: what an engine can do.
 struct Scope {

@@ -7,15 +7,15 @@
 
 #include <lorentz/engine.hpp>
 #include <lorentz/walk.hpp>
-#include "compare/batch_answerer.hpp"
-#include "compare/examine.hpp"
+#include "question/batch_answerer.hpp"
+#include "question/examine.hpp"
 #include "src/engines/published/published.hpp"
 #include "src/problem/same_answer.hpp"
 
 namespace lorentz::fuzz {
 
-using compare::Answerer;
-using compare::Reply;
+using question::Answerer;
+using question::Reply;
 
 namespace {
 
@@ -106,7 +106,7 @@ bool same_bits(const Flight& a, const Flight& b) {
          std::memcmp(&a.time, &b.time, sizeof a.time) == 0;
 }
 
-class BatchBothWays final : public compare::BatchAnswerer {
+class BatchBothWays final : public question::BatchAnswerer {
  public:
   explicit BatchBothWays(FlyAlone alone) : BatchAnswerer(false, {}), alone_(std::move(alone)) {}
 
@@ -148,8 +148,8 @@ std::unique_ptr<Answerer> batch_both_ways(FlyAlone alone) {
   return std::make_unique<BatchBothWays>(alone ? std::move(alone) : fly_alone);
 }
 
-compare::MakeAnswerer answerer_maker(const compare::EngineInfo& engine,
-                                     const compare::AnswererOptions& options) {
+question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
+                                      const question::AnswererOptions& options) {
   if (engine.name == "reduction") return [] { return reduction_both_ways(); };
   if (engine.name == "batch") return [] { return batch_both_ways(); };
   constexpr struct {
@@ -166,18 +166,18 @@ compare::MakeAnswerer answerer_maker(const compare::EngineInfo& engine,
   return [engine, options] { return engine.answerer(options); };
 }
 
-std::vector<Reply> replies_to(const compare::Source& source, Answerer& answerer) {
+std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer) {
   std::vector<Reply> replies;
-  std::vector<std::pair<std::size_t, compare::Question>> not_asked;
-  compare::ask_all(source, answerer, [&](const compare::Question& question, Reply& reply) {
+  std::vector<std::pair<std::size_t, question::Question>> not_asked;
+  question::ask_all(source, answerer, [&](const question::Question& question, Reply& reply) {
     if (!reply.was_asked()) not_asked.emplace_back(replies.size(), question);
     replies.push_back(std::move(reply));
   });
   for (const auto& [i, question] : not_asked) {
     if (answerer.is_hopeless()) break;
     answerer.try_again();
-    compare::ask_all(compare::all_of({&question, 1}), answerer,
-                     [&, i = i](const compare::Question&, Reply& reply) { replies[i] = std::move(reply); });
+    question::ask_all(question::all_of({&question, 1}), answerer,
+                      [&, i = i](const question::Question&, Reply& reply) { replies[i] = std::move(reply); });
   }
   return replies;
 }

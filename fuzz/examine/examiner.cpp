@@ -4,9 +4,9 @@
 
 #include <lorentz/scene_check.hpp>
 #include "cases/free_start.hpp"
-#include "compare/examine.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/tie.hpp"
+#include "question/examine.hpp"
 #include "src/problem/same_answer.hpp"
 
 namespace lorentz::fuzz {
@@ -47,7 +47,7 @@ std::optional<Answer> Examiner::settled(const Question& question) const {
 Examined Examiner::examine(const Query& query, LimitAt limit) {
   Question question{.place = place_, .query = query, .exact = place_->exact(query)};
   question.max_time = limit_of(limit, question.exact);
-  std::vector<Reply> replies = replies_to(compare::all_of({&question, 1}), answerer_);
+  std::vector<Reply> replies = replies_to(question::all_of({&question, 1}), answerer_);
   return judge(question, replies.at(0));
 }
 
@@ -70,7 +70,7 @@ Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried
 
 Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   using oracle::Verdict;
-  const oracle::Judgement judgement = compare::judgement_of(question, reply.answer, ulps_);
+  const oracle::Judgement judgement = question::judgement_of(question, reply.answer, ulps_);
   const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
   Examined one;
   one.departs = judgement.departs;
@@ -113,7 +113,7 @@ bool Examiner::is_slow(double work) {
       drawn.push_back({.place = place_, .query = {x, v, {}}});
     }
     std::vector<double> works;
-    for (const Reply& reply : replies_to(compare::all_of(drawn), answerer_))
+    for (const Reply& reply : replies_to(question::all_of(drawn), answerer_))
       if (reply.work) works.push_back(*reply.work);
     if (works.size() < kDrawnFlights) works.resize(kDrawnFlights, works.empty() ? work : works.back());
     std::nth_element(works.begin(), works.begin() + kDrawnFlights / 2, works.end());

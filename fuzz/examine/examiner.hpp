@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "compare/answerer.hpp"
-#include "compare/question.hpp"
 #include "fuzz/examine/time_limit.hpp"
+#include "question/answerer.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::fuzz {
 
@@ -39,11 +39,11 @@ struct Counts {
   bool is_finding(Kind kind) const;
 };
 
-using compare::Answerer;
-using compare::Place;
-using compare::Question;
-using compare::Reply;
-using compare::Truth;
+using question::Answerer;
+using question::Place;
+using question::Question;
+using question::Reply;
+using question::Truth;
 
 struct Examined {
   Kind kind = Kind::fine;

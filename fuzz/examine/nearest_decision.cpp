@@ -17,7 +17,7 @@
 namespace lorentz::fuzz {
 
 using namespace cases;
-using compare::Place;
+using question::Place;
 
 namespace {
 

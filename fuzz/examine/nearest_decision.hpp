@@ -7,7 +7,7 @@
 
 #include <lorentz/margin.hpp>
 #include "cases/random.hpp"
-#include "compare/question.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::fuzz {
 
@@ -15,7 +15,7 @@ namespace lorentz::fuzz {
 /// are entered at the same time, to the last bit that one component of x has, and some bits further if that
 /// component can be near zero. Of the decisions it takes the hardest so far, or draws one about the obstacle
 /// that is hit. Nothing if no obstacle is hit, or the place is out of reach; the result may have any answer.
-std::optional<Query> query_near_decision(cases::Random& random, const compare::Place& place,
+std::optional<Query> query_near_decision(cases::Random& random, const question::Place& place,
                                          const Query& query, const Answer& exact,
                                          const std::optional<oracle::HardestDecision>& hardest);
 

@@ -6,11 +6,11 @@
 
 #include <lorentz/margin.hpp>
 #include "cases/random.hpp"
-#include "compare/question.hpp"
+#include "question/question.hpp"
 
 namespace lorentz::fuzz {
 
-using compare::Place;
+using question::Place;
 
 /// A query changed by one small move: a component by ulps or by one bit, components exchanged or copied, a
 /// sign, a zero, the velocity in another length, the start one lattice vector or a part of the flight on.

@@ -1,11 +1,11 @@
 // Any bytes as pieces of every kind, a line each. Promised: errors are of the documented type; a piece that was
 // read is written as one that reads the same; and an account, or a cell, without a flaw can be added up and written.
-#include "chaos/groups.hpp"
-#include "flights/account.hpp"
-#include "flights/plan.hpp"
 #include "fuzz/harness/harness.hpp"
 #include "fuzz/harness/input_file.hpp"
 #include "report/cell.hpp"
+#include "statistics/chaos/groups.hpp"
+#include "statistics/flights/account.hpp"
+#include "statistics/flights/plan.hpp"
 
 #include <lorentz/errors.hpp>
 

@@ -194,6 +194,8 @@ TEST_CASE("Pieces are read back by the same plan, and what differs is said", "[c
     store.each([&](const std::string& piece) { all.push_back(piece); });
     return all;
   };
+  CHECK_THROWS_WITH(runs::PieceStore(folder.file("none"), "flights", plan, runs::Access::read),
+                    Catch::Contains("none: No such file"));
   runs::PieceStore(path, "flights", plan).add(pieces);
   CHECK(read(runs::PieceStore(path, "flights", plan)) == pieces);
   CHECK(read(runs::PieceStore(path, "flights", plan, runs::Access::read)) == pieces);
@@ -217,6 +219,12 @@ TEST_CASE("Pieces are read back by the same plan, and what differs is said", "[c
   runs::Plan longer = plan;
   longer.emplace_back("more", "1");
   refused(longer, "is of another version of this program");
+  change(path, "DELETE FROM plan");
+  CHECK_THROWS_WITH(runs::PieceStore(path, "flights", plan, runs::Access::read),
+                    Catch::Contains("store: holds no run yet"));
+  CHECK_THROWS_WITH(runs::PieceStore(path, "flights", longer), Catch::Contains("piece 1 is damaged"));
+  fs::remove(path);
+  runs::PieceStore(path, "flights", plan).add(pieces);
   runs::PieceStore(path, "flights", plan).set("alone");
   CHECK(read(runs::PieceStore(path, "flights", plan)) == std::vector<std::string>{"alone"});
 }

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <csignal>
 
-#include "compare/engines.hpp"
-#include "compare/process.hpp"
+#include "question/engines.hpp"
+#include "question/process.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;
@@ -172,9 +172,9 @@ namespace {
 using Answers = std::vector<lorentz::Answer>;
 
 // What a program answers to `count` queries asked at once.
-Answers asked(lorentz::compare::Answerer& program, const lorentz::Scene& scene, int count) {
+Answers asked(lorentz::question::Answerer& program, const lorentz::Scene& scene, int count) {
   Answers answers;
-  program.on_reply([&](lorentz::compare::Reply& reply) { answers.push_back(reply.answer); });
+  program.on_reply([&](lorentz::question::Reply& reply) { answers.push_back(reply.answer); });
   program.set_scene(scene);
   for (int k = 0; k < count; ++k) program.ask("null", {{static_cast<double>(k), 0.5, 0}, {1, 1, 0}, {}});
   program.drain();
@@ -195,9 +195,9 @@ TEST_CASE("A program that closes its input is waited for, but nothing more is wr
   // The line of the scene is longer than what a pipe holds, so that it is not all written by then.
   lorentz::Scene scene = lorentz::unit_scene(2, 0.001);
   scene.lattices[0].atoms.resize(5000, scene.lattices[0].atoms[0]);
-  lorentz::compare::AnswererOptions options;
+  lorentz::question::AnswererOptions options;
   options.timeout = 0.6;
-  const auto program = lorentz::compare::engine_named("cmd:exec <&-; exec sleep 1000").answerer(options);
+  const auto program = lorentz::question::engine_named("cmd:exec <&-; exec sleep 1000").answerer(options);
   const double before = processor_seconds();
   const Answers answers = asked(*program, scene, 1);
   REQUIRE(answers.size() == 1);
@@ -220,7 +220,7 @@ done
 [ -n "$held" ] && echo "$held"
 )");
   const auto program =
-      lorentz::compare::engine_named("cmd:exec sh " + script + " " + folder.file("starts")).answerer({});
+      lorentz::question::engine_named("cmd:exec sh " + script + " " + folder.file("starts")).answerer({});
   const auto ask = [&] { CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 3).size() == 3); };
   ask(), ask();  // it is told the end after a while, and twice is enough to know it
   const auto start = std::chrono::steady_clock::now();
@@ -242,10 +242,10 @@ while read -r line; do
   echo "{\"id\":$id,\"outcome\":\"never\"}"
 done
 )");
-  lorentz::compare::AnswererOptions options;
+  lorentz::question::AnswererOptions options;
   options.enough = [] { return false; };  // so that the clock is looked at often
-  const auto program = lorentz::compare::engine_named("cmd:exec sh " + script + " " + folder.file("starts") +
-                                                      " " + folder.file("slowly"))
+  const auto program = lorentz::question::engine_named("cmd:exec sh " + script + " " + folder.file("starts") +
+                                                       " " + folder.file("slowly"))
                            .answerer(options);
   const auto starts_after = [&](int queries) {
     for (int i = 0; i < queries; ++i) CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 1).size() == 1);
@@ -265,7 +265,7 @@ done
 }
 
 TEST_CASE("How a program ended, in words", "[compare][command_engine]") {
-  using lorentz::compare::Ending;
+  using lorentz::question::Ending;
   const auto exit = [](int code) { return Ending{Ending::How::exited, code}.text(); };
   CHECK(exit(0) == "exit 0");
   CHECK(exit(126) == "exit 126");

@@ -1,15 +1,15 @@
 // The table of answerers: it names every engine, and says what each is like.
-#include "compare/engines.hpp"
+#include "question/engines.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <lorentz/engine.hpp>
 #include <lorentz/exchange.hpp>
-#include "compare/column_engine.hpp"
-#include "compare/instruction_counter.hpp"
+#include "question/column_engine.hpp"
+#include "question/instruction_counter.hpp"
 
 using namespace lorentz;
-using namespace lorentz::compare;
+using namespace lorentz::question;
 
 namespace {
 

@@ -1,15 +1,15 @@
 // Questions, their exact answers, and what comes of an engine's: judged, counted, raced.
-#include "compare/examine.hpp"
+#include "question/examine.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "compare/race.hpp"
+#include "question/race.hpp"
 #include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using compare::Place, compare::Question, compare::Tally;
 using oracle::Verdict;
+using question::Place, question::Question, question::Tally;
 
 TEST_CASE("A tally counts each verdict, and wrong times among those that agree", "[compare][examine]") {
   Tally tally;
@@ -33,9 +33,9 @@ TEST_CASE("A tally counts each verdict, and wrong times among those that agree",
 }
 
 TEST_CASE("Quantiles: the value that a share does not exceed", "[compare][examine]") {
-  CHECK(compare::quantile({}, 0.5) == 0);
-  CHECK(compare::quantile({3, 1, 2}, 0.5) == 2);
-  CHECK(compare::quantile({3, 1, 2}, 0.99) == 3);
+  CHECK(question::quantile({}, 0.5) == 0);
+  CHECK(question::quantile({3, 1, 2}, 0.5) == 2);
+  CHECK(question::quantile({3, 1, 2}, 0.99) == 3);
 }
 
 TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of them does not exceed",
@@ -67,14 +67,14 @@ TEST_CASE("Exact answers are the same from the oracle and from certified, scenes
     queries.push_back({{0.25, 0.5, 0}, {1, 0, 0}, {}});
     const Integer far = *Integer::from_decimal("100000000000000000000");
     queries.push_back({queries[0].x, {1, 0.25, 0}, ObstacleId{0, 0, {far, 0, 0}}});
-    by_place.push_back(compare::questions_of(place, queries));
+    by_place.push_back(question::questions_of(place, queries));
   }
   std::vector<Question> questions;
   for (std::size_t i = 0; i < by_place[0].size(); ++i)
     for (const std::vector<Question>& some : by_place) questions.push_back(some[i]);
   std::vector<Question> certified = questions;
-  compare::answer_exactly(questions, compare::Truth::oracle);
-  compare::answer_exactly(certified, compare::Truth::certified);
+  question::answer_exactly(questions, question::Truth::oracle);
+  question::answer_exactly(certified, question::Truth::certified);
   std::map<Outcome, int> met;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     INFO(test::stream(questions[i].place->scene(), questions[i].query) << "seed " << kSeed);
@@ -94,14 +94,14 @@ std::vector<Question> diagonals() {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
     const double z = dimension == 3 ? 1 : 0;
     const std::vector<Query> queries(20, Query{{0.5, 0.5, z / 2}, {1, 1, z}, {}});
-    for (Question& question : compare::questions_of(place, queries)) questions.push_back(question);
+    for (Question& question : question::questions_of(place, queries)) questions.push_back(question);
   }
-  compare::answer_exactly(questions, compare::Truth::oracle);
+  question::answer_exactly(questions, question::Truth::oracle);
   return questions;
 }
 
 // Answers what is exact but for every third question, which it misses; from the tenth on it was given up.
-class Lazy final : public compare::Answerer {
+class Lazy final : public question::Answerer {
  public:
   void ask(const Id&, const Query& query) override { open_.push_back(query); }
   void drain() override {
@@ -110,7 +110,7 @@ class Lazy final : public compare::Answerer {
       Answer answer = asked_ % 3 == 0 ? Answer::never()
                                       : Answer::hit({0, 0, {1, 1, query.x[2] > 0 ? 1 : 0}},
                                                     0.5 - 0.25 / std::sqrt(query.x[2] > 0 ? 3 : 2));
-      deliver({answer, asked_ < 10 ? compare::Origin::engine : compare::Origin::not_asked});
+      deliver({answer, asked_ < 10 ? question::Origin::engine : question::Origin::not_asked});
     }
   }
   std::vector<int> dimensions;
@@ -131,11 +131,11 @@ TEST_CASE("Answers that come late are judged with their own questions, and what 
   Lazy lazy;
   Tally tally;
   std::vector<std::string> ids;
-  compare::examine(compare::all_of(questions), lazy, 4, [&](const compare::Judged& judged) {
+  question::examine(question::all_of(questions), lazy, 4, [&](const question::Judged& judged) {
     tally.count(judged.judgement);
     ids.push_back(judged.question.id);
     CHECK(judged.reply.was_asked() == (ids.size() < 10));
-    CHECK(compare::departs(judged.judgement) == (ids.size() < 10 && ids.size() % 3 == 0));
+    CHECK(question::departs(judged.judgement) == (ids.size() < 10 && ids.size() % 3 == 0));
   });
   CHECK(lazy.dimensions == std::vector<int>{3, 2, 3});
   CHECK((tally.agree == 6 && tally.wrong == 3 && tally.missing == 32 && tally.queries == 41));
@@ -144,7 +144,7 @@ TEST_CASE("Answers that come late are judged with their own questions, and what 
 
 TEST_CASE("The right answer to an invalid question is an error", "[compare][examine]") {
   const Question invalid{.place = std::make_shared<Place>(unit_scene(2, 0.25)), .text = R"("x":[0,0])"};
-  const auto verdict = [&](const Answer& given) { return compare::judgement_of(invalid, given, 4).verdict; };
+  const auto verdict = [&](const Answer& given) { return question::judgement_of(invalid, given, 4).verdict; };
   CHECK(verdict(Answer::error("no v")) == Verdict::agree);
   CHECK(verdict(Answer::unsupported_because("it has none")) == Verdict::unsupported);
   CHECK(verdict(Answer::undecided()) == Verdict::undecided);
@@ -155,15 +155,15 @@ TEST_CASE("The right answer to an invalid question is an error", "[compare][exam
 TEST_CASE("Of each engine as many questions are raced as it is to be asked, in each round",
           "[compare][race]") {
   const std::vector<Question> questions = diagonals();
-  const auto engines = compare::engines_named({"oracle", "reduction", "batch", "walk"});
-  compare::RaceOptions options;
+  const auto engines = question::engines_named({"oracle", "reduction", "batch", "walk"});
+  question::RaceOptions options;
   options.rounds = 2;
   options.counts = {0, 17, 30, 99};
   std::map<std::string, std::size_t> asked;
   options.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
     if (done == total) asked[name] += done;
   };
-  const std::vector<compare::Speed> speeds = compare::race(questions, engines, options);
+  const std::vector<question::Speed> speeds = question::race(questions, engines, options);
   REQUIRE(speeds.size() == 4);
   const std::size_t counts[] = {0, 17, 30, 40};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -173,7 +173,7 @@ TEST_CASE("Of each engine as many questions are raced as it is to be asked, in e
       CHECK((counts[i] > 0 ? ns > 0 : ns == 0));
   }
   options.rounds = 0;
-  for (const compare::Speed& speed : compare::race(questions, engines, options))
+  for (const question::Speed& speed : question::race(questions, engines, options))
     CHECK((speed.ns_per_query == 0 && !speed.failed));
 }
 
@@ -182,16 +182,17 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
   for (const int dimension : {2, 3}) {
     const auto place = std::make_shared<Place>(unit_scene(dimension, 0.1));
     const auto queries = starts::free_starts(place->scene(), starts::Kind::grazing, 4712, 150);
-    for (Question& question : compare::questions_of(place, queries)) questions.push_back(std::move(question));
+    for (Question& question : question::questions_of(place, queries))
+      questions.push_back(std::move(question));
   }
   std::vector<Question> alone = questions;
-  compare::answer_exactly(alone, compare::Truth::oracle);
-  const compare::EngineInfo engine = compare::engine_named("published");
+  question::answer_exactly(alone, question::Truth::oracle);
+  const question::EngineInfo engine = question::engine_named("published");
   const auto run = [&](std::size_t jobs) {
-    std::vector<std::unique_ptr<compare::Answerer>> answerers;
+    std::vector<std::unique_ptr<question::Answerer>> answerers;
     for (std::size_t job = 0; job < jobs; ++job) answerers.push_back(engine.answerer({}));
     std::string text;
-    compare::examine(alone, answerers, 4, [&](const compare::Judged& judged) {
+    question::examine(alone, answerers, 4, [&](const question::Judged& judged) {
       append_answer_line(text, judged.question.id, judged.reply.answer, 3);
       text += std::to_string(static_cast<int>(judged.judgement.verdict));
     });
@@ -201,7 +202,7 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
   for (const int jobs : {2, 3, 64, 301}) {
     INFO(jobs);
     std::vector<Question> together = questions;
-    compare::answer_exactly(together, compare::Truth::oracle, {}, jobs);
+    question::answer_exactly(together, question::Truth::oracle, {}, jobs);
     for (std::size_t i = 0; i < questions.size(); ++i) CHECK(test::same(alone[i].exact, together[i].exact));
     CHECK(run(static_cast<std::size_t>(jobs)) == one);
   }

@@ -1,19 +1,19 @@
 // The published algorithm in other number types than binary64.
-#include "compare/precisions/precisions.hpp"
+#include "question/precisions/precisions.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <lorentz/verdict.hpp>
-#include "compare/examine.hpp"
-#include "compare/precisions/big_number.hpp"
-#include "compare/precisions/published_in.hpp"
-#include "compare/precisions/wide_number.hpp"
-#include "compare/tally.hpp"
+#include "question/examine.hpp"
+#include "question/precisions/big_number.hpp"
+#include "question/precisions/published_in.hpp"
+#include "question/precisions/wide_number.hpp"
+#include "question/tally.hpp"
 #include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
-using namespace lorentz::compare;
+using namespace lorentz::question;
 using namespace lorentz::test;
 
 // The generic search is the published one: only the number type is another, so the types are what precisions

@@ -8,8 +8,8 @@
 
 #include <lorentz/errors.hpp>
 #include "cases/random.hpp"
-#include "flights/account.hpp"
-#include "flights/run.hpp"
+#include "statistics/flights/account.hpp"
+#include "statistics/flights/run.hpp"
 
 using namespace lorentz;
 using namespace lorentz::flights;

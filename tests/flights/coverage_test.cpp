@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cases/random.hpp"
-#include "flights/run.hpp"
-#include "flights/theory/fit.hpp"
-#include "flights/theory/laws.hpp"
+#include "statistics/flights/run.hpp"
+#include "statistics/theory/fit.hpp"
+#include "statistics/theory/laws.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"
 

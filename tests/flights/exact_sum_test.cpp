@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cases/random.hpp"
-#include "flights/exact_sum.hpp"
+#include "statistics/flights/exact_sum.hpp"
 
 using lorentz::cases::Random;
 using lorentz::flights::ExactSum;

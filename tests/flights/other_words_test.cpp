@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "flights/run.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "statistics/flights/run.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace lorentz;

@@ -9,10 +9,10 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/oracle.hpp>
-#include "flights/flyer.hpp"
-#include "flights/plan.hpp"
-#include "flights/run.hpp"
 #include "runs/world.hpp"
+#include "statistics/flights/flyer.hpp"
+#include "statistics/flights/plan.hpp"
+#include "statistics/flights/run.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"
 

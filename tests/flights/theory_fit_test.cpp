@@ -1,8 +1,8 @@
 // Tests of fit on samples of which the law is known.
 #include "cases/random.hpp"
-#include "flights/theory/fit.hpp"
-#include "flights/theory/limit_law.hpp"
-#include "flights/theory/tail_constant.hpp"
+#include "statistics/theory/fit.hpp"
+#include "statistics/theory/limit_law.hpp"
+#include "statistics/theory/tail_constant.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // The limit laws against flights among small obstacles. All draws follow from the seed 20261122.
-#include "flights/theory/fit.hpp"
-#include "flights/theory/laws.hpp"
+#include "statistics/theory/fit.hpp"
+#include "statistics/theory/laws.hpp"
 
 #include <catch2/catch.hpp>
 

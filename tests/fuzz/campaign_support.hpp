@@ -11,9 +11,9 @@
 namespace lorentz::test {
 
 /// Says what it is told to, and how much work that was.
-class ToldAnswerer final : public compare::Answerer {
+class ToldAnswerer final : public question::Answerer {
  public:
-  using Says = std::function<Answer(const compare::Place&, const Query&)>;
+  using Says = std::function<Answer(const question::Place&, const Query&)>;
   using Works = std::function<std::optional<double>(const Query&)>;
   explicit ToldAnswerer(Says says, Works works = {}) : says_(std::move(says)), works_(std::move(works)) {}
   void ask(const Id&, const Query& query) override {
@@ -25,15 +25,15 @@ class ToldAnswerer final : public compare::Answerer {
   void enter(const Scene& scene) override { place_.emplace(scene); }
   const Says says_;
   const Works works_;
-  std::optional<compare::Place> place_;
+  std::optional<question::Place> place_;
 };
 
-inline compare::MakeAnswerer told(const ToldAnswerer::Says& says, const ToldAnswerer::Works& works = {}) {
+inline question::MakeAnswerer told(const ToldAnswerer::Says& says, const ToldAnswerer::Works& works = {}) {
   return [=] { return std::make_unique<ToldAnswerer>(says, works); };
 }
 
 /// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.
-inline Answer skewed_answer(const compare::Place& place, const Query& query) {
+inline Answer skewed_answer(const question::Place& place, const Query& query) {
   Answer answer = place.exact(query);
   const bool skewed = query.from && query.v[0] > 0.5 && query.from->cell[0] == Integer(0);
   if (skewed && answer.outcome == Outcome::hit && answer.obstacle.cell[0].fits_int64())
@@ -41,7 +41,7 @@ inline Answer skewed_answer(const compare::Place& place, const Query& query) {
   return answer;
 }
 
-inline compare::MakeAnswerer skewed_answerers() {
+inline question::MakeAnswerer skewed_answerers() {
   return told(skewed_answer);
 }
 

@@ -36,7 +36,7 @@ Plan plan_of(std::initializer_list<const char*> names) {
 
 // A campaign up to a number of cases, in a store.
 void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
-            const compare::MakeAnswerer& answerers = skewed_answerers(),
+            const question::MakeAnswerer& answerers = skewed_answerers(),
             double seconds = std::numeric_limits<double>::infinity()) {
   fuzz::CampaignManifest manifest{"1",
                                   "skewed",
@@ -67,9 +67,9 @@ std::string one_run(const Plan& plan, std::uint64_t count, unsigned jobs) {
 }
 
 // Does much work in flights along a diagonal, and gives up where |v_1| < |v_2| / 8.
-compare::MakeAnswerer working_answerers() {
+question::MakeAnswerer working_answerers() {
   return told(
-      [](const compare::Place& place, const Query& query) {
+      [](const question::Place& place, const Query& query) {
         if (std::fabs(query.v[0]) < std::fabs(query.v[1]) / 8) return Answer::undecided();
         if (std::fabs(query.v[0]) > 8 * std::fabs(query.v[1])) return Answer::error("what?");
         return place.exact(query);
@@ -79,8 +79,8 @@ compare::MakeAnswerer working_answerers() {
 
 // What an answer is taken for with a tolerance of so many ulps.
 Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
-  ToldAnswerer answerer([&](const compare::Place&, const Query&) { return answer; });
-  return fuzz::Examiner(answerer, std::make_shared<compare::Place>(scene), ulps).examine(query).kind;
+  ToldAnswerer answerer([&](const question::Place&, const Query&) { return answer; });
+  return fuzz::Examiner(answerer, std::make_shared<question::Place>(scene), ulps).examine(query).kind;
 }
 
 std::string outcome_in(const std::string& answer) {
@@ -91,7 +91,7 @@ std::string outcome_in(const std::string& answer) {
 
 // Right in cells of an ordinary size; in others it sees nothing. With a time limit it takes rounded times for
 // exact ones.
-class Parochial final : public compare::Answerer {
+class Parochial final : public question::Answerer {
  public:
   void ask(const Id&, const Query& query) override { deliver({answer(query)}); }
   bool takes_limits() const override { return true; }
@@ -196,7 +196,7 @@ TEST_CASE("What the time cut short is shrunk to the end when there is time", "[f
   INFO("seed " << kSeed);
   const Plan plan = plan_of({"leaving", "boundary"});
   // Slow: its findings are not shrunk in the time.
-  const auto slow = told([](const compare::Place& place, const Query& query) {
+  const auto slow = told([](const question::Place& place, const Query& query) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return skewed_answer(place, query);
   });
@@ -216,7 +216,7 @@ TEST_CASE("Nobody is asked about scenes beyond the scope: cases, other words, sh
   static fuzz::Scope scope;
   static std::atomic<int> asked, beyond;
   // Gives up, so that there is something to shrink.
-  const auto careful = told([](const compare::Place& place, const Query&) {
+  const auto careful = told([](const question::Place& place, const Query&) {
     ++asked;
     if (!scope.admits(place.scene())) ++beyond;
     return Answer::undecided();
@@ -464,7 +464,7 @@ TEST_CASE("Shrinking ends when its work is more than the most, not when it is as
   const auto asked = [](double work) {
     int count = 0;
     const auto working = told(
-        [&](const compare::Place&, const Query&) {
+        [&](const question::Place&, const Query&) {
           ++count;
           return Answer::error("what?");
         },
@@ -486,7 +486,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   plan.reword = 0;
   plan.keep = 4;
   // Wrong in two ways, and about hits, starts inside, and flights without end.
-  const auto wrong = told([](const compare::Place&, const Query& query) {
+  const auto wrong = told([](const question::Place&, const Query& query) {
     return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
   });
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
@@ -574,7 +574,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins, its variants are 
   for (std::uint64_t index = 0; index < 60; ++index) {
     const cases::Case base = cases::target_named("generic")->make(kSeed, index);
     const oracle::Oracle oracle(base.scene);
-    const compare::Place place(base.scene);
+    const question::Place place(base.scene);
     const auto variants = fuzz::climb(cases::Random(1, "climb", index), base.query, place);
     const auto again = fuzz::climb(cases::Random(1, "climb", index), base.query, place);
     REQUIRE(variants.size() <= fuzz::kRounds * fuzz::kMovesPerRound);

@@ -25,20 +25,20 @@ constexpr std::uint64_t kSeed = 1305;
 // What becomes of an answer to a question whose exact answer came along from elsewhere.
 fuzz::Examined examined(const Scene& scene, const Query& query, const Answer& carried, const Answer& given,
                         LimitAt limit = LimitAt::none) {
-  ToldAnswerer answerer([&](const compare::Place&, const Query&) { return given; });
-  const auto place = std::make_shared<compare::Place>(scene);
-  compare::Question question{.place = place, .query = query, .exact = carried};
+  ToldAnswerer answerer([&](const question::Place&, const Query&) { return given; });
+  const auto place = std::make_shared<question::Place>(scene);
+  question::Question question{.place = place, .query = query, .exact = carried};
   question.max_time = fuzz::limit_of(limit, carried);
-  auto replies = fuzz::replies_to(compare::all_of({&question, 1}), answerer);
+  auto replies = fuzz::replies_to(question::all_of({&question, 1}), answerer);
   return fuzz::Examiner(answerer, place, 0).judge(question, replies.at(0), true);
 }
 
 // The first letters of the outcomes.
-std::string said(compare::Answerer& answerer, const Scene& scene, const std::vector<Query>& queries,
+std::string said(question::Answerer& answerer, const Scene& scene, const std::vector<Query>& queries,
                  double max_time = HUGE_VAL) {
   std::string text;
   answerer.on_reply(
-      [&](compare::Reply& reply) { text += std::string(name_of(reply.answer.outcome)).substr(0, 1); });
+      [&](question::Reply& reply) { text += std::string(name_of(reply.answer.outcome)).substr(0, 1); });
   answerer.set_scene(scene);
   for (const Query& query : queries) answerer.ask_until("null", query, max_time);
   answerer.drain();
@@ -116,7 +116,7 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
   }
   // The limit goes both ways, too.
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
-    CHECK(said(*fuzz::answerer_maker(compare::engine_named(engine))(), scene, queries, 0.125) == "ll");
+    CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))(), scene, queries, 0.125) == "ll");
 }
 
 TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
@@ -203,12 +203,12 @@ namespace {
 // Of a right answer with so much work: `its` for the first question, then what is drawn, as long as there is some.
 Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
   std::size_t asked = 0;
-  ToldAnswerer answerer([](const compare::Place& place, const Query& query) { return place.exact(query); },
+  ToldAnswerer answerer([](const question::Place& place, const Query& query) { return place.exact(query); },
                         [&](const Query&) {
                           const std::size_t before = asked++;
                           return before == 0 ? std::optional(its) : drawn[(before - 1) % drawn.size()];
                         });
-  const auto place = std::make_shared<compare::Place>(unit_scene(2, 0.25));
+  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
   return fuzz::Examiner(answerer, place, 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
 }
 
@@ -241,8 +241,8 @@ TEST_CASE("With a limit at, below or above the time an answer is right or wrong,
     std::string text;
     for (const Answer& given :
          {truth, Answer::later(), Answer::never(), missed, Answer::inside({}), Answer::undecided()}) {
-      ToldAnswerer answerer([&](const compare::Place&, const Query&) { return given; });
-      const auto place = std::make_shared<compare::Place>(scene);
+      ToldAnswerer answerer([&](const question::Place&, const Query&) { return given; });
+      const auto place = std::make_shared<question::Place>(scene);
       const fuzz::Examined one = fuzz::Examiner(answerer, place, 4).examine(query, limit);
       text += std::string(fuzz::name_of(one.kind)).substr(0, 1);
       CHECK(same(one.given, given));
@@ -271,7 +271,7 @@ TEST_CASE("What an engine said of one scene it does not say of the next", "[fuzz
   REQUIRE(Reduction::beyond(beyond));
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
     INFO(engine);
-    const auto answerer = fuzz::answerer_maker(compare::engine_named(engine))();
+    const auto answerer = fuzz::answerer_maker(question::engine_named(engine))();
     const bool is_exact = std::string_view(engine).starts_with("certified");
     const std::string here = said(*answerer, unit_scene(2, 0.25), queries);
     CHECK(here.substr(0, 1) == "h");

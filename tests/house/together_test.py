@@ -69,7 +69,7 @@ def main():
     rows = sorted(build.glob("*/**/Unity/unity_*.cxx"))
     if (plan := build / "build.ninja").exists():  # an older configuration may have left some
         text = plan.read_text()
-        rows = [row for row in rows if str(row.relative_to(build)) in text]
+        rows = [row for row in rows if str(row.resolve()) in text]
     if not rows:
         sys.exit(f"{build}: no sources are compiled together there")
     found, many = [], 0

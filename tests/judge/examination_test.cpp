@@ -8,8 +8,8 @@
 #include <cmath>
 #include <thread>
 
-#include "compare/engines.hpp"
 #include "judge/repetition.hpp"
+#include "question/engines.hpp"
 #include "starts/free_starts.hpp"
 #include "tests/support/command_line.hpp"
 
@@ -41,7 +41,7 @@ Source questions(std::vector<int> dimensions, std::size_t number) {
 }
 
 // An engine of ours that answers exactly, and sets a flag at its `at`-th question.
-class Flagging final : public compare::Answerer {
+class Flagging final : public question::Answerer {
  public:
   Flagging(std::atomic<bool>& flag, long at) : flag_(flag), left_(at) {}
   void ask(const Id&, const Query& query) override {
@@ -61,7 +61,7 @@ class Flagging final : public compare::Answerer {
 TEST_CASE("A program is given up for a scene, not for the run, and the row says why",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination(compare::engine_named(tolerant("dies-in 3")), {}, 4, stop);
+  Examination examination(question::engine_named(tolerant("dies-in 3")), {}, 4, stop);
   examination.run({"plane", ""}, questions({2}, 20), kForEver);
   examination.run({"space", ""}, questions({3}, 20), kForEver);
   examination.run({"plane again", ""}, questions({2}, 20), kForEver);
@@ -90,7 +90,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
 
 TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination(compare::engine_named("cmd:exit 3"), {}, 4, stop);
+  Examination examination(question::engine_named("cmd:exit 3"), {}, 4, stop);
   examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
   examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
   examination.finish();
@@ -123,8 +123,8 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
 TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination whole(compare::engine_named("oracle"), {}, 4, stop),
-      none(compare::engine_named("oracle"), {}, 4, stop);
+  Examination whole(question::engine_named("oracle"), {}, 4, stop),
+      none(question::engine_named("oracle"), {}, 4, stop);
   whole.run({"row", ""}, questions({2}, 510), kForEver);
   long calls = 0;
   for (const auto& [decade, call] : whole.calls().by_decade())
@@ -132,7 +132,7 @@ TEST_CASE("Of each row the first 500 questions are compared, and a row without a
   CHECK(whole.rows()[0].tally.agree == 510);
   CHECK(calls == 500);
   none.run({"row", ""}, questions({2}, 0), kForEver);
-  Examination more(compare::engine_named("oracle"), {}, 4, stop);
+  Examination more(question::engine_named("oracle"), {}, 4, stop);
   more.run({"row", ""}, questions({2}, 0), kForEver);
   more.take_over(none);
   CHECK(more.rows()[0].tally.speed.ns_per_query == 0);
@@ -142,7 +142,7 @@ TEST_CASE("The first question to another program is at an empty place", "[judge]
   const Folder folder;
   const std::atomic<bool> stop = false;
   Examination examination(
-      compare::engine_named("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE), {}, 4,
+      question::engine_named("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE), {}, 4,
       stop);
   examination.warm_up();
   examination.finish();
@@ -151,8 +151,8 @@ TEST_CASE("The first question to another program is at an empty place", "[judge]
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
   std::atomic<bool> stop = false;
-  const compare::EngineInfo guest = compare::guest_engine(
-      "flagging", [&](const compare::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
+  const question::EngineInfo guest = question::guest_engine(
+      "flagging", [&](const question::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
   Examination examination(guest, {}, 4, stop);
   examination.run({"asked", ""}, questions({2}, 1000), kForEver);
   examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
@@ -163,9 +163,9 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
   CHECK_FALSE(examination.rows()[1].is_exhausted);
   // A program that never answers, and would be waited for for years.
   std::atomic<bool> over = false;
-  compare::AnswererOptions options;
+  question::AnswererOptions options;
   options.timeout = kForEver;
-  Examination silent(compare::engine_named(tolerant("hangs 1")), options, 4, over);
+  Examination silent(question::engine_named(tolerant("hangs 1")), options, 4, over);
   std::thread clock([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     over = true;
@@ -185,8 +185,8 @@ TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[ju
     recheck(
         finding,
         [&] {
-          return std::make_unique<Examination>(compare::engine_named(tolerant(fault)),
-                                               compare::AnswererOptions{}, 4, over);
+          return std::make_unique<Examination>(question::engine_named(tolerant(fault)),
+                                               question::AnswererOptions{}, 4, over);
         },
         kForEver);
     return finding.recheck;

@@ -11,10 +11,10 @@
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/target.hpp"
-#include "compare/engines.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
+#include "question/engines.hpp"
 #include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
@@ -36,7 +36,7 @@ struct Log {
 };
 
 // An engine of ours that is exact but for flights that a fault changes.
-class Faulty final : public compare::Answerer {
+class Faulty final : public question::Answerer {
  public:
   using Fault = std::function<void(const Scene&, const Query&, Answer&)>;
   explicit Faulty(Fault fault, Log* asked = nullptr) : fault_(std::move(fault)), asked_(asked) {}
@@ -66,9 +66,9 @@ class Faulty final : public compare::Answerer {
   std::optional<oracle::Oracle> oracle_;
 };
 
-compare::EngineInfo guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
-  return compare::guest_engine(
-      name, [=](const compare::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); });
+question::EngineInfo guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
+  return question::guest_engine(
+      name, [=](const question::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); });
 }
 
 // Leaves the disc it comes from at once in 2D, and sees nothing in 3D in the direction -x.
@@ -180,7 +180,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
   const auto examined = [&](const std::vector<std::uint64_t>& seeds) {
     std::unique_ptr<Examination> first;
     for (const std::uint64_t seed : seeds) {
-      auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
+      auto one = std::make_unique<Examination>(engine, question::AnswererOptions{}, 4, stop);
       one->run({"row", ""}, drawn_in({2, 3}, seed, 30), kForEver);
       if (first)
         first->take_over(*one);
@@ -206,7 +206,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
   const auto parts = examined(seeds), backwards = examined({3, 2, 1});
   for (const Examination* one : {parts.get(), backwards.get()}) {
     REQUIRE(one->rows().size() == 1);
-    const compare::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
+    const question::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
     CHECK(its.queries == 3 * 2 * 30);
     CHECK(its.agree == all.agree);
     CHECK(its.wrong == all.wrong);
@@ -223,7 +223,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
 namespace {
 
 // Exact, but for invalid questions: it answers these.
-class Gullible final : public compare::Answerer {
+class Gullible final : public question::Answerer {
  public:
   void ask(const Id&, const Query& query) override { deliver({oracle_->first_hit(query)}); }
   void ask_text(const Id&, const std::string&) override { deliver({Answer::never()}); }
@@ -257,13 +257,13 @@ std::string text_of(const fuzz::Scope& scope) {
 
 TEST_CASE("What another program failed in, and what was nonsense, is added up, too", "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  const auto examined = [&](const compare::EngineInfo& engine, const Source& source) {
-    auto one = std::make_unique<Examination>(engine, compare::AnswererOptions{}, 4, stop);
+  const auto examined = [&](const question::EngineInfo& engine, const Source& source) {
+    auto one = std::make_unique<Examination>(engine, question::AnswererOptions{}, 4, stop);
     one->run({"row", ""}, source, kForEver);
     one->finish();
     return one;
   };
-  const auto fragile = compare::engine_named("cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3");
+  const auto fragile = question::engine_named("cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3");
   const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
              also = examined(fragile, drawn_in({3}, 2, 20));
   CHECK_FALSE(fine->failed());
@@ -275,8 +275,8 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   CHECK(fine->rows()[0].scenes_given_up == 2);
   CHECK(fine->findings().size() == 1);
   CHECK(fine->findings()[0].count == fine->rows()[0].tally.missing);
-  const compare::EngineInfo gullible = compare::guest_engine(
-      "gullible", [](const compare::AnswererOptions&) { return std::make_unique<Gullible>(); });
+  const question::EngineInfo gullible = question::guest_engine(
+      "gullible", [](const question::AnswererOptions&) { return std::make_unique<Gullible>(); });
   const auto nonsense = [&](std::size_t number) {
     const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
     return examined(gullible, [=, left = number]() mutable -> std::optional<Question> {
@@ -398,7 +398,7 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
     answer = Answer::inside({0, 0, {7, 7, 0}});
   });
   const std::atomic<bool> stop = false;
-  const auto simplest_of = [&](const compare::EngineInfo& one, const Query& query) {
+  const auto simplest_of = [&](const question::EngineInfo& one, const Query& query) {
     Examination examination(one, {}, 4, stop);
     const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
     const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});

@@ -15,7 +15,7 @@ TEST_CASE("The simplest case is simpler, of the same cause, and no deeper than w
   // `published` may pass over a disc on its way from one: here over (1, 1), which the line enters by 0.018
   // radii.
   const std::atomic<bool> stop = false;
-  Examination examination(compare::engine_named("published"), {}, 4, stop);
+  Examination examination(question::engine_named("published"), {}, 4, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.5));
   const Query query{{-0.25, 0, 0}, {2, 0.7601234567, 0}, ObstacleId{0, 0, {0, 0, 0}}};
   const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});
@@ -38,7 +38,7 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
           "[judge][simplest]") {
   // In binary32 most times are off so far that they count as another quantity; few discs are passed over.
   const std::atomic<bool> stop = false;
-  Examination examination(compare::engine_named("published-float"), {}, 4, stop);
+  Examination examination(question::engine_named("published-float"), {}, 4, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.01));
   constexpr std::uint64_t kSeed = 20161115;
   std::map<Cause, Example> met;

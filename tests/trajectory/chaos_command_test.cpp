@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <lorentz/errors.hpp>
-#include "chaos/diffusion.hpp"
-#include "chaos/lyapunov.hpp"
+#include "statistics/chaos/diffusion.hpp"
+#include "statistics/chaos/lyapunov.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "chaos/estimate.hpp"
+#include "statistics/chaos/estimate.hpp"
 
 namespace lorentz::test {
 

@@ -1,5 +1,5 @@
 // Mean squared displacements, and what they say of diffusion.
-#include "chaos/diffusion.hpp"
+#include "statistics/chaos/diffusion.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include <lorentz/trajectory.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "chaos/groups.hpp"
-#include "chaos/theory.hpp"
-#include "flights/theory/laws.hpp"
 #include "starts/candidates.hpp"
+#include "statistics/chaos/groups.hpp"
+#include "statistics/chaos/theory.hpp"
+#include "statistics/theory/laws.hpp"
 #include "tests/trajectory/coverage_support.hpp"
 
 using namespace lorentz;

@@ -1,5 +1,5 @@
 // Lyapunov exponents, held against values that other programs measured.
-#include "chaos/lyapunov.hpp"
+#include "statistics/chaos/lyapunov.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/reduction.hpp>
-#include "chaos/tangents.hpp"
-#include "chaos/theory.hpp"
+#include "statistics/chaos/tangents.hpp"
+#include "statistics/chaos/theory.hpp"
 #include "tests/support/support.hpp"
 #include "tests/trajectory/coverage_support.hpp"
 

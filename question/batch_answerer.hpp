@@ -1,0 +1,52 @@
+// The batch engines as answerers: queries are gathered, and flown together.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <lorentz/certified_batch.hpp>
+#include "question/answerer.hpp"
+
+namespace lorentz::question {
+
+class BatchAnswerer : public Answerer {
+ public:
+  /// `certified`: the engine `certified-batch`, else `batch`.
+  BatchAnswerer(bool certified, const AnswererOptions& options);
+
+  void ask(const Id& id, const Query& query) final;
+  void ask_until(const Id& id, const Query& query, double max_time) final;
+  bool takes_limits() const final { return true; }
+  std::uint64_t batch_size() const final { return 100; }  // some vectors full, and some lanes of one more
+  void ask_text(const Id& id, const std::string& text) final;
+  void drain() final;
+  void finish() final { drain(); }
+  bool idle(int) final;
+
+ protected:
+  /// Flies all that was gathered.
+  virtual void fly();
+  /// What came of the query number i of these, if it is certain.
+  virtual Reply reply_to(std::size_t i) const;
+
+  const std::optional<Batch>& batch() const { return batch_; }
+  const QueryTable& queries() const { return queries_; }
+  Flight flight(std::size_t i) const { return flights_[i]; }
+  double limit(std::size_t i) const;
+
+ private:
+  void enter(const Scene& scene) final;
+  Reply single(const Query& query, double max_time) const;
+
+  const bool certified_;
+  const oracle::Request request_;
+  const int jobs_;
+  std::optional<std::string> why_not_;  ///< the scene is beyond the engine
+  std::optional<Batch> batch_;
+  std::optional<oracle::CertifiedBatch> certified_batch_;
+  QueryTable queries_;
+  FlightTable flights_;
+  std::vector<std::size_t> uncertain_;
+};
+
+}  // namespace lorentz::question

@@ -1,0 +1,217 @@
+#include "question/cells/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
+#include "question/examine.hpp"
+#include "question/race.hpp"
+#include "report/query_text.hpp"
+#include "starts/free_starts.hpp"
+
+namespace lorentz::question {
+
+std::string text_of(double number) {
+  std::string text;
+  append_number(text, number);
+  return text;
+}
+
+namespace {
+
+constexpr double kSecondsPerRound = 0.1;  // an engine that would take longer does fewer queries, or none
+constexpr std::size_t kPilot = 16;
+constexpr int kRounds = 5;
+
+std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
+  const auto place = std::make_shared<Place>(load_scene(group.scene, group.radius));
+  const starts::Kind kind = group.difficulty == "drawn"
+                                ? starts::Kind::uniform
+                                : starts::kind_named(group.difficulty, "--difficulty");
+  return question::questions_of(place, starts::free_starts(place->scene(), kind, plan.seed, plan.count));
+}
+
+// How many of the queries an engine does in the time of a round; by the first few, or the first two if these
+// take so long that there is no hope.
+std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, const EngineInfo& engine,
+                       bool& failed) {
+  RaceOptions options;
+  options.rounds = engine.is_command() ? 3 : 1;  // the first round of another program has its start in it
+  options.timeout = plan.timeout;
+  options.listener = plan.listener;
+  double count = 0;
+  for (const std::size_t pilot : {std::size_t{2}, kPilot}) {
+    options.counts = {pilot};
+    const Speed t = race(all, {engine}, options).front();
+    failed |= t.failed;
+    // A program that dies is not slow, however busy the machine is; one that is silent would be so each time.
+    if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4) return std::min(all.size(), kFewestQueries);
+    count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
+    if (count < kFewestQueries / 8.0) break;
+  }
+  return std::min(all.size(), static_cast<std::size_t>(count));
+}
+
+// What one ulp in each input makes of the time, in its ulps; 0 where there is none.
+double condition_of(const Question& question) {
+  const Answer& exact = question.exact;
+  return exact.outcome == Outcome::hit && exact.time
+             ? question.place->margins().condition(question.query, exact)
+             : 0;
+}
+
+// The mean length of the flights that hit: what a time is to be divided by for one a length, or a cell.
+double mean_path(std::span<const Question> questions) {
+  double sum = 0;
+  std::size_t hits = 0;
+  for (const Question& question : questions)
+    if (question.exact.outcome == Outcome::hit) sum += question.exact.time.value_or(0), ++hits;
+  return hits > 0 ? sum / static_cast<double>(hits) : 0;
+}
+
+// Of the answers of one engine what a tally does not keep.
+class Errors {
+ public:
+  void add(const Judged& judged) {
+    const oracle::Judgement& judgement = judged.judgement;
+    const double condition = judged.question.condition;
+    const double ulps = judgement.ulps.value_or(0);
+    if (judgement.ulps && condition > 0 && std::isfinite(ulps / condition))
+      in_conditions_.push_back(ulps / condition);
+    const int rank = judgement.verdict == oracle::Verdict::wrong       ? 3
+                     : judgement.verdict == oracle::Verdict::ill_posed ? 2
+                     : judgement.ulps                                  ? 1
+                                                                       : 0;
+    const double size = rank > 1 ? judgement.departs : ulps;
+    if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
+    rank_ = rank, size_ = size, question_ = judged.question;
+    worst_ = judgement;
+  }
+
+  const std::vector<double>& in_conditions() const { return in_conditions_; }
+
+  std::optional<report::Worst> worst(const BenchGroup& group, const std::string& engine) const {
+    if (rank_ == 0) return std::nullopt;
+    report::Worst worst;
+    worst.verdict = rank_ == 3          ? "wrong"
+                    : rank_ == 2        ? "ill-posed"
+                    : worst_.wrong_time ? "wrong-time"
+                                        : "agree";
+    worst.ulps = worst_.ulps;
+    worst.query = report::hexadecimal_query(question_.query, question_.place->scene().dimension);
+    worst.command =
+        fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine {}", worst.query,
+                    shell_quoted(group.scene), group.radius ? " --radius " + text_of(*group.radius) : "",
+                    shell_quoted(engine));
+    return worst;
+  }
+
+ private:
+  std::vector<double> in_conditions_;
+  int rank_ = 0;  // of the worst so far: 0 none, 1 right, 2 ill-posed, 3 wrong
+  double size_ = -1;
+  Question question_;
+  oracle::Judgement worst_;
+};
+
+report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::string& engine) {
+  report::Cell cell;
+  cell.scene = group.scene;
+  cell.radius = group.radius;
+  cell.dimension = scene.dimension;
+  cell.difficulty = group.difficulty;
+  cell.engine = engine;
+  return cell;
+}
+
+void fill(report::Cell& cell, const Tally& t) {
+  cell.queries = t.queries;
+  cell.undecided = report::share_of(t.undecided, t.queries);
+  cell.ill_posed = report::share_of(t.ill_posed, t.queries);
+  cell.wrong = report::share_of(t.wrong, t.queries);
+  cell.wrong_time = report::share_of(t.wrong_time, t.queries);
+  cell.unsupported = t.unsupported;
+  cell.error = t.error;
+  cell.missing = t.missing;
+  cell.ulps = report::histogram_of(t.ulps);
+  cell.skipped = cell.unsupported == cell.queries;  // how fast it refuses means nothing
+}
+
+// An engine over the questions, judged.
+void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& group,
+                  std::span<const Question> questions) {
+  Tally tally;
+  Errors errors;
+  examine(all_of(questions), answerer, oracle::kDefaultUlps, [&](const Judged& judged) {
+    tally.count(judged.judgement);
+    errors.add(judged);
+  });
+  fill(cell, tally);
+  cell.mean_path = mean_path(questions);
+  cell.conditions = report::histogram_of(errors.in_conditions());
+  cell.worst = errors.worst(group, cell.engine);
+}
+
+// The engines whose cells get times.
+class Racers {
+ public:
+  void add(const EngineInfo& engine, std::size_t cell, std::size_t count) {
+    engines_.push_back(engine), cells_.push_back(cell), options_.counts.push_back(count);
+  }
+
+  /// True if one broke.
+  bool race(const std::vector<Question>& questions, const BenchPlan& plan, std::vector<report::Cell>& cells) {
+    options_.rounds = kRounds;
+    options_.timeout = plan.timeout;
+    options_.listener = plan.listener;
+    const std::vector<Speed> speeds = question::race(questions, engines_, options_);
+    bool failed = false;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      const Speed& speed = speeds[i];
+      cells[cells_[i]].ns =
+          report::CellTimes{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
+      cells[cells_[i]].instructions = speed.instructions;
+      failed |= speed.failed;
+    }
+    return failed;
+  }
+
+ private:
+  std::vector<EngineInfo> engines_;
+  std::vector<std::size_t> cells_;
+  RaceOptions options_;
+};
+
+}  // namespace
+
+BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
+  BenchCells result;
+  std::vector<Question> questions = questions_of(plan, group);
+  const Scene scene = questions[0].place->scene();
+  std::vector<std::size_t> counts;
+  for (const EngineInfo& engine : plan.engines)
+    counts.push_back(affordable(plan, questions, engine, result.failed));
+  const std::size_t most = *std::max_element(counts.begin(), counts.end());
+  questions.resize(most < kFewestQueries ? 0 : most);
+  answer_exactly(questions, Truth::oracle, plan.listener);
+  for (Question& question : questions) question.condition = condition_of(question);
+  Racers racers;
+  for (std::size_t i = 0; i < plan.engines.size(); ++i) {
+    report::Cell& cell = result.cells.emplace_back(named_cell(group, scene, plan.engines[i].name));
+    if ((cell.skipped = counts[i] < kFewestQueries)) continue;
+    const auto answerer = plan.engines[i].answerer({{}, plan.timeout, plan.listener});
+    examine_into(cell, *answerer, group, std::span(questions).first(counts[i]));
+    if (!cell.skipped && !answerer->failed()) racers.add(plan.engines[i], i, counts[i]);
+    answerer->finish();
+    result.failed |= answerer->failed();
+  }
+  result.failed |= racers.race(questions, plan, result.cells);
+  return result;
+}
+
+}  // namespace lorentz::question

@@ -1,0 +1,119 @@
+#include "question/column_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lorentz::question {
+namespace {
+
+constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
+
+// That with which alone an engine of this kind decides; nothing is known of the others.
+std::uint8_t usual_stage(const Traits& traits) {
+  return traits.is_exact && !traits.uses_reduction ? AnswerRows::kExactStage : AnswerRows::kNoStage;
+}
+
+}  // namespace
+
+ColumnEngine::ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time,
+                           int jobs)
+    : scene_(scene),
+      traits_(engine.traits),
+      max_time_(max_time),
+      jobs_(jobs),
+      single_(engine.first_hit(scene)) {
+  if (!traits_.in_bulk || Reduction::beyond(scene)) return;
+  if (traits_.is_exact)
+    certified_batch_.emplace(scene);
+  else
+    batch_.emplace(scene);
+}
+
+void ColumnEngine::set_limits(const QueryRows& queries) {
+  limits_ = queries.max_time;
+  if (!max_time_) return;
+  limits_.resize(queries.count, kNoTimeLimit);
+  for (double& limit : limits_) limit = limit > *max_time_ ? *max_time_ : limit;
+}
+
+double ColumnEngine::limit(std::size_t i) const {
+  return limits_.empty() ? kNoTimeLimit : limits_[i];
+}
+
+void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
+  QueryColumns asked;
+  asked.count = queries.count;
+  FlightColumns told;
+  stages_.resize(std::max(stages_.size(), queries.count));
+  told.outcome = answers.outcome.data() + first, told.stage = stages_.data();
+  told.time_is_rounded = answers.time_is_rounded.get() + first;
+  told.lattice = answers.lattice.data() + first, told.atom = answers.atom.data() + first;
+  told.time = answers.time.data() + first;
+  for (int k = 0; k < scene_.dimension; ++k) {
+    asked.x[k] = queries.x[k].data(), asked.v[k] = queries.v[k].data();
+    if (!queries.from_lattice.empty()) asked.from_cell[k] = queries.from_cell[k].data();
+    told.cell[k] = answers.cell[k] + first;
+  }
+  if (!limits_.empty()) asked.max_time = limits_.data();
+  if (!queries.from_lattice.empty())
+    asked.from_lattice = queries.from_lattice.data(), asked.from_atom = queries.from_atom.data();
+  if (batch_) batch_->fly(asked, told, Batch::Time::close, jobs_);
+  if (certified_batch_) certified_batch_->first_hits(asked, told, uncertain_, jobs_);
+  std::transform(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(queries.count),
+                 answers.stage.begin() + static_cast<std::ptrdiff_t>(first),
+                 [](Stage stage) { return static_cast<std::uint8_t>(stage); });
+}
+
+// What a flight leaves open: columns that mean nothing with its outcome.
+void ColumnEngine::finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers) {
+  const std::size_t row = first + i;
+  const Outcome outcome = answers.outcome[row];
+  if (outcome == Outcome::hit) return;
+  if (outcome == Outcome::error) return ask(first, queries, i, AnswerRows::kNoStage, answers);
+  if (outcome != Outcome::inside) return answers.set_plain(row, outcome);
+  answers.time[row] = std::numeric_limits<double>::quiet_NaN(), answers.time_is_rounded[row] = false;
+}
+
+void ColumnEngine::ask(std::size_t first, const QueryRows& queries, std::size_t i, std::uint8_t stage,
+                       AnswerRows& answers) {
+  oracle::Request request;
+  if (std::isfinite(limit(i))) request.max_time = limit(i);
+  single_(queries.query(i, scene_.dimension), request, answer_);
+  answers.set(first + i, answer_, stage, traits_.is_exact);
+}
+
+void ColumnEngine::answer(const QueryRows& queries, AnswerRows& answers) {
+  answers.resize(queries.count, scene_.dimension);
+  answer_from(0, queries, answers);
+}
+
+void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
+  set_limits(queries);
+  uncertain_.clear();
+  const bool together = batch_ || certified_batch_;
+  if (together) fly(first, queries, answers);
+  // Of nearly all rows a flight wrote all there is to say.
+  const bool is_plain = together && limits_.empty() && uncertain_.empty() && queries.flaws.empty() &&
+                        queries.large_from.empty();
+  std::size_t uncertain = 0, flaw = 0, large = 0;
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    if (is_plain && answers.outcome[first + i] == Outcome::hit) continue;
+    const bool asked = uncertain < uncertain_.size() && uncertain_[uncertain] == i;
+    uncertain += asked;
+    const bool from_afar = large < queries.large_from.size() && queries.large_from[large].first == i;
+    large += from_afar;
+    if (flaw < queries.flaws.size() && queries.flaws[flaw].row == i)
+      answers.set_error(first + i, queries.flaws[flaw++].message, false);
+    else if (!(limit(i) > 0))
+      answers.set_error(first + i, "max_time must be above zero", false);
+    else if (asked)
+      ask(first, queries, i, AnswerRows::kExactStage, answers);
+    else if (together && !from_afar)
+      finish(first, queries, i, answers);
+    else
+      ask(first, queries, i, usual_stage(traits_), answers);
+  }
+}
+
+}  // namespace lorentz::question

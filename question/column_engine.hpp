@@ -1,0 +1,48 @@
+// An engine of this program, asked by columns: the batch engines fly them together, the others row by row.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lorentz/certified_batch.hpp>
+#include "question/engines.hpp"
+#include "src/exchange/columns.hpp"
+
+namespace lorentz::question {
+
+class ColumnEngine {
+ public:
+  /// `engine` must be one of this program's. `max_time` is an upper bound for the limits of all rows. `jobs`:
+  /// threads, of the batch engines.
+  ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time, int jobs);
+
+  /// The same answers as of its answerer; rows with a flaw are errors.
+  void answer(const QueryRows& queries, AnswerRows& answers);
+
+  /// The same into the rows from `first` on, which must be there: of answers that are filled part by part.
+  void answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers);
+
+ private:
+  void set_limits(const QueryRows& queries);
+  double limit(std::size_t i) const;
+  void fly(std::size_t first, const QueryRows& queries, AnswerRows& answers);
+  void finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers);
+  void ask(std::size_t first, const QueryRows& queries, std::size_t i, std::uint8_t stage,
+           AnswerRows& answers);
+
+  const Scene scene_;
+  const Traits traits_;
+  const std::optional<double> max_time_;
+  const int jobs_;
+  std::optional<Batch> batch_;  // at most one of these
+  std::optional<oracle::CertifiedBatch> certified_batch_;
+  const FirstHit single_;
+
+  std::vector<double> limits_;  // empty: no row has one
+  std::vector<Stage> stages_;
+  std::vector<std::size_t> uncertain_;
+  Answer answer_;
+};
+
+}  // namespace lorentz::question

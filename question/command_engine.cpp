@@ -1,0 +1,494 @@
+#include "question/command_engine.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "question/engines.hpp"
+#include "src/exchange/json_writer.hpp"
+#include "src/problem/safe_text.hpp"
+
+namespace lorentz::question {
+namespace {
+
+constexpr std::size_t kWrittenAtOnce = std::size_t{1}
+                                       << 16;      // queries are written out in pieces of this size
+constexpr std::size_t kAskedBetweenSteps = 256;    // a step costs some microseconds
+constexpr double kPatience = 0.5;                  // seconds
+constexpr double kBetweenLooks = 0.1;              // seconds: whether it is enough
+constexpr std::chrono::milliseconds kGrace{1000};  // to end in, once it is told to or has closed its output
+constexpr std::size_t kMaxComplaints = 20, kRecent = 64;
+constexpr std::size_t kMaxShown = 2000;  // bytes of a scene line in a message
+
+}  // namespace
+
+// One life of the program.
+struct CommandEngine::Run {
+  explicit Run(const std::string& command) : process(command) {}
+
+  Process process;
+  LineBuffer lines;
+  std::string to_write;
+  std::size_t given = 0;        // queries, in all
+  std::size_t outstanding = 0;  // given and without an answer: so many from the front of open_
+  std::size_t answers = 0, answers_before_end = 0;
+  std::shared_ptr<const Scene> scene;
+  std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
+  bool greeting = false;  // it has one query only, to see whether it answers that with more to come
+  bool ending = false;    // gets no more, and its input is closed as soon as all is written
+  bool told_for_silence = false, stopped_reading = false, at_end = false;
+  std::string instead;             // what it wrote where the first outstanding answer should have been
+  std::optional<Answer> nameless;  // an error with id null, of the scene or of its first query
+  Clock::time_point started = Clock::now();
+  std::optional<Clock::time_point> first_answer;
+  Clock::time_point last_answer = started;  // or the time at which something became outstanding
+  Clock::time_point last_move = started;    // an answer, or something written
+};
+
+CommandEngine::CommandEngine(std::string command, const AnswererOptions& options)
+    : command_(std::move(command)),
+      options_(options),
+      patience_(std::min(kPatience, options.timeout / 4)),
+      first_patience_(patience_) {
+  reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
+}
+
+void CommandEngine::enter(const Scene& scene) {
+  scene_ = std::make_shared<const Scene>(scene);
+}
+
+void CommandEngine::ask(const Id& id, const Query& query) {
+  add({id, query, scene_});
+}
+
+void CommandEngine::ask_text(const Id& id, const std::string& question) {
+  add({id, {}, scene_, question});
+}
+
+void CommandEngine::append_line(std::string& out, const Id& id, const OpenQuery& asked) {
+  if (asked.text.empty())
+    append_query_line(out, id, asked.query, asked.scene->dimension);
+  else
+    out += json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
+}
+
+void CommandEngine::add(OpenQuery asked) {
+  open_.push_back(std::move(asked));
+  if (given_up_in_) give_up();
+  if (open_.empty()) return;
+  const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
+  if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
+  while (open_.size() >= kWindow) step(Wait::yes);
+}
+
+void CommandEngine::drain() {
+  while (!open_.empty()) step(Wait::for_all);
+}
+
+void CommandEngine::finish() {
+  while (run_ || !open_.empty()) step(Wait::for_good);
+  if (complaints_ > kMaxComplaints) tell(fmt::format("{} more failures", complaints_ - kMaxComplaints));
+}
+
+bool CommandEngine::idle(int descriptor) {
+  if (open_.empty()) return false;
+  step(Wait::yes, descriptor);
+  pollfd input{descriptor, POLLIN, 0};
+  return ::poll(&input, 1, 0) == 0;
+}
+
+// ---- one step
+
+void CommandEngine::step(Wait wait, int other_descriptor) {
+  // It may have ended of itself meanwhile; then the next query is not to blame.
+  if (run_ && run_->outstanding == 0 && run_->given > 0) read();
+  if (!run_ && open_.empty()) return;
+  if (is_enough()) return abandon();
+  if (!run_) start();
+  const std::shared_ptr<Run> run = run_;  // what follows may end it
+  encode();
+  if (wait == Wait::for_good && run->outstanding == open_.size()) run->ending = true;
+  wait_for_pipes(wait, other_descriptor);
+  write();
+  read();
+  if (run_ == run) look_at_clock(wait);
+}
+
+void CommandEngine::start() {
+  run_ = std::make_shared<Run>(command_);
+  run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
+}
+
+// A program that owes nothing may end by itself. That one is too slow for the time there is, is no fault of
+// it, unless it never gave any answer.
+void CommandEngine::abandon() {
+  const bool owes = run_ && run_->outstanding > 0;
+  if (owes && !ever_answered_)
+    complain(fmt::format("gave no answer in {:.3g} s, which was all the time there is",
+                         Seconds(Clock::now() - run_->started).count()),
+             &open_.front());
+  if (run_) run_->process.end(owes ? kGrace * 0 : kGrace);
+  run_.reset();
+  first_number_ += open_.size();
+  open_.clear();
+}
+
+// Puts queries into words, as many as may be given and a piece of text holds.
+void CommandEngine::encode() {
+  Run& run = *run_;
+  const std::size_t most = run.greeting ? 1 : limit_;
+  while (!run.ending && run.outstanding < open_.size() && run.given < most &&
+         run.to_write.size() < kWrittenAtOnce) {
+    const OpenQuery& asked = open_[run.outstanding];
+    if (run.scene != asked.scene) {
+      append_scene_line(run.to_write, *asked.scene);
+      run.scene = asked.scene;
+      run.first_of_scene = first_number_ + run.outstanding;
+    }
+    append_line(run.to_write, std::to_string(first_number_ + run.outstanding), asked);
+    if (run.outstanding == 0) run.last_answer = Clock::now();
+    ++run.outstanding;
+    ++run.given;
+  }
+  if (run.given == limit_) run.ending = true;
+}
+
+void CommandEngine::wait_for_pipes(Wait wait, int other_descriptor) {
+  Run& run = *run_;
+  if (run.ending && run.to_write.empty()) run.process.close_input();
+  pollfd pipes[3] = {{run.process.output(), POLLIN, 0},
+                     {run.to_write.empty() ? -1 : run.process.input(), POLLOUT, 0},
+                     {other_descriptor, POLLIN, 0}};
+  double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
+  if (options_.enough) seconds = std::min(seconds, kBetweenLooks);
+  ::poll(pipes, 3, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
+}
+
+void CommandEngine::write() {
+  Run& run = *run_;
+  if (run.to_write.empty()) return;
+  const auto count = run.process.write(run.to_write);
+  if (!count) {  // it closed its input; what it has read already it may still answer
+    run.stopped_reading = run.ending = true;
+    run.to_write.clear();
+  } else if (*count > 0) {
+    run.to_write.erase(0, *count);
+    run.last_move = Clock::now();
+  }
+}
+
+void CommandEngine::read() {
+  const std::shared_ptr<Run> run = run_;
+  const LineBuffer::Read result = run->lines.read_from(run->process.output());
+  run->at_end = result == LineBuffer::Read::end;
+  if (result == LineBuffer::Read::nothing) return;
+  for (LineReader::Line line; run->lines.next(line);) take_line(line);
+  if (run->at_end) run_is_over();
+}
+
+// ---- the clock
+
+// How long a program may be silent before it is told the end, in case it waits for that.
+CommandEngine::Seconds CommandEngine::patience(Wait wait) const {
+  const bool at_once = manner_ == Manner::at_end || (manner_ == Manner::in_blocks && wait == Wait::for_all);
+  if (at_once) return Seconds(0);
+  return run_->greeting ? first_patience_ : patience_;
+}
+
+// How long it may be silent before it has failed.
+CommandEngine::Seconds CommandEngine::timeout() const {
+  const Seconds ordinary(options_.timeout), first(options_.start_timeout);
+  if (run_->first_answer || first <= ordinary) return ordinary;
+  return ever_answered_ ? std::min(first, ordinary + 2 * slowest_start_) : first;
+}
+
+CommandEngine::Seconds CommandEngine::until_next_look(Wait wait) const {
+  const Run& run = *run_;
+  const auto left = [](Seconds all, Clock::time_point since) -> Seconds {
+    return all - (Clock::now() - since);
+  };
+  if (run.outstanding == 0) return run.ending ? left(kGrace, run.last_move) : timeout();
+  const Seconds until_timeout = left(timeout(), run.last_answer);
+  const bool only_timeout = manner_ == Manner::line_by_line || run.ending || !run.to_write.empty();
+  if (only_timeout && !run.nameless) return until_timeout;
+  return std::min(until_timeout, left(run.nameless ? patience_ : patience(wait), run.last_move));
+}
+
+void CommandEngine::look_at_clock(Wait wait) {
+  Run& run = *run_;
+  const auto now = Clock::now();
+  const auto silent_for = [&](Seconds time) { return now - run.last_move >= time; };
+  if (run.outstanding == 0) {
+    if (run.ending && silent_for(kGrace)) run_is_over();
+    return;
+  }
+  if (run.nameless && silent_for(patience_)) return settle_nameless();
+  if (now - run.last_answer >= timeout())
+    return run_failed(fmt::format("{}gave no answer within {:.4g} s",
+                                  run.stopped_reading ? "closed its input and " : "", timeout().count()));
+  if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
+  // Queries that come drop by drop do not keep it from being told.
+  const bool long_since = now - run.last_answer >= timeout() / 2;
+  if (!silent_for(patience(wait)) && !long_since) return;
+  const bool more_to_give = run.outstanding < open_.size();
+  if (run.greeting) run.last_move = now;
+  if (!run.greeting || !more_to_give) run.ending = run.told_for_silence = !more_to_give;
+  run.greeting = false;
+}
+
+// ---- what it wrote
+
+namespace {
+
+std::string shown(std::string_view text) {
+  // As it is: where the message becomes part of an answer its quotes are escaped, once.
+  constexpr std::size_t kShown = 120;
+  return printable(shortened(text, kShown));
+}
+
+// The number that the id is, or 0: of a text, with its quotes, of what is negative, and of what is too large.
+std::uint64_t number_of(const Id& id) {
+  std::uint64_t number = 0;
+  std::from_chars(id.data(), id.data() + id.size(), number);
+  return number;
+}
+
+}  // namespace
+
+// Told once a key, or the end of the line that has it.
+void CommandEngine::see_unknown_key(const std::string& key) {
+  constexpr std::size_t kMostKeys = 20;
+  if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
+  if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
+    tell(fmt::format("writes the key {}, which no answer has; it is ignored (--strict: an error)",
+                     json_quoted(key)));
+}
+
+void CommandEngine::take_line(const LineReader::Line& line) {
+  Id id;
+  Answer answer;
+  std::size_t components = 0;
+  try {
+    if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
+  } catch (const InputError& error) {
+    const std::string what = line.too_long ? "wrote a line that is too long for an answer"
+                                           : fmt::format("wrote a line that is no answer, {} ({})",
+                                                         shown(line.text), error.what());
+    if (run_->outstanding > 0 && number_of(id) == first_number_)
+      answer_first_with_error(what);
+    else
+      take_no_answer(what);
+  }
+}
+
+// Something that is no answer to anything. Whether it stands in the place of one, the next answer shows.
+void CommandEngine::take_no_answer(const std::string& what) {
+  run_->instead = what;
+  complain(what, run_->outstanding > 0 ? &open_.front() : nullptr);
+}
+
+void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t components) {
+  Run& run = *run_;
+  if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0) return take_nameless(answer);
+  const std::uint64_t number = number_of(id);
+  if (number == 0 || number >= first_number_ + run.outstanding)
+    return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
+  if (number < first_number_) return take_unasked(number);
+  if (run.nameless && number > first_number_) settle_nameless();
+  while (number > first_number_) pass_over();
+  if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
+  run.nameless.reset();
+  const std::string flaw = flaw_of_answer(answer, components);
+  if (flaw.empty())
+    answer_first(answer);
+  else
+    answer_first_with_error(flaw);
+}
+
+// An error without an id is for the first query that waits; but after a scene line it may be for that.
+void CommandEngine::take_nameless(Answer& answer) {
+  if (run_->nameless) settle_nameless();
+  if (first_number_ == run_->first_of_scene)
+    run_->nameless = std::move(answer);
+  else
+    answer_first(answer);
+}
+
+void CommandEngine::settle_nameless() {
+  Answer answer = std::move(*run_->nameless);
+  run_->nameless.reset();
+  answer_first(answer);
+}
+
+// An answer to a query that is done.
+void CommandEngine::take_unasked(std::uint64_t number) {
+  const std::uint64_t back = first_number_ - number;
+  const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
+  const bool late = asked && asked->passed_over;
+  run_->instead = late ? "answered an earlier query, too late" : "answered an earlier query again";
+  complain(late ? "answered this query after a later one" : "answered this query again", asked);
+}
+
+// The first query gets no answer: one to a later query came.
+void CommandEngine::pass_over() {
+  Run& run = *run_;
+  std::string what = "gave no answer to this query before that to a later one";
+  if (!run.instead.empty()) what += "; before that it " + run.instead;
+  run.instead.clear();
+  complain(what, &open_.front());
+  open_.front().passed_over = true;
+  --run.outstanding;
+  Answer answer = Answer::error("cmd " + what);
+  deliver_first(answer, Origin::fault);
+}
+
+std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
+  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return {};
+  const Scene& scene = *open_.front().scene;
+  if (components != static_cast<std::size_t>(scene.dimension))
+    return fmt::format("gave a cell of {} components in a scene of dimension {}", components,
+                       scene.dimension);
+  if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
+    return "gave a hit without its time, which --max-time needs";
+  return {};
+}
+
+void CommandEngine::answer_first(Answer& answer, Origin origin) {
+  Run& run = *run_;
+  --run.outstanding;
+  ++run.answers;
+  if (!run.ending) ++run.answers_before_end;
+  run.last_answer = run.last_move = Clock::now();
+  if (!run.first_answer) {
+    run.first_answer = run.last_answer;
+    slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
+  }
+  run.instead.clear();
+  failures_in_row_ = 0;
+  ever_answered_ = true;
+  if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
+  if (manner_ == Manner::line_by_line) run.greeting = false;
+  if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
+  if (options_.request.detail) add_detail(open_.front().query, *open_.front().scene, answer);
+  deliver_first(answer, origin);
+}
+
+void CommandEngine::answer_first_with_error(const std::string& what) {
+  complain(what, &open_.front());
+  Answer answer = Answer::error("cmd " + what);
+  answer_first(answer, Origin::fault);
+}
+
+void CommandEngine::deliver_first(Answer& answer, Origin origin) {
+  recent_.push_back(std::move(open_.front()));
+  if (recent_.size() > kRecent) recent_.pop_front();
+  open_.pop_front();
+  ++first_number_;
+  deliver({std::move(answer), origin});
+}
+
+// ---- its end
+
+// Its output has ended, or it was told to end long ago.
+void CommandEngine::run_is_over() {
+  const std::shared_ptr<Run> run = run_;
+  if (run->nameless) settle_nameless();
+  const Ending ending = run->process.end(run->at_end ? kGrace : kGrace * 0);
+  if (run->outstanding > 0) {
+    if (ending.how == Ending::How::still_ran)
+      return run_failed("closed its output before this query's answer");
+    if (ending.is_good()) return run_failed("ended (exit 0) without an answer to this query");
+    return run_failed(fmt::format("died ({}) on this query", ending.text()));
+  }
+  if (!run->ending)
+    complain(fmt::format("ended ({}) before it was told to", ending.text()), nullptr);
+  else if (ending.how == Ending::How::still_ran)
+    tell("did not end when its input did, and was killed");
+  else if (!ending.is_good())
+    tell(fmt::format("ended with {} after its last answer", ending.text()));
+  learn_from_run();
+  run_.reset();
+}
+
+// It answered everything. What does that say about the next run?
+void CommandEngine::learn_from_run() {
+  const Run& run = *run_;
+  if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
+  if (!run.told_for_silence || manner_ != Manner::unknown || !run.first_answer) return;
+  // Perhaps it only takes its time to begin. It gets that time once; then its silence means something.
+  const double longest = std::max(options_.timeout, options_.start_timeout);
+  first_patience_ = std::max(first_patience_,
+                             std::min(1.5 * Seconds(*run.first_answer - run.started), Seconds(longest / 2)));
+  if (++silent_runs_ < 2) return;
+  manner_ = run.answers_before_end > 0 ? Manner::in_blocks : Manner::at_end;
+}
+
+// It died or fell silent with queries outstanding.
+void CommandEngine::run_failed(const std::string& what) {
+  const std::shared_ptr<Run> run = std::move(run_);
+  run->process.end(kGrace * 0);
+  const std::size_t unanswered = run->outstanding;
+  if (manner_ != Manner::line_by_line && unanswered > 1) {
+    limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
+    return complain(fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time",
+                                what, unanswered - 1),
+                    &open_.front());
+  }
+  const std::string all = run->instead.empty() ? what : what + "; before that it " + run->instead;
+  complain(all, &open_.front());
+  open_.front().passed_over = true;
+  Answer answer = Answer::error("cmd " + all);
+  deliver_first(answer, Origin::fault);
+  if (limit_ != kNoLimit) limit_ = 1;
+  if (++failures_in_row_ < kMaxFailuresInRow) return;
+  tell(fmt::format("is given up after {} failures in a row without an answer", kMaxFailuresInRow));
+  given_up_in_ = recent_.back().scene;
+  give_up();
+}
+
+// The rest goes unasked, up to the next scene: what it failed on may have been this one. That is one more
+// start, if it was ever any good.
+void CommandEngine::give_up() {
+  while (!open_.empty()) {
+    if (open_.front().scene != given_up_in_ && ever_answered_) {
+      given_up_in_.reset();
+      failures_in_row_ = kMaxFailuresInRow - 1;
+      return;
+    }
+    Answer answer = Answer::error(fmt::format(
+        "cmd was given up after {} failures in a row; this query was not asked", kMaxFailuresInRow));
+    deliver_first(answer, Origin::not_asked);
+  }
+}
+
+void CommandEngine::try_again() {
+  if (!given_up() || is_hopeless()) return;
+  given_up_in_.reset();
+  failures_in_row_ = 0;
+}
+
+void CommandEngine::tell(const std::string& what) const {
+  if (options_.listener.message) options_.listener.message("cmd:" + command_ + ": " + what);
+}
+
+// Says what went wrong, with a stream that shows it again.
+void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
+  failed_ = true;
+  if (++complaints_ > kMaxComplaints) return;
+  std::string stream;
+  if (asked) {
+    if (complained_scene_ != asked->scene) append_scene_line(stream, *asked->scene);
+    if (stream.size() > kMaxShown) stream = shortened(stream, kMaxShown) + '\n';
+    complained_scene_ = asked->scene;
+    append_line(stream, asked->id, *asked);
+    stream.pop_back();
+  }
+  tell(fmt::format("{}{}{}", what, asked ? ":\n" : "", stream));
+}
+
+}  // namespace lorentz::question

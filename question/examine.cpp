@@ -1,0 +1,165 @@
+#include "question/examine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <future>
+#include <limits>
+#include <mutex>
+
+#include "src/problem/same_answer.hpp"
+
+namespace lorentz::question {
+namespace {
+
+using oracle::Judgement;
+using oracle::Verdict;
+
+Judgement judgement_of_invalid(const Answer& given) {
+  if (given.outcome == Outcome::undecided) return {Verdict::undecided};
+  if (given.outcome == Outcome::error) return {given.unsupported ? Verdict::unsupported : Verdict::agree};
+  return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
+}
+
+}  // namespace
+
+bool is_later(const Question& question) {
+  const Answer& exact = question.exact;
+  if (exact.outcome != Outcome::hit) return exact.outcome == Outcome::never;
+  // The exact time lies between the neighbours of the rounded one.
+  if (*exact.time != question.max_time) return question.max_time < *exact.time;
+  oracle::Request request;
+  request.max_time = question.max_time;
+  return question.place->exact(question.query, request).outcome == Outcome::later;
+}
+
+Judgement judgement_of(const Question& question, const Answer& given, double ulps) {
+  if (!question.is_query()) return judgement_of_invalid(given);
+  if (question.has_limit()) {
+    const bool says_later = given.outcome == Outcome::later || given.outcome == Outcome::never;
+    const bool says_something = given.outcome == Outcome::hit || given.outcome == Outcome::inside;
+    if (says_later || (says_something && is_later(question)))
+      return {says_later && is_later(question) ? Verdict::agree : Verdict::wrong};
+  }
+  // Answers that are the same need no judge, which many scenes therefore never get.
+  const Answer& exact = question.exact;
+  if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && same_answer(given, exact))
+    return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};
+  return question.place->judge().judge(question.query, exact, given, ulps);
+}
+
+bool departs(const Judgement& judgement) {
+  return judgement.wrong_time || judgement.verdict == Verdict::wrong ||
+         judgement.verdict == Verdict::ill_posed;
+}
+
+void ask_all(const Source& source, Answerer& answerer,
+             const std::function<void(const Question&, Reply&)>& take) {
+  std::deque<Question> open;
+  answerer.on_reply([&](Reply& reply) {
+    const Question question = std::move(open.front());
+    open.pop_front();
+    take(question, reply);
+  });
+  std::shared_ptr<Place> place;
+  while (std::optional<Question> next = source()) {
+    if (next->place != place && !answerer.is_in(next->place->scene()))
+      answerer.set_scene(next->place->scene());
+    place = next->place;
+    open.push_back(std::move(*next));
+    const Question& asked = open.back();
+    const Id id = asked.id;  // its reply may come at once, and take it away
+    if (!asked.is_query())
+      answerer.ask_text(id, std::string(asked.text));
+    else if (asked.has_limit())
+      answerer.ask_until(id, Query(asked.query), asked.max_time);
+    else
+      answerer.ask(id, Query(asked.query));
+  }
+  answerer.drain();
+  answerer.on_reply([](Reply&) {});
+}
+
+void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink) {
+  ask_all(source, answerer, [&](const Question& question, const Reply& reply) {
+    sink({question, reply, reply.was_asked() ? judgement_of(question, reply.answer, ulps) : Judgement()});
+  });
+}
+
+namespace {
+
+// Cuts [0, count) into one stretch per job and calls act(job, begin, end) for each in a thread of its own.
+template <class Act>
+void in_stretches(std::size_t count, std::size_t jobs, const Act& act) {
+  const auto bound = [&](std::size_t job) { return job * count / jobs; };
+  std::vector<std::future<void>> others;
+  for (std::size_t job = 1; job < jobs; ++job)
+    others.push_back(std::async(std::launch::async, [&, job] { act(job, bound(job), bound(job + 1)); }));
+  act(0, bound(0), bound(1));
+  for (std::future<void>& other : others) other.get();
+}
+
+}  // namespace
+
+void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
+             double ulps, const Sink& sink) {
+  if (answerers.size() == 1) return examine(all_of(questions), *answerers[0], ulps, sink);
+  for (const Question& question : questions)
+    question.place->judge();  // made here, for threads may only read it
+  struct Came {
+    Reply reply;
+    Judgement judgement;
+  };
+  std::vector<Came> came(questions.size());
+  in_stretches(questions.size(), answerers.size(), [&](std::size_t job, std::size_t begin, std::size_t end) {
+    std::size_t next = begin;
+    examine(all_of(questions.subspan(begin, end - begin)), *answerers[job], ulps, [&](const Judged& judged) {
+      came[next++] = {judged.reply, judged.judgement};
+    });
+  });
+  for (std::size_t i = 0; i < questions.size(); ++i) sink({questions[i], came[i].reply, came[i].judgement});
+}
+
+namespace {
+
+constexpr const char* kExactAnswers = "exact answers";
+
+// In the order of places, so that each batch engine is prepared once.
+void answer_by_certified(std::span<Question> questions, const Listener& listener, int jobs) {
+  std::vector<Question*> order;
+  for (Question& question : questions) order.push_back(&question);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Question* a, const Question* b) { return a->place < b->place; });
+  std::size_t told = 0;
+  AnswererOptions options;
+  options.jobs = jobs;
+  const auto certified = engine_named("certified-batch").answerer(options);
+  certified->on_reply([&](Reply& reply) {
+    order[told++]->exact = std::move(reply.answer);
+    report(listener, kExactAnswers, told, order.size());
+  });
+  for (const Question* question : order) {
+    certified->set_scene(question->place->scene());
+    certified->ask(question->id, question->query);
+  }
+  certified->finish();
+}
+
+}  // namespace
+
+void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener, int jobs) {
+  if (truth == Truth::certified) return answer_by_certified(questions, listener, jobs);
+  for (const Question& question : questions) question.place->oracle();  // made here, too
+  std::mutex mutex;
+  std::size_t done = 0;
+  in_stretches(questions.size(), static_cast<std::size_t>(jobs),
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (Question& question : questions.subspan(begin, end - begin)) {
+                   question.exact = question.place->oracle().first_hit(question.query);
+                   const std::lock_guard lock(mutex);
+                   report(listener, kExactAnswers, ++done, questions.size());
+                 }
+               });
+}
+
+}  // namespace lorentz::question

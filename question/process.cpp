@@ -1,0 +1,252 @@
+#include "question/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+
+#include <lorentz/errors.hpp>
+
+extern char** environ;
+
+namespace lorentz::question {
+
+LineBuffer::Read LineBuffer::read_from(int descriptor) {
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  buffer_.resize(std::max(buffer_.size(), end_ + kPiece + LineReader::kPadding));
+  const ssize_t count = read(descriptor, buffer_.data() + end_, kPiece);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return Read::nothing;
+  at_end_ = count <= 0;
+  if (at_end_) return Read::end;
+  end_ += static_cast<std::size_t>(count);
+  return Read::some;
+}
+
+bool LineBuffer::next(LineReader::Line& line) {
+  for (;;) {
+    const char* start = buffer_.data() + begin_;
+    const std::size_t unread = end_ - begin_;
+    const void* newline =
+        unread > searched_ ? std::memchr(start + searched_, '\n', unread - searched_) : nullptr;
+    if (!newline && unread > kMaxLine) {
+      skipping_ = true;
+      begin_ = end_;
+      searched_ = 0;
+      return false;
+    }
+    searched_ = newline ? 0 : unread;
+    if (!newline && !(at_end_ && (unread > 0 || skipping_))) return false;
+    const std::size_t length = newline ? static_cast<const char*>(newline) - start : unread;
+    begin_ += length + (newline ? 1 : 0);
+    line = {std::string_view(start, skipping_ ? 0 : length), ++number_, skipping_};
+    skipping_ = false;
+    searched_ = 0;
+    return true;
+  }
+}
+
+std::string Ending::text() const {
+  switch (how) {
+    case How::exited:
+      // What the shell makes of its command's end.
+      if (code == 127) return "exit 127, no such command";
+      if (code > 128 && code <= 128 + SIGRTMAX)
+        return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
+      return fmt::format("exit {}", code);
+    case How::signalled:
+      return fmt::format("signal {}, {}", code, strsignal(code));
+    case How::still_ran:
+      break;
+  }
+  return "still running";
+}
+
+namespace {
+
+// The groups that live now, for the signal handler.
+std::array<std::atomic<pid_t>, 64> live_groups;
+
+void replace_group(pid_t old_group, pid_t new_group) {
+  for (auto& slot : live_groups) {
+    pid_t expected = old_group;
+    if (slot.compare_exchange_strong(expected, new_group)) return;
+  }
+}
+
+}  // namespace
+
+void kill_programs() {
+  for (const auto& slot : live_groups)
+    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
+}
+
+namespace {
+
+// A program in a group of its own does not get the terminal's Ctrl-C, so it is passed on, and then does here
+// what it would have done.
+// What these signals did before: their default, or a handler that ends the program, too.
+constexpr std::array kEndings{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+std::array<struct sigaction, kEndings.size()> former;
+
+void kill_groups_and_die(int signal_number) {
+  kill_programs();
+  for (std::size_t i = 0; i < kEndings.size(); ++i)
+    if (kEndings[i] == signal_number) sigaction(signal_number, &former[i], nullptr);
+  raise(signal_number);  // blocked until the handler returns
+}
+
+// Whoever comes once only (SA_RESETHAND) ends the program; who means to come again has other plans with it.
+bool ends_the_program(const struct sigaction& action) {
+  return action.sa_handler == SIG_DFL || (action.sa_handler != SIG_IGN && (action.sa_flags & SA_RESETHAND));
+}
+
+void handle_signals_once() {
+  static const bool done = [] {
+    for (std::size_t i = 0; i < kEndings.size(); ++i) {
+      struct sigaction ours {};
+      if (sigaction(kEndings[i], nullptr, &former[i]) != 0 || !ends_the_program(former[i])) continue;
+      ours.sa_handler = kill_groups_and_die;
+      sigaction(kEndings[i], &ours, nullptr);
+    }
+    return true;
+  }();
+  (void)done;
+}
+
+// Descriptors above those of standard input, output and error, even where we were started without these:
+// they are put in the child's places one after the other, and none may lie in another's way.
+struct Pipe {
+  int to_read = -1, to_write = -1;
+
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) return;
+    to_read = fcntl(ends[0], F_DUPFD_CLOEXEC, 3);
+    to_write = fcntl(ends[1], F_DUPFD_CLOEXEC, 3);
+    close(ends[0]);
+    close(ends[1]);
+  }
+  ~Pipe() {
+    if (to_read >= 0) close(to_read);
+    if (to_write >= 0) close(to_write);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  bool is_open() const { return to_read >= 0 && to_write >= 0; }
+};
+
+// While this lives this thread takes no ending: a program is started and its group is noted, or neither.
+struct Undisturbed {
+  sigset_t before;
+
+  Undisturbed() {
+    sigset_t endings;
+    sigemptyset(&endings);
+    for (const int ending : kEndings) sigaddset(&endings, ending);
+    pthread_sigmask(SIG_BLOCK, &endings, &before);
+  }
+  ~Undisturbed() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+};
+
+// The new program has the signal mask `mask`.
+int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, const sigset_t& mask,
+                pid_t& pid) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_adddup2(&actions, in.to_read, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out.to_write, STDOUT_FILENO);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setsigmask(&attributes, &mask);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  std::string text = command;
+  char shell[] = "sh", option[] = "-c";
+  char* arguments[] = {shell, option, text.data(), nullptr};
+  const int error = posix_spawn(&pid, "/bin/sh", &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+}  // namespace
+
+Process::Process(const std::string& command) {
+  handle_signals_once();
+  Pipe in, out;
+  const Undisturbed undisturbed;
+  const int error =
+      in.is_open() && out.is_open() ? spawn_shell(command, in, out, undisturbed.before, pid_) : errno;
+  if (error != 0) throw FileError("cmd:" + command + ": cannot be started: " + std::strerror(error));
+  replace_group(0, pid_);
+  std::swap(input_, in.to_write);
+  std::swap(output_, out.to_read);
+  for (const int end : {input_, output_}) fcntl(end, F_SETFL, fcntl(end, F_GETFL) | O_NONBLOCK);
+}
+
+Process::~Process() {
+  end(std::chrono::milliseconds(0));
+  close(output_);
+}
+
+void Process::close_input() {
+  if (input_ >= 0) close(input_);
+  input_ = -1;
+}
+
+std::optional<std::size_t> Process::write(std::string_view text) {
+  // SIGPIPE is for whoever reads our own output. Here it is blocked, and taken back if this write raised it.
+  sigset_t pipe_only, before, pending;
+  sigemptyset(&pipe_only);
+  sigaddset(&pipe_only, SIGPIPE);
+  sigpending(&pending);
+  pthread_sigmask(SIG_BLOCK, &pipe_only, &before);
+  const ssize_t count = ::write(input_, text.data(), text.size());
+  const int error = count < 0 ? errno : 0;
+  const timespec at_once{0, 0};
+  if (error == EPIPE && !sigismember(&pending, SIGPIPE)) sigtimedwait(&pipe_only, nullptr, &at_once);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (count >= 0) return static_cast<std::size_t>(count);
+  if (error == EAGAIN || error == EINTR) return 0;
+  return std::nullopt;
+}
+
+Ending Process::end(std::chrono::milliseconds grace) {
+  if (pid_ < 0) return {};
+  close_input();
+  const auto until = std::chrono::steady_clock::now() + grace;
+  siginfo_t info{};
+  // It stays a zombie until the group is killed, so that the group's number cannot be another's by then.
+  for (auto pause = std::chrono::microseconds(100);;
+       pause = std::min(2 * pause, std::chrono::microseconds(10000))) {
+    info.si_pid = 0;
+    if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT | WNOHANG) != 0 || info.si_pid != 0)
+      break;
+    if (std::chrono::steady_clock::now() >= until) break;
+    std::this_thread::sleep_for(pause);
+  }
+  kill(-pid_, SIGKILL);
+  int status = 0;
+  while (waitpid(pid_, &status, 0) == -1 && errno == EINTR) {
+  }
+  replace_group(pid_, 0);
+  pid_ = -1;
+  if (info.si_pid == 0) return {Ending::How::still_ran, 0};
+  if (WIFEXITED(status)) return {Ending::How::exited, WEXITSTATUS(status)};
+  return {Ending::How::signalled, WTERMSIG(status)};
+}
+
+}  // namespace lorentz::question

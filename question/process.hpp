@@ -1,0 +1,78 @@
+// Another program, run by the shell at the end of two pipes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lorentz/line_reader.hpp>
+
+namespace lorentz::question {
+
+/// Lines out of what a descriptor gives bit by bit. Memory stays bounded: of a line beyond kMaxLine the rest
+/// is passed over.
+class LineBuffer {
+ public:
+  static constexpr std::size_t kMaxLine = std::size_t{1} << 20;
+
+  enum class Read { some, nothing, end };
+
+  /// What the descriptor, which does not block, has now; `end` for good.
+  Read read_from(int descriptor);
+
+  /// The next line that is complete, as LineReader has them. After the end, also a last one without a line
+  /// end.
+  bool next(LineReader::Line& line);
+
+ private:
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0, searched_ = 0;  // unread; of those, known to hold no line end
+  std::size_t number_ = 0;
+  bool at_end_ = false, skipping_ = false;
+};
+
+/// How a program ended.
+struct Ending {
+  enum class How { exited, signalled, still_ran };
+  How how = How::exited;
+  int code = 0;  ///< exit status, or the signal
+
+  bool is_good() const { return how == How::exited && code == 0; }
+  std::string text() const;  ///< "exit 3", "exit 139, signal 11, Segmentation fault", "still running"
+};
+
+/// A program that `/bin/sh -c` runs in a process group of its own, with pipes to its standard input and from
+/// its standard output; its standard error is ours. The group is killed when this object goes, and when one
+/// of the common signals ends this program.
+class Process {
+ public:
+  /// Throws FileError if there can be no process. (That the command exists is for the shell to find out.)
+  explicit Process(const std::string& command);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  int input() const { return input_; }    ///< the descriptor to write to, never blocking; -1 when closed
+  int output() const { return output_; }  ///< the descriptor to read from, never blocking
+
+  /// Writes as much as the pipe takes and says how much; nothing if the program no longer reads. Raises no
+  /// SIGPIPE.
+  std::optional<std::size_t> write(std::string_view text);
+  void close_input();
+
+  /// Waits up to `grace` for its end, then kills what is left of its group.
+  Ending end(std::chrono::milliseconds grace);
+
+ private:
+  pid_t pid_ = -1;
+  int input_ = -1, output_ = -1;
+};
+
+/// Kills the groups of all that run. A signal handler may call it.
+void kill_programs();
+
+}  // namespace lorentz::question

@@ -1,0 +1,124 @@
+// A question with its exact answer, and the place that it is asked in: a scene with those who judge there.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lorentz/certified.hpp>
+#include <lorentz/exchange.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/verdict.hpp>
+#include "question/truth.hpp"
+
+namespace lorentz::question {
+
+/// A scene without flaws, and whose answers are the truth in it. Oracle, judge and margins are made when they
+/// are first needed: many scenes never need one. One thread must make each; after that any number of threads
+/// may use it.
+class Place {
+ public:
+  explicit Place(Scene scene, Truth truth = Truth::oracle) : scene_(std::move(scene)), truth_(truth) {}
+
+  const Scene& scene() const { return scene_; }
+  const oracle::Oracle& oracle() const { return made(oracle_); }
+  const oracle::Judge& judge() const { return made(judge_); }
+  const oracle::Margins& margins() const { return made(margins_); }
+
+  /// The true answer to a query without flaws.
+  Answer exact(const Query& query, const oracle::Request& request = {}) const {
+    return truth_ == Truth::oracle ? oracle().first_hit(query, request)
+                                   : made(certified_).first_hit(query, request);
+  }
+
+  /// What became of a question in this scene.
+  void note(bool is_unsupported) { ++asked_, unsupported_ += is_unsupported; }
+  void note_time(double seconds) { seconds_ += seconds; }
+
+  /// The engine is another program, which failed here again and again.
+  void give_up() { given_up_ = true; }
+  bool is_given_up() const { return given_up_; }
+
+  /// The engine did none of the first questions here, or took very long, or was given up: it is asked no more
+  /// of them.
+  bool is_beyond_engine() const {
+    return given_up_ || (asked_ >= kEnough &&
+                         (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_)));
+  }
+  bool was_answered() const { return !given_up_ && unsupported_ < asked_; }
+
+ private:
+  static constexpr std::size_t kEnough = 4;
+  static constexpr double kSlowSeconds = 0.1;
+
+  template <class T>
+  const T& made(std::unique_ptr<T>& one) const {
+    if (!one) one = std::make_unique<T>(scene_);
+    return *one;
+  }
+
+  const Scene scene_;
+  const Truth truth_;
+  mutable std::unique_ptr<oracle::Oracle> oracle_;
+  mutable std::unique_ptr<oracle::Certified> certified_;
+  mutable std::unique_ptr<oracle::Judge> judge_;
+  mutable std::unique_ptr<oracle::Margins> margins_;
+  std::size_t asked_ = 0, unsupported_ = 0;
+  bool given_up_ = false;
+  double seconds_ = 0;
+};
+
+struct Question {
+  std::shared_ptr<Place> place;
+  Query query = {};
+  Answer exact = {};       ///< without the limit
+  std::string where = {};  ///< where it comes from, in words: "drawn, square, r = 0.1"
+  /// Of an invalid question, in place of the query: its line without braces and id.
+  std::string text = {};
+  Id id = "null";
+  std::vector<std::string> tags = {};  ///< of a golden record
+  std::optional<double> margin = {};   ///< of a golden record
+  /// The limit: entered before it, or `later`.
+  double max_time = std::numeric_limits<double>::infinity();
+  double condition = 0;  ///< Margins::condition of the exact answer; 0 if it was not asked for
+  bool is_query() const { return text.empty(); }
+  bool has_limit() const { return std::isfinite(max_time); }
+};
+
+/// Questions of one place, with their numbers as ids, without answers.
+inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
+                                          const std::vector<Query>& queries) {
+  std::vector<Question> questions;
+  for (const Query& query : queries)
+    questions.push_back({.place = place, .query = query, .id = std::to_string(questions.size())});
+  return questions;
+}
+
+/// Returns the next question, or nothing at the end.
+using Source = std::function<std::optional<Question>()>;
+
+/// The next questions, at most `most`; empty at the end.
+inline std::vector<Question> some_of(const Source& source, std::size_t most) {
+  std::vector<Question> questions;
+  while (questions.size() < most) {
+    std::optional<Question> next = source();
+    if (!next) break;
+    questions.push_back(std::move(*next));
+  }
+  return questions;
+}
+
+/// A source of questions in memory, which must outlast it.
+inline Source all_of(std::span<const Question> questions) {
+  return [questions, next = std::size_t{0}]() mutable -> std::optional<Question> {
+    return next < questions.size() ? std::optional(questions[next++]) : std::nullopt;
+  };
+}
+
+}  // namespace lorentz::question

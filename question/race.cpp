@@ -1,0 +1,150 @@
+#include "question/race.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "question/instruction_counter.hpp"
+
+namespace lorentz::question {
+namespace {
+
+using Questions = std::span<const Question>;
+using SteadyClock = std::chrono::steady_clock;
+constexpr std::size_t kBlock = 16;
+constexpr double kEnoughSeconds = 10;  // no further rounds after that, nor blocks of a round
+
+struct Round {
+  double total_ns = 0;
+  std::size_t asked = 0;
+  std::vector<double> block_means;
+  std::optional<std::uint64_t> instructions = {};
+
+  double ns_per_query() const { return total_ns / static_cast<double>(asked); }
+};
+
+double ns_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
+}
+
+// An engine that is asked one at a time; `first_hits` has its function for each question.
+Round run_round(Questions questions, const std::vector<const FirstHit*>& first_hits, const std::string& name,
+                const Listener& listener) {
+  Round round;
+  std::vector<Answer> answers(kBlock);
+  const oracle::Request request;
+  InstructionCounter instructions;
+  for (std::size_t begin = 0; begin < questions.size() && round.total_ns < 1e9 * kEnoughSeconds;
+       begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, questions.size());
+    instructions.resume();
+    const auto start = SteadyClock::now();
+    for (std::size_t i = begin; i < end; ++i)
+      (*first_hits[i])(questions[i].query, request, answers[i - begin]);
+    const double ns = ns_since(start);
+    instructions.pause();
+    round.total_ns += ns;
+    round.asked = end;
+    round.block_means.push_back(ns / static_cast<double>(end - begin));
+    report(listener, name, end, questions.size());
+  }
+  round.instructions = instructions.count();
+  return round;
+}
+
+// One that is asked many at a time: another program, a batch engine.
+Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
+  std::size_t answered = 0;
+  program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
+  const auto start = SteadyClock::now();
+  const Place* place = nullptr;
+  for (const Question& question : questions) {
+    if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
+    program.ask(question.id, question.query);
+  }
+  program.drain();
+  const double ns = ns_since(start);
+  return {ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
+}
+
+// An engine, ready for every place, and what it did in each round.
+class Entrant {
+ public:
+  Entrant(Questions questions, const EngineInfo& engine, Answerer* running, const RaceOptions& options)
+      : questions_(questions), name_(engine.name), listener_(options.listener) {
+    if (!engine.is_own() || engine.traits.in_bulk) {
+      if (!running)
+        own_ = engine.answerer({{},
+                                options.timeout,
+                                options.listener,
+                                options.strict,
+                                1,
+                                options.start_timeout,
+                                options.enough});
+      program_ = running ? running : own_.get();
+      return;
+    }
+    for (const Question& question : questions) {
+      FirstHit& first_hit = by_place_[question.place.get()];
+      if (!first_hit) first_hit = engine.first_hit(question.place->scene());
+      first_hits_.push_back(&first_hit);
+    }
+  }
+
+  void run() {
+    rounds_.push_back(program_ ? run_round(questions_, *program_, name_, listener_)
+                               : run_round(questions_, first_hits_, name_, listener_));
+  }
+  bool failed() const { return program_ && program_->failed(); }
+
+  /// Ends the program, if it began here, and takes the times from the median round.
+  Speed finish() {
+    if (own_) own_->finish();
+    Speed speed;
+    speed.failed = failed();
+    if (questions_.empty() || rounds_.empty()) return speed;
+    std::sort(rounds_.begin(), rounds_.end(),
+              [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
+    const Round& middle = rounds_[rounds_.size() / 2];
+    speed.ns_per_query = middle.ns_per_query();
+    if (middle.instructions)
+      speed.instructions = static_cast<double>(*middle.instructions) / static_cast<double>(middle.asked);
+    speed.ns_median = quantile(middle.block_means, 0.5);
+    speed.ns_low = quantile(middle.block_means, 0.25);
+    speed.ns_high = quantile(middle.block_means, 0.75);
+    return speed;
+  }
+
+ private:
+  const Questions questions_;
+  const std::string name_;
+  const Listener& listener_;
+  std::map<const Place*, FirstHit> by_place_;
+  std::vector<const FirstHit*> first_hits_;
+  std::unique_ptr<Answerer> own_;
+  Answerer* program_ = nullptr;  // in place of these
+  std::vector<Round> rounds_;
+};
+
+}  // namespace
+
+std::vector<Speed> race(Questions questions, const std::vector<EngineInfo>& engines,
+                        const RaceOptions& options) {
+  std::vector<std::unique_ptr<Entrant>> entrants;
+  for (std::size_t i = 0; i < engines.size(); ++i) {
+    const std::size_t most = options.counts.empty() ? questions.size() : options.counts.at(i);
+    Answerer* const running = options.running.empty() ? nullptr : options.running.at(i);
+    entrants.push_back(std::make_unique<Entrant>(questions.first(std::min(most, questions.size())),
+                                                 engines[i], running, options));
+  }
+  // In turn, so that what slows the machine down for a while slows all of them.
+  const auto start = SteadyClock::now();
+  for (int round = 0; round < options.rounds && ns_since(start) < 1e9 * kEnoughSeconds; ++round)
+    for (const auto& entrant : entrants)
+      if (!entrant->failed()) entrant->run();
+  std::vector<Speed> speeds;
+  for (const auto& entrant : entrants) speeds.push_back(entrant->finish());
+  return speeds;
+}
+
+}  // namespace lorentz::question

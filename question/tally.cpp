@@ -1,0 +1,70 @@
+#include "question/tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lorentz::question {
+
+void Tally::count(const oracle::Judgement& judgement) {
+  ++queries;
+  switch (judgement.verdict) {
+    case oracle::Verdict::agree:
+      ++agree;
+      break;
+    case oracle::Verdict::ill_posed:
+      ++ill_posed;
+      break;
+    case oracle::Verdict::wrong:
+      ++wrong;
+      break;
+    case oracle::Verdict::undecided:
+      ++undecided;
+      break;
+    case oracle::Verdict::unsupported:
+      ++unsupported;
+      break;
+    case oracle::Verdict::error:
+      ++error;
+      break;
+    case oracle::Verdict::missing:
+      ++missing;
+      break;
+  }
+  if (judgement.wrong_time) {
+    ++wrong_time;
+    wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
+    wrong_conditions.push_back(judgement.departs);
+  }
+  if (!judgement.ulps) return;
+  ++timed_hits;
+  ulps.push_back(*judgement.ulps);
+  sum_ulp += *judgement.ulps;
+  max_ulp = std::max(max_ulp, *judgement.ulps);
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::lround(share * last));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+void Tally::add(const Tally& other) {
+  for (const auto count :
+       {&Tally::queries, &Tally::agree, &Tally::ill_posed, &Tally::wrong, &Tally::undecided,
+        &Tally::unsupported, &Tally::error, &Tally::missing, &Tally::wrong_time, &Tally::timed_hits})
+    this->*count += other.*count;
+  failed |= other.failed;
+  max_ulp = std::max(max_ulp, other.max_ulp);
+  sum_ulp += other.sum_ulp;
+  for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
+    (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
+}
+
+double Tally::ulp_at(double share) const {
+  return quantile(ulps, share);
+}
+
+}  // namespace lorentz::question

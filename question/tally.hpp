@@ -1,0 +1,45 @@
+// How many of an engine's answers are right, wrong, .., and how exact their times are.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lorentz/verdict.hpp>
+
+namespace lorentz::question {
+
+/// The value that this share of the values does not exceed; 0 of none.
+double quantile(std::vector<double> values, double share);
+
+/// How long an engine takes.
+struct Speed {
+  double ns_per_query = 0;         ///< mean over the queries, in the median round; 0: not timed
+  double ns_median = 0;            ///< median over blocks of 16 queries of a block's mean; of another
+                                   ///< program, whose answers come when they come, the mean
+  double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
+  std::optional<double> instructions =
+      {};               ///< a query, where InstructionCounter counts; not of another program
+  bool failed = false;  ///< another program that broke on the way
+};
+
+/// What one engine did over some questions.
+struct Tally {
+  std::string name;
+  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
+              missing = 0;
+  std::size_t wrong_time = 0;  ///< of those that agree: their time is beyond its tolerance
+  bool failed = false;         ///< another program that broke on the way
+  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
+  double max_ulp = 0, sum_ulp = 0;
+  std::vector<double> ulps;                          ///< errors of these times
+  std::vector<double> wrong_ulps, wrong_conditions;  ///< of wrong times: in ulps, in units of the condition
+  Speed speed;
+
+  void count(const oracle::Judgement& judgement);
+  void add(const Tally& other);       ///< its counts and errors; not its name and speed
+  double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
+  double mean_ulp() const { return timed_hits ? sum_ulp / static_cast<double>(timed_hits) : 0; }
+};
+
+}  // namespace lorentz::question

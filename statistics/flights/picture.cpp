@@ -1,0 +1,179 @@
+// The pictures of runs of flights: survival and density over time, theory drawn in.
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/errors.hpp>
+#include "files/messages.hpp"
+#include "pictures/free_path_plot.hpp"
+#include "statistics/flights/findings.hpp"
+
+namespace lorentz::flights {
+namespace {
+
+using pictures::FreePathPlot;
+using pictures::PlotCurve;
+
+// What both pictures say: of which scene and starts, and how many.
+FreePathPlot plot_of(const std::vector<FlightsReport>& reports) {
+  const FlightsReport& first = reports.front();
+  const auto nothing_hit = [](const FlightsReport& report) { return report.account.tally.hits == 0; };
+  if (std::all_of(reports.begin(), reports.end(), nothing_hit))
+    throw InputError("nothing was hit: there is nothing to draw");
+  FreePathPlot plot;
+  plot.title =
+      fmt::format("Free paths: {}, {} starts", first.radius ? first.scene_name : first.name_with_radius(),
+                  name_of(first.plan.from));
+  const Laws laws = laws_of(first.plan.scene, first.plan.from);
+  plot.note = fmt::format("{} flights{}, bars of one standard error, engine {}, seed {}{}",
+                          first.account.tally.flights(), first.radius ? " each" : "", first.plan.engine,
+                          first.plan.seed, laws.laws.empty() ? "" : "; law: " + laws.laws[0].name);
+  return plot;
+}
+
+std::string series_name(const FlightsReport& report) {
+  return report.radius ? fmt::format("r = {:g}", *report.radius) : "measured";
+}
+
+// In the legend a curve of theory stands once, in grey; of several radii each has its points' colour.
+void add_curve(FreePathPlot& plot, const FlightsReport& report, PlotCurve curve) {
+  curve.series = report.radius ? static_cast<int>(plot.series.size()) - 1 : -1;
+  if (plot.series.size() > 1) curve.name.clear();
+  plot.curves.push_back(std::move(curve));
+}
+
+// ---- survival: both axes logarithmic
+
+constexpr int kPointsAnOctave = 2, kCurveAnOctave = 8;
+constexpr std::uint64_t kFewest = 10;  // flights behind a point
+constexpr double kNearlyAllShown = 0.995;
+
+// From where on paths end at all, to where too few go on.
+struct PathSpan {
+  std::size_t first = 0, last = 0;
+};
+
+PathSpan span_of(const FlightsFindings& found) {
+  PathSpan span;
+  while (span.first + 1 < found.edges.size() &&
+         found.beyond[span.first] > kNearlyAllShown * static_cast<double>(found.total))
+    ++span.first;
+  span.last = span.first;
+  while (span.last + 1 < found.edges.size() && found.beyond[span.last + 1] >= kFewest) ++span.last;
+  return span;
+}
+
+PlotCurve survival_curve(const std::string& name, const FlightsFindings& found, const PathSpan& span,
+                         const std::function<double(double)>& survival) {
+  PlotCurve curve;
+  curve.name = name;
+  for (std::size_t i = span.first; i <= span.last; i += Bins::kAnOctave / kCurveAnOctave)
+    curve.points.push_back({found.edges[i], survival(found.edges[i])});
+  return curve;
+}
+
+// The power, from where it is below one half.
+PlotCurve tail_curve(const Tail& tail, const FlightsFindings& found, PathSpan span) {
+  const double power = *tail.exponent - 1;
+  const auto survival = [&](double t) { return *tail.constant * std::pow(t, -power); };
+  while (span.first < span.last && survival(found.edges[span.first]) > 0.5) ++span.first;
+  PlotCurve curve = survival_curve(fmt::format("~ t^-{:g}, {}", power, tail.when), found, span, survival);
+  curve.dashed = true;
+  return curve;
+}
+
+void add_survival(FreePathPlot& plot, const FlightsReport& report) {
+  const FlightsFindings found(report);
+  const PathSpan span = span_of(found);
+  pictures::PlotSeries series{series_name(report), {}};
+  const auto n = static_cast<double>(found.total);
+  for (std::size_t i = span.first; i <= span.last; i += Bins::kAnOctave / kPointsAnOctave) {
+    const double p = static_cast<double>(found.beyond[i]) / n;
+    series.points.push_back({found.edges[i], p, std::sqrt(p * (1 - p) / n)});
+  }
+  plot.series.push_back(std::move(series));
+  for (const FlightsFindings::Fit& fit : found.fits)
+    add_curve(plot, report, survival_curve("law, " + fit.law.when, found, span, fit.law.survival));
+  for (const Tail& tail : found.tails)
+    if (tail.exponent && tail.constant && *tail.constant > 0)
+      add_curve(plot, report, tail_curve(tail, found, span));
+}
+
+// ---- density: both axes linear, and from 0
+
+constexpr double kMostPoints = 48, kCurvePerBin = 4;
+constexpr double kHardlyAny = 0.01;  // of the highest density: the picture ends there
+
+// Some linear bins taken together, so that points can be told apart.
+struct Density {
+  double from, to, value, error;
+};
+
+std::vector<Density> densities_of(const FlightsFindings& found, const Bins& bins) {
+  const auto n = static_cast<double>(found.total);
+  const auto density = [&](int first, int last) {
+    std::uint64_t count = 0;
+    for (int i = first; i < last; ++i) count += bins.linear[static_cast<std::size_t>(i)];
+    const double from = bins.linear_edge(first), to = bins.linear_edge(last), c = static_cast<double>(count);
+    return Density{from, to, c / n / (to - from), std::sqrt(c) / n / (to - from)};
+  };
+  double highest = 0;
+  int end = 0;
+  for (int i = 0; i < Bins::kLinear; ++i) {
+    const double value = density(i, i + 1).value;
+    highest = std::max(highest, value);
+    if (value > kHardlyAny * highest) end = i + 1;
+  }
+  const int together = std::max(1, static_cast<int>(std::ceil(end / kMostPoints)));
+  std::vector<Density> points;
+  for (int i = 0; i + together <= end; i += together) points.push_back(density(i, i + together));
+  return points;
+}
+
+// Times in mean free paths from collision to collision, where that mean is known: the limit law is one curve
+// then.
+double unit_of(const FlightsFindings& found) {
+  return found.mean.value.value_or(1);
+}
+
+void add_density(FreePathPlot& plot, const FlightsReport& report) {
+  const FlightsFindings found(report);
+  const double unit = unit_of(found);
+  const std::vector<Density> points = densities_of(found, report.account.tally.bins);
+  pictures::PlotSeries series{series_name(report), {}};
+  for (const Density& point : points)
+    series.points.push_back({(point.from + point.to) / 2 / unit, point.value * unit, point.error * unit});
+  plot.series.push_back(std::move(series));
+  if (points.empty()) return;
+  for (const FlightsFindings::Fit& fit : found.fits) {
+    PlotCurve curve;
+    curve.name = "law, " + fit.law.when;
+    const double step = (points[0].to - points[0].from) / kCurvePerBin;
+    for (double t = points[0].from; t + step <= points.back().to * (1 + 1e-12); t += step)
+      curve.points.push_back(
+          {(t + step / 2) / unit, (fit.law.survival(t) - fit.law.survival(t + step)) / step * unit});
+    add_curve(plot, report, std::move(curve));
+  }
+}
+
+}  // namespace
+
+std::string survival_svg(const std::vector<FlightsReport>& reports) {
+  FreePathPlot plot = plot_of(reports);
+  plot.t_label = "free path t, in the scene's unit of length";
+  plot.value_label = "P(free path > t)";
+  for (const FlightsReport& report : reports) add_survival(plot, report);
+  return draw_free_paths(plot);
+}
+
+std::string density_svg(const std::vector<FlightsReport>& reports) {
+  FreePathPlot plot = plot_of(reports);
+  plot.axes = pictures::AxisScale::linear;
+  const bool scaled = FlightsFindings(reports.front()).mean.value.has_value();
+  plot.t_label =
+      scaled ? "free path / mean free path between collisions" : "free path, in the scene's unit of length";
+  plot.value_label = scaled ? "density × mean free path" : "density of the free path";
+  for (const FlightsReport& report : reports) add_density(plot, report);
+  return draw_free_paths(plot);
+}
+
+}  // namespace lorentz::flights

@@ -1,0 +1,34 @@
+#include "statistics/flights/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "src/problem/scene_geometry.hpp"
+#include "statistics/flights/account.hpp"
+
+namespace lorentz::flights {
+
+std::uint64_t FlightsPlan::blocks() const {
+  return count / kBlock + (count % kBlock != 0);
+}
+
+std::vector<std::pair<std::string, std::string>> FlightsPlan::words() const {
+  std::string line;
+  append_scene_line(line, scene);
+  line.pop_back();
+  return {{"engine", engine},
+          {"starts", name_of(from)},
+          {"seed", std::to_string(seed)},
+          {"count", std::to_string(count)},
+          {"cells", std::to_string(cells)},
+          {"scene", line}};
+}
+
+int unit_exponent(const Scene& scene) {
+  const std::optional<Filling> filling = filling_of(scene);
+  if (!filling || !(filling->surface > 0)) return 0;
+  return std::clamp(std::ilogb((scene.dimension == 2 ? 3.14 : 4) / filling->surface), -900, 900);
+}
+
+}  // namespace lorentz::flights

@@ -1,0 +1,308 @@
+#include "statistics/flights/findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "files/messages.hpp"
+#include "report/curves.hpp"
+#include "report/manifest.hpp"
+#include "report/table.hpp"
+#include "src/exchange/json_writer.hpp"
+
+namespace lorentz::flights {
+
+using json::finite;
+
+namespace {
+
+// A test of fit; where there is but one bin nothing is tested.
+std::string text_of(const ChiSquared& fit) {
+  if (!fit.p_value) return "not tested: too few flights for two bins";
+  const double p = *fit.p_value;
+  return fmt::format("p = {}", p < 1e-300 ? "below 1e-300"
+                               : p < 1e-4 ? fmt::format("{:.1e}", p)
+                                          : fmt::format("{:.4f}", p));
+}
+
+// What the mean and its error mean, where they do not mean what they look like, or may not.
+std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
+  const bool uniform = from == Ensemble::uniform;
+  if (!long_paths.open)
+    return fmt::format("{} may be infinite, or too large for a sample: {}",
+                       uniform ? "the exact mean" : "the variance", long_paths.remark);
+  if (!*long_paths.open) return "";
+  return uniform ? "the exact mean is infinite: open channels make the density of a first flight fall like "
+                   "t^-2 in the end; what is here is a sample's mean, and grows with it"
+                 : "the variance is infinite (a density like t^-3 in the end), so that the standard error is "
+                   "too small";
+}
+
+std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  const auto measured = found.measured_constant_of(tail);
+  if (!measured) return "";
+  const double power = *tail.exponent - 1;
+  std::string text = fmt::format("  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}",
+                                 measured->value, power, measured->error);
+  if (tail.constant)
+    text += fmt::format(": off by {:.2f} of these", (measured->value - *tail.constant) / measured->error);
+  return text +
+         fmt::format("; extrapolated from {} flights longer than {:.6g}\n", measured->count, measured->from);
+}
+
+std::string lines_of_theory(const FlightsFindings& found) {
+  std::string text;
+  if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
+  for (const FlightsFindings::Fit& fit : found.fits) {
+    text += fmt::format("law: {} ({})\n", fit.law.name, fit.law.when);
+    text += fit.as_it_is.p_value ? fmt::format(
+                                       "  chi squared {:.1f}, {} degrees: {}; of 1.02 times its "
+                                       "survival: {}\n",
+                                       fit.as_it_is.statistic, fit.as_it_is.degrees, text_of(fit.as_it_is),
+                                       text_of(fit.two_percent_more))
+                                 : fmt::format("  {}\n", text_of(fit.as_it_is));
+  }
+  if (found.exponent)
+    text += fmt::format(
+        "tail: of {} flights longer than {:.6g} the density falls like t^-{:.3f}, 95 % [{:.3f}, {:.3f}]\n",
+        found.exponent->count, found.exponent->from, found.exponent->exponent, found.exponent->low,
+        found.exponent->high);
+  else
+    text += "tail: too few long flights for an exponent\n";
+  for (const FlightsFindings::Fit& fit : found.fits)
+    if (fit.local_exponent) text += fmt::format("  the law there: like t^-{:.3f}\n", *fit.local_exponent);
+  for (const Tail& tail : found.tails) {
+    text += fmt::format("  theory, {}:", tail.when);
+    if (tail.exponent) text += fmt::format(" t^-{:g}", *tail.exponent);
+    if (tail.exponent && tail.constant)
+      text += fmt::format(", P(tau > t) ~ {:.6g} / t^{:g}", *tail.constant, *tail.exponent - 1);
+    if (!tail.remark.empty()) text += fmt::format("{} {}", tail.exponent ? ";" : "", tail.remark);
+    text += '\n' + line_of_measured_constant(tail, found);
+  }
+  return text;
+}
+
+// The survival at powers of two, with one standard error.
+std::string table_of_survival(const FlightsFindings& found) {
+  std::vector<std::string> header{"t", "P(tau > t)", "+-"};
+  for (const FlightsFindings::Fit& fit : found.fits) header.push_back(fit.law.name);
+  report::Table table(header);
+  const auto n = static_cast<double>(found.total);
+  for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave) {
+    const double p = static_cast<double>(found.beyond[i]) / n;
+    if (found.beyond[i] < 10 || p > 0.999) continue;
+    std::vector<std::string> row{fmt::format("{:.6g}", found.edges[i]), fmt::format("{:.3e}", p),
+                                 fmt::format("{:.1e}", std::sqrt(p * (1 - p) / n))};
+    for (const FlightsFindings::Fit& fit : found.fits)
+      row.push_back(fmt::format("{:.3e}", fit.law.survival(found.edges[i])));
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindings& found) {
+  return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
+}
+
+// Of all obstacles, if it is one.
+std::optional<double> common_radius(const Scene& scene) {
+  std::optional<double> radius;
+  bool same = true;
+  for (const Lattice& lattice : scene.lattices)
+    for (const Atom& atom : lattice.atoms) {
+      same = same && atom.is_ball() && (!radius || *radius == atom.radius);
+      radius = atom.radius;
+    }
+  return same ? radius : std::nullopt;
+}
+
+// Of one hit there is no standard error.
+std::string line_of_mean(const FlightsReport& report, const FlightsFindings& found) {
+  const double mean = report.account.tally.mean(), error = report.account.tally.standard_error();
+  const bool has_error = std::isfinite(error);
+  std::string text = fmt::format("mean {:.8g}, standard error {}", mean,
+                                 has_error ? fmt::format("{:.2g}", error) : "not known");
+  if (const auto exact = exact_mean(report, found))
+    return text +
+           fmt::format("; exact {:.10g}{} ({})", *exact,
+                       has_error ? fmt::format(": off by {:.2f} of these", (mean - *exact) / error) : "",
+                       found.mean.how);
+  if (report.plan.from == Ensemble::surface) text += fmt::format("; no exact mean: {}", found.mean.how);
+  return text;
+}
+
+void add_theory(json::Members& object, const FlightsFindings& found) {
+  using Fit = FlightsFindings::Fit;
+  const auto fit = [](json::Members& one, const Fit& f) {
+    one.add("name", f.law.name, "when", f.law.when, "statistic", finite(f.as_it_is.statistic), "degrees",
+            f.as_it_is.degrees, "p_value", finite(f.as_it_is.p_value), "p_value_of_1.02",
+            finite(f.two_percent_more.p_value), "tail_exponent", finite(f.local_exponent));
+  };
+  const auto tail = [&](json::Members& one, const Tail& t) {
+    one.add("when", t.when, "exponent", finite(t.exponent), "constant", finite(t.constant), "remark",
+            t.remark);
+    if (const auto measured = found.measured_constant_of(t))
+      one.add("measured", measured->value, "measured_error", measured->error, "measured_from", measured->from,
+              "measured_count", measured->count);
+  };
+  object.add("tails", json::objects(found.tails, tail), "theory", json::objects(found.fits, fit), "no_theory",
+             found.no_law);
+}
+
+}  // namespace
+
+std::string FlightsReport::name_with_radius() const {
+  const auto radius = common_radius(plan.scene);
+  return radius ? fmt::format("{}, r = {:g}", scene_name, *radius) : scene_name;
+}
+
+std::string FlightsReport::table() const {
+  const FlightsFindings found(*this);
+  const FlightTally& tally = account.tally;
+  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", name_with_radius(),
+                                 name_of(plan.from), plan.engine, plan.seed);
+  text += fmt::format("{} flights", tally.flights());
+  if (!is_whole())
+    text += fmt::format(" of {} ({} of {} blocks)", plan.count, account.done.size(), plan.blocks());
+  text +=
+      fmt::format(": {} hits, {} never, {} undecided; {} starts lay in an obstacle, and were drawn anew\n",
+                  tally.hits, tally.never, tally.undecided, tally.inside);
+  if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
+  text += '\n' + line_of_mean(*this, found) + '\n';
+  text += fmt::format("mean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),
+                      tally.shortest, tally.longest);
+  if (const std::string remark = remark_on_mean(plan.from, found.tails.back()); !remark.empty())
+    text += remark + '\n';
+  return text + '\n' + lines_of_theory(found) + '\n' + table_of_survival(found);
+}
+
+std::string FlightsReport::json() const {
+  const FlightsFindings found(*this);
+  const FlightTally& tally = account.tally;
+  const auto if_any = [&](double x) { return tally.hits > 0 ? finite(x) : std::nullopt; };
+  std::vector<std::string> survival;
+  for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave)
+    if (found.beyond[i] > 0 && found.beyond[i] < found.total)
+      survival.push_back(fmt::format("[{},{}]", found.edges[i], found.beyond[i]));
+  const auto& e = found.exponent;
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene_name);
+    if (radius) object.add("radius", *radius);
+    object.add("from", name_of(plan.from), "engine", plan.engine, "seed", plan.seed, "count", tally.flights(),
+               "asked", plan.count, "hits", tally.hits, "never", tally.never, "undecided", tally.undecided,
+               "drawn_anew", tally.inside);
+    object.add("mean", if_any(tally.mean()), "mean_error", if_any(tally.standard_error()), "mean_exact",
+               finite(exact_mean(*this, found)), "mean_remark", remark_on_mean(plan.from, found.tails.back()),
+               "mean_log", if_any(tally.mean_log()), "shortest", if_any(tally.shortest), "longest",
+               if_any(tally.longest));
+    object.add("tail_exponent", e ? finite(e->exponent) : std::nullopt, "tail_interval",
+               e ? std::optional(std::array{finite(e->low), finite(e->high)}) : std::nullopt, "tail_from",
+               e ? finite(e->from) : std::nullopt, "tail_count", e ? e->count : 0);
+    add_theory(object, found);
+    object.add("survival", json::raw(survival), "seconds", finite(seconds));
+  });
+}
+
+namespace {
+
+// One histogram's rows. Below the first edge nothing is expected but what theory has there.
+void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
+                 const std::vector<std::uint64_t>& counts, const std::function<double(int)>& edge,
+                 int bin_count, std::uint64_t below) {
+  const auto n = static_cast<double>(found.total);
+  std::uint64_t longer = found.total - below;
+  for (int i = 0; i < bin_count; ++i) {
+    const std::uint64_t count = counts[static_cast<std::size_t>(i)];
+    longer -= count;
+    if (count == 0) continue;
+    const double low = edge(i), high = edge(i + 1), width = high - low, c = static_cast<double>(count);
+    text += fmt::format("{},{},{},{},{},{},{}", bins, low, high, count, c / n / width,
+                        std::sqrt(c) / n / width, static_cast<double>(longer) / n);
+    for (const FlightsFindings::Fit& fit : found.fits)
+      text += fmt::format(",{},{}", (fit.law.survival(low) - fit.law.survival(high)) / width,
+                          fit.law.survival(high));
+    text += '\n';
+  }
+}
+
+// Which laws there are does not depend on the radius.
+std::string csv_names(const FlightsFindings& found, bool with_radius) {
+  std::string text =
+      fmt::format("{}bins,from,to,count,density,density_error,survival_at_to", with_radius ? "radius," : "");
+  for (const FlightsFindings::Fit& fit : found.fits) {
+    std::string name = fit.law.name;
+    std::replace(name.begin(), name.end(), ',', ';');
+    text += fmt::format(",{0}: density,{0}: survival_at_to", name);
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+namespace {
+
+std::optional<double> radius_of(const FlightsReport& report) {
+  return report.radius ? report.radius : common_radius(report.plan.scene);
+}
+
+// At every other bin, where there is chance for a point.
+report::FreePathCurve curve_of(const FlightsReport& report, const FlightsFindings& found) {
+  constexpr std::size_t kStep = Bins::kAnOctave / 4;
+  constexpr double kNearlyAll = 0.995;
+  report::FreePathCurve curve{
+      report.scene_name, report.plan.engine, radius_of(report), name_of(report.plan.from), "", {}};
+  const Law* law = found.fits.empty() ? nullptr : &found.fits[0].law;
+  if (law) curve.law = law->name + ", " + law->when;
+  const auto total = static_cast<double>(found.total);
+  for (std::size_t i = 0; i < found.edges.size(); i += kStep) {
+    const double share = static_cast<double>(found.beyond[i]) / total;
+    if (found.beyond[i] == 0 || share > kNearlyAll) continue;
+    report::FreePathCurve::CurvePoint point{found.edges[i], share, {}, {}};
+    if (law) point.theory = law->survival(point.t);
+    curve.points.push_back(point);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string page_json(const std::vector<FlightsReport>& reports, const std::string& command) {
+  const FlightsReport& first = reports.front();
+  std::vector<report::FreePathCurve> curves;
+  std::string line;
+  for (const FlightsReport& report : reports) {
+    const FlightsFindings found(report);
+    curves.push_back(curve_of(report, found));
+    const FlightTally& tally = report.account.tally;
+    line +=
+        fmt::format("{}{}: {} flights", line.empty() ? "" : "; ", report.name_with_radius(), tally.flights());
+    if (tally.hits > 0) line += fmt::format(", mean {:.6g}", tally.mean());
+    if (std::isfinite(tally.standard_error()) && found.tails.back().open == false)
+      line += fmt::format(" ± {:.2g}", tally.standard_error());
+    if (const auto exact = exact_mean(report, found)) line += fmt::format(", exact {:.6g}", *exact);
+  }
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "flights", "title",
+             fmt::format("Free paths: {}, {} starts", first.scene_name, name_of(first.plan.from)), "line",
+             line, "manifest", report::manifest_of(first.plan.seed, command), "free_paths", curves);
+  });
+}
+
+std::string csv_of(const std::vector<FlightsReport>& reports) {
+  std::string names, text;
+  for (const FlightsReport& report : reports) {
+    const FlightsFindings found(report);
+    const Bins& bins = report.account.tally.bins;
+    if (names.empty() || found.total > 0) names = csv_names(found, report.radius.has_value());
+    const std::string radius = report.radius ? fmt::format("{},", *report.radius) : "";
+    append_rows(
+        text, radius + "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
+        [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
+    append_rows(
+        text, radius + "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); },
+        Bins::kLinear, 0);
+  }
+  return names + text;
+}
+
+}  // namespace lorentz::flights

@@ -1,0 +1,109 @@
+#include "statistics/flights/run.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "statistics/flights/flyer.hpp"
+
+namespace lorentz::flights {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenNews{200};
+
+// The blocks, handed out in order; and what came of them. The account is the caller's, and only touched under
+// the lock.
+class BlockLedger {
+ public:
+  BlockLedger(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
+      : plan_(plan), bounds_(bounds), account_(account), next_(bounds.shard) {
+    if (bounds.seconds > 0)
+      end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                std::chrono::duration<double>(std::min(bounds.seconds, 1e9)));
+  }
+
+  // False: there is nothing left to do.
+  bool take(std::uint64_t& block) {
+    const std::lock_guard lock(mutex_);
+    if (failure_ || is_enough()) return false;
+    while (next_ < plan_.blocks() && is_done(next_)) next_ += bounds_.shards;
+    if (next_ >= plan_.blocks()) return false;
+    block = next_;
+    next_ += bounds_.shards;
+    return true;
+  }
+  void hand_in(std::uint64_t block, const FlightTally& tally) {
+    const std::lock_guard lock(mutex_);
+    account_.tally.add(tally);
+    account_.done.insert(block);
+  }
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    --at_work_;
+    left_.notify_all();
+  }
+
+  // Waits until all have left; tells the news now and then. Throws what a thread threw.
+  void watch(unsigned jobs, const OnProgress& on_progress) {
+    std::unique_lock lock(mutex_);
+    at_work_ += static_cast<int>(jobs);
+    while (!left_.wait_for(lock, kBetweenNews, [&] { return at_work_ == 0; }))
+      if (on_progress) on_progress(account_);
+    if (failure_) std::rethrow_exception(failure_);
+    if (on_progress) on_progress(account_);
+  }
+
+ private:
+  bool is_done(std::uint64_t block) const {
+    return account_.done.contains(block) || bounds_.done.contains(block);
+  }
+  bool is_enough() const {
+    return (bounds_.stop && *bounds_.stop) || (bounds_.seconds > 0 && Clock::now() >= end_);
+  }
+
+  const FlightsPlan& plan_;
+  const FlightBounds& bounds_;
+  Account& account_;
+  std::uint64_t next_;
+  Clock::time_point end_;
+  int at_work_ = 0;
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable left_;
+};
+
+void work(const FlightsPlan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
+  try {
+    Flyer flyer(plan, engine);
+    for (std::uint64_t block; ledger.take(block);) {
+      FlightTally tally(unit_exponent(plan.scene));
+      const std::uint64_t first = block * kBlock;
+      flyer.fly(first, std::min(kBlock, plan.count - first), tally);
+      ledger.hand_in(block, tally);
+    }
+  } catch (...) {
+    ledger.fail(std::current_exception());
+  }
+  ledger.leave();
+}
+
+}  // namespace
+
+void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
+         const OnProgress& on_progress) {
+  const ColumnFlyer engine(question::engine_named(plan.engine), plan.scene);
+  BlockLedger ledger(plan, bounds, account);
+  std::vector<std::jthread> threads;
+  for (unsigned job = 0; job < bounds.jobs; ++job) threads.emplace_back([&] { work(plan, engine, ledger); });
+  ledger.watch(bounds.jobs, on_progress);
+}
+
+}  // namespace lorentz::flights

@@ -1,0 +1,45 @@
+#include "statistics/flights/tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lorentz::flights {
+
+void FlightTally::count_hit(double t) {
+  ++hits;
+  time.add(t);
+  square.add(std::min(t * t, std::numeric_limits<double>::max()));
+  if (t > 0) {
+    log.add(std::log(t));
+    ++logarithms;
+  }
+  shortest = std::min(shortest, t);
+  longest = std::max(longest, t);
+  bins.count(t);
+}
+
+void FlightTally::add(const FlightTally& other) {
+  hits += other.hits, never += other.never, undecided += other.undecided, inside += other.inside;
+  time.add(other.time), square.add(other.square), log.add(other.log);
+  logarithms += other.logarithms;
+  shortest = std::min(shortest, other.shortest);
+  longest = std::max(longest, other.longest);
+  bins.add(other.bins);
+}
+
+double FlightTally::mean() const {
+  return time.value() / static_cast<double>(hits);
+}
+
+double FlightTally::standard_error() const {
+  const auto n = static_cast<double>(hits);
+  const double m = mean();
+  if (hits < 2) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(0.0, square.value() / n - m * m) / (n - 1));
+}
+
+double FlightTally::mean_log() const {
+  return log.value() / static_cast<double>(logarithms);
+}
+
+}  // namespace lorentz::flights

@@ -1,0 +1,163 @@
+// How the probability of long free paths falls.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <lorentz/horizon.hpp>
+#include "src/problem/scene_geometry.hpp"
+#include "statistics/theory/corridor_sum.hpp"
+#include "statistics/theory/incommensurate.hpp"
+#include "statistics/theory/laws.hpp"
+#include "statistics/theory/small_obstacles.hpp"
+
+namespace lorentz::flights {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kZeta3 = 1.2020569031595942854;
+
+// From the tail C / t^power of uniform starts: the density of these is the survival from collisions over the
+// mean free path, so collisions have one power more.
+Tail tail_of(const char* when, int power, double uniform_constant, std::optional<double> mean,
+             Ensemble ensemble, std::string remark) {
+  Tail tail{when, power + 1.0, uniform_constant, std::move(remark)};
+  if (ensemble == Ensemble::uniform) return tail;
+  tail.exponent = power + 2.0;
+  tail.constant = mean ? std::optional(*mean * power * uniform_constant) : std::nullopt;
+  if (!mean) tail.remark += "; the mean free path is not known";
+  return tail;
+}
+
+// The limit law's survival falls like 2 / (pi^2 s), each lattice's.
+std::optional<Tail> tail_2d_of_small(const Scene& scene, Ensemble ensemble) {
+  std::string why_not;
+  const auto small = small_obstacles_of(scene, why_not);
+  if (!small) return std::nullopt;
+  double sum = 0;
+  for (const Rates& rates : small->directions) {
+    double product = 1;
+    for (const double rate : rates) product *= 2 / (kPi * kPi * rate);
+    sum += product;
+  }
+  return tail_of("r -> 0", static_cast<int>(small->lattices()),
+                 sum / static_cast<double>(small->directions.size()), 1 / small->mean_rate(), ensemble,
+                 "of the limit law");
+}
+
+// xi = r^2 t / V: the density from a uniform start is pi / (48 zeta(3)) xi^-2, and 1 / pi is the mean.
+std::optional<Tail> tail_3d_of_small(const Scene& scene, Ensemble ensemble) {
+  const bool ball = scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
+                    scene.lattices[0].atoms[0].is_ball();
+  if (!ball) return std::nullopt;
+  const double r = scene.lattices[0].atoms[0].radius, unit = cell_volume(scene.lattices[0], 3) / (r * r);
+  return tail_of("r -> 0", 1, kPi / (48 * kZeta3) * unit, unit / kPi, ensemble,
+                 "of the limit law; approached like (r^2 t / V)^(-2/3)");
+}
+
+constexpr const char* kLongPaths = "t -> infinity";
+
+Tail tail_without(const char* remark) {
+  Tail tail{kLongPaths, std::nullopt, std::nullopt, remark};
+  tail.open = false;
+  return tail;
+}
+
+// Of open corridors or planar channels: the power is theirs, whatever else is there.
+Tail tail_of_channels(const Scene& scene, Ensemble ensemble, const std::optional<double>& constant,
+                      std::string remark) {
+  Tail tail = tail_of(kLongPaths, 1, constant.value_or(1), mean_free_path_of(scene).value, ensemble,
+                      std::move(remark));
+  if (!constant) tail.constant.reset();
+  tail.open = true;
+  return tail;
+}
+
+Tail not_known(std::string why) {
+  return {kLongPaths, std::nullopt, std::nullopt, std::move(why)};
+}
+
+// No corridor, or no planar channel, is open.
+Tail tail_of_shut(const Scene& scene) {
+  if (const auto angle = nearly_common_way(scene)) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1g", *angle);
+    return not_known(std::string("ways of the lattices are parallel to ") + text +
+                     " radians, though not exactly: as good as open until t is about one over that");
+  }
+  if (scene.dimension == 2) return tail_without("none: every path ends");
+  Tail tail = tail_without("no planar channel is open: it falls faster than with one");
+  tail.constant = 0;
+  return tail;
+}
+
+// Of obstacles too small for all directions to be searched: is a wide way open?
+bool has_wide_channel(const Scene& scene) {
+  constexpr double kWide = 0.03;  // of the cell's size: some 10^4 to 10^5 directions, a second
+  const double wide =
+      kWide * std::pow(cell_volume(scene.lattices[0], scene.dimension), 1.0 / scene.dimension);
+  try {
+    return !oracle::horizon_of(scene, wide, false).channels.empty();
+  } catch (const oracle::TooManyChannels&) {
+    return false;
+  }
+}
+
+Tail tail_of_horizon(const Scene& scene, Ensemble ensemble) {
+  const bool flat = scene.dimension == 2;
+  const std::string channel = flat ? "corridor" : "planar channel",
+                    unknown = "it is not known whether a " + channel + " is open: ";
+  const auto without_constant = [&](const std::string& why) {
+    return tail_of_channels(scene, ensemble, std::nullopt,
+                            "of the " + channel + "s; the constant is not known (" + why + ")");
+  };
+  try {
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false);
+    if (horizon.channels.empty())
+      return horizon.undecided.empty()
+                 ? tail_of_shut(scene)
+                 : not_known(unknown + "three lattices or more with long common periods are undecided");
+    if (!horizon.tail_constant) return without_constant(horizon.no_tail_constant);
+    Tail tail = tail_of_channels(scene, ensemble, horizon.tail_constant,
+                                 "of the " + channel + "s" + (flat ? "" : "; approached like t^(-2/3)"));
+    if (!flat) tail.approach = 2.0 / 3;
+    return tail;
+  } catch (const oracle::TooManyChannels& error) {
+    return has_wide_channel(scene) ? without_constant("there are too many")
+                                   : not_known(unknown + error.what());
+  }
+}
+
+// One lattice of discs so small that some corridor is wide: the sum in binary64 cannot miss it, and is there
+// at once, where the exact search takes its time or refuses.
+std::optional<Tail> tail_of_small_discs(const Scene& scene, Ensemble ensemble) {
+  constexpr double kSmall = 0.1;  // of the square root of the cell's area; the shortest vector is at most
+                                  // 1.07 of it, so that its corridor is 0.7 wide or more
+  if (scene.dimension != 2 || scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1)
+    return std::nullopt;
+  const Lattice& lattice = scene.lattices[0];
+  const Atom& disc = lattice.atoms[0];
+  if (!disc.is_ball() || disc.radius > kSmall * std::sqrt(cell_volume(lattice, 2))) return std::nullopt;
+  if (!mean_free_path_of(scene).value) return std::nullopt;  // the sum is for discs that don't overlap
+  const auto sum = corridor_tail_constant(lattice);
+  return tail_of_channels(scene, ensemble, sum ? std::optional(sum->value) : std::nullopt,
+                          !sum            ? "of the corridors; too many to be added up"
+                          : sum->of_limit ? "of the limit law: there are too many corridors to be added up"
+                                          : "of the corridors");
+}
+
+}  // namespace
+
+Tail tail_of_long_paths(const Scene& scene, Ensemble ensemble) {
+  if (const auto tail = tail_of_small_discs(scene, ensemble)) return *tail;
+  return tail_of_horizon(scene, ensemble);
+}
+
+std::vector<Tail> tails_of(const Scene& scene, Ensemble ensemble) {
+  std::vector<Tail> tails;
+  const auto small =
+      scene.dimension == 2 ? tail_2d_of_small(scene, ensemble) : tail_3d_of_small(scene, ensemble);
+  if (small) tails.push_back(*small);
+  tails.push_back(tail_of_long_paths(scene, ensemble));
+  return tails;
+}
+
+}  // namespace lorentz::flights
