@@ -1,8 +1,9 @@
 // lorentz compare: engines, and answers logged elsewhere, against the oracle.
-#include <map>
+#include <algorithm>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/compare_parts.hpp"
 #include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
@@ -10,6 +11,7 @@
 #include "cli/logged_answers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
+#include "files/signals.hpp"
 #include "question/examine.hpp"
 #include "question/race.hpp"
 #include "report/reason.hpp"
@@ -107,33 +109,22 @@ int exit_status(const std::vector<Tally>& tallies, const CompareOptions& options
   return kDone;
 }
 
-// What departs from the exact answers: to the file, and the first wrong ones of each engine for people.
+// What departs from the exact answers in one part: to the file, and the first wrong ones for people.
 class Departures {
  public:
-  explicit Departures(const CompareOptions& options)
-      : times_(options.times),
-        is_json_(options.json),
-        most_(static_cast<std::size_t>(options.failures)),
-        file_(options.disagreements) {}
+  Departures(const CompareOptions& options, DisagreementFile& file) : options_(options), file_(file) {}
 
-  DisagreementFile& file() { return file_; }
-
-  void add(const Judged& judged, const std::string& name) {
+  void add(const Judged& judged, const std::string& name, std::vector<std::string>& wrong) {
     const oracle::Judgement& judgement = judged.judgement;
-    if (!departs(judgement) || (judgement.wrong_time && !times_)) return;
+    if (!departs(judgement) || (judgement.wrong_time && !options_.times)) return;
     file_.add(judged, name);
-    if (judgement.verdict != oracle::Verdict::wrong || is_json_ || listed_[name]++ >= most_) return;
+    if (judgement.verdict != oracle::Verdict::wrong || options_.json || wrong.size() >= options_.failures)
+      return;
     const Question& question = judged.question;
     const Place& place = *question.place;
-    text_[name] += description(judged) + report::reason_of(place.margins(), place.scene(), question.query,
-                                                           question.exact, judged.reply.answer,
-                                                           judgement.obstacle, "    ");
-  }
-
-  /// The first wrong answers of an engine, for people; empty if there are none.
-  std::string text_of(const std::string& name) const {
-    const auto found = text_.find(name);
-    return found == text_.end() ? "" : found->second;
+    wrong.push_back(description(judged) + report::reason_of(place.margins(), place.scene(), question.query,
+                                                            question.exact, judged.reply.answer,
+                                                            judgement.obstacle, "    "));
   }
 
  private:
@@ -147,33 +138,45 @@ class Departures {
     return fmt::format("  {}    says  {}    truth {}", query, says, truth);
   }
 
-  const bool times_, is_json_;
-  const std::size_t most_;
-  DisagreementFile file_;
-  std::map<std::string, std::size_t> listed_;
-  std::map<std::string, std::string> text_;
+  const CompareOptions& options_;
+  DisagreementFile& file_;
 };
 
+// The first wrong answers of the i-th that is compared, for people; empty if there are none.
+std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t most) {
+  std::string text;
+  for (const auto& [number, part] : parts.all())
+    for (const std::string& one : part.wrong[i])
+      if (most > 0) text += one, --most;
+  return text;
+}
+
 void show(const CompareOptions& options, const ComparedQuestions& questions,
-          const std::vector<Tally>& tallies, const Departures& departures) {
+          const std::vector<Tally>& tallies, const ComparedParts& parts) {
   if (options.json) {
     print(json_of(title(options, questions), options.seed, tallies,
                   options.no_oracle ? std::nullopt : std::optional(options.judge)));
     return;
   }
   const bool drawn = !options.queries;
-  print(fmt::format("{}: {} {} queries{}{}\n\n{}", title(options, questions), questions.count(),
+  const bool is_whole = options.no_oracle || tallies[0].queries == questions.count();
+  print(fmt::format("{}: {}{} {} queries{}{}\n\n{}", title(options, questions),
+                    is_whole ? "" : fmt::format("{} of ", tallies[0].queries), questions.count(),
                     drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
                     options.judge == "oracle" ? "" : ", judged by " + options.judge,
                     table_of(tallies, !options.no_oracle)));
   if (options.no_oracle) return;
-  for (const Tally& t : tallies) {
-    const std::string text = departures.text_of(t.name);
-    print(fmt::format("\n{}\n{}{}", verdict_of(t), text.empty() ? "" : "  The first wrong answers:\n", text));
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    const std::string text = first_wrong(parts, i, options.failures);
+    print(fmt::format("\n{}\n{}{}", verdict_of(tallies[i]),
+                      text.empty() ? "" : "  The first wrong answers:\n", text));
   }
 }
 
 void check(const CompareOptions& options, const std::vector<EngineInfo>& engines) {
+  const bool has_parts = options.store || !options.parts.empty() || options.shard != CompareOptions().shard;
+  if (options.no_oracle && has_parts)
+    throw InputError("--store, --add and --shard are of what is judged; leave --no-oracle out");
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
     throw InputError("--judge: nobody is judged with --no-oracle");
@@ -199,24 +202,54 @@ std::vector<Compared> all_compared(const CompareOptions& options, const std::vec
   return all;
 }
 
+// Who only has to keep up with the questions: the answers that belong to them are passed over.
+void pass_over(const std::vector<Question>& questions, std::vector<Compared>& compared) {
+  for (Compared& one : compared)
+    if (one.logged) ask_all(all_of(questions), *one.answerers[0], [](const Question&, Reply&) {});
+}
+
+ComparedPart examine_part(const CompareOptions& options, std::uint64_t number,
+                          std::vector<Question>& questions, std::vector<Compared>& compared,
+                          DisagreementFile& file) {
+  const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  ComparedPart part{number, check_of(questions), {}, {}, {}};
+  Departures departures(options, file);
+  answer_exactly(questions, truth_named(options.judge, {}), terminal(), static_cast<int>(options.jobs));
+  for (Compared& one : compared) {
+    Tally& tally = part.tallies.emplace_back();
+    std::vector<std::string>& wrong = part.wrong.emplace_back();
+    examine(questions, one.answerers, ulps, [&](const Judged& judged) {
+      tally.count(judged.judgement);
+      departures.add(judged, one.name, wrong);
+    });
+  }
+  part.disagreements = file.take();
+  return part;
+}
+
 // Asks part after part, so that what is held in memory does not grow with the queries. Returns the first of
 // them, for the race.
 std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestions& questions,
-                                  std::vector<Compared>& compared, Departures& departures) {
+                                  std::vector<Compared>& compared, ComparedParts& parts,
+                                  DisagreementFile& file) {
   constexpr std::size_t kTogether = 10'000;
-  const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
   std::vector<Question> first;
-  for (std::vector<Question> part; !(part = questions.next(kTogether)).empty();) {
-    if (!options.no_oracle) {
-      answer_exactly(part, truth_named(options.judge, {}), terminal(), static_cast<int>(options.jobs));
-      for (Compared& one : compared)
-        examine(part, one.answerers, ulps, [&](const Judged& judged) {
-          one.tally.count(judged.judgement);
-          departures.add(judged, one.name);
-        });
+  std::vector<Question> some;
+  for (std::uint64_t number = 0; !(some = questions.next(kTogether)).empty(); ++number) {
+    if (!options.no_oracle && !parts.is_to_do(number, check_of(some))) {
+      pass_over(some, compared);
+    } else if (!options.no_oracle) {
+      ComparedPart part = examine_part(options, number, some, compared, file);
+      const bool is_whole = std::none_of(compared.begin(), compared.end(),
+                                         [](const Compared& one) { return one.answerers[0]->failed(); });
+      parts.add(std::move(part), is_whole);
     }
     if (first.empty() || options.no_oracle)
-      first.insert(first.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+      first.insert(first.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+  }
+  for (const auto& [number, part] : parts.all()) {
+    for (std::size_t i = 0; i < compared.size(); ++i) compared[i].tally.add(part.tallies[i]);
+    file.put(part.disagreements);
   }
   return first;
 }
@@ -246,10 +279,14 @@ int act(const CompareOptions& options) {
   std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty() && options.answers.empty()) engines = engines_named({"classical", "published"});
   check(options, engines);
-  Departures departures(options);
-  ComparedQuestions questions(options, departures.file());
+  DisagreementFile file(options.disagreements);
+  ComparedQuestions questions(options, file);
   std::vector<Compared> compared = all_compared(options, engines, questions);
-  const std::vector<Question> first = examine_all(options, questions, compared, departures);
+  std::vector<std::string> names;
+  for (const Compared& one : compared) names.push_back(one.name);
+  if (options.store) goes_on_when_repeated();
+  ComparedParts parts(options, names);
+  const std::vector<Question> first = examine_all(options, questions, compared, parts, file);
   race_all(options, first, compared);
   bool bad_input = questions.had_bad_input();
   for (Compared& one : compared) {
@@ -257,10 +294,10 @@ int act(const CompareOptions& options) {
     one.tally.failed = one.answerers[0]->failed();
     bad_input |= one.logged && one.logged->had_bad_input();
   }
-  departures.file().close();
+  file.close();
   std::vector<Tally> tallies;
   for (Compared& one : compared) tallies.push_back(std::move(one.tally));
-  show(options, questions, tallies, departures);
+  show(options, questions, tallies, parts);
   return exit_status(tallies, options, bad_input);
 }
 
@@ -291,6 +328,10 @@ Command compare_command() {
           {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
            "--queries"},
           {"--seed", Whole{&options->seed}, "N", "of the drawn queries"},
+          {"--store", &options->store, "FILE",
+           "where parts of 10 000 queries that are judged are kept, and gone on from", kOutput},
+          {"--shard", &options->shard, "I/N", "only the parts I modulo N"},
+          {"--add", &options->parts, "FILE", "add what the stores of other shards have"},
           {"--disagreements", &options->disagreements, "FILE",
            "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream",
            kOutput},

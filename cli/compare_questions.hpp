@@ -17,10 +17,11 @@ namespace lorentz::cli {
 
 struct CompareOptions {
   std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, queries, disagreements;
+  std::vector<std::string> parts;  // stores of other shards
+  std::optional<std::string> scene, queries, disagreements, store;
   std::optional<double> radius, ulps, timeout;
   std::uint64_t jobs = 1, count = 10'000, seed = starts::kDefaultSeed, failures = 3;
-  std::string judge = "oracle";
+  std::string judge = "oracle", shard = "0/1";
   bool json = false, strict = false, times = false, no_oracle = false;
 
   UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }

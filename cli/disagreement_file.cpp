@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include <lorentz/exchange.hpp>
 
 namespace lorentz::cli {
@@ -14,14 +16,14 @@ DisagreementFile::DisagreementFile(const std::optional<std::string>& path) {
 }
 
 void DisagreementFile::begin(const std::shared_ptr<Place>& place) {
-  if (file_ && !place_) enter(place);
+  if (!file_ || !scene_.empty()) return;
+  append_scene_line(scene_, place->scene());
+  file_->write(scene_);
 }
 
 void DisagreementFile::enter(const std::shared_ptr<Place>& place) {
   if (place == place_) return;
-  std::string line;
-  append_scene_line(line, place->scene());
-  file_->write(line);
+  append_scene_line(added_, place->scene());
   place_ = place;
 }
 
@@ -39,15 +41,33 @@ void DisagreementFile::add(const Judged& judged, const std::string& engine) {
       add_answer(object, its, dimension);
     };
   };
-  file_->write(json::line_of([&](json::Members& line) {
+  added_ += json::line_of([&](json::Members& line) {
     line.add("id", json::Raw{question.id});
     add_query(line, question.query, dimension);
     line.add("engine", engine, "verdict", verdict, "departs", judgement.departs, "expected",
              answer(question.exact), "given", answer(reply.answer));
-  }));
+  });
+}
+
+std::string DisagreementFile::take() {
+  place_.reset();
+  return std::exchange(added_, {});
+}
+
+void DisagreementFile::put(std::string_view stream) {
+  while (file_ && !stream.empty()) {
+    const std::string_view line = stream.substr(0, stream.find('\n') + 1);
+    stream.remove_prefix(line.size());
+    if (line.starts_with("{\"scene\"")) {
+      if (line == scene_) continue;
+      scene_ = line;
+    }
+    file_->write(line);
+  }
 }
 
 void DisagreementFile::close() {
+  put(take());
   if (file_) file_->commit();
   file_.reset();
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "files/whole_file.hpp"
 #include "question/examine.hpp"
@@ -15,18 +16,27 @@ class DisagreementFile {
   /// Writes nothing without a path. Throws FileError if the file cannot be written.
   explicit DisagreementFile(const std::optional<std::string>& path);
 
+  explicit operator bool() const { return file_.has_value(); }
+
   /// Writes the scene of the first place, so that the file is a stream even if nothing disagrees.
   void begin(const std::shared_ptr<question::Place>& place);
   void add(const question::Judged& judged, const std::string& engine);
 
-  /// Puts the file in its place. Throws FileError if something was not written.
+  /// What was added since the last call, a stream by itself, which is not written but by put().
+  std::string take();
+  /// Writes what take() gave; a scene that is the one before is not said again.
+  void put(std::string_view stream);
+
+  /// Writes what was added and not taken, and puts the file in its place. Throws FileError if something was not
+  /// written.
   void close();
 
  private:
   void enter(const std::shared_ptr<question::Place>& place);
 
   std::optional<WholeFile> file_;
-  std::shared_ptr<question::Place> place_;  // of the scene that was written last
+  std::string added_, scene_;               // the line of the scene that was written last
+  std::shared_ptr<question::Place> place_;  // of the scene that was added last
 };
 
 }  // namespace lorentz::cli

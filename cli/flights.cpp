@@ -1,5 +1,6 @@
 // lorentz flights: very many free flights from drawn starts, their statistics, and theory beside them.
 #include <chrono>
+#include <tuple>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -77,12 +78,7 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   flights::FlightBounds bounds;
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
-  const auto slash = options.shard.find('/');
-  if (slash == std::string::npos)
-    throw InputError(
-        fmt::format("--shard: {} is not I/N, like 0/4 for the first of four", json_quoted(options.shard)));
-  bounds.shards = whole_number(options.shard.substr(slash + 1), "--shard", 1, 1'000'000);
-  bounds.shard = whole_number(options.shard.substr(0, slash), "--shard", 0, bounds.shards - 1);
+  std::tie(bounds.shard, bounds.shards) = shard_in(options.shard);
   return bounds;
 }
 

@@ -2,6 +2,7 @@
 #include "cli/fuzz_options.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
@@ -62,15 +63,6 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
   return targets;
 }
 
-void set_shard(const std::string& text, fuzz::Plan& plan) {
-  const auto slash = text.find('/');
-  if (slash == std::string::npos)
-    throw InputError(
-        fmt::format("--shard: {} is not I/N, like 0/4 for the first of four", json_quoted(text)));
-  plan.shards = whole_number(text.substr(slash + 1), "--shard", 1, 1'000'000);
-  plan.shard = whole_number(text.substr(0, slash), "--shard", 0, plan.shards - 1);
-}
-
 }  // namespace
 
 fuzz::Plan plan_of(const FuzzOptions& options) {
@@ -79,7 +71,7 @@ fuzz::Plan plan_of(const FuzzOptions& options) {
   plan.seed = options.seed;
   plan.scope = scope_of(options);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));
-  set_shard(options.shard, plan);
+  std::tie(plan.shard, plan.shards) = shard_in(options.shard);
   plan.keep = options.keep;
   plan.mutate = options.mutate;
   plan.reword = options.reword;

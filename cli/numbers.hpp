@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/command.hpp"
 
@@ -12,6 +13,9 @@ namespace lorentz::cli {
 /// A whole number from `least` to `most`: digits, or a form like 1e6. Throws InputError, naming the option.
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least,
                            std::uint64_t most);
+
+/// I and N of a shard I/N, "0/4" the first of four. Throws InputError.
+std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text);
 
 /// A finite number above zero, decimal or hexadecimal, or nothing if the option was not given. Throws
 /// InputError.

@@ -57,8 +57,8 @@ void Tally::add(const Tally& other) {
         &Tally::unsupported, &Tally::error, &Tally::missing, &Tally::wrong_time, &Tally::timed_hits})
     this->*count += other.*count;
   failed |= other.failed;
-  max_ulp = std::max(max_ulp, other.max_ulp);
-  sum_ulp += other.sum_ulp;
+  for (const double one : other.ulps) max_ulp = std::max(max_ulp, one);
+  for (const double one : other.ulps) sum_ulp += one;  // in order: as if all were counted here
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
 }
