@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include <lorentz/oracle.hpp>
-#include "cases/families/family.hpp"
+#include "cases/families/target.hpp"
 
 using namespace lorentz;
 
@@ -62,6 +62,7 @@ int main(int count, char** arguments) {
   const std::uint64_t number = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 4000;
   fmt::print(
       "family             hit % never % inside % errors duplicates us to make us to answer longest flight\n");
-  for (const cases::Family& family : cases::families())
-    if (count < 3 || family.name() == arguments[2]) row(family, number);
+  for (const cases::Target& target : cases::targets())
+    for (const cases::Family& family : target.families())
+      if (count < 3 || family.name() == arguments[2]) row(family, number);
 }

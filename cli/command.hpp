@@ -29,8 +29,8 @@ struct Tolerance {
 
 /// Where an option's value goes: a flag's, that of an option with a default (none if empty), one that may be
 /// left out, one that may be given several times; a number. Nothing: the parser's own.
-using Target = std::variant<std::monostate, bool*, std::string*, std::optional<std::string>*,
-                            std::vector<std::string>*, Whole, Positive, Tolerance>;
+using Destination = std::variant<std::monostate, bool*, std::string*, std::optional<std::string>*,
+                                 std::vector<std::string>*, Whole, Positive, Tolerance>;
 
 enum Trait : unsigned {
   kPlain = 0,
@@ -45,7 +45,7 @@ enum Trait : unsigned {
 /// One option, or one argument.
 struct Option {
   std::string names;  ///< "-e,--engine"; of an argument its name
-  Target target;
+  Destination target;
   std::string
       type;  ///< what help calls the value: FILE, N, .., or the values themselves, a|b|c; of a flag empty
   std::string help;

@@ -17,6 +17,7 @@ class Target {
   std::string_view name() const { return name_; }
   std::string_view description() const { return families_.front().description(); }
   Case make(std::uint64_t seed, std::uint64_t index) const;
+  const std::vector<Family>& families() const { return families_; }
 
  private:
   std::string_view name_;

@@ -46,7 +46,8 @@ class Engine {
  protected:
   explicit Engine(Scene scene) : scene_(std::move(scene)) {}
 
-  /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity.
+  /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity. Nothing is
+  /// entered before max_time: `never`, of which first_hit makes `later`.
   virtual void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const = 0;
 
   /// True if first_hit_scaled decides the limit. Otherwise its rounded time is compared with it.
@@ -62,7 +63,7 @@ class Engine {
   Scene scene_;
 };
 
-/// The names that make_engine knows: "classical", "published", "reduction".
+/// The names that make_engine knows.
 std::vector<std::string> engine_names();
 
 /// The engine of this name for a scene without flaws, or null for an unknown name. A scene that the engine
