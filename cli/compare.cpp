@@ -40,7 +40,7 @@ void add_tally(json::Members& object, const Tally& t, bool judged) {
   object.add("engine", t.name, "queries", t.queries, "agree", count(t.agree), "ill_posed", count(t.ill_posed),
              "wrong", count(t.wrong), "undecided", count(t.undecided), "unsupported", count(t.unsupported),
              "error", count(t.error), "missing", count(t.missing));
-  object.add("max_ulp", if_timed(t.max_ulp), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
+  object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
              if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "wrong_time",
              count(t.wrong_time), "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
              spread_of(t.wrong_conditions));

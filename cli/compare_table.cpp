@@ -37,7 +37,7 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
     table.add({t.name, std::to_string(t.queries), std::to_string(t.agree), std::to_string(t.ill_posed),
                share(t.wrong, answers), share(t.wrong_time, answers), std::to_string(t.undecided),
                std::to_string(t.unsupported), std::to_string(t.error), std::to_string(t.missing),
-               t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+               t.timed_hits ? fmt::format("{:.3g}", t.max_ulp()) : "-",
                t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-", nanoseconds(t.speed.ns_per_query),
                nanoseconds(t.speed.ns_median)});
   }

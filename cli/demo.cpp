@@ -70,7 +70,7 @@ class DemoReport {
                   std::to_string(t.agree), std::to_string(t.ill_posed), std::to_string(t.wrong),
                   std::to_string(t.wrong_time), std::to_string(t.undecided),
                   t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-",
-                  t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+                  t.timed_hits ? fmt::format("{:.3g}", t.max_ulp()) : "-",
                   fmt::format("{:.2f}", speeds[i].ns_per_query / 1000)});
       if (engines[i].name == kPublished) published_.add(t);
     }

@@ -216,7 +216,7 @@ std::string times_text(const std::vector<ExaminedRow>& rows) {
   if (wrong == 0)
     return drawn.timed_hits == 0
                ? std::string()
-               : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp);
+               : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp());
   drawn.add(hard);
   return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
                      question::quantile(drawn.wrong_ulps, 1));
@@ -312,7 +312,7 @@ std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense
           number(t.error),
           number(t.missing),
           number(nonsense),
-          t.timed_hits ? fmt::format("{:.3g}", t.max_ulp) : "-",
+          t.timed_hits ? fmt::format("{:.3g}", t.max_ulp()) : "-",
           t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"};
 }
 
@@ -365,7 +365,7 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
   object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
              t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error,
              "missing", t.missing, "nonsense", row.nonsense);
-  object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp) : std::nullopt, "ns_per_query",
+  object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 

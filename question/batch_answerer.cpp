@@ -21,13 +21,9 @@ BatchAnswerer::BatchAnswerer(bool certified, const AnswererOptions& options)
 
 void BatchAnswerer::enter(const Scene& scene) {
   drain();
-  batch_.reset(), certified_batch_.reset(), why_not_.reset();
-  if (certified_) {
-    certified_batch_.emplace(scene);
-    return;
-  }
-  why_not_ = Reduction::beyond(scene);
-  if (!why_not_) batch_.emplace(scene);
+  engine_.reset();
+  why_not_ = certified_ ? std::nullopt : Reduction::beyond(scene);
+  if (!why_not_) engine_.emplace(certified_, scene);
 }
 
 void BatchAnswerer::ask(const Id& id, const Query& query) {
@@ -39,7 +35,7 @@ void BatchAnswerer::ask_until(const Id&, const Query& query, double max_time) {
   if (!queries_.push_back(query, limit)) {  // `from` is too far away for the columns
     drain();
     Reply reply = single(query, limit);
-    if (batch_) reply.stage = batch_->one_at_a_time().fly(query, limit).stage;
+    if (batch()) reply.stage = batch()->one_at_a_time().fly(query, limit).stage;
     deliver(reply);
   } else if (queries_.size() == kGathered) {
     drain();
@@ -59,7 +55,6 @@ bool BatchAnswerer::idle(int) {
 void BatchAnswerer::drain() {
   if (queries_.size() == 0) return;
   flights_.resize(queries_.size());
-  uncertain_.clear();
   fly();
   std::size_t next = 0;
   for (std::size_t i = 0; i < queries_.size(); ++i) {
@@ -71,9 +66,7 @@ void BatchAnswerer::drain() {
 }
 
 void BatchAnswerer::fly() {
-  if (batch_) batch_->fly(queries_.columns(), flights_.columns(), Batch::Time::close, jobs_);
-  if (certified_batch_)
-    certified_batch_->first_hits(queries_.columns(), flights_.columns(), uncertain_, jobs_);
+  if (engine_) engine_->fly(queries_.columns(), flights_.columns(), uncertain_, jobs_);
 }
 
 double BatchAnswerer::limit(std::size_t i) const {
@@ -92,14 +85,14 @@ Reply BatchAnswerer::reply_to(std::size_t i) const {
 Reply BatchAnswerer::single(const Query& query, double max_time) const {
   if (why_not_) return {Answer::unsupported_because("batch " + *why_not_)};
   Reply reply;
-  if (certified_batch_) {
+  if (const auto* certified = engine_->certified()) {
     oracle::Request request = request_;
     if (std::isfinite(max_time)) request.max_time = max_time;
-    certified_batch_->one_at_a_time().first_hit(query, request, reply.answer);
+    certified->one_at_a_time().first_hit(query, request, reply.answer);
     reply.stage = Stage::undecided;
     return reply;
   }
-  batch_->one_at_a_time().first_hit(query, max_time, reply.answer);
+  batch()->one_at_a_time().first_hit(query, max_time, reply.answer);
   if (request_.detail) add_detail(query, scene(), reply.answer);
   return reply;
 }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include <lorentz/certified_batch.hpp>
 #include "question/answerer.hpp"
+#include "question/many_flights.hpp"
 
 namespace lorentz::question {
 
@@ -29,7 +29,8 @@ class BatchAnswerer : public Answerer {
   /// What came of the query number i of these, if it is certain.
   virtual Reply reply_to(std::size_t i) const;
 
-  const std::optional<Batch>& batch() const { return batch_; }
+  /// Null for a scene that it cannot do.
+  const Batch* batch() const { return engine_ ? engine_->batch() : nullptr; }
   const QueryTable& queries() const { return queries_; }
   Flight flight(std::size_t i) const { return flights_[i]; }
   double limit(std::size_t i) const;
@@ -42,8 +43,7 @@ class BatchAnswerer : public Answerer {
   const oracle::Request request_;
   const int jobs_;
   std::optional<std::string> why_not_;  ///< the scene is beyond the engine
-  std::optional<Batch> batch_;
-  std::optional<oracle::CertifiedBatch> certified_batch_;
+  std::optional<ManyFlights> engine_;   ///< nothing: the same
   QueryTable queries_;
   FlightTable flights_;
   std::vector<std::size_t> uncertain_;

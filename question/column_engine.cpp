@@ -23,11 +23,7 @@ ColumnEngine::ColumnEngine(const EngineInfo& engine, const Scene& scene, std::op
       max_time_(max_time),
       jobs_(jobs),
       single_(engine.first_hit(scene)) {
-  if (!traits_.in_bulk || Reduction::beyond(scene)) return;
-  if (traits_.is_exact)
-    certified_batch_.emplace(scene);
-  else
-    batch_.emplace(scene);
+  if (traits_.in_bulk && !Reduction::beyond(scene)) together_.emplace(traits_.is_exact, scene);
 }
 
 void ColumnEngine::set_limits(const QueryRows& queries) {
@@ -58,8 +54,7 @@ void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& 
   if (!limits_.empty()) asked.max_time = limits_.data();
   if (!queries.from_lattice.empty())
     asked.from_lattice = queries.from_lattice.data(), asked.from_atom = queries.from_atom.data();
-  if (batch_) batch_->fly(asked, told, Batch::Time::close, jobs_);
-  if (certified_batch_) certified_batch_->first_hits(asked, told, uncertain_, jobs_);
+  together_->fly(asked, told, uncertain_, jobs_);
   std::transform(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(queries.count),
                  answers.stage.begin() + static_cast<std::ptrdiff_t>(first),
                  [](Stage stage) { return static_cast<std::uint8_t>(stage); });
@@ -91,10 +86,9 @@ void ColumnEngine::answer(const QueryRows& queries, AnswerRows& answers) {
 void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
   set_limits(queries);
   uncertain_.clear();
-  const bool together = batch_ || certified_batch_;
-  if (together) fly(first, queries, answers);
+  if (together_) fly(first, queries, answers);
   // Of nearly all rows a flight wrote all there is to say.
-  const bool is_plain = together && limits_.empty() && uncertain_.empty() && queries.flaws.empty() &&
+  const bool is_plain = together_ && limits_.empty() && uncertain_.empty() && queries.flaws.empty() &&
                         queries.large_from.empty();
   std::size_t uncertain = 0, flaw = 0, large = 0;
   for (std::size_t i = 0; i < queries.count; ++i) {
@@ -109,7 +103,7 @@ void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, Answ
       answers.set_error(first + i, "max_time must be above zero", false);
     else if (asked)
       ask(first, queries, i, AnswerRows::kExactStage, answers);
-    else if (together && !from_afar)
+    else if (together_ && !from_afar)
       finish(first, queries, i, answers);
     else
       ask(first, queries, i, usual_stage(traits_), answers);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/certified_batch.hpp>
 #include "question/engines.hpp"
+#include "question/many_flights.hpp"
 #include "src/exchange/columns.hpp"
 
 namespace lorentz::question {
@@ -35,8 +35,7 @@ class ColumnEngine {
   const Traits traits_;
   const std::optional<double> max_time_;
   const int jobs_;
-  std::optional<Batch> batch_;  // at most one of these
-  std::optional<oracle::CertifiedBatch> certified_batch_;
+  std::optional<ManyFlights> together_;  // nothing: asked row by row
   const FirstHit single_;
 
   std::vector<double> limits_;  // empty: no row has one

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace lorentz::question {
 
@@ -39,8 +40,6 @@ void Tally::count(const oracle::Judgement& judgement) {
   if (!judgement.ulps) return;
   ++timed_hits;
   ulps.push_back(*judgement.ulps);
-  sum_ulp += *judgement.ulps;
-  max_ulp = std::max(max_ulp, *judgement.ulps);
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -57,14 +56,20 @@ void Tally::add(const Tally& other) {
         &Tally::unsupported, &Tally::error, &Tally::missing, &Tally::wrong_time, &Tally::timed_hits})
     this->*count += other.*count;
   failed |= other.failed;
-  for (const double one : other.ulps) max_ulp = std::max(max_ulp, one);
-  for (const double one : other.ulps) sum_ulp += one;  // in order: as if all were counted here
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
 }
 
 double Tally::ulp_at(double share) const {
   return quantile(ulps, share);
+}
+
+double Tally::mean_ulp() const {
+  return ulps.empty() ? 0 : std::accumulate(ulps.begin(), ulps.end(), 0.0) / static_cast<double>(ulps.size());
+}
+
+double Tally::max_ulp() const {
+  return ulps.empty() ? 0 : *std::max_element(ulps.begin(), ulps.end());
 }
 
 }  // namespace lorentz::question

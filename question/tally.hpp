@@ -31,15 +31,15 @@ struct Tally {
   std::size_t wrong_time = 0;  ///< of those that agree: their time is beyond its tolerance
   bool failed = false;         ///< another program that broke on the way
   std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
-  double max_ulp = 0, sum_ulp = 0;
-  std::vector<double> ulps;                          ///< errors of these times
+  std::vector<double> ulps;    ///< errors of these times
   std::vector<double> wrong_ulps, wrong_conditions;  ///< of wrong times: in ulps, in units of the condition
   Speed speed;
 
   void count(const oracle::Judgement& judgement);
   void add(const Tally& other);       ///< its counts and errors; not its name and speed
   double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
-  double mean_ulp() const { return timed_hits ? sum_ulp / static_cast<double>(timed_hits) : 0; }
+  double mean_ulp() const;            ///< 0 of none, as is the largest
+  double max_ulp() const;
 };
 
 }  // namespace lorentz::question

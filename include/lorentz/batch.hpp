@@ -28,6 +28,8 @@ struct QueryColumns {
   const std::int32_t *from_lattice = nullptr, *from_atom = nullptr;
   std::array<const std::int64_t*, 3> from_cell{};
 
+  /// The query i, in so many dimensions.
+  Query query(std::size_t i, int dimension) const;
   /// The queries [begin, begin + length).
   QueryColumns part(std::size_t begin, std::size_t length) const;
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include <lorentz/errors.hpp>
 
 namespace lorentz::flights {
@@ -15,57 +17,28 @@ constexpr std::uint64_t kTogether = 4096;
 // ---- engines by columns
 
 ColumnFlyer::ColumnFlyer(const question::EngineInfo& engine, const Scene& scene)
-    : single_(engine.first_hit(scene)) {
-  if (!engine.traits.uses_reduction) return;  // asked one at a time
-  if (engine.traits.is_exact) {
-    certified_.emplace(scene);
-    return;
-  }
-  if (const auto why = Reduction::beyond(scene))
-    throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine.name, *why));
-  batch_.emplace(scene);
+    : dimension_(scene.dimension), single_(engine.first_hit(scene)) {
+  if (!engine.traits.uses_reduction) return;
+  const auto why = engine.traits.is_exact ? std::nullopt : Reduction::beyond(scene);
+  if (why) throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine.name, *why));
+  together_.emplace(engine.traits.is_exact, scene);
 }
-
-namespace {
-
-Query query_at(const QueryColumns& queries, std::size_t i) {
-  Query query;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (queries.x[k]) query.x[k] = queries.x[k][i];
-    if (queries.v[k]) query.v[k] = queries.v[k][i];
-  }
-  if (!queries.from_lattice || queries.from_lattice[i] < 0) return query;
-  query.from.emplace();
-  query.from->lattice = queries.from_lattice[i], query.from->atom = queries.from_atom[i];
-  for (std::size_t k = 0; k < 3; ++k)
-    if (queries.from_cell[k]) query.from->cell[k] = Integer(queries.from_cell[k][i]);
-  return query;
-}
-
-// Of an answer only what is counted.
-void set(const Answer& answer, std::size_t i, const FlightColumns& flights) {
-  flights.outcome[i] = answer.outcome;
-  flights.time[i] = answer.time.value_or(0);
-}
-
-}  // namespace
 
 void ColumnFlyer::fly(const QueryColumns& queries, FlightTable& flights) const {
   flights.resize(queries.count);
-  FlightColumns columns = flights.columns();
-  if (batch_) {
-    batch_->fly(queries, columns);
-    return;
+  const FlightColumns columns = flights.columns();
+  std::vector<std::size_t> rest;
+  if (together_) {
+    together_->fly(queries, columns, rest);
+  } else {
+    rest.resize(queries.count);
+    std::iota(rest.begin(), rest.end(), 0);
   }
-  std::vector<std::size_t> uncertain(certified_ ? 0 : queries.count);
-  if (certified_)
-    certified_->first_hits(queries, columns, uncertain);
-  else
-    for (std::size_t i = 0; i < uncertain.size(); ++i) uncertain[i] = i;
   Answer answer;
-  for (const std::size_t i : uncertain) {
-    single_(query_at(queries, i), {}, answer);
-    set(answer, i, columns);
+  for (const std::size_t i : rest) {
+    single_(queries.query(i, dimension_), {}, answer);
+    columns.outcome[i] = answer.outcome;
+    columns.time[i] = answer.time.value_or(0);  // no more is counted
   }
 }
 

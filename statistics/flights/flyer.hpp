@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include <lorentz/certified_batch.hpp>
 #include "question/engines.hpp"
+#include "question/many_flights.hpp"
 #include "statistics/flights/plan.hpp"
 #include "statistics/flights/tally.hpp"
 
@@ -18,8 +18,8 @@ class ColumnFlyer {
   void fly(const QueryColumns& queries, FlightTable& flights) const;
 
  private:
-  std::optional<Batch> batch_;  // at most one of these
-  std::optional<oracle::CertifiedBatch> certified_;
+  int dimension_;
+  std::optional<question::ManyFlights> together_;  // nothing: one by one
   question::FirstHit single_;
 };
 

@@ -64,7 +64,7 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 0)});
   report.rows[0].tally.timed_hits = 900;
-  report.rows[0].tally.max_ulp = 3.14159;
+  report.rows[0].tally.ulps = {1, 3.14159, 0.5};
   CHECK(report.line() ==
         "right: no wrong answer in 1000; times within 3.1 ulps on drawn flights, no wrong time");
   report.rows[0].tally.wrong_time = 2;

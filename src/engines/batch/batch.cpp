@@ -108,13 +108,7 @@ void Batch::Inside::tell(const StretchBuffer& buffer, const FlightColumns& fligh
 
 void Batch::Inside::fly_single(const QueryColumns& queries, std::size_t i, const FlightColumns& flights,
                                Time time) const {
-  Query query;
-  for (int k = 0; k < scene.dimension; ++k) query.x[k] = queries.x[k][i], query.v[k] = queries.v[k][i];
-  if (queries.from_lattice && queries.from_lattice[i] >= 0) {
-    query.from.emplace();
-    query.from->lattice = queries.from_lattice[i], query.from->atom = queries.from_atom[i];
-    for (int k = 0; k < scene.dimension; ++k) query.from->cell[k] = queries.from_cell[k][i];
-  }
+  const Query query = queries.query(i, scene.dimension);
   Flight flight;
   if (!flaw_of(query, scene))
     flight = single.fly(query, queries.max_time ? queries.max_time[i] : HUGE_VAL, time);

@@ -14,6 +14,16 @@ void advance(T*& column, std::size_t by) {
 
 }  // namespace
 
+Query QueryColumns::query(std::size_t i, int dimension) const {
+  Query query;
+  for (int k = 0; k < dimension; ++k) query.x[k] = x[k][i], query.v[k] = v[k][i];
+  if (!from_lattice || from_lattice[i] < 0) return query;
+  query.from.emplace();
+  query.from->lattice = from_lattice[i], query.from->atom = from_atom[i];
+  for (int k = 0; k < dimension; ++k) query.from->cell[k] = from_cell[k][i];
+  return query;
+}
+
 QueryColumns QueryColumns::part(std::size_t begin, std::size_t length) const {
   QueryColumns part = *this;
   part.count = length;
@@ -53,11 +63,7 @@ bool QueryTable::push_back(const Query& query, double max_time) {
 }
 
 Query QueryTable::operator[](std::size_t i) const {
-  Query query{{x_[0][i], x_[1][i], x_[2][i]}, {v_[0][i], v_[1][i], v_[2][i]}, {}};
-  if (from_lattice_[i] >= 0)
-    query.from =
-        ObstacleId{from_lattice_[i], from_atom_[i], {from_cell_[0][i], from_cell_[1][i], from_cell_[2][i]}};
-  return query;
+  return columns().query(i, 3);
 }
 
 QueryColumns QueryTable::columns() const {
