@@ -1,14 +1,15 @@
-// The engines that fly many at once, `batch` and `certified-batch`, asked alike.
+// Many flights asked for at once: of the engines that fly them together, and of any engine.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include <lorentz/certified_batch.hpp>
+#include "question/engines.hpp"
 
 namespace lorentz::question {
 
-/// One of the two for one scene. Any number of threads may share it.
+/// `batch` or `certified-batch` in one scene. Any number of threads may share it.
 class ManyFlights {
  public:
   /// `batch` needs a scene that Reduction does (Reduction::beyond).
@@ -25,6 +26,21 @@ class ManyFlights {
  private:
   std::optional<Batch> batch_;
   std::optional<oracle::CertifiedBatch> certified_;
+};
+
+/// An engine of this program, asked by columns: those that rest on `reduction` together, the others row by
+/// row. Any number of threads may share it if they may share the engine.
+class ColumnFlyer {
+ public:
+  ColumnFlyer(const EngineInfo& engine, const Scene& scene);
+
+  /// Outcomes and times. What together has none is asked alone.
+  void fly(const QueryColumns& queries, FlightTable& flights) const;
+
+ private:
+  int dimension_;
+  std::optional<ManyFlights> together_;
+  FirstHit single_;
 };
 
 }  // namespace lorentz::question

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <map>
 
 #include "question/instruction_counter.hpp"
+#include "question/many_flights.hpp"
 
 namespace lorentz::question {
 namespace {
@@ -20,7 +22,7 @@ struct Round {
   std::vector<double> block_means;
   std::optional<std::uint64_t> instructions = {};
 
-  double ns_per_query() const { return total_ns / static_cast<double>(asked); }
+  double ns_per_query() const { return asked ? total_ns / static_cast<double>(asked) : 0; }
 };
 
 double ns_since(SteadyClock::time_point start) {
@@ -52,7 +54,52 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
   return round;
 }
 
-// One that is asked many at a time: another program, a batch engine.
+// Questions of one place, one behind the other, as columns for a batch engine.
+struct ColumnsThere {
+  ColumnsThere(const EngineInfo& of, const Place* there) : place(there), engine(of, there->scene()) {}
+
+  const Place* place;
+  ColumnFlyer engine;
+  QueryTable queries = {};
+};
+
+// A query whose `from` has no place in columns is left out: there is hardly ever one.
+std::deque<ColumnsThere> columns_of(Questions questions, const EngineInfo& engine) {
+  std::deque<ColumnsThere> all;
+  for (const Question& question : questions) {
+    const Place* const place = question.place.get();
+    if (all.empty() || all.back().place != place) all.emplace_back(engine, place);
+    all.back().queries.push_back(question.query);
+  }
+  return all;
+}
+
+// A batch engine. What is timed is what it is for: columns to columns.
+Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, const Listener& listener) {
+  constexpr std::size_t kTogether = 1024;  // their columns stay in the cache
+  Round round;
+  FlightTable flights;
+  InstructionCounter instructions;
+  for (const ColumnsThere& there : all)
+    for (std::size_t begin = 0; begin < there.queries.size() && round.total_ns < 1e9 * kEnoughSeconds;
+         begin += kTogether) {
+      const std::size_t length = std::min(kTogether, there.queries.size() - begin);
+      const QueryColumns queries = there.queries.columns().part(begin, length);
+      instructions.resume();
+      const auto start = SteadyClock::now();
+      there.engine.fly(queries, flights);
+      const double ns = ns_since(start);
+      instructions.pause();
+      round.total_ns += ns;
+      round.asked += length;
+      round.block_means.push_back(ns / static_cast<double>(length));
+    }
+  report(listener, name, round.asked, round.asked);
+  round.instructions = instructions.count();
+  return round;
+}
+
+// Another program, or a function of the caller's.
 Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
   std::size_t answered = 0;
   program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
@@ -72,7 +119,11 @@ class Entrant {
  public:
   Entrant(Questions questions, const EngineInfo& engine, Answerer* running, const RaceOptions& options)
       : questions_(questions), name_(engine.name), listener_(options.listener) {
-    if (!engine.is_own() || engine.traits.in_bulk) {
+    if (engine.is_own() && engine.traits.in_bulk) {
+      columns_ = columns_of(questions, engine);
+      return;
+    }
+    if (!engine.is_own()) {
       if (!running)
         own_ = engine.answerer({{},
                                 options.timeout,
@@ -92,8 +143,9 @@ class Entrant {
   }
 
   void run() {
-    rounds_.push_back(program_ ? run_round(questions_, *program_, name_, listener_)
-                               : run_round(questions_, first_hits_, name_, listener_));
+    rounds_.push_back(program_            ? run_round(questions_, *program_, name_, listener_)
+                      : !columns_.empty() ? run_round(columns_, name_, listener_)
+                                          : run_round(questions_, first_hits_, name_, listener_));
   }
   bool failed() const { return program_ && program_->failed(); }
 
@@ -121,8 +173,9 @@ class Entrant {
   const Listener& listener_;
   std::map<const Place*, FirstHit> by_place_;
   std::vector<const FirstHit*> first_hits_;
+  std::deque<ColumnsThere> columns_;  // in place of these
   std::unique_ptr<Answerer> own_;
-  Answerer* program_ = nullptr;  // in place of these
+  Answerer* program_ = nullptr;  // likewise
   std::vector<Round> rounds_;
 };
 

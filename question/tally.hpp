@@ -15,8 +15,9 @@ double quantile(std::vector<double> values, double share);
 /// How long an engine takes.
 struct Speed {
   double ns_per_query = 0;         ///< mean over the queries, in the median round; 0: not timed
-  double ns_median = 0;            ///< median over blocks of 16 queries of a block's mean; of another
-                                   ///< program, whose answers come when they come, the mean
+  double ns_median = 0;            ///< median over blocks of 16 queries (of a batch engine 1024) of a
+                                   ///< block's mean; of another program, whose answers come when they come,
+                                   ///< the mean
   double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
   std::optional<double> instructions =
       {};               ///< a query, where InstructionCounter counts; not of another program

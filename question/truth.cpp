@@ -4,6 +4,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "question/engines.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::question {
 

@@ -144,11 +144,11 @@ class Summary {
 }  // namespace
 
 std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::string>& engines) {
-  std::string text = table_of(cells) +
-                     "\nns: median over blocks of 16 queries of a block's mean, and its quartiles; ulp: "
-                     "error of the time of "
-                     "right hits.\n\n" +
-                     fits_text(bench_fits(cells));
+  std::string text =
+      table_of(cells) +
+      "\nns: median over blocks of 16 queries (of a batch engine 1024) of a block's mean, and its "
+      "quartiles; ulp: error of the time of right hits.\n\n" +
+      fits_text(bench_fits(cells));
   for (const std::string& engine : engines) {
     Summary summary;
     for (const Cell& cell : cells)

@@ -1,6 +1,7 @@
 #include "starts/free_starts.hpp"
 
 #include <lorentz/certified.hpp>
+#include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"

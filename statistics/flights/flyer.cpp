@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include <lorentz/errors.hpp>
 
 namespace lorentz::flights {
@@ -14,37 +12,7 @@ constexpr std::uint64_t kTogether = 4096;
 
 }  // namespace
 
-// ---- engines by columns
-
-ColumnFlyer::ColumnFlyer(const question::EngineInfo& engine, const Scene& scene)
-    : dimension_(scene.dimension), single_(engine.first_hit(scene)) {
-  if (!engine.traits.uses_reduction) return;
-  const auto why = engine.traits.is_exact ? std::nullopt : Reduction::beyond(scene);
-  if (why) throw InputError(fmt::format("the engine {} {}; certified does such scenes", engine.name, *why));
-  together_.emplace(engine.traits.is_exact, scene);
-}
-
-void ColumnFlyer::fly(const QueryColumns& queries, FlightTable& flights) const {
-  flights.resize(queries.count);
-  const FlightColumns columns = flights.columns();
-  std::vector<std::size_t> rest;
-  if (together_) {
-    together_->fly(queries, columns, rest);
-  } else {
-    rest.resize(queries.count);
-    std::iota(rest.begin(), rest.end(), 0);
-  }
-  Answer answer;
-  for (const std::size_t i : rest) {
-    single_(queries.query(i, dimension_), {}, answer);
-    columns.outcome[i] = answer.outcome;
-    columns.time[i] = answer.time.value_or(0);  // no more is counted
-  }
-}
-
-// ---- a thread's flights
-
-Flyer::Flyer(const FlightsPlan& plan, const ColumnFlyer& engine)
+Flyer::Flyer(const FlightsPlan& plan, const question::ColumnFlyer& engine)
     : engine_(engine), starts_(plan.scene, plan.from, plan.seed, plan.cells) {}
 
 void Flyer::fly(std::uint64_t first, std::uint64_t count, FlightTally& tally) {

@@ -4,29 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "question/engines.hpp"
 #include "question/many_flights.hpp"
 #include "statistics/flights/plan.hpp"
 #include "statistics/flights/tally.hpp"
 
 namespace lorentz::flights {
 
-/// An engine that flies columns. Any number of threads may share one if its engine may be shared.
-class ColumnFlyer {
- public:
-  ColumnFlyer(const question::EngineInfo& engine, const Scene& scene);
-  void fly(const QueryColumns& queries, FlightTable& flights) const;
-
- private:
-  int dimension_;
-  std::optional<question::ManyFlights> together_;  // nothing: one by one
-  question::FirstHit single_;
-};
-
 /// A thread's own.
 class Flyer {
  public:
-  Flyer(const FlightsPlan& plan, const ColumnFlyer& engine);
+  Flyer(const FlightsPlan& plan, const question::ColumnFlyer& engine);
 
   /// Flies the starts [first, first + count), and adds what came of them. Throws InputError if a start cannot
   /// be found, or the engine cannot answer.
@@ -36,7 +23,7 @@ class Flyer {
   bool count(const Flight& flight, std::uint64_t index, FlightTally& tally);
   void draw_anew(FlightTally& tally);
 
-  const ColumnFlyer& engine_;
+  const question::ColumnFlyer& engine_;
   const starts::Candidates starts_;
   starts::StartColumns columns_;
   QueryTable again_;

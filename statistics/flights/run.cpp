@@ -1,11 +1,14 @@
 #include "statistics/flights/run.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
 
+#include <lorentz/errors.hpp>
 #include "statistics/flights/flyer.hpp"
 
 namespace lorentz::flights {
@@ -80,7 +83,7 @@ class BlockLedger {
   std::condition_variable left_;
 };
 
-void work(const FlightsPlan& plan, const ColumnFlyer& engine, BlockLedger& ledger) {
+void work(const FlightsPlan& plan, const question::ColumnFlyer& engine, BlockLedger& ledger) {
   try {
     Flyer flyer(plan, engine);
     for (std::uint64_t block; ledger.take(block);) {
@@ -99,7 +102,11 @@ void work(const FlightsPlan& plan, const ColumnFlyer& engine, BlockLedger& ledge
 
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress) {
-  const ColumnFlyer engine(question::engine_named(plan.engine), plan.scene);
+  const question::EngineInfo info = question::engine_named(plan.engine);
+  if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
+      why && info.traits.uses_reduction)
+    throw InputError(fmt::format("the engine {} {}; certified does such scenes", info.name, *why));
+  const question::ColumnFlyer engine(info, plan.scene);
   BlockLedger ledger(plan, bounds, account);
   std::vector<std::jthread> threads;
   for (unsigned job = 0; job < bounds.jobs; ++job) threads.emplace_back([&] { work(plan, engine, ledger); });
