@@ -67,7 +67,8 @@ bool LoggedAnswers::find(const Id& id, Logged& logged) {
 
 void LoggedAnswers::ask(const Id& id, const Query&) {
   Logged logged;
-  if (id == "null" || !find(id, logged)) return deliver({Answer::error("no answer"), question::Origin::not_asked});
+  if (id == "null" || !find(id, logged))
+    return deliver({Answer::error("no answer"), question::Origin::not_asked});
   ++matched_;
   if (logged.components != 0 && logged.components != static_cast<std::size_t>(scene().dimension)) {
     complain(logged.line, fmt::format("cell: has {} components, the scene has dimension {}",

@@ -180,7 +180,7 @@ class Block {
       V here[D], there[D];
       for (int k = 0; k < D; ++k) here[k] = start.d[k].hi;
       turn_.apply(here, there);
-      for (int k = 0; k < D; ++k) d[k] = pair_of(there[k]);
+      for (int k = 0; k < D; ++k) d[k] = Pair(there[k]);
     } else {
       for (int k = 0; k < D; ++k) d[k] = start.d[k];
     }

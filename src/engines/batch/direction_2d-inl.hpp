@@ -88,7 +88,7 @@ struct Direction2 {
 
   HWY_INLINE void set_forms(const Bravais& lattice) {
     if constexpr (kUnit) {
-      H[0] = pair_of(Neg(v[1])), H[1] = pair_of(v[0]);
+      H[0] = Pair(Neg(v[1])), H[1] = Pair(v[0]);
       M_[0] = Abs(v[1]), M_[1] = Abs(v[0]);
       S[0] = along[0], S[1] = along[1];
       size_of[0] = size_of[1] = 1;
@@ -96,7 +96,7 @@ struct Direction2 {
     }
     for (int i = 0; i < 2; ++i) {
       const Wide &x = lattice.basis[i][0], &y = lattice.basis[i][1];
-      H[i] = add_product(first_product(pair_of(y), v[0]), pair_of(x), Neg(v[1]));
+      H[i] = add_product(first_product(Pair(y), v[0]), Pair(x), Neg(v[1]));
       M_[i] = Abs(v[0] * all(y.hi)) + Abs(v[1] * all(x.hi)) + all(kBasisInHeight * lattice.basis_error);
       S[i] = along[0] * all(x.hi) + along[1] * all(y.hi);
       size_of[i] = std::fabs(x.hi) + std::fabs(y.hi);
@@ -182,7 +182,7 @@ struct Direction2 {
   HWY_INLINE M renormalise(M m, Lanes& lanes) {
     const V zero = none();
     for (Arm2* arm : {&R, &L}) {
-      const Pair height = sum_of(arm->D, arm->D_low);
+      const Pair height = Pair::sum(arm->D, arm->D_low);
       arm->D = select(m, height.hi, arm->D), arm->D_low = select(m, height.lo, arm->D_low);
     }
     const M below = And(m, L.D < zero);
@@ -246,12 +246,12 @@ struct Direction2 {
     M exact = Not(no_lane());
     const V zero = none();
     for (int k = 0; k < 2; ++k) {
-      const Pair a = product_of(n0, all(lattice.basis[0][k].hi)),
-                 b = product_of(n1, all(lattice.basis[1][k].hi)), sum = sum_of(a.hi, b.hi);
+      const Pair a = Pair::product(n0, all(lattice.basis[0][k].hi)),
+                 b = Pair::product(n1, all(lattice.basis[1][k].hi)), sum = Pair::sum(a.hi, b.hi);
       exact = And(exact, And(And(a.lo == zero, b.lo == zero), sum.lo == zero));
       w[k] = sum.hi;
     }
-    const Pair a = product_of(v0, w[1]), b = product_of(v1, w[0]);
+    const Pair a = Pair::product(v0, w[1]), b = Pair::product(v1, w[0]);
     return And(exact, And(a.hi == b.hi, a.lo == b.lo));
   }
 };

@@ -78,9 +78,9 @@ struct Frame3 {
   /// Form i of coefficients.
   HWY_INLINE V form_of(int i, const V (&n)[3]) const {
     const Pair(&f)[3] = form[i];
-    const Pair a = product_of(n[0], f[0].hi), b = product_of(n[1], f[1].hi), ab = sum_of(a.hi, b.hi);
+    const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi), ab = Pair::sum(a.hi, b.hi);
     if (kTurned && i == 0) return ab.hi + (ab.lo + (a.lo + b.lo));
-    const Pair c = product_of(n[2], f[2].hi), sum = sum_of(ab.hi, c.hi);
+    const Pair c = Pair::product(n[2], f[2].hi), sum = Pair::sum(ab.hi, c.hi);
     V low;
     if (kTurned && i == 2)
       low = a.lo + b.lo + c.lo;
@@ -92,12 +92,13 @@ struct Frame3 {
   /// The same from a start.
   HWY_INLINE V form_of(int i, const V (&n)[3], Pair start) const {
     const Pair(&f)[3] = form[i];
-    const Pair a = product_of(n[0], f[0].hi), b = product_of(n[1], f[1].hi), ab = sum_of(a.hi, b.hi);
+    const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi), ab = Pair::sum(a.hi, b.hi);
     if (kTurned && i == 0) {
-      const Pair sum = sum_of(ab.hi, start.hi);
+      const Pair sum = Pair::sum(ab.hi, start.hi);
       return sum.hi + ((ab.lo + (sum.lo + start.lo)) + (a.lo + b.lo));
     }
-    const Pair c = product_of(n[2], f[2].hi), abc = sum_of(ab.hi, c.hi), sum = sum_of(abc.hi, start.hi);
+    const Pair c = Pair::product(n[2], f[2].hi), abc = Pair::sum(ab.hi, c.hi),
+               sum = Pair::sum(abc.hi, start.hi);
     V low = c.lo;
     if (!(kTurned && i == 2)) low = c.lo + (n[0] * f[0].lo + n[1] * f[1].lo + n[2] * f[2].lo);
     return sum.hi + (((ab.lo + abc.lo) + (sum.lo + start.lo)) + ((a.lo + b.lo) + low));
@@ -107,12 +108,13 @@ struct Frame3 {
   HWY_INLINE void forms_of(const Pair (&d)[3], Pair (&f)[3]) const {
     for (int i = 0; i < 3; ++i) {
       const Pair(&c)[3] = cartesian[i];
-      const Pair x = product_of(d[0].hi, c[0].hi), y = product_of(d[1].hi, c[1].hi), xy = sum_of(x.hi, y.hi);
+      const Pair x = Pair::product(d[0].hi, c[0].hi), y = Pair::product(d[1].hi, c[1].hi),
+                 xy = Pair::sum(x.hi, y.hi);
       if (kTurned && i == 0) {
-        f[i] = sum_of(xy.hi, xy.lo + (x.lo + y.lo));
+        f[i] = Pair::sum(xy.hi, xy.lo + (x.lo + y.lo));
         continue;
       }
-      const Pair z = product_of(d[2].hi, c[2].hi), sum = sum_of(xy.hi, z.hi);
+      const Pair z = Pair::product(d[2].hi, c[2].hi), sum = Pair::sum(xy.hi, z.hi);
       V low = (x.lo + y.lo) + z.lo;
       if (!(kTurned && i == 2))
         for (int k = 0; k < 3; ++k) {
@@ -120,7 +122,7 @@ struct Frame3 {
           if constexpr (!kUnit) term = term + d[k].lo * c[k].hi;
           low = low + term;
         }
-      f[i] = sum_of(sum.hi, (xy.lo + sum.lo) + low);
+      f[i] = Pair::sum(sum.hi, (xy.lo + sum.lo) + low);
     }
   }
 
@@ -133,18 +135,18 @@ struct Frame3 {
     if constexpr (!kTurned) choose_axes(v, is, a, b, c);
     across = Sqrt(a * a + b * b);
     set_scale(lattice);
-    const Pair zero = pair_of(none()), ac = -product_of(a, c), bc = -product_of(b, c),
-               aabb = product_of(a, a) + product_of(b, b);
+    const Pair zero = Pair(none()), ac = -Pair::product(a, c), bc = -Pair::product(b, c),
+               aabb = Pair::product(a, a) + Pair::product(b, b);
     for (int k = 0; k < 3; ++k) {
       if constexpr (kTurned) {  // c is the last axis
-        cartesian[0][k] = k == 0 ? pair_of(Neg(b)) : k == 1 ? pair_of(a) : zero;
+        cartesian[0][k] = k == 0 ? Pair(Neg(b)) : k == 1 ? Pair(a) : zero;
         cartesian[1][k] = k == 0 ? ac : k == 1 ? bc : aabb;
       } else {  // axis k is c; or a, the one after c; or b
         const M is_a = is[(k + 2) % 3];
-        cartesian[0][k] = pair_of(IfThenZeroElse(is[k], select(is_a, Neg(b), a)));
+        cartesian[0][k] = Pair(IfThenZeroElse(is[k], select(is_a, Neg(b), a)));
         cartesian[1][k] = select(is[k], aabb, select(is_a, ac, bc));
       }
-      cartesian[2][k] = pair_of(v[k]);
+      cartesian[2][k] = Pair(v[k]);
     }
   }
 
@@ -193,10 +195,10 @@ struct Frame3 {
   }
 
   HWY_INLINE void set_along(const Shape& shape) {
-    Pair square = pair_of(none());
+    Pair square = Pair(none());
     for (int i = 0; i < 3; ++i) {
-      Pair image = first_product(pair_of(shape.metric[i][0]), v[0]);
-      for (int k = 1; k < 3; ++k) image = add_product(image, pair_of(shape.metric[i][k]), v[k]);
+      Pair image = first_product(Pair(shape.metric[i][0]), v[0]);
+      for (int k = 1; k < 3; ++k) image = add_product(image, Pair(shape.metric[i][k]), v[k]);
       cartesian[2][i] = along[i] = image;
       square = add_product(square, image, v[i]);
     }
@@ -212,7 +214,7 @@ struct Frame3 {
     }
     for (int k = 0; k < 3; ++k) {
       const int j = (k + 1) % 3, l = (k + 2) % 3;
-      axis[k] = product_of(g[j], v[l]) - product_of(g[l], v[j]);
+      axis[k] = Pair::product(g[j], v[l]) - Pair::product(g[l], v[j]);
     }
   }
 
@@ -223,7 +225,7 @@ struct Frame3 {
         size_of[i] = 1;
       } else {
         const WideVec& B = lattice.basis[i];
-        const Pair b[3] = {pair_of(B[0]), pair_of(B[1]), pair_of(B[2])};
+        const Pair b[3] = {Pair(B[0]), Pair(B[1]), Pair(B[2])};
         Pair f[3];
         forms_of(b, f);
         for (int k = 0; k < 3; ++k) form[k][i] = f[k];

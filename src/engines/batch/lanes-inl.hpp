@@ -42,6 +42,25 @@ HWY_INLINE V where(M m, V a) {  ///< a, or zero
 HWY_INLINE V sign_of(V a) {  ///< a zero with a's sign, for Xor
   return And(a, all(-0.0));
 }
+HWY_INLINE V operator-(V a) {
+  return Neg(a);
+}
+HWY_INLINE V sqrt(V a) {
+  return Sqrt(a);
+}
+// A constant on the left, as in the text for one flight.
+HWY_INLINE V operator*(double a, V b) {
+  return all(a) * b;
+}
+HWY_INLINE V operator+(double a, V b) {
+  return all(a) + b;
+}
+HWY_INLINE V operator-(double a, V b) {
+  return all(a) - b;
+}
+HWY_INLINE V operator/(double a, V b) {
+  return all(a) / b;
+}
 HWY_INLINE V largest(V a, V b, V c) {
   return Max(Max(a, b), c);
 }
@@ -50,71 +69,21 @@ HWY_INLINE void exchange(M m, V& a, V& b) {
   a = select(m, b, a), b = select(m, before, b);
 }
 
-/// DoubleDouble, in lanes.
-struct Pair {
-  V hi, lo;
+/// How exact products are made here: fma.hpp.
+struct LaneFma {
+  using Number = V;
+  using Mask = M;
 
-  HWY_INLINE V value() const { return hi + lo; }
+  static HWY_INLINE V product_error(V a, V b, V p) { return MulSub(a, b, p); }
+  static HWY_INLINE V remainder(V a, V k, V b) { return NegMulAdd(k, b, a); }
 };
 
-HWY_INLINE Pair pair_of(V a) {
-  return {a, none()};
-}
-HWY_INLINE Pair pair_of(const Wide& a) {
-  return {all(a.hi), all(a.lo)};
-}
-HWY_INLINE Pair sum_of(V a, V b) {
-  const V s = a + b, b_part = s - a;
-  return {s, (a - (s - b_part)) + (b - b_part)};
-}
-HWY_INLINE Pair ordered_sum_of(V a, V b) {
-  const V s = a + b;
-  return {s, b - (s - a)};
-}
-HWY_INLINE Pair product_of(V a, V b) {
-  const V p = a * b;
-  return {p, MulSub(a, b, p)};
-}
-HWY_INLINE Pair operator-(Pair a) {
-  return {Neg(a.hi), Neg(a.lo)};
-}
-HWY_INLINE Pair operator+(Pair x, Pair y) {
-  const Pair s = sum_of(x.hi, y.hi), t = sum_of(x.lo, y.lo), v = ordered_sum_of(s.hi, s.lo + t.hi);
-  return ordered_sum_of(v.hi, t.lo + v.lo);
-}
-HWY_INLINE Pair operator-(Pair x, Pair y) {
-  return x + -y;
-}
-HWY_INLINE Pair operator*(Pair x, Pair y) {
-  const Pair p = product_of(x.hi, y.hi);
-  return ordered_sum_of(p.hi, p.lo + (x.hi * y.lo + x.lo * y.hi));
-}
-HWY_INLINE Pair operator*(Pair x, V y) {
-  const Pair p = product_of(x.hi, y), s = ordered_sum_of(p.hi, x.lo * y);
-  return ordered_sum_of(s.hi, s.lo + p.lo);
-}
-HWY_INLINE Pair operator/(Pair x, Pair y) {
-  const V quotient = x.hi / y.hi;
-  const Pair r = y * quotient;
-  return ordered_sum_of(quotient, ((x.hi - r.hi) + (x.lo - r.lo)) / y.hi);
-}
-HWY_INLINE Pair root_of(Pair x) {
-  const V root = Sqrt(x.hi), square = root * root;
-  const V rest = (x.hi - square) - MulSub(root, root, square);
-  return ordered_sum_of(root, (x.lo + rest) / (all(2) * root));
-}
-HWY_INLINE Pair add_product(Pair sum, Pair a, V b) {
-  const Pair p = product_of(a.hi, b), s = sum_of(sum.hi, p.hi);
-  return ordered_sum_of(s.hi, s.lo + (sum.lo + (p.lo + a.lo * b)));
-}
-/// add_product to zero.
-HWY_INLINE Pair first_product(Pair a, V b) {
-  const Pair p = product_of(a.hi, b);
-  return ordered_sum_of(p.hi, p.lo + a.lo * b);
-}
-HWY_INLINE Pair select(M m, Pair yes, Pair no) {
-  return {select(m, yes.hi, no.hi), select(m, yes.lo, no.lo)};
-}
+#define LORENTZ_INLINE HWY_INLINE
+#include "src/engines/base/double_double-inl.hpp"
+#include "src/engines/reduction/formulas-inl.hpp"
+#undef LORENTZ_INLINE
+
+using Pair = DoubleDouble<LaneFma>;
 
 /// The lanes that have not given up: what is beyond lanes is left to the engine for one flight.
 struct Lanes {

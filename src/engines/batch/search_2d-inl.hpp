@@ -73,7 +73,7 @@ class Search2 {
     const V m = Round((R.S * y_ - R.D * s_) * to_.inverse_A);
     V anchor[2], terms = none(), along = none(), s_error = s_error_;
     for (int i = 0; i < 2; ++i) {
-      const Pair sum = product_of(n, R.n[i]) + product_of(m, L.n[i]);
+      const Pair sum = Pair::product(n, R.n[i]) + Pair::product(m, L.n[i]);
       lanes.leave(And(tiny, Not(Abs(sum.hi) < big)));
       anchor[i] = sum.hi;
       terms = terms + Abs(anchor[i]) * to_.M_[i];
@@ -82,8 +82,8 @@ class Search2 {
       else
         s_error = s_error + to_.along_error * Abs(anchor[i]) * all(to_.size_of[i]);
     }
-    const Pair a = product_of(anchor[0], to_.H[0].hi), b = product_of(anchor[1], to_.H[1].hi),
-               ab = sum_of(a.hi, b.hi), sum = sum_of(ab.hi, h.hi);
+    const Pair a = Pair::product(anchor[0], to_.H[0].hi), b = Pair::product(anchor[1], to_.H[1].hi),
+               ab = Pair::sum(a.hi, b.hi), sum = Pair::sum(ab.hi, h.hi);
     V low = (a.lo + b.lo) + (ab.lo + sum.lo) + h.lo;
     if constexpr (!kUnit) low = low + (anchor[0] * to_.H[0].lo + anchor[1] * to_.H[1].lo);
     const V y = to_.sigma * (sum.hi + low);

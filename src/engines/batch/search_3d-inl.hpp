@@ -89,7 +89,7 @@ struct Window3 {
     for (V& n : anchor) n = zero;
     for (int i = 0; i < 2; ++i) anchor_point.p[i] = to.scale[i] * start_[i].hi;
     anchor_point.z = (start_[2].hi - begin) / basis->length;
-    const Pair from = at_start ? start_[2] : start_[2] - pair_of(begin);
+    const Pair from = at_start ? start_[2] : start_[2] - Pair(begin);
     M moving = lanes.active;
     for (int pass = 0; pass < kMaxAnchorPasses; ++pass) {
       V k[3];
@@ -132,8 +132,8 @@ struct Window3 {
   // too.
   HWY_INLINE void move_exactly(const V (&k)[3], const V (&before)[3], M wide, Lanes& lanes) {
     for (int j = 0; j < 3; ++j) {
-      Pair sum = pair_of(before[j]);
-      for (int i = 0; i < 3; ++i) sum = sum + product_of(k[i], basis->b[i].n[j]);
+      Pair sum = Pair(before[j]);
+      for (int i = 0; i < 3; ++i) sum = sum + Pair::product(k[i], basis->b[i].n[j]);
       lanes.leave(And(wide, Not(Abs(sum.hi) < all(kMaxCoefficient))));  // below, an integer has no low part
       anchor[j] = select(wide, sum.hi, anchor[j]);
     }

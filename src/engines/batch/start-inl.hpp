@@ -64,14 +64,14 @@ struct Start {
   /// error of each component.
   HWY_INLINE V place(const V (&n)[D], Pair (&there)[D]) const {
     if constexpr (kUnit) {
-      for (int k = 0; k < D; ++k) there[k] = sum_of(n[k], d[k].hi);
+      for (int k = 0; k < D; ++k) there[k] = Pair::sum(n[k], d[k].hi);
       return error;
     } else {
       V size = none(), its_error = error;
       for (int k = 0; k < D; ++k) {
         Pair step[D];
         for (int i = 0; i < D; ++i) {
-          step[i] = pair_of(lattice->basis[i][k]) * pair_of(n[i]);
+          step[i] = Pair(lattice->basis[i][k]) * Pair(n[i]);
           size = size + Abs(step[i].hi);
         }
         Pair sum = step[0];
@@ -90,7 +90,7 @@ struct Start {
       lanes.leave_unless(Abs(x[k]) < all(kMaxStart));
       home[k] = Floor(x[k] + all(kBelowHalf));
       const V here = home[k] - x[k];
-      d[k] = pair_of(IfThenZeroElse(Abs(here) < all(kTinyComponent), here));
+      d[k] = Pair(IfThenZeroElse(Abs(here) < all(kTinyComponent), here));
     }
     error = none();
   }
@@ -99,7 +99,7 @@ struct Start {
     Pair place[D];
     V size = none();
     for (int k = 0; k < D; ++k) {
-      place[k] = sum_of(x[k], all(-lattice->position[k]));
+      place[k] = Pair::sum(x[k], all(-lattice->position[k]));
       size = size + Abs(place[k].hi);
     }
     for (int i = 0; i < D; ++i) {
@@ -118,7 +118,7 @@ struct Start {
     error = all(kFlushed);
     for (int i = 0; i < D; ++i) {
       for (int k = 0; k < D; ++k) {
-        const Pair step = pair_of(lattice->basis[i][k]);
+        const Pair step = Pair(lattice->basis[i][k]);
         d[k] = add_product(d[k], step, home[i]);
         size = size + Abs(step.hi * home[i]);
       }

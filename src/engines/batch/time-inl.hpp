@@ -46,125 +46,9 @@ struct Entry {
   }
 };
 
-/// StableMeeting: the line and one obstacle in double-double.
-template <int D, bool kBall>
-struct Meeting {
-  Pair v2, s, slack;
-  V s_error, slack_error, v2_error, across_error, nearness;
-
-  HWY_INLINE Meeting(const V (&v)[D], const Pair (&d)[D], V error, const Bravais& lattice) {
-    Pair across[3];
-    V d2 = d[0].hi * d[0].hi + d[1].hi * d[1].hi, speed2 = v[0] * v[0] + v[1] * v[1];
-    across[2] = d[1] * v[0] - d[0] * v[1];
-    if constexpr (D == 3) {
-      across[0] = d[2] * v[1] - d[1] * v[2];
-      across[1] = d[0] * v[2] - d[2] * v[0];
-      d2 = d2 + d[2].hi * d[2].hi, speed2 = speed2 + v[2] * v[2];
-    }
-    nearness = Sqrt(d2);
-    const V speed = Sqrt(speed2);
-    across_error = speed * (all(kStable) * nearness + all(kDiagonal) * error) + all(kFlushed);
-    v2_error = none();
-    Pair h2;
-    V h_error;
-    if constexpr (kBall)
-      measure_ball(v, d, across, h2, h_error);
-    else
-      measure_ellipsoid(lattice.shape, v, d, across, speed, error, h2, h_error);
-    const double r = lattice.radius;
-    const Pair rho2 = product_of(all(r), all(r)) * v2;
-    slack = rho2 - h2;
-    slack_error =
-        all(2) * h_error * (Sqrt(h2.hi) + h_error) + all(kStable) * (rho2.hi + h2.hi) + all(r * r) * v2_error;
-  }
-
-  /// The time of entry, and the bound of its error.
-  HWY_INLINE Pair time(const Pair (&d)[D], V error, const Bravais& lattice, V& time_error) const {
-    const M far_root = s.hi > all(kFarSlack) * Sqrt(slack.hi);
-    Pair q = root_of(slack);
-    q = select(slack.hi > none(), q, pair_of(none()));
-    q = select(far_root, pair_of(Sqrt(slack.hi)), q);
-    const V q_rounding = where(far_root, all(kRoot * kRoundoff) * q.hi);
-    const V q_error = slack_error / q.hi + all(kStable) * q.hi + q_rounding;
-    const M far = s.hi > all(kNearWide) * q.hi;
-    const Pair difference = s - q;
-    const V inverse = all(1) / v2.hi, rough = difference.hi * inverse;
-    const Pair product = v2 * rough;
-    const Pair t =
-        ordered_sum_of(rough, ((difference.hi - product.hi) + (difference.lo - product.lo)) * inverse);
-    time_error = all(2) * (s_error + q_error + t.hi * v2_error) * inverse + all(kStableTime) * t.hi;
-    if (!any(Not(far))) return t;
-    V gap_error;
-    const Pair near = gap(d, error, lattice, gap_error) / (s + q);
-    const V near_error =
-        all(2) * (gap_error + near.hi * (s_error + q_error)) / (s.hi + q.hi) + all(kStableTime) * near.hi;
-    time_error = select(far, time_error, near_error);
-    return select(far, t, near);
-  }
-
- private:
-  HWY_INLINE Pair gap(const Pair (&d)[D], V error, const Bravais& lattice, V& gap_error) const {
-    const double r = lattice.radius;
-    Pair gap = -product_of(all(r), all(r));
-    if constexpr (kBall) {
-      for (const Pair& component : d) gap = gap + component * component;
-      gap_error = all(kStableGap * r * r) + all(4 * kDiagonal) * error * nearness;
-      return gap;
-    } else {
-      const Shape& shape = lattice.shape;
-      Pair square = pair_of(none());
-      V size2 = none();
-      for (int i = 0; i < D; ++i) {
-        Pair image = pair_of(shape.metric[i][0]) * d[0];
-        for (int k = 1; k < D; ++k) image = image + pair_of(shape.metric[i][k]) * d[k];
-        square = square + image * d[i];
-        size2 = size2 + d[i].hi * d[i].hi;
-      }
-      gap_error = all(shape.metric_error + kStableForm * shape.metric_size) * size2 +
-                  all(2 * kDiagonal * shape.metric_size) * error * (Sqrt(size2) + error);
-      gap_error = gap_error + all(kStableGap) * (all(r * r) + square.hi);
-      return gap + square;
-    }
-  }
-
-  HWY_INLINE void measure_ball(const V (&v)[D], const Pair (&d)[D], const Pair (&across)[3], Pair& h2,
-                               V& h_error) {
-    v2 = product_of(v[0], v[0]) + product_of(v[1], v[1]);
-    h2 = across[2] * across[2];
-    s = d[0] * v[0] + d[1] * v[1];
-    if constexpr (D == 3) {
-      v2 = v2 + product_of(v[2], v[2]);
-      s = s + d[2] * v[2];
-      h2 = h2 + (across[0] * across[0] + across[1] * across[1]);
-    }
-    s_error = h_error = across_error;
-  }
-
-  HWY_INLINE void measure_ellipsoid(const Shape& shape, const V (&v)[D], const Pair (&d)[D],
-                                    const Pair (&across)[3], V speed, V error, Pair& h2, V& h_error) {
-    v2 = s = pair_of(none());
-    for (int i = 0; i < D; ++i) {
-      Pair along = pair_of(none());
-      for (int k = 0; k < D; ++k) along = add_product(along, pair_of(shape.metric[i][k]), v[k]);
-      v2 = v2 + along * v[i];
-      s = s + along * d[i];
-    }
-    const double form_error = shape.metric_error + kStableForm * shape.metric_size;
-    v2_error = all(form_error) * speed * speed;
-    s_error =
-        speed * (all(form_error) * nearness + all(kDiagonal * shape.metric_size) * error) + all(kFlushed);
-    V size2 = none();
-    h2 = pair_of(none());
-    for (int i = D == 2 ? 2 : 0; i < 3; ++i) {
-      Pair h = pair_of(none());
-      for (int k = D == 2 ? 2 : 0; k < 3; ++k) h = h + pair_of(shape.wide_cofactor[i][k]) * across[k];
-      h2 = h2 + h * h;
-      size2 = size2 + across[i].hi * across[i].hi;
-    }
-    h_error = all(2 * shape.cofactor_size) * across_error +
-              all(shape.cofactor_error + kStable * shape.cofactor_size) * Sqrt(size2);
-  }
-};
+#define LORENTZ_INLINE HWY_INLINE
+#include "src/engines/reduction/stable_meeting-inl.hpp"
+#undef LORENTZ_INLINE
 
 /// EntryTime: the time at which the obstacle of an Entry is entered with velocity v.
 template <int D, bool kUnit, bool kBall>
@@ -250,15 +134,15 @@ class Times {
   HWY_INLINE V soon_placed(Pair (&d)[D]) const {
     if constexpr (!kUnit) return start_.place(entry_.n, d);
     for (int k = 0; k < D; ++k)
-      d[k] = ordered_sum_of(entry_.n[k], start_.d[k].hi);  // an integer, and 1/2 at most
+      d[k] = Pair::ordered_sum(entry_.n[k], start_.d[k].hi);  // an integer, and 1/2 at most
     return none();
   }
 
   // a . b, but for some squares of the roundoff.
   static HWY_INLINE Pair soon_product(const V (&a)[D], const V (&b)[D]) {
-    Pair sum = product_of(a[0], b[0]);
+    Pair sum = Pair::product(a[0], b[0]);
     for (int k = 1; k < D; ++k) {
-      const Pair next = product_of(a[k], b[k]), both = sum_of(sum.hi, next.hi);
+      const Pair next = Pair::product(a[k], b[k]), both = Pair::sum(sum.hi, next.hi);
       sum = {both.hi, both.lo + (sum.lo + next.lo)};
     }
     return sum;
@@ -303,7 +187,7 @@ class Times {
     const Bravais& lattice = *asked.start.lattice;
     Pair d[D];
     const V d_error = asked.start.place(asked.n, d);
-    const Meeting<D, kBall> meeting(asked.v, d, d_error, lattice);
+    const StableMeeting<LaneFma, D, kBall> meeting(asked.v, d, d_error, lattice);
     Wide wide;
     wide.time = meeting.time(d, d_error, lattice, wide.error);
     return wide;
@@ -330,9 +214,9 @@ class Times {
 
   // |d|^2 - r^2, at least 0.
   static HWY_INLINE V gap_of_ball(const Pair (&d)[D], double r) {
-    Pair gap = -product_of(all(r), all(r));
+    Pair gap = -Pair::product(all(r), all(r));
     for (int k = 0; k < D; ++k) {
-      const Pair square = product_of(d[k].hi, d[k].hi), sum = sum_of(gap.hi, square.hi);
+      const Pair square = Pair::product(d[k].hi, d[k].hi), sum = Pair::sum(gap.hi, square.hi);
       gap = Pair{sum.hi, sum.lo + (gap.lo + square.lo + all(2) * d[k].hi * d[k].lo)};
     }
     return Max(gap.value(), none());
@@ -363,10 +247,10 @@ class Times {
   HWY_INLINE void place(Pair (&d)[D]) const {
     for (int k = 0; k < D; ++k) {
       if constexpr (kUnit) {
-        d[k] = sum_of(entry_.n[k], start_.d[k].hi);
+        d[k] = Pair::sum(entry_.n[k], start_.d[k].hi);
       } else {
         Pair sum = start_.d[k];
-        for (int i = 0; i < D; ++i) sum = add_product(sum, pair_of(lattice_.basis[i][k]), entry_.n[i]);
+        for (int i = 0; i < D; ++i) sum = add_product(sum, Pair(lattice_.basis[i][k]), entry_.n[i]);
         d[k] = sum;
       }
     }
@@ -379,7 +263,7 @@ class Times {
       sum = add_product(sum, a[k], d[k].hi);
       low = low + a[k].hi * d[k].lo;
     }
-    return sum_of(sum.hi, sum.lo + low);
+    return Pair::sum(sum.hi, sum.lo + low);
   }
 
   HWY_INLINE V close_gap() const {
@@ -387,11 +271,11 @@ class Times {
     place(d);
     for (int i = 0; i < D; ++i) {
       Pair row[D];
-      for (int k = 0; k < D; ++k) row[k] = pair_of(lattice_.shape.metric[i][k]);
+      for (int k = 0; k < D; ++k) row[k] = Pair(lattice_.shape.metric[i][k]);
       image[i] = close_product(row, d);
     }
     const Pair square = close_product(image, d),
-               limit = product_of(all(lattice_.radius), all(lattice_.radius));
+               limit = Pair::product(all(lattice_.radius), all(lattice_.radius));
     return Max((square.hi - limit.hi) + (square.lo - limit.lo), none());
   }
 

@@ -73,10 +73,10 @@ class Candidates3 {
   [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
     found.needs(Stage::double_double);
     const auto meeting = meeting_at(N);
-    const Decision meets = meeting.meets();
+    const Decision meets = lorentz::meets(meeting);
     if (meets == Decision::doubtful) return Look::doubtful;
     if (meets == Decision::no) return Look::missed;
-    const Decision ahead = meeting.is_ahead();
+    const Decision ahead = is_ahead(meeting);
     if (ahead == Decision::doubtful) return Look::doubtful;
     if (ahead == Decision::no) return Look::missed;
     return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,

@@ -150,12 +150,11 @@ struct Frame3 {
   template <class Arch>
   void set_along(const Shape& shape) {
     using DD = DoubleDouble<Arch>;
-    Wide image[3];
-    apply_metric<Arch>(shape, v, image);
-    DD square(0.0);
+    DD image[3], square(0.0);
+    apply_metric(shape, v, image);
     for (int k = 0; k < 3; ++k) {
-      cartesian[2][k] = along[k] = image[k];
-      square = add_product(square, DD(image[k]), v[k]);
+      cartesian[2][k] = along[k] = Wide(image[k]);
+      square = add_product(square, image[k], v[k]);
     }
     v2 = square.hi;
   }

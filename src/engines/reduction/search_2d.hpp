@@ -194,10 +194,10 @@ class Search2 {
     Wide d[2];
     const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
     const StableMeeting<SplitProduct, 2, kBall> meeting(to_.v, d, error, lattice_);
-    const Decision meets = meeting.meets();
+    const Decision meets = lorentz::meets(meeting);
     if (meets == Decision::doubtful) return Look2::doubtful;
     if (meets == Decision::no) return h < 0 || to_.L.D == 0 ? Look2::beyond : Look2::before;
-    const Decision ahead = meeting.is_ahead();
+    const Decision ahead = is_ahead(meeting);
     if (ahead == Decision::doubtful) return Look2::doubtful;
     if (ahead == Decision::no) return Look2::before;
     return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,

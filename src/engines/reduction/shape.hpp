@@ -42,26 +42,4 @@ struct Shape {
 /// Lengths between 2^-100 and 2^100.
 std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes);
 
-/// G a, by rows.
-template <class Arch, int D>
-inline void apply_metric(const Shape& shape, const DoubleDouble<Arch> (&a)[D],
-                         DoubleDouble<Arch> (&image)[D]) {
-  using DD = DoubleDouble<Arch>;
-  for (int i = 0; i < D; ++i) {
-    image[i] = DD(shape.metric[i][0]) * a[0];
-    for (int k = 1; k < D; ++k) image[i] = image[i] + DD(shape.metric[i][k]) * a[k];
-  }
-}
-
-/// The same of a binary64 vector, in fewer operations.
-template <class Arch, int D>
-inline void apply_metric(const Shape& shape, const Vec& a, Wide (&image)[D]) {
-  using DD = DoubleDouble<Arch>;
-  for (int i = 0; i < D; ++i) {
-    DD sum(0.0);
-    for (int k = 0; k < D; ++k) sum = add_product(sum, DD(shape.metric[i][k]), a[k]);
-    image[i] = Wide(sum);
-  }
-}
-
 }  // namespace lorentz

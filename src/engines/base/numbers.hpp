@@ -1,0 +1,44 @@
+// The words in which the text that serves one flight and many is written (files *-inl.hpp), for one: a number
+// is a double, a mask a bool. src/engines/batch/lanes-inl.hpp has them for the lanes of a vector.
+#pragma once
+
+#include <cmath>
+
+#include "src/engines/base/fma.hpp"
+
+namespace lorentz {
+
+using std::sqrt;
+
+inline double all(double a) {  ///< a constant, in every lane
+  return a;
+}
+inline bool any(bool m) {
+  return m;
+}
+inline bool nowhere(bool m) {
+  return !m;
+}
+inline double select(bool m, double yes, double no) {
+  return m ? yes : no;
+}
+inline double where(bool m, double a) {  ///< a, or zero
+  return m ? a : 0;
+}
+inline bool Not(bool m) {
+  return !m;
+}
+inline bool And(bool a, bool b) {
+  return a && b;
+}
+inline double Neg(double a) {
+  return -a;
+}
+inline double Abs(double a) {
+  return std::fabs(a);
+}
+inline double Sqrt(double a) {
+  return std::sqrt(a);
+}
+
+}  // namespace lorentz
