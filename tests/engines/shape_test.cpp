@@ -127,11 +127,12 @@ TEST_CASE("2D: the width of an ellipse, and where along the line it is", "[engin
     const Shape shape = shape_drawn(draw, 2);
     const ExactShape exact(shape);
     const Vec v = draw.vec(2, -2, 2), d = draw.vec(2, -100, 100);
-    WidthOfShape width;
-    width.set(shape, v);
+    WidthOfShape<SplitProduct> width;
+    double v2, rho_of_v, s_rho;
+    width.set(shape, {v[0], v[1]}, v2, rho_of_v, s_rho);
     const RealVec w = exact.to_ball(real(v)), there = exact.to_ball(real(d));
     const Real true_rho = sqrt(inner(w, w)) * shape.radius / abs(exact.C[2][2]), s = inner(w, there);
-    rho.see((width.rho - true_rho) / true_rho, width.rho_error);
+    rho.see((rho_of_v - true_rho) / true_rho, width.rho_error);
     const double length = std::fabs(d[0]) + std::fabs(d[1]);
     along.see(s - (width.along[0] * d[0] + width.along[1] * d[1]), width.along_error * length);
     // s = ((v . d) v2 + h skew) / v.v
@@ -158,7 +159,8 @@ TEST_CASE("3D: across the line in units of an ellipsoid, and along it", "[engine
     ++done;
     const ExactShape exact(shape);
     const Vec v = draw.vec(3, -2, 2);
-    const Direction3<true, false> direction(SplitProduct{}, scene.atoms[0], Octant(), v);
+    Direction3<true, false> direction;
+    direction.set<SplitProduct>(scene.atoms[0], v);
     const RealVec d = real(draw.vec(3, -1, 1)), w = exact.to_ball(real(v)), there = exact.to_ball(d);
     const RealVec h = outer(w, there);
     const Real exact_p2 = inner(h, h) / inner(w, w) / shape.radius / shape.radius;

@@ -73,7 +73,7 @@ struct DoubleDouble {
   friend LORENTZ_INLINE DoubleDouble sqrt(DoubleDouble x) {
     const Mask above = x.hi > all(0);
     if (nowhere(above)) return all(0);
-    const Number root = Sqrt(x.hi), square = root * root;
+    const Number root = sqrt(x.hi), square = root * root;
     const Number rest = (x.hi - square) - Arch::product_error(root, root, square);
     return select(above, ordered_sum(root, (x.lo + rest) / (root + root)), DoubleDouble(all(0)));
   }

@@ -29,12 +29,19 @@
 
 namespace lorentz {
 
-/// a * b = p + product_error(a, b, p) exactly, where p is the rounded product; required of the caller is that
-/// nothing overflows and that |p| >= 2^-960 or p = 0, so that the error is a binary64.
-struct HardwareFma {
+struct SplitProduct;
+
+/// What an Arch computes with, here one flight's numbers (src/engines/batch/lanes-inl.hpp has those of many).
+struct OneNumber {
   using Number = double;
   using Mask = bool;
+  using Apart = SplitProduct;  ///< the Arch of functions that are not inlined
+  static constexpr bool kOne = true;
+};
 
+/// a * b = p + product_error(a, b, p) exactly, where p is the rounded product; required of the caller is that
+/// nothing overflows and that |p| >= 2^-960 or p = 0, so that the error is a binary64.
+struct HardwareFma : OneNumber {
   static double product_error(double a, double b, double p) { return __builtin_fma(a, b, -p); }
 
   /// a - k b, required to be a binary64: then it is exact.
@@ -42,10 +49,7 @@ struct HardwareFma {
 };
 
 /// The same without the instruction: Veltkamp's splitting and Dekker's product (Numer. Math. 18, 1971).
-struct SplitProduct {
-  using Number = double;
-  using Mask = bool;
-
+struct SplitProduct : OneNumber {
   static double product_error(double a, double b, double p) {
     const double a_high = high_part(a), a_low = a - a_high, b_high = high_part(b), b_low = b - b_high;
     return ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "src/engines/base/fma.hpp"
 
@@ -12,6 +13,9 @@ using std::sqrt;
 
 inline double all(double a) {  ///< a constant, in every lane
   return a;
+}
+inline bool everywhere(bool m) {
+  return m;
 }
 inline bool any(bool m) {
   return m;
@@ -25,11 +29,23 @@ inline double select(bool m, double yes, double no) {
 inline double where(bool m, double a) {  ///< a, or zero
   return m ? a : 0;
 }
+inline void exchange(bool m, double& a, double& b) {
+  if (m) std::swap(a, b);
+}
+inline double IfThenZeroElse(bool m, double a) {
+  return m ? 0 : a;
+}
 inline bool Not(bool m) {
   return !m;
 }
 inline bool And(bool a, bool b) {
   return a && b;
+}
+inline bool AndNot(bool not_a, bool b) {
+  return !not_a && b;
+}
+inline bool Or(bool a, bool b) {
+  return a || b;
 }
 inline double Neg(double a) {
   return -a;
@@ -37,8 +53,14 @@ inline double Neg(double a) {
 inline double Abs(double a) {
   return std::fabs(a);
 }
-inline double Sqrt(double a) {
-  return std::sqrt(a);
+inline double CopySign(double size, double sign) {
+  return std::copysign(size, sign);
+}
+inline double Floor(double a) {
+  return std::floor(a);
+}
+inline double Round(double a) {  ///< to the nearest integer, ties to even
+  return std::nearbyint(a);
 }
 
 }  // namespace lorentz

@@ -125,7 +125,13 @@ class Block {
       if constexpr (D == 3 && kBall && !kUnit)
         if (same_lattice) return to.retarget(lattice, lanes_);
     }
-    to.set(lattice, velocity, lanes_);
+    if constexpr (D == 2) {
+      to.template set<LaneFma>(lattice, velocity, lanes_.active);
+      lanes_.leave_unless(
+          And(to.usable, to.L.S > none()));  // one at a time knows what to do with an infinity
+    } else {
+      to.set(lattice, velocity, lanes_);
+    }
   }
 
   HWY_INLINE AtomStart start_of(std::size_t a) {

@@ -14,6 +14,9 @@
 #define LORENTZ_BATCH_LANES_INL_HPP
 #endif
 
+#include <type_traits>
+
+#include <lorentz/engine_base.hpp>
 #include "src/engines/batch/single-inl.hpp"
 #include "src/engines/batch/twin-inl.hpp"
 #include "src/engines/reduction/bounds.hpp"
@@ -29,6 +32,9 @@ HWY_INLINE V none() {
 }
 HWY_INLINE V infinite() {
   return all(HUGE_VAL);
+}
+HWY_INLINE M everywhere(bool m) {
+  return m ? Not(no_lane()) : no_lane();
 }
 HWY_INLINE bool any(M m) {
   return !nowhere(m);
@@ -73,14 +79,25 @@ HWY_INLINE void exchange(M m, V& a, V& b) {
 struct LaneFma {
   using Number = V;
   using Mask = M;
+  using Apart = LaneFma;
+  static constexpr bool kOne = false;
 
   static HWY_INLINE V product_error(V a, V b, V p) { return MulSub(a, b, p); }
   static HWY_INLINE V remainder(V a, V k, V b) { return NegMulAdd(k, b, a); }
 };
 
 #define LORENTZ_INLINE HWY_INLINE
+#define LORENTZ_RARE HWY_INLINE
+#define LORENTZ_NOINLINE HWY_NOINLINE
+// clang-format off: each needs those before it
 #include "src/engines/base/double_double-inl.hpp"
+#include "src/engines/reduction/direction_2d-inl.hpp"
 #include "src/engines/reduction/formulas-inl.hpp"
+#include "src/engines/reduction/offset-inl.hpp"
+#include "src/engines/reduction/stable_meeting-inl.hpp"
+// clang-format on
+#undef LORENTZ_NOINLINE
+#undef LORENTZ_RARE
 #undef LORENTZ_INLINE
 
 using Pair = DoubleDouble<LaneFma>;

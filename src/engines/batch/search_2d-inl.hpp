@@ -7,7 +7,7 @@
 #define LORENTZ_BATCH_SEARCH_2D_INL_HPP
 #endif
 
-#include "src/engines/batch/direction_2d-inl.hpp"
+#include "src/engines/batch/time-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lorentz {
@@ -18,7 +18,7 @@ namespace {
 template <bool kUnit, bool kBall>
 class Search2 {
  public:
-  using Direction = Direction2<kUnit, kBall>;
+  using Direction = Direction2<LaneFma, kUnit, kBall>;
   using AtomStart = Start<2, kUnit, kBall>;
 
   /// `d`: the start's, turned as the direction is. `leaving`: turned, or null.
@@ -46,7 +46,7 @@ class Search2 {
   static constexpr int kMaxTurns = kMaxCandidatesInRow;
 
   HWY_INLINE void set_anchor(Lanes& lanes) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const V error = start_.error;
     const Pair h = add_product(first_product(d_[1], to_.v[0]), d_[0], Neg(to_.v[1]));
     const V size = Abs(d_[0].hi) + Abs(d_[1].hi);
@@ -54,11 +54,11 @@ class Search2 {
     y_error_ = all(kRoundoff) * Abs(y_);
     if constexpr (!kUnit) y_error_ = y_error_ + all(kForm) * error;
     y_error_ = y_error_ + all(kAnchorTerms) * size + all(kFlushed);
-    s_ = to_.along[0] * d_[0].hi + to_.along[1] * d_[1].hi;
-    s_error_ = (kBall ? all(kAlong * kRoundoff) : to_.along_error) * size;
+    s_ = to_.along(0) * d_[0].hi + to_.along(1) * d_[1].hi;
+    s_error_ = (kBall ? all(kAlong * kRoundoff) : to_.shape.along_error) * size;
     if constexpr (!kUnit && kBall) s_error_ = s_error_ + all(kForm) * error;
     if constexpr (!kUnit && !kBall)
-      s_error_ = s_error_ + all(kForm) * error * (Abs(to_.along[0]) + Abs(to_.along[1]));
+      s_error_ = s_error_ + all(kForm) * error * (Abs(to_.along(0)) + Abs(to_.along(1)));
     anchor_[0] = anchor_[1] = anchor_error_ = none();
     const M tiny = AndNot(to_.rho > all(kRhoOfAnchor), lanes.active);
     if (any(tiny)) set_near_anchor(tiny, h, lanes);
@@ -67,7 +67,7 @@ class Search2 {
   // Among tiny balls: the lattice point nearest to the start in the coordinates of R and L, or another one
   // nearby: any will do whose coefficients are integers without rounding.
   HWY_INLINE void set_near_anchor(M tiny, Pair h, Lanes& lanes) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const V big = all(kMaxCoefficient);
     const V n = Round(Neg(L.S * y_ + L.D * s_) * to_.inverse_A);
     const V m = Round((R.S * y_ - R.D * s_) * to_.inverse_A);
@@ -76,11 +76,11 @@ class Search2 {
       const Pair sum = Pair::product(n, R.n[i]) + Pair::product(m, L.n[i]);
       lanes.leave(And(tiny, Not(Abs(sum.hi) < big)));
       anchor[i] = sum.hi;
-      terms = terms + Abs(anchor[i]) * to_.M_[i];
+      terms = terms + Abs(anchor[i]) * to_.H_size[i];
       if constexpr (kBall)
         along = along + Abs(anchor[i] * to_.S[i]);
       else
-        s_error = s_error + to_.along_error * Abs(anchor[i]) * all(to_.size_of[i]);
+        s_error = s_error + to_.shape.along_error * Abs(anchor[i]) * all(to_.size_of[i]);
     }
     const Pair a = Pair::product(anchor[0], to_.H[0].hi), b = Pair::product(anchor[1], to_.H[1].hi),
                ab = Pair::sum(a.hi, b.hi), sum = Pair::sum(ab.hi, h.hi);
@@ -98,7 +98,7 @@ class Search2 {
 
   HWY_INLINE V reach_of_rows() const {
     constexpr double kRows = kRowNumber * kRoundoff;
-    const Arm2& L = to_.L;
+    const auto& L = to_.L;
     if constexpr (kUnit && kBall) return all(kRowSlop) + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
     const V height = to_.rho + all(kRows) * (Abs(y_) + to_.rho) + y_error_,
             along = all(kRows) * Abs(s_) + s_error_;
@@ -106,7 +106,7 @@ class Search2 {
   }
 
   HWY_INLINE void start_rows(Lanes& lanes) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const V nu = Neg(L.S * y_ + L.D * s_) * to_.inverse_A, reach = reach_of_rows();
     lanes.leave_unless(Abs(nu) + reach < all(kMaxCoefficient));
     slope_ = (kUnit ? L.D : (L.D + L.D_error) * all(1 + kRowSlope)) * to_.inverse_A;
@@ -117,7 +117,8 @@ class Search2 {
     found.s_error = found.slack = found.slack_error = found.across = none();
     found.n[0] = found.n[1] = none();
     found.v2 = to_.v2;
-    if constexpr (!kBall) found.euclidean_v2 = to_.euclidean_v2, found.v2_error = all(2 * to_.rho_error);
+    if constexpr (!kBall)
+      found.euclidean_v2 = to_.shape.euclidean_v2, found.v2_error = all(2 * to_.rho_error());
     V gap = all(2) * to_.rho * all(1 + kSlop2d);
     if constexpr (!kUnit) gap = gap + R.D_error;
     in_order_ = R.D > gap;  // rows come one after the other
@@ -126,7 +127,7 @@ class Search2 {
 
   // The lanes of `next` begin row n_, at the m at which it enters the strip.
   HWY_INLINE void begin_rows(Lanes& lanes, M& scanning, M next) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const V last = select(to_.rises, last_ + Min(found.s, s_limit_) * slope_, last_);
     scanning = AndNot(And(next, Not(n_ <= last)), scanning);
     next = And(next, scanning);
@@ -147,7 +148,7 @@ class Search2 {
 
   // The ball at n_ R + m_ L: look_at. What is taken or beyond ends the row.
   HWY_INLINE void look(Lanes& lanes, M& scanning, M& next) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const V rho = to_.rho, big = all(kMaxCoefficient), zero = none();
     const V nD = n_ * R.D, mD = m_ * L.D, nS = n_ * R.S, mS = m_ * L.S;
     const V h = (y_ + nD) - mD;
@@ -156,7 +157,7 @@ class Search2 {
     const V s = (s_ + nS) + mS;
     V s_error = s_error_ + all(kAlong * kRoundoff) * (Abs(nS) + Abs(mS));
     if constexpr (!kBall) s_error = s_error + (Abs(n_) * R.S_error + Abs(m_) * L.S_error);
-    const V spread = error + all(to_.rho_error) * rho;
+    const V spread = error + all(to_.rho_error()) * rho;
     const M yes = Abs(h) + spread<rho, no = Abs(h) - spread> rho;
     const M passed = Or(h < zero, Not(to_.rises));
     const M behind = s<Neg(s_error), late = s - s_error> Min(found.s + found.s_error, s_limit_);
@@ -179,8 +180,8 @@ class Search2 {
     found.s = select(take, s, found.s), found.s_error = select(take, s_error, found.s_error);
     found.slack = select(take, scaled((rho - h) * (rho + h)), found.slack);
     found.slack_error =
-        select(take, scaled(all(4) * rho * (error + all(to_.rho_error) * rho)), found.slack_error);
-    if constexpr (!kBall) found.across = select(take, to_.sigma * h * to_.skew, found.across);
+        select(take, scaled(all(4) * rho * (error + all(to_.rho_error()) * rho)), found.slack_error);
+    if constexpr (!kBall) found.across = select(take, to_.sigma * h * to_.shape.skew, found.across);
     // Before the strip, behind the start, or left: on in the row.
     const M before = And(scanning, Or(left, Or(AndNot(passed, no), AndNot(no, behind))));
     m_ = m_ + all(1);
@@ -192,7 +193,7 @@ class Search2 {
 
   HWY_INLINE V scaled(V slack) const {
     if constexpr (kBall) return slack;
-    return all(to_.slack_scale) * slack;
+    return all(to_.slack_scale()) * slack;
   }
 
   const Direction& to_;

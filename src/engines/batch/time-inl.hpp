@@ -46,10 +46,6 @@ struct Entry {
   }
 };
 
-#define LORENTZ_INLINE HWY_INLINE
-#include "src/engines/reduction/stable_meeting-inl.hpp"
-#undef LORENTZ_INLINE
-
 /// EntryTime: the time at which the obstacle of an Entry is entered with velocity v.
 template <int D, bool kUnit, bool kBall>
 class Times {

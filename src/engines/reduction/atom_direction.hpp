@@ -13,11 +13,18 @@ namespace lorentz {
 template <int D, bool kUnit, bool kBall>
 struct AtomDirection {
   Octant octant;
-  std::conditional_t<D == 2, Direction2<kUnit, kBall>, Direction3<kUnit, kBall>> direction;
+  std::conditional_t<D == 2, Direction2<SplitProduct, kUnit, kBall>, Direction3<kUnit, kBall>> direction;
 
   template <class Arch>
-  AtomDirection(Arch arch, const Bravais& lattice, const Vec& v)
-      : octant(kUnit && kBall ? Octant(D, v) : Octant()), direction(arch, lattice, octant, v) {}
+  AtomDirection(Arch, const Bravais& lattice, const Vec& v)
+      : octant(kUnit && kBall ? Octant(D, v) : Octant()) {
+    Vec turned;
+    octant.turn<kUnit && kBall>(v, turned);
+    if constexpr (D == 2)
+      direction.template set<Arch>(lattice, {turned[0], turned[1]}, true);
+    else
+      direction.template set<Arch>(lattice, turned);
+  }
 
   /// The same for the next atom along the same velocity, from that of the atom `before`.
   template <class Arch>

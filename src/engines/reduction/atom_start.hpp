@@ -13,13 +13,13 @@ template <int D, bool kUnit, bool kBall>
 class AtomStart {
  public:
   const Bravais* lattice = nullptr;
-  Offset<D> offset;
+  Offset<SplitProduct, D> offset;
 
   /// False if the start is too far away.
   template <class Arch>
   bool set(const Bravais& of_lattice, const Vec& x) {
     lattice = &of_lattice;
-    return set_offset<Arch, kUnit, D>(of_lattice, x, offset);
+    return set_offset<Arch, kUnit>(of_lattice, x, true, offset);
   }
 
   /// Does x lie in an obstacle (`from` excepted)? Then N is its cell.
@@ -30,7 +30,7 @@ class AtomStart {
     if constexpr (!(kUnit && kBall))
       if (lattice->reaches_out) others = neighbours(other);
     if (others == 0) {  // nearly always
-      const Decision decision = is_inside<kBall>(offset.d, offset.error, *lattice, stage);
+      const Decision decision = is_inside<kUnit, kBall>(offset.d, offset.error, *lattice, stage);
       if (decision == Decision::no) return decision;
     }
     Wide leaving[D];
@@ -41,9 +41,9 @@ class AtomStart {
       double error = offset.error;
       if (which > 0) {
         choose(which, other, N);
-        error = place_of<SplitProduct, kUnit, D>(*lattice, offset, N, d);
+        error = place_of<kUnit>(*lattice, offset, N, d);
       }
-      const Decision decision = is_inside<kBall>(d, error, *lattice, stage);
+      const Decision decision = is_inside<kUnit, kBall>(d, error, *lattice, stage);
       if (decision == Decision::no || (has_from && same(leaving, N))) continue;
       return decision;
     }

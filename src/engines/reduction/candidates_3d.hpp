@@ -51,7 +51,7 @@ class Candidates3 {
 
   StableMeeting<SplitProduct, 3, kBall> meeting_at(const Wide (&N)[3]) const {
     Wide d[3];
-    const double error = place_of<SplitProduct, kUnit, 3>(window_.lattice, window_.offset, N, d);
+    const double error = place_of<kUnit>(window_.lattice, window_.offset, N, d);
     return {window_.to.v, d, error, window_.lattice};
   }
 

@@ -21,8 +21,8 @@ struct Direction3 : Frame3<kUnit, kBall> {
   Basis3 basis;
 
   template <class Arch>
-  Direction3(Arch arch, const Bravais& lattice, const Octant& octant, const Vec& velocity)
-      : Frame(arch, lattice, octant, velocity) {
+  void set(const Bravais& lattice, const Vec& velocity) {
+    Frame::template set<Arch>(lattice, velocity);
     basis.length = first_length(lattice);
     const double along = 1 / basis.length;
     const auto& form = this->form();

@@ -34,8 +34,8 @@ class EntryTime {
   using DD = DoubleDouble<Arch>;
 
  public:
-  EntryTime(const Bravais& lattice, const Offset<D>& offset, const Wide (&N)[D], const Entry<D, kBall>& entry,
-            const Vec& v)
+  EntryTime(const Bravais& lattice, const Offset<SplitProduct, D>& offset, const Wide (&N)[D],
+            const Entry<D, kBall>& entry, const Vec& v)
       : lattice_(lattice), offset_(offset), N_(N), entry_(entry), v_(v) {}
 
   /// Within a few ulps.
@@ -67,7 +67,7 @@ class EntryTime {
   DoubleDouble<A> wide_in(double& error) const {
     DoubleDouble<A> d[D], N[D];
     for (int i = 0; i < D; ++i) N[i] = DoubleDouble<A>(N_[i]);
-    const double d_error = place_of<A, kUnit, D>(lattice_, offset_, N, d);
+    const double d_error = place_of<kUnit>(lattice_, offset_, N, d);
     const StableMeeting<A, D, kBall> meeting(v_, d, d_error, lattice_);
     return meeting.time(d, d_error, lattice_, error);
   }
@@ -88,7 +88,7 @@ class EntryTime {
   double near_ball(double q) const {
     DD d[D], N[D];
     for (int i = 0; i < D; ++i) N[i] = DD(N_[i]);
-    place_of<Arch, kUnit, D>(lattice_, offset_, N, d);
+    place_of<kUnit>(lattice_, offset_, N, d);
     double s = 0;
     DD gap = -DD::product(lattice_.radius, lattice_.radius);
     for (int k = 0; k < D; ++k) {
@@ -171,7 +171,7 @@ class EntryTime {
   }
 
   const Bravais& lattice_;
-  const Offset<D>& offset_;
+  const Offset<SplitProduct, D>& offset_;
   const Wide (&N_)[D];
   const Entry<D, kBall>& entry_;
   const Vec& v_;

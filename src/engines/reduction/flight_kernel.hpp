@@ -36,8 +36,8 @@ class AtomFlight {
   /// Obstacles that are entered after max_time may be ignored.
   void find(const AtomDirection<D, kUnit, kBall>& to, const ObstacleId* from, double max_time) {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
-    Offset<D> turned;
-    if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d);
+    Offset<SplitProduct, D> turned;
+    if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;
     Search search(*start_.lattice, to.direction, kTurned ? turned : start_.offset);
     Wide leaving[D];
     if (from && start_.find_from(from, leaving)) {

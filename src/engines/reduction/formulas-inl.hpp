@@ -65,8 +65,8 @@ LORENTZ_INLINE auto volume_of(const V& b0, const V& b1_x_b2) {
 /// What the steps of a lattice vector and the offset of the home cell add up to, in double-double.
 template <int D, class Wide>
 LORENTZ_INLINE Wide place_after(const Wide (&step)[D], const Wide& offset) {
-  Wide sum = 0.0;
-  for (int i = 0; i < D; ++i) sum = sum + step[i];
+  Wide sum = step[0];
+  for (int i = 1; i < D; ++i) sum = sum + step[i];
   return sum + offset;
 }
 

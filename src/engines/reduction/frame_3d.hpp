@@ -31,8 +31,8 @@ struct Frame3 {
   double size_of[3];                        ///< the size of each vector of the short basis
 
   template <class Arch>
-  Frame3(Arch, const Bravais& lattice, const Octant& octant, const Vec& velocity) {
-    octant.turn<kTurned>(velocity, v);
+  void set(const Bravais& lattice, const Vec& velocity) {
+    for (int k = 0; k < 3; ++k) v[k] = velocity[k];
     if constexpr (kBall)
       set_axes<Arch>(lattice);
     else

@@ -16,7 +16,8 @@ class Search2 {
   using DD = DoubleDouble<Arch>;
 
  public:
-  Search2(const Bravais& lattice, const Direction2<kUnit, kBall>& direction, const Offset<2>& offset)
+  Search2(const Bravais& lattice, const Direction2<SplitProduct, kUnit, kBall>& direction,
+          const Offset<SplitProduct, 2>& offset)
       : lattice_(lattice), to_(direction), offset_(offset) {}
 
   Found<2> found;
@@ -27,7 +28,7 @@ class Search2 {
     from_ = from;
     s_limit_ = s_limit;
     if (!to_.usable || !set_anchor()) return give_up();
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const double nu = row_number(L.S, y_, L.D, s_, to_.inverse_A), reach = reach_of_rows();
     if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
     const double slope = row_slope(kUnit ? L.D : (L.D + L.D_error) * (1 + kRowSlope), to_.inverse_A);
@@ -57,7 +58,7 @@ class Search2 {
   // what y errs by counts. On other lattices the terms are what they are.
   double reach_of_rows() const {
     constexpr double kRows = kRowNumber * kRoundoff;
-    const Arm2& L = to_.L;
+    const auto& L = to_.L;
     if constexpr (kUnit && kBall) return kRowSlop + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
     const double height = to_.rho + kRows * (std::fabs(y_) + to_.rho) + y_error_,
                  along = kRows * std::fabs(s_) + s_error_;
@@ -68,16 +69,16 @@ class Search2 {
   // point nearest to the start in the coordinates of R and L, since the home cell's are so large that their
   // products leave the exact integers, and multiply what errors D_R and D_L have.
   bool set_anchor() {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const DD h = height_of_home();
     const double size = std::fabs(offset_.d[0].hi) + std::fabs(offset_.d[1].hi);
     y_ = to_.sigma * h.hi;
     y_error_ = kRoundoff * std::fabs(y_) + kForm * offset_.error + kAnchorTerms * size + kFlushed;
-    s_ = sum_of_products(along(0), offset_.d[0].hi, along(1), offset_.d[1].hi);
+    s_ = sum_of_products(to_.along(0), offset_.d[0].hi, to_.along(1), offset_.d[1].hi);
     s_error_ = kAlong * kRoundoff * size + kForm * offset_.error;
     if constexpr (!kBall)
-      s_error_ =
-          to_.shape.along_error * size + kForm * offset_.error * (std::fabs(along(0)) + std::fabs(along(1)));
+      s_error_ = to_.shape.along_error * size +
+                 kForm * offset_.error * (std::fabs(to_.along(0)) + std::fabs(to_.along(1)));
     if (to_.rho > kRhoOfAnchor) return true;
     const double n = std::nearbyint(row_number(L.S, y_, L.D, s_, to_.inverse_A));
     const double m = std::nearbyint((R.S * y_ - R.D * s_) * to_.inverse_A);
@@ -89,7 +90,7 @@ class Search2 {
             std::fabs(m) < kMaxCoefficient))
         return false;
       anchor_[i] = sum.hi;
-      terms += std::fabs(anchor_[i]) * to_.M[i];
+      terms += std::fabs(anchor_[i]) * to_.H_size[i];
       if constexpr (kBall)
         along += std::fabs(anchor_[i] * to_.S[i]);
       else
@@ -110,14 +111,9 @@ class Search2 {
       return add_product(first_product(DD(offset_.d[1]), to_.v[0]), DD(offset_.d[0]), -to_.v[1]);
   }
 
-  double along(int k) const {
-    if constexpr (kBall) return to_.v[k];
-    return to_.shape.along[k];
-  }
-
   // The first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
   bool look_in_row(double n) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const double y = y_ + n * R.D, rho = to_.rho;
     double m = passing_of_row(s_, n, R.S, to_.inverse_S_L);
     double unsure = kSlop2d;
@@ -145,14 +141,14 @@ class Search2 {
 
   // The ball at n R + m L: before the strip or behind the start, met, or beyond the strip.
   Look2 look_at(double n, double m) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     const double h = height_in_row(y_, n, R.D, m, L.D);
     double error = kHeight * kRoundoff * (std::fabs(y_) + std::fabs(n * R.D) + std::fabs(m * L.D)) + y_error_;
     if constexpr (!kUnit) error = error + std::fabs(n) * R.D_error + std::fabs(m) * L.D_error;
     const double s = sum_along(s_, n, R.S, m, L.S);
     double s_error = s_error_ + kAlong * kRoundoff * (std::fabs(n * R.S) + std::fabs(m * L.S));
     if constexpr (!kBall) s_error += std::fabs(n) * R.S_error + std::fabs(m) * L.S_error;
-    const Decision meets = is_below(h, to_.rho, error, rho_error());
+    const Decision meets = is_below(h, to_.rho, error, to_.rho_error());
     if (meets == Decision::no) return h < 0 || L.D == 0 ? Look2::beyond : Look2::before;
     if (s < -s_error) return Look2::before;
     if (s - s_error > std::min(found.s + found.s_error, s_limit_)) return Look2::beyond;
@@ -164,19 +160,9 @@ class Search2 {
     if (from_ && N[0] == from_[0].hi && N[1] == from_[1].hi && from_[0].lo == 0 && from_[1].lo == 0)
       return Look2::before;
     if (meets == Decision::yes && s > s_error)
-      return offer(N, s, s_error, slack_scale() * ((to_.rho - h) * (to_.rho + h)),
-                   slack_scale() * (4 * to_.rho * (error + rho_error() * to_.rho)), h);
+      return offer(N, s, s_error, to_.slack_scale() * ((to_.rho - h) * (to_.rho + h)),
+                   to_.slack_scale() * (4 * to_.rho * (error + to_.rho_error() * to_.rho)), h);
     return look_closely(N, h);
-  }
-
-  double rho_error() const {
-    if constexpr (kBall) return kRho * kRoundoff;
-    return to_.shape.rho_error;
-  }
-
-  double slack_scale() const {
-    if constexpr (kBall) return 1;
-    return to_.shape.slack_scale;
   }
 
   Look2 offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
@@ -192,7 +178,7 @@ class Search2 {
     found.needs(Stage::double_double);
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
-    const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
+    const double error = place_of<kUnit>(lattice_, offset_, wide_N, d);
     const StableMeeting<SplitProduct, 2, kBall> meeting(to_.v, d, error, lattice_);
     const Decision meets = lorentz::meets(meeting);
     if (meets == Decision::doubtful) return Look2::doubtful;
@@ -206,7 +192,7 @@ class Search2 {
 
   // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
   [[gnu::noinline]] bool look_closely_in_row(double n) {
-    const Arm2 &R = to_.R, &L = to_.L;
+    const auto &R = to_.R, &L = to_.L;
     found.needs(Stage::double_double);
     double N[2];
     for (int i = 0; i < 2; ++i) {
@@ -215,7 +201,7 @@ class Search2 {
     }
     const Wide wide_N[2] = {N[0], N[1]};
     Wide d[2];
-    const double error = place_of<SplitProduct, kUnit, 2>(lattice_, offset_, wide_N, d);
+    const double error = place_of<kUnit>(lattice_, offset_, wide_N, d);
     const StableMeeting<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
     const Wide h = difference_of_products(d[1], to_.v[0], d[0], to_.v[1]) * to_.sigma;
     Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
@@ -234,8 +220,8 @@ class Search2 {
   }
 
   const Bravais& lattice_;
-  const Direction2<kUnit, kBall>& to_;
-  const Offset<2>& offset_;
+  const Direction2<SplitProduct, kUnit, kBall>& to_;
+  const Offset<SplitProduct, 2>& offset_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;
   double anchor_[2]{}, anchor_error_ = 0;  // of an anchor that is not the home cell

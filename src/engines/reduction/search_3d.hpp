@@ -17,7 +17,8 @@ class Search3 {
   Planes3<Arch, kUnit, kBall> planes_;
 
  public:
-  Search3(const Bravais& lattice, const Direction3<kUnit, kBall>& direction, const Offset<3>& offset)
+  Search3(const Bravais& lattice, const Direction3<kUnit, kBall>& direction,
+          const Offset<SplitProduct, 3>& offset)
       : window_(lattice, direction, offset),
         candidates_(window_),
         lines_(window_, candidates_),
@@ -91,7 +92,8 @@ class Search3 {
   // What lies on the line repeats after this: v . b of a lattice vector b that is exactly parallel to it.
   double period() const {
     for (const Arm3& arm : window_.basis->b)
-      if (arm.p[0] == 0 && arm.p[1] == 0 && is_parallel(window_.lattice, window_.to.v, arm.n))
+      if (arm.p[0] == 0 && arm.p[1] == 0 &&
+          is_parallel<SplitProduct, 3>(window_.lattice, window_.to.v, arm.n))
         return arm.z * window_.basis->length;
     return Found<3>::kNothing;
   }

@@ -36,7 +36,7 @@ class Window3 {
  public:
   const Bravais& lattice;
   const Direction& to;
-  const Offset<3>& offset;
+  const Offset<SplitProduct, 3>& offset;
   const Basis3* basis;
   double begin = 0;  ///< in units of s
   Wide anchor[3];    ///< from the home cell, in the short basis
@@ -44,7 +44,7 @@ class Window3 {
   double p_error = 0, s_error = 0, z_error = 0;  ///< of the anchor
   double z_first = 0;                            ///< where the window begins, with its error
 
-  Window3(const Bravais& of_lattice, const Direction& direction, const Offset<3>& from_offset)
+  Window3(const Bravais& of_lattice, const Direction& direction, const Offset<SplitProduct, 3>& from_offset)
       : lattice(of_lattice), to(direction), offset(from_offset), basis(&direction.basis) {}
 
   void set_start() {
