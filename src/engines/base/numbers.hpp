@@ -53,6 +53,9 @@ inline double Neg(double a) {
 inline double Abs(double a) {
   return std::fabs(a);
 }
+inline double Max(double a, double b) {
+  return a < b ? b : a;
+}
 inline double CopySign(double size, double sign) {
   return std::copysign(size, sign);
 }

@@ -77,7 +77,7 @@ class Block {
     if (stretch_.max_time) limit.time = velocity_.limit_of(load(stretch_.max_time + at_), scene_.exponent);
     V max_time = limit.time;
     typename Search::Direction to;
-    Entry<D, kBall> best;
+    LaneEntry<D, kBall> best;
     V best_atom = none();
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
       set_direction(a, velocity, to);
@@ -199,7 +199,7 @@ class Block {
   }
 
   // The cell in the scene's own axes.
-  HWY_INLINE void set_cell(Entry<D, kBall>& entry) const {
+  HWY_INLINE void set_cell(LaneEntry<D, kBall>& entry) const {
     V here[D];
     turn_.undo(entry.n, here);
     for (int k = 0; k < D; ++k) entry.n[k] = here[k];
@@ -215,7 +215,7 @@ class Block {
   // Lanes of `next` in which one comes before the other, a hit or a limit; those in which that is not certain
   // are left over.
   template <class Other>
-  HWY_INLINE M sooner(const Entry<D, kBall>& one, const Other& other, M next) {
+  HWY_INLINE M sooner(const LaneEntry<D, kBall>& one, const Other& other, M next) {
     const M both = And(next, found_);
     V error, other_error;
     const V difference = other.rough_time(other_error) - one.rough_time(error);
@@ -226,7 +226,7 @@ class Block {
   }
 
   // Cell and time of what is found, an obstacle of atom a.
-  HWY_INLINE void finish(M here, std::size_t a, const Entry<D, kBall>& entry) {
+  HWY_INLINE void finish(M here, std::size_t a, const LaneEntry<D, kBall>& entry) {
     const AtomStart start = start_of(a);
     name(here, a, start, entry.n);
     const Times<D, kUnit, kBall> times(start, entry, velocity_.scaled);
@@ -240,7 +240,7 @@ class Block {
     rounded_ = Or(rounded_, And(here, is_rounded));
   }
 
-  HWY_INLINE V rounded(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry,
+  HWY_INLINE V rounded(M here, const Times<D, kUnit, kBall>& times, const LaneEntry<D, kBall>& entry,
                        M& is_rounded) {
     if (!times.are_soon_rounded()) return times.rounded(is_rounded);
     V time = times.soon_rounded(is_rounded);
@@ -253,7 +253,7 @@ class Block {
     return times.rounded(is_rounded);
   }
 
-  HWY_INLINE V close(M here, const Times<D, kUnit, kBall>& times, const Entry<D, kBall>& entry) {
+  HWY_INLINE V close(M here, const Times<D, kUnit, kBall>& times, const LaneEntry<D, kBall>& entry) {
     if constexpr (kBall) {
       if (kUnit || scene_.atoms.size() == 1) {
         const M late = And(times.is_grazed(), And(here, lanes_.active));

@@ -89,13 +89,17 @@ struct LaneFma {
 #define LORENTZ_INLINE HWY_INLINE
 #define LORENTZ_RARE HWY_INLINE
 #define LORENTZ_NOINLINE HWY_NOINLINE
-// clang-format off: each needs those before it
+// Each needs those before it.
 #include "src/engines/base/double_double-inl.hpp"
-#include "src/engines/reduction/direction_2d-inl.hpp"
+
 #include "src/engines/reduction/formulas-inl.hpp"
-#include "src/engines/reduction/offset-inl.hpp"
+
 #include "src/engines/reduction/stable_meeting-inl.hpp"
-// clang-format on
+
+#include "src/engines/reduction/offset-inl.hpp"
+
+#include "src/engines/reduction/direction_2d-inl.hpp"
+#include "src/engines/reduction/entry_time-inl.hpp"
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_RARE
 #undef LORENTZ_INLINE

@@ -20,7 +20,7 @@ namespace {
 template <int D, bool kUnit, bool kBall>
 class LateTimes {
  public:
-  HWY_INLINE void push(M m, std::size_t at, const Entry<D, kBall>& entry) {
+  HWY_INLINE void push(M m, std::size_t at, const LaneEntry<D, kBall>& entry) {
     for (int k = 0; k < D; ++k) store_some(entry.n[k], m, n_[k] + count_);
     store_some(entry.s, m, s_ + count_);
     store_some(entry.slack, m, slack_ + count_);
@@ -48,12 +48,12 @@ class LateTimes {
     const Velocity<D> scaled(v, lanes);
     Start<D, kUnit, kBall> start;
     start.set(scene, scene.atoms[0], x, lanes);
-    Entry<D, kBall> entry;
+    LaneEntry<D, kBall> entry;
     for (int k = 0; k < D; ++k) entry.n[k] = load(n_[k] + at);
     entry.s = load(s_ + at), entry.slack = load(slack_ + at), entry.slack_error = load(slack_error_ + at);
     const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
     M is_rounded = no_lane();
-    const V found = stretch.rounded ? times.rounded(is_rounded) : times.grazed();
+    const V found = stretch.rounded ? times.rounded(is_rounded) : times.rare_time();
     store(scaled.time_of(found, scene.exponent), time);
     const unsigned rounded = bits_of(is_rounded);
     for (std::size_t lane = 0; lane < length; ++lane) {

@@ -26,7 +26,7 @@ class Search2 {
                      const Leaving<2>* leaving, V s_limit)
       : to_(to), start_(start), d_(d), leaving_(leaving), s_limit_(s_limit) {}
 
-  Entry<2, kBall> found;  ///< of the lanes in which something is met: found.s is finite
+  LaneEntry<2, kBall> found;  ///< of the lanes in which something is met: found.s is finite
 
   /// Of the lanes that are active. Row by row, and in a row ball by ball: each turn looks at one ball a lane.
   HWY_INLINE void run(Lanes& lanes) {

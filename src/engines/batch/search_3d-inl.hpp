@@ -156,7 +156,7 @@ class Search3 {
                      const Leaving<3>* leaving, V s_limit)
       : to_(to), window_(to, start, d), leaving_(leaving), s_limit_(s_limit) {}
 
-  Entry<3, kBall> found;  ///< of the lanes in which something is met: found.s is finite
+  LaneEntry<3, kBall> found;  ///< of the lanes in which something is met: found.s is finite
 
   /// Of the lanes that are active.
   HWY_INLINE void run(Lanes& lanes) {

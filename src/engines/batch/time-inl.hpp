@@ -16,77 +16,52 @@ namespace {
 
 /// What a search leaves for the time, and the obstacle's cell from the home cell in the short basis.
 template <int D, bool kBall>
-struct Entry {
+struct LaneEntry : Entry<LaneFma, D, kBall> {
   V n[D];
-  V s, s_error, slack, slack_error, v2;
-  // Of ellipsoids: in 2D v.v, h skew, and the relative error of v2; in 3D the form that s is.
-  V euclidean_v2, across, v2_error;
-  Pair along[kBall || D == 2 ? 1 : D];
 
-  HWY_INLINE V rough_time(V& error) const {
-    const V q = Sqrt(slack);
-    V relative = all(kRoughTime * kRoundoff);
-    if constexpr (!kBall && D == 2) relative = relative + v2_error;
-    error = all(2) * (s_error + slack_error / q) / v2 + relative * s / v2;
-    return (s - q) / v2;
-  }
-
-  HWY_INLINE void take(M m, const Entry& other) {
+  HWY_INLINE void take(M m, const LaneEntry& other) {
     for (int k = 0; k < D; ++k) n[k] = select(m, other.n[k], n[k]);
-    s = select(m, other.s, s), s_error = select(m, other.s_error, s_error);
-    slack = select(m, other.slack, slack), slack_error = select(m, other.slack_error, slack_error);
-    v2 = select(m, other.v2, v2);
+    this->s = select(m, other.s, this->s), this->s_error = select(m, other.s_error, this->s_error);
+    this->slack = select(m, other.slack, this->slack);
+    this->slack_error = select(m, other.slack_error, this->slack_error);
+    this->v2 = select(m, other.v2, this->v2);
     if constexpr (!kBall && D == 2) {
-      euclidean_v2 = select(m, other.euclidean_v2, euclidean_v2);
-      across = select(m, other.across, across);
-      v2_error = select(m, other.v2_error, v2_error);
+      this->euclidean_v2 = select(m, other.euclidean_v2, this->euclidean_v2);
+      this->across = select(m, other.across, this->across);
+      this->v2_error = select(m, other.v2_error, this->v2_error);
     }
     if constexpr (!kBall && D == 3)
-      for (int k = 0; k < D; ++k) along[k] = select(m, other.along[k], along[k]);
+      for (int k = 0; k < D; ++k) this->along[k] = select(m, other.along[k], this->along[k]);
   }
 };
 
-/// EntryTime: the time at which the obstacle of an Entry is entered with velocity v.
+/// The time at which the obstacle of an entry is entered with velocity v.
 template <int D, bool kUnit, bool kBall>
-class Times {
- public:
-  HWY_INLINE Times(const Start<D, kUnit, kBall>& start, const Entry<D, kBall>& entry, const V (&v)[D])
-      : lattice_(*start.lattice), start_(start), entry_(entry), v_(v) {}
+class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUnit, kBall, V, V[D]> {
+  using Base = CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUnit, kBall, V, V[D]>;
+  using Base::lattice_, Base::entry_, Base::v_, Base::distance, Base::gap_of_ball, Base::is_near;
 
-  /// Within a few ulps, for lanes of balls in which the obstacle is neither grazed nor near.
-  HWY_INLINE V plain() const {
-    V v2 = v_[0] * v_[0] + v_[1] * v_[1], s = v_[0] * distance(0);
-    if constexpr (D == 3) v2 = v2 + v_[2] * v_[2];
-    for (int k = 1; k < D; ++k) s = s + v_[k] * distance(k);
-    return (s - Sqrt(entry_.slack)) / v2;
-  }
-  /// The same where the obstacle may be near: near_ball, and one division for both.
+ public:
+  HWY_INLINE Times(const Start<D, kUnit, kBall>& start, const LaneEntry<D, kBall>& entry, const V (&v)[D])
+      : Base(*start.lattice, start, entry.n, entry, v), start_(start), n_(entry.n) {}
+
+  /// Of balls that are not grazed: CloseTime::close with one division for what is near and what is not.
   HWY_INLINE V plain_or_near() const {
     const V q = Sqrt(entry_.slack);
     const M near = is_near(q);
-    if (nowhere(near)) return plain();
+    if (nowhere(near)) return this->plain(q);
     Pair d[D];
-    start_.place(entry_.n, d);
+    start_.place(n_, d);
     V v2 = none(), s = none();
     for (int k = 0; k < D; ++k) {
       const V place = kUnit ? d[k].hi : select(near, d[k].hi, distance(k));  // the bits of a single flight
       v2 = v2 + v_[k] * v_[k], s = s + v_[k] * place;
     }
-    return select(near, gap_of_ball(d, lattice_.radius), s - q) / select(near, s + q, v2);
+    return select(near, gap_of_ball(d), s - q) / select(near, s + q, v2);
   }
-  HWY_INLINE M is_grazed() const { return is_grazing(Sqrt(entry_.slack)); }
-  /// In double-double, for lanes of balls in which the obstacle is grazed.
-  HWY_INLINE V grazed() const { return rare(); }
-  HWY_INLINE M is_grazing(V q) const { return entry_.slack_error > all(kGrazing * kRoundoff) * q * entry_.s; }
-  HWY_INLINE M is_near(V q) const { return Not(entry_.s > all(kNear) * q); }
-
-  /// Within a few ulps, for the lanes of `hit`.
-  HWY_INLINE V close(M hit) const {
-    if constexpr (kBall)
-      return close_of_ball(hit);
-    else
-      return close_of_ellipsoid(hit);
-  }
+  HWY_INLINE M is_grazed() const { return this->is_grazing(Sqrt(entry_.slack)); }
+  /// In double-double, for what is grazed, and whatever else is rare.
+  HWY_INLINE V rare_time() const { return rare_of(asked()); }
 
   /// Correctly rounded, in the lanes of is_rounded: in double-double, and the bound of its error.
   HWY_INLINE V rounded(M& is_rounded) const {
@@ -128,9 +103,9 @@ class Times {
 
  private:
   HWY_INLINE V soon_placed(Pair (&d)[D]) const {
-    if constexpr (!kUnit) return start_.place(entry_.n, d);
+    if constexpr (!kUnit) return start_.place(n_, d);
     for (int k = 0; k < D; ++k)
-      d[k] = Pair::ordered_sum(entry_.n[k], start_.d[k].hi);  // an integer, and 1/2 at most
+      d[k] = Pair::ordered_sum(n_[k], start_.d[k].hi);  // an integer, and 1/2 at most
     return none();
   }
 
@@ -160,17 +135,17 @@ class Times {
 
   struct Asked {
     Start<D, kUnit, kBall> start;
-    V n[D], v[D], q;
+    V n[D], v[D];
   };
   struct Wide {
     Pair time;
     V error;
   };
 
-  HWY_INLINE Asked asked(V q = none()) const {
+  HWY_INLINE Asked asked() const {
     Asked asked;
-    asked.start = start_, asked.q = q;
-    for (int k = 0; k < D; ++k) asked.n[k] = entry_.n[k], asked.v[k] = v_[k];
+    asked.start = start_;
+    for (int k = 0; k < D; ++k) asked.n[k] = n_[k], asked.v[k] = v_[k];
     return asked;
   }
 
@@ -189,103 +164,8 @@ class Times {
     return wide;
   }
 
-  HWY_INLINE V close_of_ball(M hit) const {
-    const V q = Sqrt(entry_.slack);
-    const M grazing = And(hit, is_grazing(q)), near = And(hit, is_near(q));
-    V time = plain();
-    if (any(near)) time = select(near, near_ball(asked(q)), time);
-    if (any(grazing)) time = select(grazing, rare(), time);
-    return time;
-  }
-
-  HWY_INLINE V rare() const { return rare_of(asked()); }
-
-  static HWY_NOINLINE V near_ball(const Asked& asked) {
-    Pair d[D];
-    asked.start.place(asked.n, d);
-    V s = none();
-    for (int k = 0; k < D; ++k) s = s + asked.v[k] * d[k].hi;
-    return gap_of_ball(d, asked.start.lattice->radius) / (s + asked.q);
-  }
-
-  // |d|^2 - r^2, at least 0.
-  static HWY_INLINE V gap_of_ball(const Pair (&d)[D], double r) {
-    Pair gap = -Pair::product(all(r), all(r));
-    for (int k = 0; k < D; ++k) {
-      const Pair square = Pair::product(d[k].hi, d[k].hi), sum = Pair::sum(gap.hi, square.hi);
-      gap = Pair{sum.hi, sum.lo + (gap.lo + square.lo + all(2) * d[k].hi * d[k].lo)};
-    }
-    return Max(gap.value(), none());
-  }
-
-  HWY_INLINE V close_of_ellipsoid(M hit) const {
-    const V q = Sqrt(entry_.slack);
-    const double condition = lattice_.shape.condition;
-    if (condition > kSlender) return Max(rare(), none());
-    const double unsure = (kGrazing + kGrazingOfShape * condition) * kRoundoff;
-    const M grazing = And(hit, entry_.slack_error > all(unsure) * q * entry_.s);
-    V time;
-    if constexpr (D == 2) {
-      const V along = v_[0] * distance(0) + v_[1] * distance(1);
-      const V v2 = entry_.v2, euclidean_v2 = entry_.euclidean_v2, across = entry_.across;
-      const M near = And(hit, Not(entry_.s > all(kNear) * q));
-      time = along / euclidean_v2 + (across - q * euclidean_v2) / (euclidean_v2 * v2);
-      if (any(near)) time = select(near, close_gap() / ((along * v2 + across) / euclidean_v2 + q), time);
-    } else {
-      Pair d[D];
-      place(d);
-      time = Max((close_product(entry_.along, d).hi - q) / entry_.v2, none());
-    }
-    if (any(grazing)) time = select(grazing, rare(), time);
-    return time;
-  }
-
-  HWY_INLINE void place(Pair (&d)[D]) const {
-    for (int k = 0; k < D; ++k) {
-      if constexpr (kUnit) {
-        d[k] = Pair::sum(entry_.n[k], start_.d[k].hi);
-      } else {
-        Pair sum = start_.d[k];
-        for (int i = 0; i < D; ++i) sum = add_product(sum, Pair(lattice_.basis[i][k]), entry_.n[i]);
-        d[k] = sum;
-      }
-    }
-  }
-
-  static HWY_INLINE Pair close_product(const Pair (&a)[D], const Pair (&d)[D]) {
-    Pair sum = first_product(a[0], d[0].hi);
-    V low = a[0].hi * d[0].lo;
-    for (int k = 1; k < D; ++k) {
-      sum = add_product(sum, a[k], d[k].hi);
-      low = low + a[k].hi * d[k].lo;
-    }
-    return Pair::sum(sum.hi, sum.lo + low);
-  }
-
-  HWY_INLINE V close_gap() const {
-    Pair d[D], image[D];
-    place(d);
-    for (int i = 0; i < D; ++i) {
-      Pair row[D];
-      for (int k = 0; k < D; ++k) row[k] = Pair(lattice_.shape.metric[i][k]);
-      image[i] = close_product(row, d);
-    }
-    const Pair square = close_product(image, d),
-               limit = Pair::product(all(lattice_.radius), all(lattice_.radius));
-    return Max((square.hi - limit.hi) + (square.lo - limit.lo), none());
-  }
-
-  HWY_INLINE V distance(int k) const {
-    if constexpr (kUnit) return entry_.n[k] + start_.d[k].hi;
-    V d = start_.d[k].hi;
-    for (int i = 0; i < D; ++i) d = d + all(lattice_.basis[i][k].hi) * entry_.n[i];
-    return d;
-  }
-
-  const Bravais& lattice_;
   const Start<D, kUnit, kBall>& start_;
-  const Entry<D, kBall>& entry_;
-  const V (&v_)[D];
+  const V (&n_)[D];
 };
 
 }  // namespace

@@ -79,7 +79,7 @@ class AtomFlight {
   }
 
   AtomStart<D, kUnit, kBall> start_;
-  Entry<D, kBall> entry_;
+  Entry<SplitProduct, D, kBall> entry_;
   Wide N_[D];  ///< the cell of what is found, or of the home cell, from the home cell, in the short basis
 };
 

@@ -105,7 +105,7 @@ LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offs
                                               const Coefficient (&N)[D], DoubleDouble<Arch> (&d)[D]) {
   using DD = DoubleDouble<Arch>;
   using Number = typename Arch::Number;
-  constexpr bool kWide = std::is_same_v<Coefficient, DD>;
+  constexpr bool kWide = !std::is_same_v<Coefficient, Number>;
   Number size = all(0), error = offset.error;
   for (int k = 0; k < D; ++k) {
     const DD there(offset.d[k].hi, offset.d[k].lo);

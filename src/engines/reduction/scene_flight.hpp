@@ -28,7 +28,7 @@ const Item& direction_of(const AtomDirections& directions, std::size_t atom) {
 template <class AtomFlight>
 inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) {
   if (task.time == Reduction::Time::close) {
-    flight.time = found.time(task.v).close();
+    flight.time = found.time(task.v).close(true);
     return;
   }
   double error;
