@@ -50,6 +50,9 @@ inline bool Or(bool a, bool b) {
 inline double Neg(double a) {
   return -a;
 }
+inline double NegIf(bool m, double a) {  ///< without a branch
+  return a * (1 - 2 * static_cast<double>(m));
+}
 inline double Abs(double a) {
   return std::fabs(a);
 }

@@ -7,63 +7,23 @@
 #define LORENTZ_BATCH_BASIS_3D_INL_HPP
 #endif
 
-#include "src/engines/batch/frame_3d-inl.hpp"
+#include "src/engines/batch/time-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Three vectors, shortest first: Basis3.
-struct Basis3 {
-  Arm3 b[3];
-  V length;
-  V dual[3][3];
-  V slope, inverse_slope, normal[2], dual1_normal, dual1_level, tilt_error;
+using Arm3 = ArmOf3<LaneFma>;
+using Basis3 = BasisOf3<LaneFma>;
+template <bool kUnit, bool kBall>
+using Frame3 = FrameOf3<LaneFma, kUnit, kBall>;
 
-  HWY_INLINE V tilt() const { return dual[2][2]; }
-
-  /// From the three vectors, which are turned to point forward. Lanes whose basis is of no use are left over.
-  HWY_INLINE void set_dual(Lanes& lanes) {
-    for (Arm3& arm : b) point_forward(arm);
-    const V inverse_volume = set_dual_vectors();
-    for (int i = 0; i < 3; ++i) {
-      const V square = dual[i][0] * dual[i][0] + dual[i][1] * dual[i][1] + dual[i][2] * dual[i][2];
-      lanes.leave_unless(And(product(b[i], b[i]) * square <= all(kMaxDefect * kMaxDefect),
-                             b[i].largest_coefficient() < all(kMaxCoefficient)));
-    }
-    const V(&g1)[3] = dual[1];
-    const V(&g2)[3] = dual[2];
-    slope = Sqrt(g2[0] * g2[0] + g2[1] * g2[1]);
-    inverse_slope = all(1) / slope;
-    normal[0] = g2[0] * inverse_slope, normal[1] = g2[1] * inverse_slope;
-    dual1_normal = g1[0] * normal[0] + g1[1] * normal[1];
-    dual1_level = g1[1] * normal[0] - g1[0] * normal[1];
-    tilt_error = all(kTilt * kRoundoff) * reach(b[0]) * reach(b[1]) * Abs(inverse_volume);
-  }
-
- private:
-  static HWY_INLINE void point_forward(Arm3& arm) {
-    const V sign = where(arm.z < none(), all(-0.0));
-    for (V& coefficient : arm.n) coefficient = Xor(coefficient, sign);
-    arm.p[0] = Xor(arm.p[0], sign), arm.p[1] = Xor(arm.p[1], sign), arm.z = Xor(arm.z, sign);
-  }
-
-  static HWY_INLINE V reach(const Arm3& arm) { return Abs(arm.p[0]) + Abs(arm.p[1]) + arm.cancellation; }
-
-  HWY_INLINE V set_dual_vectors() {
-    for (int i = 0; i < 3; ++i) {
-      const Arm3 &x = b[(i + 1) % 3], &y = b[(i + 2) % 3];
-      dual[i][0] = x.p[1] * y.z - x.z * y.p[1];
-      dual[i][1] = x.z * y.p[0] - x.p[0] * y.z;
-      dual[i][2] = x.p[0] * y.p[1] - x.p[1] * y.p[0];
-    }
-    const V inverse = all(1) / ((b[0].p[0] * dual[0][0] + b[0].p[1] * dual[0][1]) + b[0].z * dual[0][2]);
-    for (auto& row : dual)
-      for (V& component : row) component = component * inverse;
-    return inverse;
-  }
-};
+/// But for what is computed anew after any exchange.
+HWY_INLINE void exchange(M m, Arm3& a, Arm3& b) {
+  for (int i = 0; i < 3; ++i) exchange(m, a.n[i], b.n[i]);
+  exchange(m, a.p[0], b.p[0]), exchange(m, a.p[1], b.p[1]), exchange(m, a.z, b.z);
+}
 
 /// GreedyReduction: Lagrange's step for the two shorter vectors, then the longest by the nearest point of
 /// their plane; lanes that are done wait.
@@ -85,7 +45,7 @@ class GreedyReduction {
     for (int round = 0; round < kMaxReductionRounds; ++round) {
       const M good = pass(todo, fresh, limit);
       const M accurate = Or(fresh, largest_ * all(frame.inverse_r) < all(kGoodRunning));
-      for (int i = 0; i < 3; ++i) frame.recompute(b_[i], length);
+      for (int i = 0; i < 3; ++i) frame.template recompute<LaneFma>(b_[i], length);
       done = Or(done, And(todo, And(good, accurate)));
       todo = AndNot(done, todo);
       if (nowhere(todo)) break;
@@ -157,15 +117,16 @@ struct Direction3 : Frame3<kUnit, kBall> {
   Basis3 basis;
 
   HWY_INLINE void set(const Bravais& lattice, const V (&velocity)[3], Lanes& lanes) {
-    Frame3<kUnit, kBall>::set(lattice, velocity);
+    Frame3<kUnit, kBall>::template set<LaneFma>(lattice, velocity);
+    const auto& form = this->form();
     basis.length = first_length(lattice);
     const V along = all(1) / basis.length, zero = none();
     for (int i = 0; i < 3; ++i) {
       Arm3& arm = basis.b[i];
       arm.n[0] = arm.n[1] = arm.n[2] = zero;
       arm.n[i] = all(1);
-      arm.p[0] = this->scale[0] * this->form[0][i].hi, arm.p[1] = this->scale[1] * this->form[1][i].hi;
-      arm.z = along * this->form[2][i].hi;
+      arm.p[0] = this->scale[0] * form[0][i].hi, arm.p[1] = this->scale[1] * form[1][i].hi;
+      arm.z = along * form[2][i].hi;
       arm.cancellation = zero;
     }
     reduce(basis, lanes);
@@ -200,7 +161,8 @@ struct Direction3 : Frame3<kUnit, kBall> {
     GreedyReduction reduction(to);
     reduction.run(static_cast<const Frame3<kUnit, kBall>&>(*this), to.length, lanes);
     reduction.copy_to(to);
-    to.set_dual(lanes);
+    to.set_dual();
+    lanes.leave_unless(to.usable);
   }
 };
 

@@ -49,7 +49,7 @@ struct Window3 {
 
   HWY_INLINE Window3(const Direction& direction, const Start<3, kUnit, kBall>& start, const Pair (&d)[3])
       : to(direction), basis(&direction.basis), begin(none()), lattice_(*start.lattice), error_(start.error) {
-    to.forms_of(d, start_);
+    to.template forms_of<LaneFma>(d, start_);
     start_size_ = (Abs(d[0].hi) + Abs(d[1].hi)) + Abs(d[2].hi);
   }
 
@@ -102,8 +102,12 @@ struct Window3 {
       const V most = largest(Abs(k[0]), Abs(k[1]), Abs(k[2]));
       lanes.leave_unless(most < all(kMaxAnchorStep));
       move_anchor(k, moving, lanes);
-      for (int i = 0; i < 2; ++i) anchor_point.p[i] = to.scale[i] * to.form_of(i, anchor, start_[i]);
-      anchor_point.z = to.form_of(2, anchor, from) / basis->length;
+      const auto& form = to.form();
+      anchor_point.p[0] =
+          to.scale[0] * compensated_sum_from<Pair, Direction::kFirstTerms>(start_[0], form[0], anchor);
+      anchor_point.p[1] = to.scale[1] * compensated_sum_from<Pair>(start_[1], form[1], anchor);
+      anchor_point.z =
+          compensated_sum_from<Pair, 3, Direction::kLowParts>(from, form[2], anchor) / basis->length;
       moving = And(moving, Not(most < all(kNearAnchor)));
       if (HWY_LIKELY(nowhere(moving))) break;
     }

@@ -23,7 +23,7 @@ struct AtomDirection {
     if constexpr (D == 2)
       direction.template set<Arch>(lattice, {turned[0], turned[1]}, true);
     else
-      direction.template set<Arch>(lattice, turned);
+      direction.template set<Arch>(lattice, {turned[0], turned[1], turned[2]});
   }
 
   /// The same for the next atom along the same velocity, from that of the atom `before`.

@@ -21,7 +21,7 @@ struct Direction3 : Frame3<kUnit, kBall> {
   Basis3 basis;
 
   template <class Arch>
-  void set(const Bravais& lattice, const Vec& velocity) {
+  void set(const Bravais& lattice, const double (&velocity)[3]) {
     Frame::template set<Arch>(lattice, velocity);
     basis.length = first_length(lattice);
     const double along = 1 / basis.length;

@@ -122,19 +122,24 @@ LORENTZ_INLINE T compensated_height(const Pair& h, const T (&n)[2], const Form (
 
 // ---- 3D ---------------------------------------------------------------------------------------------------
 
+/// What the product n f leaves of f's low part, and of its own.
+template <bool kLowParts, class Pair, class T, class Form>
+LORENTZ_INLINE T low_of(const Pair& product, const T& n, const Form& f) {
+  if constexpr (kLowParts)
+    return product.lo + n * f.lo;
+  else
+    return product.lo;
+}
+
 /// n_0 f_0 + n_1 f_1 + n_2 f_2, likewise; or two terms, if f_2 is zero, or without low parts, if these are.
 template <class Pair, int kTerms = 3, bool kLowParts = true, class T, class Form>
 LORENTZ_INLINE T compensated_sum(const Form (&f)[3], const T (&n)[3]) {
-  const auto low_of = [&](const Pair& product, int i) {
-    if constexpr (kLowParts)
-      return product.lo + n[i] * f[i].lo;
-    else
-      return product.lo;
-  };
   const Pair a = Pair::product(n[0], f[0].hi), b = Pair::product(n[1], f[1].hi), ab = Pair::sum(a.hi, b.hi);
-  if constexpr (kTerms == 2) return ab.hi + (ab.lo + (low_of(a, 0) + low_of(b, 1)));
+  if constexpr (kTerms == 2)
+    return ab.hi + (ab.lo + (low_of<kLowParts>(a, n[0], f[0]) + low_of<kLowParts>(b, n[1], f[1])));
   const Pair c = Pair::product(n[2], f[2].hi), all = Pair::sum(ab.hi, c.hi);
-  return all.hi + ((ab.lo + all.lo) + (low_of(a, 0) + low_of(b, 1) + low_of(c, 2)));
+  return all.hi + ((ab.lo + all.lo) + (low_of<kLowParts>(a, n[0], f[0]) + low_of<kLowParts>(b, n[1], f[1]) +
+                                       low_of<kLowParts>(c, n[2], f[2])));
 }
 
 /// The same from a start.
