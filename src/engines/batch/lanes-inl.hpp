@@ -135,6 +135,7 @@ struct LaneFma {
 #include "src/engines/reduction/entry_time-inl.hpp"
 
 #include "src/engines/reduction/frame_3d-inl.hpp"
+#include "src/engines/reduction/search_2d-inl.hpp"
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_RARE
 #undef LORENTZ_INLINE

@@ -1,0 +1,179 @@
+// The rows of a 2D lattice along a prepared direction, as a start sees them. The text of search_2d.hpp, and of
+// the batch engine.
+
+/// Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice
+/// point nearest to the start in the coordinates of R and L, since the home cell's are so large that their
+/// products leave the exact integers, and multiply what errors D_R and D_L have.
+template <class Arch, class Numbers, bool kUnit, bool kBall>
+class RowsOf2 {
+ protected:
+  using DD = DoubleDouble<Arch>;
+  using Number = typename Arch::Number;
+  using Mask = typename Arch::Mask;
+  using Direction = Direction2<Numbers, kUnit, kBall>;
+
+  /// `d` and `error`: of the start's offset.
+  LORENTZ_INLINE RowsOf2(const Direction& to, const DoubleDouble<Numbers> (&d)[2], const Number& error)
+      : to_(to), d_(d), error_(error) {}
+
+  /// Those of the wanted that have an anchor.
+  LORENTZ_INLINE Mask set_anchor(Mask wanted) {
+    const DD h = height_of_home();
+    const Number size = Abs(d_[0].hi) + Abs(d_[1].hi);
+    y_ = to_.sigma * h.hi;
+    y_error_ = kRoundoff * Abs(y_);
+    if constexpr (!kUnit) y_error_ = y_error_ + kForm * error_;
+    y_error_ = y_error_ + kAnchorTerms * size + all(kFlushed);
+    s_ = sum_of_products(to_.along(0), d_[0].hi, to_.along(1), d_[1].hi);
+    if constexpr (kBall)
+      s_error_ = kAlong * kRoundoff * size;
+    else
+      s_error_ = to_.shape.along_error * size;
+    if constexpr (!kUnit && kBall) s_error_ = s_error_ + kForm * error_;
+    if constexpr (!kUnit && !kBall)
+      s_error_ = s_error_ + kForm * error_ * (Abs(to_.along(0)) + Abs(to_.along(1)));
+    anchor_[0] = anchor_[1] = anchor_error_ = all(0);
+    const Mask tiny = AndNot(to_.rho > all(kRhoOfAnchor), wanted);
+    if (nowhere(tiny)) return wanted;
+    return And(wanted, Or(Not(tiny), set_near_anchor(tiny, h)));
+  }
+
+  /// The number of the row beside the start, and within what of it rows are in the strip there; that number
+  /// errs, too. On the unit lattices D_R >= 2 rho, so the terms of it are below 2^20, and kRowSlop is enough;
+  /// among tiny balls they are about 1, and what y errs by counts. On other lattices the terms are what they
+  /// are.
+  LORENTZ_INLINE Number row_beside_start() const {
+    return row_number(to_.L.S, y_, to_.L.D, s_, to_.inverse_A);
+  }
+  LORENTZ_INLINE Number reach_of_rows() const {
+    constexpr double kRows = kRowNumber * kRoundoff;
+    const auto& L = to_.L;
+    if constexpr (kUnit && kBall) {
+      return all(kRowSlop) + L.S * (to_.rho + anchor_error_) * to_.inverse_A;
+    } else {
+      const Number height = to_.rho + kRows * (Abs(y_) + to_.rho) + y_error_,
+                   along = kRows * Abs(s_) + s_error_;
+      return all(kRowSlop) + (L.S * height + L.D * along) * to_.inverse_A;
+    }
+  }
+
+  /// Rows that a unit of s passes, at most.
+  LORENTZ_INLINE Number slope_of_rows() const {
+    const auto& L = to_.L;
+    if constexpr (kUnit)
+      return row_slope(L.D, to_.inverse_A);
+    else
+      return row_slope((L.D + L.D_error) * all(1 + kRowSlope), to_.inverse_A);
+  }
+
+  /// Do rows come one after the other?
+  LORENTZ_INLINE Mask are_in_order() const {
+    const auto& R = to_.R;
+    Number gap = 2 * to_.rho * all(1 + kSlop2d);
+    if constexpr (!kUnit) gap = gap + R.D_error;
+    if constexpr (kBall)
+      return R.D > gap;
+    else
+      return And(R.D > gap, R.S >= all(0));
+  }
+
+  /// The m at which row n enters the strip, or passes the start, and what that errs by.
+  LORENTZ_INLINE Number start_of_row(Number n, Number& unsure) const {
+    const auto &R = to_.R, &L = to_.L;
+    const Number nD = n * R.D, y = y_ + nD, passing = passing_of_row(s_, n, R.S, to_.inverse_S_L);
+    unsure = all(kSlop2d);
+    if (Arch::kOne && nowhere(to_.rises)) return passing;
+    const Number m = select(to_.rises, Max(passing, entry_of_row(y, to_.rho, to_.inverse_D_L)), passing);
+    Number more = (kRowEntry * kRoundoff * (Abs(y) + Abs(nD) + to_.rho) + y_error_) * to_.inverse_D_L;
+    unsure = unsure + where(to_.rises, more);
+    if constexpr (!kUnit) {
+      more = (Abs(n) * R.D_error + Abs(m) * L.D_error) * to_.inverse_D_L;
+      unsure = unsure + where(to_.rises, more);
+    }
+    return m;
+  }
+
+  /// The ball at n R + m L.
+  struct Ball {
+    Number h, error, s, s_error;
+  };
+  LORENTZ_INLINE Ball ball_at(Number n, Number m) const {
+    const auto &R = to_.R, &L = to_.L;
+    Ball ball;
+    ball.h = height_in_row(y_, n, R.D, m, L.D);
+    ball.error = kHeight * kRoundoff * (Abs(y_) + Abs(n * R.D) + Abs(m * L.D)) + y_error_;
+    if constexpr (!kUnit) ball.error = ball.error + Abs(n) * R.D_error + Abs(m) * L.D_error;
+    ball.s = sum_along(s_, n, R.S, m, L.S);
+    ball.s_error = s_error_ + kAlong * kRoundoff * (Abs(n * R.S) + Abs(m * L.S));
+    if constexpr (!kBall) ball.s_error = ball.s_error + (Abs(n) * R.S_error + Abs(m) * L.S_error);
+    return ball;
+  }
+  LORENTZ_INLINE Number slack_of(const Ball& ball) const {
+    return scaled((to_.rho - ball.h) * (to_.rho + ball.h));
+  }
+  LORENTZ_INLINE Number slack_error_of(const Ball& ball) const {
+    return scaled(4 * to_.rho * (ball.error + to_.rho_error() * to_.rho));
+  }
+
+  /// Its coefficients in the short basis, from the home cell; true where they were not rounded.
+  LORENTZ_INLINE Mask name_ball(Number n, Number m, Number (&N)[2]) const {
+    const auto &R = to_.R, &L = to_.L;
+    const Number big = all(kMaxCoefficient);
+    Mask exact = everywhere(true);
+    for (int i = 0; i < 2; ++i) {
+      const Number by_R = n * R.n[i], by_L = m * L.n[i];
+      N[i] = anchor_[i] + by_R + by_L;
+      exact = And(exact, And(Max(Abs(by_R), Abs(by_L)) < big, Abs(N[i]) < big));
+    }
+    return exact;
+  }
+
+  const Direction& to_;
+  const DoubleDouble<Numbers> (&d_)[2];
+  const Number& error_;
+  Number anchor_[2], anchor_error_;  // of an anchor that is not the home cell
+  Number y_, y_error_, s_, s_error_;
+
+ private:
+  LORENTZ_INLINE Number scaled(Number slack) const {
+    if constexpr (kBall)
+      return slack;
+    else
+      return to_.slack_scale() * slack;
+  }
+
+  LORENTZ_INLINE DD height_of_home() const {
+    const DD d0(d_[0].hi, d_[0].lo), d1(d_[1].hi, d_[1].lo);
+    if constexpr (kUnit)
+      return add_product(DD::product(d1.hi, to_.v[0]), d0.hi, Neg(to_.v[1]));
+    else
+      return add_product(first_product(d1, to_.v[0]), d0, Neg(to_.v[1]));
+  }
+
+  // Where it is tiny. True if no integer was rounded.
+  LORENTZ_INLINE Mask set_near_anchor(Mask tiny, const DD& h) {
+    const auto &R = to_.R, &L = to_.L;
+    const Number big = all(kMaxCoefficient), n = Round(row_beside_start()),
+                 m = Round((R.S * y_ - R.D * s_) * to_.inverse_A);
+    Mask good = And(Abs(n) < big, Abs(m) < big);
+    Number near[2], terms = all(0), along = all(0), s_error = s_error_;
+    for (int i = 0; i < 2; ++i) {
+      near[i] = (DD::product(n, R.n[i]) + DD::product(m, L.n[i])).hi;  // large terms; what they leave is not
+      good = And(good, Abs(near[i]) < big);
+      terms = terms + Abs(near[i]) * to_.H_size[i];
+      if constexpr (kBall)
+        along = along + Abs(near[i] * to_.S[i]);
+      else
+        s_error = s_error + to_.shape.along_error * Abs(near[i]) * all(to_.size_of[i]);
+    }
+    const Number y = to_.sigma * compensated_height<!kUnit>(h, near, to_.H);
+    const Number y_error = y_error_ + (kAnchor * kRoundoff * Abs(y) + kAnchorTerms * terms);
+    const Number s = s_ + sum_of_products(near[0], to_.S[0], near[1], to_.S[1]);
+    s_error = s_error + kAlong * kRoundoff * along;
+    y_ = select(tiny, y, y_), y_error_ = select(tiny, y_error, y_error_);
+    s_ = select(tiny, s, s_), s_error_ = select(tiny, s_error, s_error_);
+    anchor_error_ = where(tiny, y_error);
+    for (int i = 0; i < 2; ++i) anchor_[i] = where(tiny, near[i]);
+    return good;
+  }
+};
