@@ -106,3 +106,13 @@ TEST_CASE("Precisions know their limits", "[engines][precisions]") {
   }
   CHECK(make_precision("published-53", unit_scene(2, 0.1)) == nullptr);
 }
+
+TEST_CASE("Two numbers as one are rounded to the nearest integer, halves away from zero",
+          "[engines][precisions]") {
+  for (const double whole : {0.0, 1.0, 2.0, 7.0})
+    for (const double rest : {-0.25, 0.0, 0.25, 0.5}) {
+      const double rounded = rest == 0.5 ? whole + 1 : whole;
+      CHECK(round(Wide(whole + rest)).hi == rounded);
+      CHECK(round(Wide(-whole - rest)).hi == -rounded);
+    }
+}

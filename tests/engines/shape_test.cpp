@@ -160,7 +160,7 @@ TEST_CASE("3D: across the line in units of an ellipsoid, and along it", "[engine
     const ExactShape exact(shape);
     const Vec v = draw.vec(3, -2, 2);
     Direction3<true, false> direction;
-    direction.set<SplitProduct>(scene.atoms[0], {v[0], v[1], v[2]});
+    direction.set<SplitProduct>(scene.atoms[0], {v[0], v[1], v[2]}, true);
     const RealVec d = real(draw.vec(3, -1, 1)), w = exact.to_ball(real(v)), there = exact.to_ball(d);
     const RealVec h = outer(w, there);
     const Real exact_p2 = inner(h, h) / inner(w, w) / shape.radius / shape.radius;

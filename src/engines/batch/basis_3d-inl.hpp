@@ -16,8 +16,6 @@ namespace {
 
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;
-template <bool kUnit, bool kBall>
-using Frame3 = FrameOf3<LaneFma, kUnit, kBall>;
 
 /// But for what is computed anew after any exchange.
 HWY_INLINE void exchange(M m, Arm3& a, Arm3& b) {
@@ -36,10 +34,9 @@ class GreedyReduction {
     for (int i = 0; i < 3; ++i) basis.b[i] = b_[i];
   }
 
-  /// Short vectors, once more from exact coefficients. What does not come to that is left over.
   template <class Frame>
-  HWY_INLINE void run(const Frame& frame, V length, Lanes& lanes) {
-    M todo = lanes.active, done = no_lane();
+  HWY_INLINE M run(const Frame& frame, V length, M wanted) {
+    M todo = wanted, done = no_lane();
     double limit = kRunningCoefficient;
     M fresh = todo;
     for (int round = 0; round < kMaxReductionRounds; ++round) {
@@ -51,7 +48,7 @@ class GreedyReduction {
       if (nowhere(todo)) break;
       fresh = todo, limit = kNoLimit;
     }
-    lanes.leave_unless(And(done, largest_ < all(kMaxCoefficient / 2)));
+    return And(done, largest_ < all(kMaxCoefficient / 2));
   }
 
  private:
@@ -111,60 +108,22 @@ class GreedyReduction {
   V size_[3], largest_;
 };
 
-/// A lattice seen along each lane's velocity: all that does not depend on the start.
+/// Short vectors, then once more from exact coefficients, in the lanes that are wanted; those in which it comes
+/// to that.
+template <class Arch, class Frame>
+HWY_INLINE M reduce_basis(const Frame& frame, Basis3& basis, M wanted) {
+  GreedyReduction reduction(basis);
+  const M is_short = reduction.run(frame, basis.length, wanted);
+  reduction.copy_to(basis);
+  return is_short;
+}
+
+#define LORENTZ_INLINE HWY_INLINE
+#include "src/engines/reduction/direction_3d-inl.hpp"
+#undef LORENTZ_INLINE
+
 template <bool kUnit, bool kBall>
-struct Direction3 : Frame3<kUnit, kBall> {
-  Basis3 basis;
-
-  HWY_INLINE void set(const Bravais& lattice, const V (&velocity)[3], Lanes& lanes) {
-    Frame3<kUnit, kBall>::template set<LaneFma>(lattice, velocity);
-    const auto& form = this->form();
-    basis.length = first_length(lattice);
-    const V along = all(1) / basis.length, zero = none();
-    for (int i = 0; i < 3; ++i) {
-      Arm3& arm = basis.b[i];
-      arm.n[0] = arm.n[1] = arm.n[2] = zero;
-      arm.n[i] = all(1);
-      arm.p[0] = this->scale[0] * form[0][i].hi, arm.p[1] = this->scale[1] * form[1][i].hi;
-      arm.z = along * form[2][i].hi;
-      arm.cancellation = zero;
-    }
-    reduce(basis, lanes);
-  }
-
-  /// Another atom of the same lattice, with balls of another radius.
-  HWY_INLINE void retarget(const Bravais& lattice, Lanes& lanes) {
-    const double before = this->inverse_r;
-    const V length_before = basis.length;
-    this->set_radius(lattice);
-    basis.length = first_length(lattice);
-    const V wider = all(this->inverse_r / before), longer = length_before / basis.length;
-    for (Arm3& arm : basis.b)
-      arm.p[0] = arm.p[0] * wider, arm.p[1] = arm.p[1] * wider, arm.z = arm.z * longer;
-    reduce(basis, lanes);
-  }
-
-  /// A longer window, in the lanes that are active.
-  HWY_INLINE void lengthen(Basis3& longer, Lanes& lanes) const {
-    const V factor = select(lanes.active, all(kLonger), all(1));
-    longer.length = longer.length * factor;
-    for (Arm3& arm : longer.b) arm.z = arm.z / factor;
-    reduce(longer, lanes);
-  }
-
- private:
-  HWY_INLINE V first_length(const Bravais& lattice) const {
-    return all(kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius)) * Sqrt(this->v2);
-  }
-
-  HWY_INLINE void reduce(Basis3& to, Lanes& lanes) const {
-    GreedyReduction reduction(to);
-    reduction.run(static_cast<const Frame3<kUnit, kBall>&>(*this), to.length, lanes);
-    reduction.copy_to(to);
-    to.set_dual();
-    lanes.leave_unless(to.usable);
-  }
-};
+using Direction3 = DirectionOf3<LaneFma, kUnit, kBall>;
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

@@ -123,14 +123,18 @@ class Block {
       const bool same_lattice = before.lattice == lattice.lattice;
       if (same_lattice && before.radius == lattice.radius && (kBall || before.shape == lattice.shape)) return;
       if constexpr (D == 3 && kBall && !kUnit)
-        if (same_lattice) return to.retarget(lattice, lanes_);
+        if (same_lattice) {
+          to.template retarget<LaneFma>(lattice, lanes_.active);
+          return lanes_.leave_unless(to.basis.usable);
+        }
     }
     if constexpr (D == 2) {
       to.template set<LaneFma>(lattice, velocity, lanes_.active);
       lanes_.leave_unless(
           And(to.usable, to.L.S > none()));  // one at a time knows what to do with an infinity
     } else {
-      to.set(lattice, velocity, lanes_);
+      to.template set<LaneFma>(lattice, velocity, lanes_.active);
+      lanes_.leave_unless(to.basis.usable);
     }
   }
 

@@ -4,9 +4,9 @@
 // What is rarely called is a function of its own (HWY_NOINLINE), and is given copies of its arguments: the
 // compiler keeps in registers only what no function has the address of.
 //
-// What is here and in the files beside it does, lane by lane, the operations of the engine for one flight
-// (src/engines/reduction), one by one and in their order: then the bounds of bounds.hpp hold, and so does
-// the test that both give the same bits. A branch there is a mask here.
+// The engine for one flight (src/engines/reduction) and this one share their text, files *-inl.hpp there. What
+// stands in this folder alone does, lane by lane, the operations of a single flight, one by one and in their
+// order: then the bounds of bounds.hpp hold, and both give the same bits. A branch there is a mask here.
 #if defined(LORENTZ_BATCH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_LANES_INL_HPP
 #undef LORENTZ_BATCH_LANES_INL_HPP

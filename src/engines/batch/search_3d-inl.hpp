@@ -74,7 +74,8 @@ struct Window3 {
   /// The window from here on, by a basis that suits its length.
   HWY_INLINE void lengthen(Lanes& lanes) {
     if (basis != &longer_) longer_ = *basis;
-    to.lengthen(longer_, lanes);
+    to.template lengthen<LaneFma>(longer_, select(lanes.active, all(kLonger), all(1)), lanes.active);
+    lanes.leave_unless(longer_.usable);
     basis = &longer_;
   }
 

@@ -23,7 +23,7 @@ struct AtomDirection {
     if constexpr (D == 2)
       direction.template set<Arch>(lattice, {turned[0], turned[1]}, true);
     else
-      direction.template set<Arch>(lattice, {turned[0], turned[1], turned[2]});
+      direction.template set<Arch>(lattice, {turned[0], turned[1], turned[2]}, true);
   }
 
   /// The same for the next atom along the same velocity, from that of the atom `before`.
@@ -33,7 +33,7 @@ struct AtomDirection {
     const bool same_lattice = before && before->lattice == lattice.lattice;
     if (same_lattice && before->radius == lattice.radius && (kBall || before->shape == lattice.shape)) return;
     if constexpr (D == 3 && kBall)
-      if (same_lattice) return to->direction.template retarget<Arch>(lattice);
+      if (same_lattice) return to->direction.template retarget<Arch>(lattice, true);
     to.emplace(arch, lattice, v);
   }
 };

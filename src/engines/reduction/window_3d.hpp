@@ -72,7 +72,7 @@ class Window3 {
   /// The window from here on, by a basis that suits its length.
   void lengthen(double factor) {
     if (basis != &longer_) longer_ = *basis;
-    to.template lengthen<Arch>(longer_, factor);
+    to.template lengthen<Arch>(longer_, factor, true);
     basis = &longer_;
   }
 
