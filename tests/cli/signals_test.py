@@ -193,6 +193,23 @@ class Signals(unittest.TestCase):
         self.assertEqual(run.end(signal.SIGTERM), 3)
         self.assertIn("lorentz: terminated", run.err)
 
+    def test_what_is_ignored_stays_ignored_with_a_program_as_engine(self):
+        """By what the system knows of it: nothing has to be waited for that must not happen."""
+        guest = Path(self.folder, "guest.sh")
+        guest.write_text("#!/bin/sh\ntouch begun\nexec cat > /dev/null\n")
+        guest.chmod(0o755)
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        try:
+            run = Run(self.folder, "compare --engine cmd:./guest.sh --count 10")
+        finally:
+            signal.signal(signal.SIGHUP, before)
+        run.wait_for(lambda run: Path(self.folder, "begun").exists())
+        status = Path(f"/proc/{run.process.pid}/status").read_text()
+        ignored, caught = (int(re.search(f"^{of}:\\s*(.*)$", status, re.M)[1], 16) for of in ("SigIgn", "SigCgt"))
+        self.assertTrue(ignored >> (signal.SIGHUP - 1) & 1)
+        self.assertTrue(caught >> (signal.SIGTERM - 1) & 1)
+        self.assertEqual(run.end(signal.SIGTERM), -signal.SIGTERM)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
