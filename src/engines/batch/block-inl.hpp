@@ -128,14 +128,12 @@ class Block {
           return lanes_.leave_unless(to.basis.usable);
         }
     }
-    if constexpr (D == 2) {
-      to.template set<LaneFma>(lattice, velocity, lanes_.active);
+    to.template set<LaneFma>(lattice, velocity, lanes_.active);
+    if constexpr (D == 2)
       lanes_.leave_unless(
-          And(to.usable, to.L.S > none()));  // one at a time knows what to do with an infinity
-    } else {
-      to.template set<LaneFma>(lattice, velocity, lanes_.active);
+          And(to.usable, to.L.S > none()));  // a single flight knows what to do with an infinity
+    else
       lanes_.leave_unless(to.basis.usable);
-    }
   }
 
   HWY_INLINE AtomStart start_of(std::size_t a) {
