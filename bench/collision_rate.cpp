@@ -50,7 +50,6 @@ class Ground {
         engine_(scene_),
         particles_(engine_, scene_),
         wide_(engine_, scene_, Precision::double_double) {
-    const oracle::Oracle oracle(scene_);
     const std::vector<Query> starts =
         starts::free_starts(scene_, starts::Kind::uniform, starts::kDefaultSeed, kParticles);
     for (const Query& start : starts) {
