@@ -321,9 +321,13 @@ class Block {
   template <class T>
   static HWY_INLINE void store_bits(M m, T* to) {
     static_assert(sizeof(T) == 1);
-    std::uint64_t bytes = bits_of(m) * std::uint64_t{0x0101010101010101} & std::uint64_t{0x8040201008040201};
-    bytes = (bytes + std::uint64_t{0x7f7f7f7f7f7f7f7f}) >> 7 & std::uint64_t{0x0101010101010101};
-    std::memcpy(to, &bytes, kLanes);
+    constexpr std::size_t kAtOnce = kLanes < 8 ? kLanes : 8;
+    for (std::size_t at = 0; at < kLanes; at += kAtOnce) {
+      const std::uint64_t bits = bits_of(m) >> at & 0xff;
+      std::uint64_t bytes = bits * std::uint64_t{0x0101010101010101} & std::uint64_t{0x8040201008040201};
+      bytes = (bytes + std::uint64_t{0x7f7f7f7f7f7f7f7f}) >> 7 & std::uint64_t{0x0101010101010101};
+      std::memcpy(to + at, &bytes, kAtOnce);
+    }
   }
 
   const PreparedScene& scene_;

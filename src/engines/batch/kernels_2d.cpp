@@ -2,9 +2,6 @@
 // exact product takes many operations: there lanes gain nothing, and single flights are asked.)
 #include "src/engines/batch/stretch.hpp"
 
-// Two vectors at a time, where they are short: the continued fraction waits for its divisions.
-#define LORENTZ_TWIN_LANES 1
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/engines/batch/kernels_2d.cpp"
 #include <hwy/foreach_target.h>

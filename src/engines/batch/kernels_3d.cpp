@@ -2,9 +2,6 @@
 // exact product takes many operations: there lanes gain nothing, and single flights are asked.)
 #include "src/engines/batch/stretch.hpp"
 
-// One vector at a time: its numbers are many already.
-#define LORENTZ_TWIN_LANES 0
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/engines/batch/kernels_3d.cpp"
 #include <hwy/foreach_target.h>

@@ -17,7 +17,6 @@
 #include <type_traits>
 
 #include <lorentz/engine_base.hpp>
-#include "src/engines/batch/single-inl.hpp"
 #include "src/engines/batch/twin-inl.hpp"
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/bravais.hpp"

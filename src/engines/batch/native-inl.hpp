@@ -7,6 +7,7 @@
 #define LORENTZ_BATCH_NATIVE_INL_HPP
 #endif
 
+#include <cstdint>
 #include <cstring>
 
 #include <hwy/highway.h>
@@ -27,6 +28,26 @@ using NM = hwy::HWY_NAMESPACE::Mask<Tag>;  ///< yes or no in each lane
 constexpr Tag kTag{};
 constexpr IntegerTag kIntegerTag{};
 constexpr std::size_t kNativeLanes = MaxLanes(Tag{});
+
+// Highway's own for AVX-512 are instructions on mask registers, one for each; as integers the compiler keeps
+// masks where they are used, and whole expressions of them cost less.
+#if HWY_TARGET == HWY_AVX3
+HWY_INLINE NM And(NM x, NM y) {
+  return {static_cast<std::uint8_t>(x.raw & y.raw)};
+}
+HWY_INLINE NM Or(NM x, NM y) {
+  return {static_cast<std::uint8_t>(x.raw | y.raw)};
+}
+HWY_INLINE NM AndNot(NM not_x, NM y) {
+  return {static_cast<std::uint8_t>(~not_x.raw & y.raw)};
+}
+HWY_INLINE NM Not(NM x) {
+  return {static_cast<std::uint8_t>(~x.raw)};
+}
+HWY_INLINE bool AllFalse(Tag, NM x) {
+  return x.raw == 0;
+}
+#endif
 
 HWY_INLINE N load_native(const double* from) {
   return LoadU(kTag, from);

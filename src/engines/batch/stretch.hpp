@@ -11,7 +11,7 @@
 namespace lorentz {
 
 /// As many queries as leave a stretch in the first cache. Lanes take kMaxLanes at most at a time.
-inline constexpr std::size_t kStretch = 128, kMaxLanes = 8;
+inline constexpr std::size_t kStretch = 128, kMaxLanes = 16;
 
 /// What a kernel reads and writes: columns, the caller's own or those of a StretchBuffer, that are `count`
 /// long, rounded up to whole vectors.

@@ -1,6 +1,5 @@
-// Two vectors as one, so that there is something to do while one waits for a division; but not of AVX-512,
-// whose vectors are twice as long. Included once for each
-// set of instructions. Private to the batch engine.
+// Two vectors as one, so that the processor works on one while the other waits for a division or a mask. Included
+// once for each set of instructions. Private to the batch engine.
 #if defined(LORENTZ_BATCH_TWIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_TWIN_INL_HPP
 #undef LORENTZ_BATCH_TWIN_INL_HPP
@@ -9,8 +8,6 @@
 #endif
 
 #include "src/engines/batch/native-inl.hpp"
-
-#if LORENTZ_TWIN_LANES && HWY_TARGET != HWY_AVX3
 
 HWY_BEFORE_NAMESPACE();
 namespace lorentz {
@@ -121,6 +118,5 @@ HWY_INLINE std::size_t store_some(V x, M m, double* to) {
 }  // namespace HWY_NAMESPACE
 }  // namespace lorentz
 HWY_AFTER_NAMESPACE();
-#endif
 
 #endif
