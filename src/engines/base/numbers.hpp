@@ -65,6 +65,9 @@ inline double CopySign(double size, double sign) {
 inline double Floor(double a) {
   return std::floor(a);
 }
+inline double Ceil(double a) {
+  return std::ceil(a);
+}
 inline double Round(double a) {  ///< to the nearest integer, ties to even
   return std::nearbyint(a);
 }

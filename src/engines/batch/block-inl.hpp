@@ -37,7 +37,7 @@ class Block {
         at_(at),
         x_(x),
         asked_(first_lanes(stretch.count - at)),
-        lanes_{asked_},
+        lanes_(asked_),
         velocity_(v, lanes_),
         turn_(velocity_.scaled) {}
 
@@ -85,11 +85,12 @@ class Block {
       Leaving<D> leaving;
       const Leaving<D>* left = find_leaving(start, leaving);
       const V s_limit = (max_time * to.v2 + to.s_rho) * all(1 + kAmple);
-      Pair d[D];
-      turn_start(start, d);
+      Offset<LaneFma, D> seen;
+      turn_start(start, seen);
       if (left != nullptr && kTurned) turn_leaving(leaving);
-      Search search(to, start, d, left, s_limit);
+      Search search(to, scene_.atoms[a], seen, left, s_limit);
       search.run(lanes_);
+      if constexpr (D == 2) stage2_ = Or(stage2_, search.stage2);
       M next = And(lanes_.active, search.found.s < infinite());
       set_cell(search.found);
       if (a == 0) {
@@ -183,14 +184,15 @@ class Block {
     return true;
   }
 
-  HWY_INLINE void turn_start(const AtomStart& start, Pair (&d)[D]) const {
+  HWY_INLINE void turn_start(const AtomStart& start, Offset<LaneFma, D>& seen) const {
+    seen.error = start.error;
     if constexpr (kTurned) {
       V here[D], there[D];
       for (int k = 0; k < D; ++k) here[k] = start.d[k].hi;
       turn_.apply(here, there);
-      for (int k = 0; k < D; ++k) d[k] = Pair(there[k]);
+      for (int k = 0; k < D; ++k) seen.d[k] = Pair(there[k]);
     } else {
-      for (int k = 0; k < D; ++k) d[k] = start.d[k];
+      for (int k = 0; k < D; ++k) seen.d[k] = start.d[k];
     }
   }
 
@@ -293,7 +295,7 @@ class Block {
   }
 
   HWY_INLINE void tell() {
-    const M left = AndNot(Or(lanes_.active, inside_), asked_);
+    const M left = AndNot(Or(Or(lanes_.active, lanes_.undecided), inside_), asked_);
     found_ = And(found_, lanes_.active);
     store(where(found_, time_), stretch_.time + at_);
     const M named = Or(found_, inside_);
@@ -301,13 +303,15 @@ class Block {
     V nothing = number(Outcome::never);
     if (stretch_.max_time)
       nothing = select(load(stretch_.max_time + at_) < infinite(), number(Outcome::later), nothing);
+    nothing = select(lanes_.undecided, number(Outcome::undecided), nothing);
     const V outcome = select(found_, number(Outcome::hit), select(inside_, number(Outcome::inside), nothing));
     static_assert(sizeof(Outcome) == sizeof(std::int32_t));
     store_small_integers(outcome, reinterpret_cast<std::int32_t*>(stretch_.outcome) + at_);
     if (!kUnit) store_small_integers(atom_, stretch_.atom + at_);
-    static_assert(static_cast<int>(Stage::binary64) == 0 && static_cast<int>(Stage::double_double) == 1);
-    store_bits(stage2_, stretch_.stage + at_);
-    store_bits(And(found_, rounded_), stretch_.time_is_rounded + at_);
+    static_assert(static_cast<int>(Stage::binary64) == 0 && static_cast<int>(Stage::double_double) == 1 &&
+                  static_cast<int>(Stage::undecided) == 2);
+    store_twos(AndNot(lanes_.undecided, stage2_), lanes_.undecided, stretch_.stage + at_);
+    store_twos(And(found_, rounded_), no_lane(), stretch_.time_is_rounded + at_);
     for (unsigned rest = bits_of(left); rest != 0; rest &= rest - 1)
       stretch_.left_over[stretch_.left_count++] = static_cast<int>(at_) + __builtin_ctz(rest);
   }
@@ -317,17 +321,21 @@ class Block {
     return all(static_cast<double>(name));
   }
 
-  // A byte a lane, 0 or 1.
+  // A byte a lane: one, two, or none.
   template <class T>
-  static HWY_INLINE void store_bits(M m, T* to) {
+  static HWY_INLINE void store_twos(M one, M two, T* to) {
     static_assert(sizeof(T) == 1);
     constexpr std::size_t kAtOnce = kLanes < 8 ? kLanes : 8;
     for (std::size_t at = 0; at < kLanes; at += kAtOnce) {
-      const std::uint64_t bits = bits_of(m) >> at & 0xff;
-      std::uint64_t bytes = bits * std::uint64_t{0x0101010101010101} & std::uint64_t{0x8040201008040201};
-      bytes = (bytes + std::uint64_t{0x7f7f7f7f7f7f7f7f}) >> 7 & std::uint64_t{0x0101010101010101};
+      const std::uint64_t bytes = bytes_of(bits_of(one) >> at) + 2 * bytes_of(bits_of(two) >> at);
       std::memcpy(to + at, &bytes, kAtOnce);
     }
+  }
+
+  // The first eight bits, each in a byte of its own.
+  static HWY_INLINE std::uint64_t bytes_of(unsigned bits) {
+    constexpr std::uint64_t kOnes = 0x0101010101010101, kEach = 0x8040201008040201;
+    return ((bits & 0xff) * kOnes & kEach) + 0x7f7f7f7f7f7f7f7f >> 7 & kOnes;
   }
 
   const PreparedScene& scene_;

@@ -141,12 +141,18 @@ struct LaneFma {
 
 using Pair = DoubleDouble<LaneFma>;
 
-/// The lanes that have not given up: what is beyond lanes is left to the engine for one flight.
+/// The lanes that are still flying. What is beyond lanes is left to the engine for one flight; what that would not
+/// decide either is undecided.
 struct Lanes {
-  M active;
+  M active, undecided;
 
+  HWY_INLINE explicit Lanes(M asked) : active(asked), undecided(no_lane()) {}
   HWY_INLINE void leave(M m) { active = AndNot(m, active); }
   HWY_INLINE void leave_unless(M m) { active = And(m, active); }
+  HWY_INLINE void give_up(M m) {
+    undecided = Or(undecided, And(m, active));
+    leave(m);
+  }
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ class LateTimes {
       }
     V x[D], v[D];
     for (int k = 0; k < D; ++k) x[k] = load(place[k]), v[k] = load(velocity[k]);
-    Lanes lanes{first_lanes(length)};
+    Lanes lanes(first_lanes(length));
     const Velocity<D> scaled(v, lanes);
     Start<D, kUnit, kBall> start;
     start.set(scene, scene.atoms[0], x, lanes);

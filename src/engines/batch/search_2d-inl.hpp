@@ -19,21 +19,23 @@ template <bool kUnit, bool kBall>
 class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   using Rows = RowsOf2<LaneFma, LaneFma, kUnit, kBall>;
   using Rows::to_;
+  using CloseBall = typename Rows::CloseBall;
 
  public:
   using Direction = Direction2<LaneFma, kUnit, kBall>;
-  using AtomStart = Start<2, kUnit, kBall>;
 
-  /// `d`: the start's, turned as the direction is. `leaving`: turned, or null.
-  HWY_INLINE Search2(const Direction& to, const AtomStart& start, const Pair (&d)[2],
+  /// `start` and `leaving`, which may be null: turned as the direction is.
+  HWY_INLINE Search2(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 2>& start,
                      const Leaving<2>* leaving, V s_limit)
-      : Rows(to, d, start.error), leaving_(leaving), s_limit_(s_limit) {}
+      : Rows(to, lattice, start), leaving_(leaving), s_limit_(s_limit) {}
 
   LaneEntry<2, kBall> found;  ///< of the lanes in which something is met: found.s is finite
+  M stage2;                   ///< the lanes in which double-double decided something
 
   /// Of the lanes that are active. Row by row, and in a row ball by ball: each turn looks at one ball a lane.
   HWY_INLINE void run(Lanes& lanes) {
     lanes.active = this->set_anchor(lanes.active);
+    stage2 = no_lane();
     start_rows(lanes);
     M scanning = lanes.active, next = scanning;
     for (int turn = 0; any(scanning); ++turn) {
@@ -71,21 +73,56 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     next = And(next, scanning);
     V unsure;
     const V m = this->start_of_row(n_, unsure);
-    const M rare = And(next, unsure > all(kMaxUnsure));
-    lanes.leave(rare);
-    scanning = AndNot(rare, scanning);
     m_ = select(next, Ceil(m - unsure), m_);
+    const M level = And(next, unsure > all(kMaxUnsure));
+    if (HWY_LIKELY(nowhere(level))) return;
+    const RowStart start = start_closely(rare(), this->lattice_, n_, level);
+    m_ = select(start.known, start.m, m_), stage2 = Or(stage2, start.known);
+    const M unknown = AndNot(start.known, level);
+    lanes.give_up(unknown);
+    scanning = AndNot(unknown, scanning), next = AndNot(unknown, next);
+  }
+
+  // Copies, for what binary64 cannot tell.
+  struct Rare {
+    Direction to;
+    Offset<LaneFma, 2> start;
+    V anchor[2], s;
+  };
+  HWY_INLINE Rare rare() const {
+    return {to_, this->offset_, {this->anchor_[0], this->anchor_[1]}, this->s_};
+  }
+
+  struct RowStart {
+    V m;
+    M known;
+  };
+  static HWY_NOINLINE RowStart start_closely(const Rare& rare, const Bravais& lattice, V n, M level) {
+    Search2 search(rare.to, lattice, rare.start, nullptr, none());
+    for (int i = 0; i < 2; ++i) search.anchor_[i] = rare.anchor[i];
+    search.s_ = rare.s;
+    RowStart start;
+    start.known = search.start_of_level_row(n, level, start.m);
+    return start;
+  }
+
+  static HWY_NOINLINE CloseBall close_ball(const Rare& rare, const Bravais& lattice, V n0, V n1) {
+    const V N[2] = {n0, n1};
+    return Search2(rare.to, lattice, rare.start, nullptr, none()).look_closely(N);
   }
 
   // The ball at n_ R + m_ L: look_at. What is taken or beyond ends the row.
   HWY_INLINE void look(Lanes& lanes, M& scanning, M& next) {
     const V rho = to_.rho, zero = none();
     const auto ball = this->ball_at(n_, m_);
-    const V h = ball.h, s = ball.s, s_error = ball.s_error;
+    const V h = ball.h;
+    V s = ball.s, s_error = ball.s_error, slack = this->slack_of(ball),
+      slack_error = this->slack_error_of(ball);
     const V spread = ball.error + all(to_.rho_error()) * rho;
-    const M yes = Abs(h) + spread<rho, no = Abs(h) - spread> rho;
+    const M yes = Abs(h) + spread < rho;
+    M no = Abs(h) - spread > rho, behind = s < Neg(s_error);
+    const M late = s - s_error > Min(found.s + found.s_error, s_limit_);
     const M passed = Or(h < zero, Not(to_.rises));
-    const M behind = s<Neg(s_error), late = s - s_error> Min(found.s + found.s_error, s_limit_);
     M candidate = AndNot(Or(no, Or(behind, late)), scanning);
     V N[2];
     const M exact = this->name_ball(n_, m_, N);
@@ -95,14 +132,28 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
           And(And(candidate, exact), And(leaving_->any, And(N[0] == leaving_->n[0], N[1] == leaving_->n[1])));
       candidate = AndNot(left, candidate);
     }
-    const M certain = And(And(yes, exact), And(s > s_error, s + s_error < found.s - found.s_error));
-    const M take = And(candidate, certain), doubtful = AndNot(certain, candidate);
-    lanes.leave(doubtful);
+    M met = And(And(candidate, exact), And(yes, s > s_error));
+    const M unsure = AndNot(met, candidate), close = And(unsure, exact);
+    M doubtful = unsure;
+    if (HWY_UNLIKELY(any(close))) {
+      const CloseBall closer = close_ball(rare(), this->lattice_, N[0], N[1]);
+      const M close_no = And(close, closer.is_missed), close_met = And(close, closer.is_met),
+              close_behind = And(close_met, closer.is_behind), close_ahead = And(close_met, closer.is_ahead);
+      s = select(close, closer.s, s), s_error = select(close, closer.s_error, s_error);
+      slack = select(close, closer.slack, slack);
+      slack_error = select(close, closer.slack_error, slack_error);
+      no = Or(no, close_no), behind = Or(behind, close_behind), met = Or(met, close_ahead);
+      doubtful = AndNot(Or(close_no, Or(close_behind, close_ahead)), doubtful);
+      stage2 = Or(stage2, close);
+    }
+    const M take = And(met, s + s_error < found.s - found.s_error);
+    doubtful = Or(doubtful, AndNot(take, met));
+    lanes.give_up(doubtful);
     scanning = AndNot(doubtful, scanning);
     found.n[0] = select(take, N[0], found.n[0]), found.n[1] = select(take, N[1], found.n[1]);
     found.s = select(take, s, found.s), found.s_error = select(take, s_error, found.s_error);
-    found.slack = select(take, this->slack_of(ball), found.slack);
-    found.slack_error = select(take, this->slack_error_of(ball), found.slack_error);
+    found.slack = select(take, slack, found.slack);
+    found.slack_error = select(take, slack_error, found.slack_error);
     if constexpr (!kBall) found.across = select(take, to_.sigma * h * to_.shape.skew, found.across);
     // Before the strip, behind the start, or left: on in the row.
     const M before = And(scanning, Or(left, Or(AndNot(passed, no), AndNot(no, behind))));

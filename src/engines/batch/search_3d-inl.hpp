@@ -47,8 +47,9 @@ struct Window3 {
   Point3 anchor_point;
   V p_error, s_error, z_error, z_first;
 
-  HWY_INLINE Window3(const Direction& direction, const Start<3, kUnit, kBall>& start, const Pair (&d)[3])
-      : to(direction), basis(&direction.basis), begin(none()), lattice_(*start.lattice), error_(start.error) {
+  HWY_INLINE Window3(const Direction& direction, const Bravais& lattice, const Offset<LaneFma, 3>& start)
+      : to(direction), basis(&direction.basis), begin(none()), lattice_(lattice), error_(start.error) {
+    const Pair(&d)[3] = start.d;
     to.template forms_of<LaneFma>(d, start_);
     start_size_ = (Abs(d[0].hi) + Abs(d[1].hi)) + Abs(d[2].hi);
   }
@@ -155,11 +156,11 @@ template <bool kUnit, bool kBall>
 class Search3 {
  public:
   using Direction = Direction3<kUnit, kBall>;
-  using AtomStart = Start<3, kUnit, kBall>;
 
-  HWY_INLINE Search3(const Direction& to, const AtomStart& start, const Pair (&d)[3],
+  /// As of Search2.
+  HWY_INLINE Search3(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 3>& start,
                      const Leaving<3>* leaving, V s_limit)
-      : to_(to), window_(to, start, d), leaving_(leaving), s_limit_(s_limit) {}
+      : to_(to), window_(to, lattice, start), leaving_(leaving), s_limit_(s_limit) {}
 
   LaneEntry<3, kBall> found;  ///< of the lanes in which something is met: found.s is finite
 

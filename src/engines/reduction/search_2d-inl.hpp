@@ -12,26 +12,26 @@ class RowsOf2 {
   using Mask = typename Arch::Mask;
   using Direction = Direction2<Numbers, kUnit, kBall>;
 
-  /// `d` and `error`: of the start's offset.
-  LORENTZ_INLINE RowsOf2(const Direction& to, const DoubleDouble<Numbers> (&d)[2], const Number& error)
-      : to_(to), d_(d), error_(error) {}
+  LORENTZ_INLINE RowsOf2(const Direction& to, const Bravais& lattice, const Offset<Numbers, 2>& offset)
+      : to_(to), lattice_(lattice), offset_(offset) {}
 
   /// Those of the wanted that have an anchor.
   LORENTZ_INLINE Mask set_anchor(Mask wanted) {
     const DD h = height_of_home();
-    const Number size = Abs(d_[0].hi) + Abs(d_[1].hi);
+    const auto& d = offset_.d;
+    const Number error = offset_.error, size = Abs(d[0].hi) + Abs(d[1].hi);
     y_ = to_.sigma * h.hi;
     y_error_ = kRoundoff * Abs(y_);
-    if constexpr (!kUnit) y_error_ = y_error_ + kForm * error_;
+    if constexpr (!kUnit) y_error_ = y_error_ + kForm * error;
     y_error_ = y_error_ + kAnchorTerms * size + all(kFlushed);
-    s_ = sum_of_products(to_.along(0), d_[0].hi, to_.along(1), d_[1].hi);
+    s_ = sum_of_products(to_.along(0), d[0].hi, to_.along(1), d[1].hi);
     if constexpr (kBall)
       s_error_ = kAlong * kRoundoff * size;
     else
       s_error_ = to_.shape.along_error * size;
-    if constexpr (!kUnit && kBall) s_error_ = s_error_ + kForm * error_;
+    if constexpr (!kUnit && kBall) s_error_ = s_error_ + kForm * error;
     if constexpr (!kUnit && !kBall)
-      s_error_ = s_error_ + kForm * error_ * (Abs(to_.along(0)) + Abs(to_.along(1)));
+      s_error_ = s_error_ + kForm * error * (Abs(to_.along(0)) + Abs(to_.along(1)));
     anchor_[0] = anchor_[1] = anchor_error_ = all(0);
     const Mask tiny = AndNot(to_.rho > all(kRhoOfAnchor), wanted);
     if (nowhere(tiny)) return wanted;
@@ -93,6 +93,36 @@ class RowsOf2 {
     return m;
   }
 
+  /// The same of rows nearly parallel to the line, for which binary64 does not tell: in double-double, and
+  /// rounded up. Those of the wanted for which that tells.
+  LORENTZ_INLINE Mask start_of_level_row(Number n, Mask wanted, Number& start) const {
+    using Apart = typename Arch::Apart;
+    using Wide = DoubleDouble<Apart>;
+    const auto &R = to_.R, &L = to_.L;
+    const Number big = all(kMaxCoefficient);
+    Number N[2];
+    for (int i = 0; i < 2; ++i) {
+      const Number by_R = n * R.n[i];
+      N[i] = anchor_[i] + by_R;
+      wanted = And(wanted, And(Abs(by_R) < big, Abs(N[i]) < big));
+    }
+    Wide d[2];
+    const Number error = place_of<kUnit>(lattice_, offset_, N, d);
+    const StableMeeting<Apart, 2, kBall> meeting(to_.v, d, error, lattice_);
+    const Wide h = difference_of_products(d[1], to_.v[0], d[0], to_.v[1]) * to_.sigma;
+    Wide rho = Wide(all(lattice_.radius)) * sqrt(meeting.v2);
+    if constexpr (!kBall) {
+      const auto& scale = lattice_.shape.wide_cofactor[2][2];
+      rho = rho / Wide(scale.hi < 0 ? -scale : scale);
+    }
+    const Wide m = (h - rho) / Wide(L.D, L.D_low);
+    Number terms = meeting.across_error + kStable * (Abs(h.hi) + rho.hi);
+    if constexpr (!kUnit) terms = terms + Abs(m.hi) * L.D_error;
+    const Number unsure = terms / L.D + kStable * Abs(m.hi) + all(kSlop2d);
+    start = Max(Ceil(m.value() - unsure), Ceil(passing_of_row(s_, n, R.S, to_.inverse_S_L) - all(kSlop2d)));
+    return And(wanted, And(unsure < all(kMaxUnsure), Abs(start) < big));
+  }
+
   /// The ball at n R + m L.
   struct Ball {
     Number h, error, s, s_error;
@@ -115,6 +145,25 @@ class RowsOf2 {
     return scaled(4 * to_.rho * (ball.error + to_.rho_error() * to_.rho));
   }
 
+  /// The ball of this cell in double-double: s and the slack with what they err by; what is known of it.
+  struct CloseBall {
+    Number s, s_error, slack, slack_error;
+    Mask is_missed, is_met, is_behind, is_ahead;
+  };
+  LORENTZ_INLINE CloseBall look_closely(const Number (&N)[2]) const {
+    using Apart = typename Arch::Apart;
+    DoubleDouble<Apart> d[2];
+    const Number error = place_of<kUnit>(lattice_, offset_, N, d);
+    const StableMeeting<Apart, 2, kBall> meeting(to_.v, d, error, lattice_);
+    const Number s = meeting.s.hi, slack = meeting.slack.hi;
+    return {s,
+            meeting.s_error + kRoundoff * s,
+            slack,
+            meeting.slack_error + kRoundoff * slack,
+            slack<Neg(meeting.slack_error), slack> meeting.slack_error,
+            s<Neg(meeting.s_error), s> meeting.s_error};
+  }
+
   /// Its coefficients in the short basis, from the home cell; true where they were not rounded.
   LORENTZ_INLINE Mask name_ball(Number n, Number m, Number (&N)[2]) const {
     const auto &R = to_.R, &L = to_.L;
@@ -129,8 +178,8 @@ class RowsOf2 {
   }
 
   const Direction& to_;
-  const DoubleDouble<Numbers> (&d_)[2];
-  const Number& error_;
+  const Bravais& lattice_;
+  const Offset<Numbers, 2>& offset_;
   Number anchor_[2], anchor_error_;  // of an anchor that is not the home cell
   Number y_, y_error_, s_, s_error_;
 
@@ -143,7 +192,8 @@ class RowsOf2 {
   }
 
   LORENTZ_INLINE DD height_of_home() const {
-    const DD d0(d_[0].hi, d_[0].lo), d1(d_[1].hi, d_[1].lo);
+    const auto& d = offset_.d;
+    const DD d0(d[0].hi, d[0].lo), d1(d[1].hi, d[1].lo);
     if constexpr (kUnit)
       return add_product(DD::product(d1.hi, to_.v[0]), d0.hi, Neg(to_.v[1]));
     else

@@ -18,12 +18,12 @@ namespace lorentz {
 template <class Arch, bool kUnit, bool kBall>
 class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   using Rows = RowsOf2<Arch, SplitProduct, kUnit, kBall>;
-  using Rows::to_, Rows::anchor_, Rows::s_;
+  using Rows::to_;
 
  public:
   Search2(const Bravais& lattice, const Direction2<SplitProduct, kUnit, kBall>& direction,
           const Offset<SplitProduct, 2>& offset)
-      : Rows(direction, offset.d, offset.error), lattice_(lattice), offset_(offset) {}
+      : Rows(direction, lattice, offset) {}
 
   Found<2> found;
 
@@ -92,7 +92,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return look_closely(N, ball.h);
   }
 
-  Look2 offer(const double* N, double s, double s_error, double slack, double slack_error, double h) {
+  Look2 offer(const double (&N)[2], double s, double s_error, double slack, double slack_error, double h) {
     if (!(s + s_error < found.s - found.s_error)) return Look2::doubtful;
     found.N[0] = Wide(N[0]), found.N[1] = Wide(N[1]);
     found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
@@ -101,53 +101,23 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   }
 
   // The same decisions in double-double.
-  [[gnu::noinline]] Look2 look_closely(const double* N, double h) {
+  [[gnu::noinline]] Look2 look_closely(const double (&N)[2], double h) {
     found.needs(Stage::double_double);
-    const Wide wide_N[2] = {N[0], N[1]};
-    Wide d[2];
-    const double error = place_of<kUnit>(lattice_, offset_, wide_N, d);
-    const StableMeeting<SplitProduct, 2, kBall> meeting(to_.v, d, error, lattice_);
-    const Decision meets = lorentz::meets(meeting);
-    if (meets == Decision::doubtful) return Look2::doubtful;
-    if (meets == Decision::no) return h < 0 || !to_.rises ? Look2::beyond : Look2::before;
-    const Decision ahead = is_ahead(meeting);
-    if (ahead == Decision::doubtful) return Look2::doubtful;
-    if (ahead == Decision::no) return Look2::before;
-    return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,
-                 meeting.slack_error + kRoundoff * meeting.slack.hi, h);
+    const auto ball = Rows::look_closely(N);
+    if (ball.is_missed) return h < 0 || !to_.rises ? Look2::beyond : Look2::before;
+    if (!ball.is_met) return Look2::doubtful;
+    if (ball.is_behind) return Look2::before;
+    if (!ball.is_ahead) return Look2::doubtful;
+    return offer(N, ball.s, ball.s_error, ball.slack, ball.slack_error, h);
   }
 
   // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
   [[gnu::noinline]] bool look_closely_in_row(double n) {
-    const auto &R = to_.R, &L = to_.L;
     found.needs(Stage::double_double);
-    double N[2];
-    for (int i = 0; i < 2; ++i) {
-      N[i] = anchor_[i] + n * R.n[i];
-      if (!(std::fabs(n * R.n[i]) < kMaxCoefficient && std::fabs(N[i]) < kMaxCoefficient)) return false;
-    }
-    const Wide wide_N[2] = {N[0], N[1]};
-    Wide d[2];
-    const double error = place_of<kUnit>(lattice_, offset_, wide_N, d);
-    const StableMeeting<SplitProduct, 2, kBall> start(to_.v, d, error, lattice_);
-    const Wide h = difference_of_products(d[1], to_.v[0], d[0], to_.v[1]) * to_.sigma;
-    Wide rho = Wide(lattice_.radius) * sqrt(start.v2);
-    if constexpr (!kBall) {
-      const Wide& scale = lattice_.shape.wide_cofactor[2][2];
-      rho = rho / (scale.hi < 0 ? -scale : scale);
-    }
-    const Wide m = (h - rho) / Wide(L.D, L.D_low);
-    const double unsure =
-        (start.across_error + kStable * (std::fabs(h.hi) + rho.hi) + std::fabs(m.hi) * L.D_error) / L.D +
-        kStable * std::fabs(m.hi) + kSlop2d;
-    if (!(unsure < kMaxUnsure)) return false;
-    const double first = std::max(std::ceil(m.value() - unsure),
-                                  std::ceil(passing_of_row(s_, n, R.S, to_.inverse_S_L) - kSlop2d));
-    return std::fabs(first) < kMaxCoefficient && look_from(n, first);
+    double m;
+    return this->start_of_level_row(n, true, m) && look_from(n, m);
   }
 
-  const Bravais& lattice_;
-  const Offset<SplitProduct, 2>& offset_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;
 };
