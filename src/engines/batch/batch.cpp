@@ -33,8 +33,7 @@ struct Batch::Inside {
 
   Inside(const Scene& of_scene, std::string_view instructions)
       : scene(of_scene), prepared(prepare(of_scene)), single(of_scene) {
-    const StretchKernels kernels = kernels_named(instructions);
-    kernel = scene.dimension == 2 ? kernels.plane : kernels.space;
+    kernel = kernels_named(instructions).of(prepared);
     if (std::abs(prepared.exponent) > kMaxLaneExponent) kernel = nullptr;
   }
 

@@ -363,13 +363,10 @@ HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
   late.finish(scene, stretch);
 }
 
-template <int D>
+template <int D, bool kBall>
 inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
-  const bool unit = scene.atoms.size() == 1 && scene.atoms[0].unit;
-  if (unit && scene.ellipsoids) return fly_stretch<D, true, false>(scene, stretch);
-  if (unit) return fly_stretch<D, true, true>(scene, stretch);
-  if (scene.ellipsoids) return fly_stretch<D, false, false>(scene, stretch);
-  return fly_stretch<D, false, true>(scene, stretch);
+  if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
+  return fly_stretch<D, false, kBall>(scene, stretch);
 }
 
 }  // namespace

@@ -7,12 +7,16 @@
 namespace lorentz {
 
 std::vector<StretchKernels> stretch_kernels() {
-  const std::vector<BuiltKernel> plane = kernels_in_plane(), space = kernels_in_space();
+  const std::vector<BuiltKernel> discs = kernels_of_balls_in_plane(), balls = kernels_of_balls_in_space(),
+                                 ellipses = kernels_of_ellipsoids_in_plane(),
+                                 ellipsoids = kernels_of_ellipsoids_in_space();
   std::vector<StretchKernels> kernels;
-  for (std::size_t i = 0; i < plane.size(); ++i)
-    if ((hwy::SupportedTargets() & plane[i].target) != 0)
-      kernels.push_back({hwy::TargetName(plane[i].target), plane[i].kernel, space[i].kernel});
-  kernels.push_back({"none", nullptr, nullptr});
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    if ((hwy::SupportedTargets() & discs[i].target) != 0)
+      kernels.push_back({hwy::TargetName(discs[i].target),
+                         {discs[i].kernel, balls[i].kernel},
+                         {ellipses[i].kernel, ellipsoids[i].kernel}});
+  kernels.push_back({"none", {}, {}});
   return kernels;
 }
 

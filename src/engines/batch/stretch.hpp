@@ -53,20 +53,25 @@ struct StretchBuffer {
 
 using StretchKernel = void (*)(const PreparedScene&, Stretch&);
 
-/// The kernels of one set of instructions, for 2D and 3D scenes; null: none, single flights are asked.
+/// The kernels of one set of instructions; null: none, single flights are asked.
 struct StretchKernels {
   const char* instructions;
-  StretchKernel plane, space;
+  StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
+
+  StretchKernel of(const PreparedScene& scene) const {
+    return (scene.ellipsoids ? ellipsoids : balls)[scene.atoms[0].dimension - 2];
+  }
 };
 
 /// Those that this processor can run, best first; the last has none.
 std::vector<StretchKernels> stretch_kernels();
 
-/// The same for one dimension: see kernels_2d.cpp, kernels_3d.cpp.
+/// Those of one kind of scenes, in the order of instructions: kernels-inl.hpp.
 struct BuiltKernel {
   std::int64_t target;  ///< of Highway
   StretchKernel kernel;
 };
-std::vector<BuiltKernel> kernels_in_plane(), kernels_in_space();
+std::vector<BuiltKernel> kernels_of_balls_in_plane(), kernels_of_balls_in_space(),
+    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space();
 
 }  // namespace lorentz

@@ -1,0 +1,45 @@
+// The kernels of one kind of scenes, LORENTZ_FLY, once for each set of instructions that has a fused multiply-add, and
+// LORENTZ_KERNELS, which lists them. (Without one an exact product takes many operations: there lanes gain nothing, and
+// single flights are asked.) Each kind is a source of its own, so that none takes long to compile.
+#include "src/engines/batch/stretch.hpp"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#if HWY_NATIVE_FMA
+#include "src/engines/batch/block-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lorentz {
+namespace HWY_NAMESPACE {
+namespace {
+
+void fly(const PreparedScene& scene, Stretch& stretch) {
+  LORENTZ_FLY(scene, stretch);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lorentz
+HWY_AFTER_NAMESPACE();
+#endif
+
+#if HWY_ONCE
+namespace lorentz {
+
+std::vector<BuiltKernel> LORENTZ_KERNELS() {
+  std::vector<BuiltKernel> built;
+#if HWY_TARGETS & HWY_AVX3
+  built.push_back({HWY_AVX3, N_AVX3::fly});
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  built.push_back({HWY_AVX2, N_AVX2::fly});
+#endif
+#if HWY_TARGETS & HWY_NEON
+  built.push_back({HWY_NEON, N_NEON::fly});
+#endif
+  return built;
+}
+
+}  // namespace lorentz
+#endif
