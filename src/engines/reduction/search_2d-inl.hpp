@@ -93,8 +93,8 @@ class RowsOf2 {
     return m;
   }
 
-  /// The same of rows nearly parallel to the line, for which binary64 does not tell: in double-double, and
-  /// rounded up. Those of the wanted for which that tells.
+  /// The same in double-double, for rows nearly parallel to the line: the first m that can meet the strip.
+  /// Returns those of the wanted for which double-double is enough.
   LORENTZ_INLINE Mask start_of_level_row(Number n, Mask wanted, Number& start) const {
     using Apart = typename Arch::Apart;
     using Wide = DoubleDouble<Apart>;
@@ -145,7 +145,7 @@ class RowsOf2 {
     return scaled(4 * to_.rho * (ball.error + to_.rho_error() * to_.rho));
   }
 
-  /// The ball of this cell in double-double: s and the slack with what they err by; what is known of it.
+  /// The ball of this cell in double-double: s and the slack with their errors, and what these leave certain.
   struct CloseBall {
     Number s, s_error, slack, slack_error;
     Mask is_missed, is_met, is_behind, is_ahead;
@@ -155,13 +155,15 @@ class RowsOf2 {
     DoubleDouble<Apart> d[2];
     const Number error = place_of<kUnit>(lattice_, offset_, N, d);
     const StableMeeting<Apart, 2, kBall> meeting(to_.v, d, error, lattice_);
-    const Number s = meeting.s.hi, slack = meeting.slack.hi;
-    return {s,
-            meeting.s_error + kRoundoff * s,
-            slack,
-            meeting.slack_error + kRoundoff * slack,
-            slack<Neg(meeting.slack_error), slack> meeting.slack_error,
-            s<Neg(meeting.s_error), s> meeting.s_error};
+    CloseBall ball;
+    ball.s = meeting.s.hi, ball.slack = meeting.slack.hi;
+    ball.s_error = meeting.s_error + kRoundoff * ball.s;
+    ball.slack_error = meeting.slack_error + kRoundoff * ball.slack;
+    ball.is_missed = ball.slack < Neg(meeting.slack_error);
+    ball.is_met = ball.slack > meeting.slack_error;
+    ball.is_behind = ball.s < Neg(meeting.s_error);
+    ball.is_ahead = ball.s > meeting.s_error;
+    return ball;
   }
 
   /// Its coefficients in the short basis, from the home cell; true where they were not rounded.
