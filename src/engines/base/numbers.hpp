@@ -59,6 +59,9 @@ inline double Abs(double a) {
 inline double Max(double a, double b) {
   return a < b ? b : a;
 }
+inline double Min(double a, double b) {
+  return b < a ? b : a;
+}
 inline double CopySign(double size, double sign) {
   return std::copysign(size, sign);
 }

@@ -120,6 +120,8 @@ HWY_INLINE M reduce_basis(const Frame& frame, Basis3& basis, M wanted) {
 
 #define LORENTZ_INLINE HWY_INLINE
 #include "src/engines/reduction/direction_3d-inl.hpp"
+
+#include "src/engines/reduction/window_3d-inl.hpp"
 #undef LORENTZ_INLINE
 
 template <bool kUnit, bool kBall>

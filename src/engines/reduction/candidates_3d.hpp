@@ -25,19 +25,14 @@ class Candidates3 {
   explicit Candidates3(const Window& window) : window_(window) {}
 
   /// Where in the window nothing is wanted any more.
-  double end() const {
-    return std::min(1.0, (found.s - window_.begin) / window_.basis->length) + kSlop3d + 2 * window_.z_error;
-  }
+  double end() const { return window_.end_before(found.s); }
 
   Look look_at(const Point3& point) {
-    const double square = square_of(point.p);
-    const double error = kAcross * kRoundoff * point.size + window_.p_error;
-    const double spread = (1 + square) * (2 * error + window_.scale_error());
-    const Decision meets = is_positive(1 - square, spread);
+    double margin, spread, s, s_error;
+    window_.set_across(point, margin, spread);
+    const Decision meets = is_positive(margin, spread);
     if (meets == Decision::no) return Look::missed;
-    const double length = window_.basis->length;
-    const double s = window_.begin + point.z * length;
-    const double s_error = window_.s_error + kAlong * kRoundoff * point.extent * length;
+    window_.set_along(point, s, s_error);
     if (s < -s_error) return Look::missed;
     if (s - s_error > std::min(found.s + found.s_error, s_limit)) return Look::beyond;
     Wide N[3];
@@ -45,7 +40,7 @@ class Candidates3 {
     if (from && same(N, from)) return Look::missed;
     const double rho = window_.to.rho;
     if (meets == Decision::yes && s > s_error)
-      return offer(N, s, s_error, (1 - square) * (rho * rho), 2 * spread * (rho * rho));
+      return offer(N, s, s_error, margin * (rho * rho), 2 * spread * (rho * rho));
     return look_closely(N);
   }
 

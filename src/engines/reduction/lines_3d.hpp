@@ -16,32 +16,17 @@ class Lines3 {
  public:
   Lines3(const Window& window, Candidates& candidates) : window_(window), candidates_(candidates) {}
 
-  /// The line through q with steps `arm`: |q + k p| < 1 is a quadratic in k. False: undecided.
+  /// The line through q with steps `arm`. False: undecided.
   bool scan(const Point3& q, const Arm3& arm, double z_first, double z_last) {
-    const double a = square_of(arm.p);
-    const double b = sum_of_products(q.p[0], arm.p[0], q.p[1], arm.p[1]);
-    const double moment = moment_of_line(q.p, arm.p);
-    const double unsure = line_error(q);
-    const double discriminant = a * (1 + kDiscriminant * unsure) - moment * moment;  // rounded up
-    if (discriminant < 0) return true;
-    const double inverse = 1 / a, half = std::sqrt(discriminant) * inverse;
-    double k_first = -b * inverse - half, k_last = -b * inverse + half;
-    const double slack = kSlop3d + kLineEnd * unsure * std::sqrt(inverse);
-    if (!(slack < kMaxUnsure)) return scan_closely(q, arm, z_first, z_last, k_first);
-    k_first -= slack, k_last += slack;
-    if (arm.z > 0) {
-      const double inverse_z = 1 / arm.z;
-      k_first = std::max(k_first, (z_first - q.z) * inverse_z - kSlop3d);
-      k_last = std::min(k_last, (z_last - q.z) * inverse_z + kSlop3d);
-    }
-    return scan_stretch(q, arm, std::ceil(k_first), k_last);
+    LineOf3<SplitProduct> line;
+    if (!line.set(q, arm, window_.line_error(q))) return true;
+    line.set_ends();
+    if (!(line.slack < kMaxUnsure)) return scan_closely(q, arm, z_first, z_last, line.first);
+    line.cut(q, arm, z_first, z_last);
+    return scan_stretch(q, arm, std::ceil(line.first), line.last);
   }
 
  private:
-  double line_error(const Point3& q) const {
-    return kLine * kRoundoff * (1 + q.size) + window_.p_error + (kBall ? 0 : window_.to.scale_error);
-  }
-
   // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder;
   // `estimate` is about there.
   [[gnu::noinline]] bool scan_closely(const Point3& q, const Arm3& arm, double z_first, double z_last,
@@ -49,10 +34,10 @@ class Lines3 {
     if (!(arm.z > 0)) return false;
     const double k_first = std::ceil((z_first - q.z) / arm.z - kSlop3d),
                  k_last = (z_last - q.z) / arm.z + kSlop3d;
-    const Point3 first(q, k_first, arm);
+    const Point3 first = q.step(k_first, arm);
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
     const double distance = std::sqrt(first.p[0] * first.p[0] + first.p[1] * first.p[1]);
-    const double unsure = kDiscriminant * line_error(first);
+    const double unsure = kDiscriminant * window_.line_error(first);
     if (distance - drift > 1 + unsure) return true;
     if (distance < 1 - unsure || k_last - k_first < kShortStretch || !(estimate > k_first))
       return scan_stretch(q, arm, k_first, k_last);
@@ -63,7 +48,7 @@ class Lines3 {
   // From k near the entry of a line into the cylinder to one just before it, by Newton's step in
   // double-double.
   bool refine_entry(const Point3& q, const Arm3& arm, double& k) {
-    const Point3 there(q, k, arm);
+    const Point3 there = q.step(k, arm);
     Wide N[3];
     if (!window_.cell_of(there, N)) return false;
     candidates_.found.needs(Stage::double_double);
@@ -85,7 +70,7 @@ class Lines3 {
     int steps = 0;
     for (double k = k_first; k <= k_last; ++k) {
       if (++steps > kMaxCandidatesOnLine) return false;
-      const Look look = candidates_.look_at(Point3(q, k, arm));
+      const Look look = candidates_.look_at(q.step(k, arm));
       if (look == Look::doubtful) return false;
       if (look != Look::missed) return true;
     }

@@ -34,13 +34,12 @@ class Search3 {
   Outcome run(const Wide* from, double s_limit) {
     candidates_.from = from;
     candidates_.s_limit = s_limit;
-    window_.set_start();
     for (int window = 0; window < kMaxWindows; ++window) {
       if (!window_.basis->usable || !window_.set_anchor()) return give_up();
       planes_.none_met = true;
       if (!scan_window()) return give_up();
       if (found.any()) return Outcome::hit;
-      advance();
+      window_.advance(planes_.none_met, kappa_);
       if (window_.begin > s_limit || window_.begin > 2 * period()) return Outcome::never;
       if (!(window_.begin < kFarthest)) return give_up();
       if (window >= 1) window_.lengthen(kLonger);
@@ -56,37 +55,15 @@ class Search3 {
 
   // The planes k b_2 + (b_0, b_1) that meet the window.
   bool scan_window() {
-    const Basis3& basis = *window_.basis;
-    const double kappa = window_.plane_of(window_.anchor_point), tilt = basis.tilt();
-    const double low = std::min(0.0, tilt) - basis.slope - kappa - kSlop3d,
-                 high = std::max(0.0, tilt) + basis.slope - kappa + kSlop3d;
+    double low, high;
+    kappa_ = window_.plane_of(window_.anchor_point);
+    window_.set_planes(kappa_, low, high);
     if (!are_countable(low, high)) return false;
     for (double k = std::ceil(low); k <= high; ++k) {
-      const Point3 point(window_.anchor_point, k, basis.b[2]);
-      if (!planes_.scan(point, kappa + k)) return false;
+      const Point3 point = window_.anchor_point.step(k, window_.basis->b[2]);
+      if (!planes_.scan(point, kappa_ + k)) return false;
     }
     return true;
-  }
-
-  // To the next window: right behind this one, or where the next lattice plane comes within r of the line.
-  void advance() {
-    const double step = planes_.none_met ? windows_to_next_plane() : 1;
-    const double next = window_.begin + step * (1 - kSlop3d) * window_.basis->length;
-    // Rounded down: no gap between the windows.
-    window_.begin = std::max(window_.begin, next - kNextWindow * kRoundoff * next);
-  }
-
-  double windows_to_next_plane() const {
-    const Basis3& basis = *window_.basis;
-    const double tilt = basis.tilt(), kappa = window_.plane_of(window_.anchor_point);
-    const double steepest = std::fabs(tilt) + basis.tilt_error;
-    // Planes at k + kappa - tilt z = 0 on the line; how far the nearest one ahead has to come.
-    const auto gap_above = [&](double here) { return std::ceil(here + basis.slope) - here - basis.slope; };
-    const double up = gap_above(tilt - kappa), down = gap_above(kappa - tilt);
-    // Of a tilt that is below its error not even the sign is known.
-    const double gap = std::fabs(tilt) <= basis.tilt_error ? std::min(up, down) : tilt > 0 ? up : down;
-    const double jump = 1 + (gap - kSlop3d) / steepest;
-    return std::min(std::max(1.0, jump), kMaxJump);
   }
 
   // What lies on the line repeats after this: v . b of a lattice vector b that is exactly parallel to it.
@@ -97,6 +74,8 @@ class Search3 {
         return arm.z * window_.basis->length;
     return Found<3>::kNothing;
   }
+
+  double kappa_ = 0;  // of the anchor's plane
 };
 
 }  // namespace lorentz

@@ -10,11 +10,6 @@
 
 namespace lorentz {
 
-/// The least |xi| between two of a plane.
-inline double nearest_of(double xi_first, double xi_last) {
-  return xi_first * xi_last > 0 ? std::min(std::fabs(xi_first), std::fabs(xi_last)) : 0;
-}
-
 template <class Arch, bool kUnit, bool kBall>
 class ThinSection3 {
   using Window = Window3<Arch, kUnit, kBall>;
@@ -62,8 +57,8 @@ class ThinSection3 {
 
   double half_width(double kappa, double z1, double z2, double unsure) const {
     const double tilt = window_.basis->tilt(), inverse = window_.basis->inverse_slope;
-    const double nearest =
-        nearest_of(distance_of_plane(kappa, tilt, z1, inverse), distance_of_plane(kappa, tilt, z2, inverse));
+    const double nearest = Window::nearest_of(distance_of_plane(kappa, tilt, z1, inverse),
+                                              distance_of_plane(kappa, tilt, z2, inverse));
     return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest)) + unsure) + kSectionSlop;
   }
 
@@ -73,7 +68,7 @@ class ThinSection3 {
       const double dz = part.middle() - base.z, dh = -eta(base.p);
       const double k0 = std::nearbyint((dz * eta(c[1].p) - c[1].z * dh) * inverse);
       const double k1 = std::nearbyint((c[0].z * dh - dz * eta(c[0].p)) * inverse);
-      const Point3 moved(Point3(base, k0, c[0]), k1, c[1]);
+      const Point3 moved = base.step(k0, c[0]).step(k1, c[1]);
       for (int i = 0; i < 3; ++i)
         if (!(std::fabs(base.n[i]) + std::fabs(k0 * c[0].n[i]) + std::fabs(k1 * c[1].n[i]) <=
               kMaxCoefficient))
@@ -92,7 +87,7 @@ class ThinSection3 {
         kSlop3d;
     if (!(reach < kMaxLinesInPart && are_countable(centre - reach, centre + reach))) return false;
     for (double k = std::ceil(centre - reach); k <= centre + reach; ++k)
-      if (!lines_.scan(Point3(base, k, c[1]), c[0], part.z - overlap, part.z_next + overlap)) return false;
+      if (!lines_.scan(base.step(k, c[1]), c[0], part.z - overlap, part.z_next + overlap)) return false;
     return true;
   }
 

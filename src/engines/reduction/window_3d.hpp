@@ -1,27 +1,16 @@
 // A stretch of the flight in 3D, and the lattice point near its middle from which all others are counted, in
-// small numbers. Private to the reduction engine.
+// small numbers, for one flight. Private to the reduction engine.
 #pragma once
-
-#include <algorithm>
 
 #include "src/engines/reduction/direction_3d.hpp"
 
 namespace lorentz {
 
-/// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
-struct Point3 {
-  double n[3], p[2], z, size, extent;
+#define LORENTZ_INLINE inline
+#include "src/engines/reduction/window_3d-inl.hpp"
+#undef LORENTZ_INLINE
 
-  Point3() = default;
-  Point3(const Point3& base, double k, const Arm3& arm) {
-    for (int i = 0; i < 3; ++i) n[i] = base.n[i] + k * arm.n[i];
-    const double step[2] = {k * arm.p[0], k * arm.p[1]};
-    for (int i = 0; i < 2; ++i) p[i] = stepped(base.p[i], k, arm.p[i]);
-    z = stepped(base.z, k, arm.z);
-    size = base.size + std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(k) * arm.cancellation;
-    extent = base.extent + std::fabs(k * arm.z);
-  }
-};
+using Point3 = PointOf3<SplitProduct>;
 
 /// Can one count from low to high by ones?
 inline bool are_countable(double low, double high) {
@@ -29,52 +18,33 @@ inline bool are_countable(double low, double high) {
 }
 
 template <class Arch, bool kUnit, bool kBall>
-class Window3 {
-  using DD = DoubleDouble<Arch>;
-  using Direction = Direction3<kUnit, kBall>;
+class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
+  using Base = WindowOf3<Arch, SplitProduct, kUnit, kBall>;
+  using typename Base::DD;
 
  public:
-  const Bravais& lattice;
-  const Direction& to;
+  using Base::anchor_point, Base::basis, Base::begin, Base::to;
+
   const Offset<SplitProduct, 3>& offset;
-  const Basis3* basis;
-  double begin = 0;  ///< in units of s
-  Wide anchor[3];    ///< from the home cell, in the short basis
-  Point3 anchor_point;
-  double p_error = 0, s_error = 0, z_error = 0;  ///< of the anchor
-  double z_first = 0;                            ///< where the window begins, with its error
+  Wide anchor[3];  ///< from the home cell, in the short basis
 
-  Window3(const Bravais& of_lattice, const Direction& direction, const Offset<SplitProduct, 3>& from_offset)
-      : lattice(of_lattice), to(direction), offset(from_offset), basis(&direction.basis) {}
-
-  void set_start() {
-    to.template forms_of<Arch>(offset.d, start_);
-    for (const Wide& component : offset.d) start_size_ += std::fabs(component.hi);
-  }
+  Window3(const Bravais& of_lattice, const Direction3<kUnit, kBall>& direction,
+          const Offset<SplitProduct, 3>& from_offset)
+      : Base(of_lattice, direction, from_offset), offset(from_offset) {}
 
   /// False if none is found that is known well enough.
   bool set_anchor() {
     if (!find_anchor()) return false;
-    double terms = start_size_;
+    double n[3];
     for (int j = 0; j < 3; ++j) {
-      if (!(std::fabs(anchor[j].hi) < kMaxCell)) return false;
-      terms += std::fabs(anchor[j].hi) * to.size_of[j];
+      n[j] = anchor[j].hi;
+      if (!(std::fabs(n[j]) < kMaxCell)) return false;
     }
-    const double error = kForm * (kAnchorTerms * terms + offset.error) + kFlushed;
-    p_error = error * to.inverse_r;
-    s_error = to.along_size * error + kRoundoff * begin;
-    if constexpr (!kBall) s_error += kForm * lattice.shape.metric_error * terms;
-    z_error = s_error / basis->length;
-    z_first = -(2 * z_error + kWindowStart);
-    return p_error < kSlop3d / 2;
+    return this->set_errors(n);
   }
 
   /// The window from here on, by a basis that suits its length.
-  void lengthen(double factor) {
-    if (basis != &longer_) longer_ = *basis;
-    to.template lengthen<Arch>(longer_, factor, true);
-    basis = &longer_;
-  }
+  void lengthen(double factor) { Base::lengthen(factor, true); }
 
   /// The same point, its coordinates from the integers.
   Point3 recomputed(const Point3& point) const {
@@ -94,31 +64,14 @@ class Window3 {
     return true;
   }
 
-  /// Which lattice plane, parallel to the first two vectors of the basis, the point is on.
-  double plane_of(const Point3& point) const {
-    const auto& g = basis->dual[2];
-    return sum_of_products(g[0], point.p[0], g[1], point.p[1], g[2], point.z);
-  }
-
-  double scale_error() const {
-    if constexpr (kBall) return kScale * kRoundoff;
-    return to.scale_error;
-  }
-
  private:
   // Near the middle of the window, in few steps from the home cell.
   bool find_anchor() {
     for (Wide& n : anchor) n = Wide();
-    for (int i = 0; i < 2; ++i) anchor_point.p[i] = to.scale[i] * start_[i].hi;
-    anchor_point.z = (start_[2].hi - begin) / basis->length;
+    this->set_point_of_home();
     for (int pass = 0; pass < kMaxAnchorPasses; ++pass) {
-      double k[3], largest = 0;
-      for (int i = 0; i < 3; ++i) {
-        const auto& g = basis->dual[i];
-        k[i] = -std::nearbyint(sum_of_products(g[0], anchor_point.p[0], g[1], anchor_point.p[1], g[2],
-                                               anchor_point.z - kMiddle));
-        largest = std::max(largest, std::fabs(k[i]));
-      }
+      double k[3];
+      const double largest = this->steps_to_middle(true, k);
       if (!(largest < kMaxAnchorStep)) return false;
       move_anchor(k);
       anchor_point = at(anchor);
@@ -145,27 +98,19 @@ class Window3 {
   }
 
   Point3 at(const Wide (&N)[3]) const {
-    const auto& form = to.form();
-    const Wide from = begin == 0 ? start_[2] : start_[2] - Wide(begin);
+    const Wide from = begin == 0 ? this->start_[2] : this->start_[2] - Wide(begin);
     Point3 point;
-    for (double& n : point.n) n = 0;
     if (N[0].lo == 0 && N[1].lo == 0 && N[2].lo == 0) {  // nearly always; to the same bits
       const double n[3] = {N[0].hi, N[1].hi, N[2].hi};
-      point.p[0] = to.scale[0] * compensated_sum_from<DD, Direction::kFirstTerms>(start_[0], form[0], n);
-      point.p[1] = to.scale[1] * compensated_sum_from<DD>(start_[1], form[1], n);
-      point.z = compensated_sum_from<DD, 3, Direction::kLowParts>(from, form[2], n) / basis->length;
+      this->set_place(n, from, point);
     } else {
-      for (int i = 0; i < 2; ++i) point.p[i] = to.scale[i] * compensated_sum<DD>(form[i], N, start_[i]);
+      const auto& form = to.form();
+      for (int i = 0; i < 2; ++i) point.p[i] = to.scale[i] * compensated_sum<DD>(form[i], N, this->start_[i]);
       point.z = compensated_sum<DD>(form[2], N, from) / basis->length;
     }
-    point.size = std::fabs(point.p[0]) + std::fabs(point.p[1]);
-    point.extent = std::fabs(point.z);
+    this->set_zero(point);
     return point;
   }
-
-  Basis3 longer_;
-  Wide start_[3];
-  double start_size_ = 0;
 };
 
 }  // namespace lorentz
