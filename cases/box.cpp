@@ -3,9 +3,69 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+
 namespace lorentz::cases {
+namespace {
+
+double reach_of(const Atom& atom) {
+  double square = atom.radius * atom.radius;
+  for (const Vec& axis : atom.semiaxes) square += dot(axis, axis);
+  return std::sqrt(square);
+}
+
+// Vectors perpendicular to the first `rank` ones and to each other, of length 1 up to rounding.
+void complete(std::array<Vec, 3>& vectors, int rank, int dimension) {
+  for (int i = rank; i < dimension; ++i) {
+    double largest = 0;
+    for (int axis = 0; axis < dimension; ++axis) {
+      Vec rest{};
+      rest[axis] = 1;
+      for (int j = 0; j < i; ++j) {
+        Vec before = scaled(vectors[j], 1 / length(vectors[j]));
+        if (j == 1 && rank == 2) {  // not perpendicular to the first
+          const Vec first = scaled(vectors[0], 1 / length(vectors[0]));
+          before = plus(before, -dot(before, first), first), before = scaled(before, 1 / length(before));
+        }
+        rest = plus(rest, -dot(rest, before), before);
+      }
+      if (length(rest) <= largest) continue;
+      largest = length(rest);
+      vectors[i] = scaled(rest, 1 / largest);
+    }
+  }
+}
+
+Box around_fewest(const Scene& scene) {
+  const auto fewest =
+      std::max_element(scene.lattices.begin(), scene.lattices.end(),
+                       [](const Lattice& a, const Lattice& b) { return a.missing < b.missing; });
+  const int d = scene.dimension, rank = fewest->rank(d);
+  Box box{d, fewest->vectors, {1, 1, 1}, {}};
+  complete(box.vectors, rank, d);
+  double beside = 0;
+  for (const Lattice& lattice : scene.lattices) {
+    for (const Vec& u : lattice.vectors) beside = std::max(beside, length(u));
+    for (const Atom& atom : lattice.atoms) beside = std::max(beside, 2 * reach_of(atom));
+  }
+  for (int i = rank; i < d; ++i) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Lattice& lattice : scene.lattices)
+      for (const Atom& atom : lattice.atoms) {
+        if (lattice.missing == 0) continue;
+        const double place = dot(atom.position, box.vectors[i]), reach = reach_of(atom);
+        low = std::min(low, place - reach), high = std::max(high, place + reach);
+      }
+    box.corner = plus(box.corner, low - beside, box.vectors[i]);
+    box.vectors[i] = scaled(box.vectors[i], high - low + 2 * beside);
+  }
+  return box;
+}
+
+}  // namespace
 
 Box Box::of(const Scene& scene, std::uint64_t cells) {
+  if (!is_crystal(scene)) return around_fewest(scene);
   Box box = cell_of(scene);
   if (scene.lattices.size() == 1) return box;
   const auto n = static_cast<double>(cells);

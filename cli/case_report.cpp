@@ -18,8 +18,7 @@ namespace {
 
 // What makes this answer again from nothing but the program.
 std::vector<std::string> commands_of(const CaseReport& report) {
-  const std::string lines =
-      report::printed(report.scene, report::query_members(report.query, report.scene.dimension));
+  const std::string lines = report::printed(report.scene, report::query_members(report.query, report.scene));
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};
   if (!report.engine.empty())
     commands.push_back(
@@ -33,7 +32,7 @@ std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Ma
     lines = report::lines_of(report::reason_of(margins, report.scene, report.query, report.exact,
                                                *report.given, report.decisive, ""));
   } else if (const auto decision = margins.hardest_decision(report.query, report.exact)) {
-    lines.push_back(report::decision_text(*decision, report.scene.dimension));
+    lines.push_back(report::decision_text(*decision, report.scene));
   }
   lines.insert(lines.end(), report.more.begin(), report.more.end());
   return lines;
@@ -47,7 +46,7 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
 }
 
 void add_finding(json::Members& object, const CaseReport& report) {
-  const int dimension = report.scene.dimension;
+  const Components dimension(report.scene);
   const oracle::Margins margins(report.scene);
   const std::string drawing = drawing_of(report);
   object.add("cause", report.cause, "explanation", report.explanation, "count", 1, "where", report.where,

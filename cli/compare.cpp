@@ -75,7 +75,7 @@ std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const Compared
   if (path.ends_with(".npy"))
     reader = std::make_unique<NpyAnswerReader>(path, questions.dimension());
   else
-    reader = std::make_unique<CsvAnswerReader>(path, questions.dimension());
+    reader = std::make_unique<CsvAnswerReader>(path, questions.components());
   return std::make_unique<LoggedAnswers>(std::move(reader));
 }
 
@@ -130,11 +130,11 @@ class Departures {
  private:
   static std::string description(const Judged& judged) {
     const Question& question = judged.question;
-    const int dimension = question.place->scene().dimension;
+    const Scene& scene = question.place->scene();
     std::string query, truth, says;
-    append_query_line(query, question.id, question.query, dimension);
-    append_answer_line(truth, question.id, question.exact, dimension);
-    append_answer_line(says, question.id, judged.reply.answer, dimension);
+    append_query_line(query, question.id, question.query, scene);
+    append_answer_line(truth, question.id, question.exact, scene);
+    append_answer_line(says, question.id, judged.reply.answer, scene);
     return fmt::format("  {}    says  {}    truth {}", query, says, truth);
   }
 

@@ -146,7 +146,7 @@ std::uint64_t check_of(const std::vector<question::Question>& questions) {
     const Scene& scene = one.place->scene();
     if (one.place.get() != place) append_scene_line(line, scene);
     place = one.place.get();
-    append_query_line(line, one.id, one.query, scene.dimension);
+    append_query_line(line, one.id, one.query, scene);
     check = runs::check_of(line, check);
   }
   return check;

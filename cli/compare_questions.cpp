@@ -39,7 +39,7 @@ void ComparedQuestions::open_columns(const std::string& path) {
     columns_ =
         std::make_unique<NpyQueryReader>(path, dimension(), unknown_columns(npy_query_fields(), policy));
   else
-    columns_ = std::make_unique<CsvQueryReader>(path, dimension(),
+    columns_ = std::make_unique<CsvQueryReader>(path, components(),
                                                 unknown_columns(csv_query_columns(dimension()), policy));
 }
 

@@ -48,6 +48,7 @@ class ComparedQuestions {
   /// Are the queries columns? Then rows of answers are matched to them by number.
   bool are_columns() const { return columns_ != nullptr; }
   int dimension() const { return place_ ? place_->scene().dimension : 0; }
+  Components components() const { return place_ ? Components(place_->scene()) : 0; }
 
  private:
   using Questions = std::vector<question::Question>;

@@ -31,19 +31,19 @@ void DisagreementFile::add(const Judged& judged, const std::string& engine) {
   if (!file_) return;
   const auto& [question, reply, judgement] = judged;
   enter(question.place);
-  const int dimension = question.place->scene().dimension;
+  const Components components(question.place->scene());
   const std::string_view verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
                                    : judgement.wrong_time                      ? "wrong-time"
                                                                                : "ill-posed";
   const auto answer = [&](const Answer& its) {
     return [&](json::Members& object) {
       object.add("id", json::Raw{question.id});
-      add_answer(object, its, dimension);
+      add_answer(object, its, components);
     };
   };
   added_ += json::line_of([&](json::Members& line) {
     line.add("id", json::Raw{question.id});
-    add_query(line, question.query, dimension);
+    add_query(line, question.query, components);
     line.add("engine", engine, "verdict", verdict, "departs", judgement.departs, "expected",
              answer(question.exact), "given", answer(reply.answer));
   });

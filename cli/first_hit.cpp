@@ -35,17 +35,17 @@ class AnswerOrder {
  public:
   explicit AnswerOrder(std::string& out) : out_(out) {}
 
-  void expect(const Id& id, int dimension) {
+  void expect(const Id& id, const Components& components) {
     if (waits_) {
-      others_.push_back({id, dimension, {}, false});
+      others_.push_back({id, components, {}, false});
       return;
     }
     first_.id = id;
-    first_.dimension = dimension;
+    first_.components = components;
     waits_ = true;
   }
   void answered(const Answer& answer) {
-    append_answer_line(out_, first_.id, answer, first_.dimension);
+    append_answer_line(out_, first_.id, answer, first_.components);
     waits_ = false;
     if (!others_.empty()) next();
   }
@@ -60,7 +60,7 @@ class AnswerOrder {
  private:
   struct WaitingLine {
     Id id;
-    int dimension = 0;
+    Components components = 0;
     std::string message;  // of a bad line
     bool is_bad = false;
   };
@@ -150,7 +150,7 @@ int act_on_lines(const FirstHitOptions& options) {
         answerer->set_scene(item.scene);
         break;
       case StreamItem::Kind::query:
-        order.expect(item.id, stream.scene()->dimension);
+        order.expect(item.id, *stream.scene());
         answerer->ask(item.id, item.query);
         break;
       default:

@@ -53,19 +53,21 @@ UnknownKeys policy(const ColumnOrder& order) {
 class Csv {
  public:
   Csv(const ColumnOrder& order, std::string& out)
-      : reader_(order.queries, order.scene.dimension,
+      : reader_(order.queries, order.scene,
                 unknown_columns(csv_query_columns(order.scene.dimension), policy(order))),
+        components_(order.scene),
         out_(out) {
     append_csv_names(out_, order.scene.dimension, reader_.has_ids());
   }
   ColumnReader& reader() { return reader_; }
   void write(const QueryRows& queries, AnswerRows& answers) {
-    append_csv_answers(out_, queries, answers, reader_.has_ids());
+    append_csv_answers(out_, queries, answers, components_, reader_.has_ids());
   }
   void finish() {}
 
  private:
   CsvQueryReader reader_;
+  const Components components_;
   std::string& out_;
 };
 

@@ -70,9 +70,12 @@ void LoggedAnswers::ask(const Id& id, const Query&) {
   if (id == "null" || !find(id, logged))
     return deliver({Answer::error("no answer"), question::Origin::not_asked});
   ++matched_;
-  if (logged.components != 0 && logged.components != static_cast<std::size_t>(scene().dimension)) {
-    complain(logged.line, fmt::format("cell: has {} components, the scene has dimension {}",
-                                      logged.components, scene().dimension));
+  const Outcome outcome = logged.answer.outcome;
+  const int needed = Components(scene()).of_cells(logged.answer.obstacle.lattice);
+  if (!columns_ && (outcome == Outcome::hit || outcome == Outcome::inside) &&
+      logged.components != static_cast<std::size_t>(needed)) {
+    complain(logged.line,
+             fmt::format("cell: has {} components, the lattice has {} vectors", logged.components, needed));
     logged.answer = Answer::error("cell: has another dimension");
   }
   deliver({std::move(logged.answer)});

@@ -76,10 +76,10 @@ void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, c
   switch (order.format) {
     case SampleFormat::ndjson:
       for (std::size_t i = 0; i < rows.count; ++i)
-        append_query_line(out, std::to_string(first + i), rows.query(i, d), d);
+        append_query_line(out, std::to_string(first + i), rows.query(i, d), order.scene);
       return;
     case SampleFormat::csv:
-      return append_csv_queries(out, rows, d);
+      return append_csv_queries(out, rows, order.scene);
     case SampleFormat::npy:
       return append_npy_queries(out, rows, d);
   }

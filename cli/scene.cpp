@@ -72,6 +72,7 @@ int list(const SceneOptions& options) {
 
 // Whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
+  if (!is_crystal(scene)) return "not searched: it is of crystals only";
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
@@ -97,6 +98,7 @@ constexpr std::size_t kMostContacts = 1000, kContactsShown = 10;
 SceneFacts findings_on(const Scene& scene) {
   SceneFacts findings;
   findings.contacts = oracle::contacts_in(scene, kMostContacts);
+  if (!is_crystal(scene)) findings.no_filling = "not given, for the scene does not repeat in all directions";
   for (const oracle::Contact& contact : findings.contacts.found)
     if (contact.overlap && findings.no_filling.empty())
       findings.no_filling =
@@ -132,8 +134,12 @@ std::string lattice_in_words(const Scene& scene, std::size_t l) {
   const Lattice& lattice = scene.lattices[l];
   const int d = scene.dimension;
   std::string out = fmt::format("lattice {}\n", l);
-  for (int i = 0; i < d; ++i) out += line(fmt::format("  u{}", i + 1), coordinates(lattice.vectors[i], d));
-  out += line(d == 2 ? "  cell area" : "  cell volume", fmt::format("{:.6g}", cell_volume(lattice, d)));
+  for (int i = 0; i < lattice.rank(d); ++i)
+    out += line(fmt::format("  u{}", i + 1), coordinates(lattice.vectors[i], d));
+  if (lattice.missing == 0)
+    out += line(d == 2 ? "  cell area" : "  cell volume", fmt::format("{:.6g}", cell_volume(lattice, d)));
+  else
+    out += line("  repeats", fmt::format("in {} of {} directions", lattice.rank(d), d));
   for (std::size_t a = 0; a < lattice.atoms.size() && a < kAtomsShown; ++a)
     out += line(fmt::format("  atom {}", a), fmt::format("{} at {}", shape_in_words(lattice.atoms[a], d),
                                                          coordinates(lattice.atoms[a].position, d)));
@@ -200,8 +206,10 @@ void add_contact(json::Members& object, const oracle::Contact& contact, int dime
 
 void show_json(const std::string& name, const std::string& file, const Scene& scene,
                const SceneFacts& findings, bool with_horizon) {
-  std::vector<double> volumes;
-  for (const Lattice& lattice : scene.lattices) volumes.push_back(cell_volume(lattice, scene.dimension));
+  std::vector<std::optional<double>> volumes;
+  for (const Lattice& lattice : scene.lattices)
+    volumes.push_back(lattice.missing == 0 ? std::optional(cell_volume(lattice, scene.dimension))
+                                           : std::nullopt);
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
   const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));
   const auto contact = [&](json::Members& one, const oracle::Contact& c) {

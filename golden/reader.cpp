@@ -252,7 +252,8 @@ struct Reader::Impl {
     Answer answer;
     if (!read_answer(object, id, answer, components, {}, &keys)) throw InputError("expect: is no answer");
     check_members(keys, answer.outcome);
-    if (components != 0 && components != static_cast<std::size_t>(scene->dimension))
+    const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+    if (names_one && static_cast<int>(components) != Components(*scene).of_cells(answer.obstacle.lattice))
       throw InputError("expect.cell: has " + std::to_string(components) + " components");
     answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
     expect = std::move(answer);

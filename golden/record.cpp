@@ -59,9 +59,9 @@ std::string id_of(std::string_view scene_line, std::string_view question) {
   return sha256(text).substr(0, 16);
 }
 
-std::string question_of(const Query& query, int dimension) {
+std::string question_of(const Query& query, const Components& count) {
   const std::string object =
-      json::text_of([&](json::Members& question) { add_query(question, query, dimension); });
+      json::text_of([&](json::Members& question) { add_query(question, query, count); });
   return object.substr(1, object.size() - 2);
 }
 
@@ -78,20 +78,21 @@ void append_header_line(std::string& out, const Header& header) {
   out += '\n';
 }
 
-void append_record_line(std::string& out, const Record& record, int dimension) {
+void append_record_line(std::string& out, const Record& record, const Components& count) {
   json::append(out, [&](json::Members& line) {
     line.add("id", record.id, "tags", record.tags).add_members(record.question);
     line.add("expect", [&](json::Members& expect) {
       Answer answer = record.expect;
       answer.time_decimal.clear();  // a key of the record's
-      add_answer(expect, answer, dimension);
+      add_answer(expect, answer, count);
     });
     if (!record.expect.time_decimal.empty()) line.add("time_decimal", record.expect.time_decimal);
     if (record.margin) line.add("margin", *record.margin);
     if (record.condition) line.add("condition", *record.condition);
     if (record.certificate)
-      line.add("certificate",
-               [&](json::Members& object) { add_certificate(object, *record.certificate, dimension); });
+      line.add("certificate", [&](json::Members& object) {
+        add_certificate(object, *record.certificate, count.of_vectors());
+      });
   });
   out += '\n';
 }

@@ -37,14 +37,14 @@ std::string id_of(std::string_view scene_line, std::string_view question);
 std::string sha256(std::string_view text);
 
 /// The text of a query as it stands in a record.
-std::string question_of(const Query& query, int dimension);
+std::string question_of(const Query& query, const Components& count);
 
 /// The number of significant digits of a record's time_decimal.
 inline constexpr int kDigits = 40;
 
 /// Appends a line, with its line end.
 void append_header_line(std::string& out, const Header& header);
-void append_record_line(std::string& out, const Record& record, int dimension);
+void append_record_line(std::string& out, const Record& record, const Components& count);
 
 /// The library that ids are made by, and its version.
 std::string record_libraries();

@@ -29,7 +29,7 @@ SetQuestion Set::question(std::uint64_t seed, std::uint64_t index) const {
     return {cases::bad_query_scene(), bad.text, {}, {bad.tag}};
   }
   cases::Case one = cases::family_named(name)->make(seed, index);
-  std::string text = question_of(one.query, one.scene.dimension);
+  std::string text = question_of(one.query, one.scene);
   return {std::move(one.scene), std::move(text), std::move(one.query), std::move(one.tags)};
 }
 

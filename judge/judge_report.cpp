@@ -20,19 +20,19 @@ namespace lorentz::judge {
 
 namespace {
 
-int dimension_of(const Example& example) {
-  return example.question.place->scene().dimension;
+Components components_of(const Example& example) {
+  return example.question.place->scene();
 }
 
 // An invalid question stands as it was asked.
 std::string members_of(const Example& example) {
-  return example.question.is_query() ? report::query_members(example.question.query, dimension_of(example))
+  return example.question.is_query() ? report::query_members(example.question.query, components_of(example))
                                      : example.question.text;
 }
 
 std::string readable_query(const Example& example) {
   if (!example.question.is_query()) return fmt::format("{{{}}}", example.question.text);
-  return json::text_of(json_of(example.question.query, dimension_of(example)));
+  return json::text_of(json_of(example.question.query, components_of(example)));
 }
 
 Answer exact_of(const Example& example) {
@@ -139,7 +139,7 @@ std::string often(const Finding& finding, const JudgeReport& report) {
 // In full, but for what rounding of the inputs explains.
 std::string text_of(const Finding& finding, const JudgeReport& report, int number) {
   const Example& example = finding.simplest;
-  const int dimension = dimension_of(example);
+  const Components dimension = components_of(example);
   std::string text =
       fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
   text += fmt::format("   {} {}: {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
@@ -171,7 +171,7 @@ std::optional<double> ulps_of(const Example& example) {
 
 void add_finding(json::Members& object, const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
-  const int dimension = dimension_of(example);
+  const Components dimension = components_of(example);
   object.add("cause", name_of(finding.cause()), "explanation", finding.explanation(), "count", finding.count,
              "share_of_plain", finding.share_of_plain, "share_of_hard", finding.share_of_hard, "often",
              often(finding, report), "where", finding.where, "verdict", name_of(finding.severity()));

@@ -49,7 +49,8 @@ std::optional<PlaceOnLine> FindingCase::end_of(const Answer& answer) const {
 
 std::string FindingCase::name_of(const ObstacleId& id) const {
   std::string name = "cell (";
-  for (int i = 0; i < scene.dimension; ++i) name += (i ? ", " : "") + id.cell[i].decimal();
+  for (int i = 0; i < Components(scene).of_cells(id.lattice); ++i)
+    name += (i ? ", " : "") + id.cell[i].decimal();
   name += ')';
   if (scene.lattices[id.lattice].atoms.size() > 1) name = fmt::format("atom {}, {}", id.atom, name);
   if (scene.lattices.size() > 1) name = fmt::format("lattice {}, {}", id.lattice, name);

@@ -163,6 +163,7 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
 }
 
 Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights) {
+  if (!is_crystal(scene)) throw InputError("draws crystals only, lattices that repeat in all directions");
   return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
                               : draw_scene_3d(scene, options, flights);
 }

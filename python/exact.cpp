@@ -75,7 +75,7 @@ class PyOracle {
 
   py::dict judge(const std::string& text, const std::string& given_text, double ulps) const {
     const auto [query, exact] = question(text);
-    const Answer given = read_answer(given_text, scene_.dimension);
+    const Answer given = read_answer(given_text, scene_);
     const oracle::Judgement judgement = place_->judge().judge(query, exact, given, ulps);
     const auto diagnosis = judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
     py::dict dict;
@@ -105,7 +105,7 @@ class PyOracle {
   std::optional<std::string> refutation(const std::string& text, const std::string& answer_line,
                                         const std::string& time_decimal,
                                         const PyCertificate& certificate) const {
-    Answer answer = read_answer(answer_line, scene_.dimension);
+    Answer answer = read_answer(answer_line, scene_);
     answer.time_decimal = time_decimal;
     return check().refutation(read_query(text, scene_), answer, certificate.proof);
   }

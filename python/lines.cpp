@@ -70,21 +70,23 @@ Start read_start(const std::string& text, const RationalScene& scene) {
   return std::move(item.start);
 }
 
-Answer read_answer(const std::string& text, int dimension) {
+Answer read_answer(const std::string& text, const Components& count) {
   Answer answer;
   Id id;
   std::size_t components = 0;
   if (!StrictReader().read_answer_line(PaddedLine(text).line(), id, answer, components))
     throw InputError("is no answer");
-  if (components != 0 && components != static_cast<std::size_t>(dimension))
-    throw InputError("cell: has " + std::to_string(components) + " coordinates, the scene has dimension " +
-                     std::to_string(dimension));
+  const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+  const int needed = count.of_cells(answer.obstacle.lattice);
+  if (names_one && components != static_cast<std::size_t>(needed))
+    throw InputError("cell: has " + std::to_string(components) + " coordinates, the lattice has " +
+                     std::to_string(needed) + " vectors");
   return answer;
 }
 
-std::string answer_text(const Answer& answer, int dimension) {
+std::string answer_text(const Answer& answer, const Components& count) {
   std::string line;
-  append_answer_line(line, "null", answer, dimension);
+  append_answer_line(line, "null", answer, count);
   return line;
 }
 

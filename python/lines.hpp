@@ -17,10 +17,10 @@ Query read_query(const std::string& text, const Scene& scene);
 Start read_start(const std::string& text, const RationalScene& scene);
 
 /// Of `{"outcome": "hit", ..}`; a key that answers do not have is an error. Throws InputError.
-Answer read_answer(const std::string& text, int dimension);
+Answer read_answer(const std::string& text, const Components& count);
 
 /// An answer as such a line.
-std::string answer_text(const Answer& answer, int dimension);
+std::string answer_text(const Answer& answer, const Components& count);
 
 /// Throws InputError: what readers are to do with keys that they do not know.
 void refuse_key(const std::string& key);

@@ -72,7 +72,7 @@ void CommandEngine::ask_text(const Id& id, const std::string& question) {
 
 void CommandEngine::append_line(std::string& out, const Id& id, const OpenQuery& asked) {
   if (asked.text.empty())
-    append_query_line(out, id, asked.query, asked.scene->dimension);
+    append_query_line(out, id, asked.query, *asked.scene);
   else
     out += json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
 }
@@ -350,9 +350,9 @@ void CommandEngine::pass_over() {
 std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
   if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return {};
   const Scene& scene = *open_.front().scene;
-  if (components != static_cast<std::size_t>(scene.dimension))
-    return fmt::format("gave a cell of {} components in a scene of dimension {}", components,
-                       scene.dimension);
+  const int needed = Components(scene).of_cells(answer.obstacle.lattice);
+  if (components != static_cast<std::size_t>(needed))
+    return fmt::format("gave a cell of {} components of a lattice of {} vectors", components, needed);
   if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
     return "gave a hit without its time, which --max-time needs";
   return {};

@@ -15,8 +15,8 @@ std::string scene_line(const Scene& scene) {
   return line;
 }
 
-std::string query_members(const Query& query, int dimension) {
-  const std::string object = report::hexadecimal_query(query, dimension);
+std::string query_members(const Query& query, const Components& count) {
+  const std::string object = report::hexadecimal_query(query, count);
   return object.substr(1, object.size() - 2);
 }
 

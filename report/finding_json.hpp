@@ -13,7 +13,7 @@ namespace lorentz::report {
 std::string scene_line(const Scene& scene);
 
 /// The members of a query without braces and id, its numbers in hexadecimal.
-std::string query_members(const Query& query, int dimension);
+std::string query_members(const Query& query, const Components& count);
 
 /// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);

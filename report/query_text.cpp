@@ -15,11 +15,10 @@ std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
 
 }  // namespace
 
-std::string hexadecimal_query(const Query& query, int dimension) {
+std::string hexadecimal_query(const Query& query, const Components& count) {
   return json::text_of([&](json::Members& object) {
-    object.add("x", hexadecimal(query.x, dimension), "v", hexadecimal(query.v, dimension));
-    if (query.from)
-      object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, dimension); });
+    object.add("x", hexadecimal(query.x, count.of_vectors()), "v", hexadecimal(query.v, count.of_vectors()));
+    if (query.from) object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, count); });
   });
 }
 

@@ -9,6 +9,6 @@ namespace lorentz::report {
 
 /// {"x":["0x1.8p-1","0x0p+0"],"v":[..]} with `from` where there is one, as the exchange format reads it. A 2D
 /// query has two components.
-std::string hexadecimal_query(const Query& query, int dimension);
+std::string hexadecimal_query(const Query& query, const Components& count);
 
 }  // namespace lorentz::report

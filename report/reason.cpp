@@ -32,14 +32,15 @@ Dispute about_line(const oracle::Approach& approach, const ObstacleId& obstacle,
 
 }  // namespace
 
-std::string name_of(const ObstacleId& obstacle, int dimension) {
+std::string name_of(const ObstacleId& obstacle, const Components& count) {
   std::string cell;
-  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + obstacle.cell[i].decimal();
+  for (int i = 0; i < count.of_cells(obstacle.lattice); ++i)
+    cell += (i ? ", " : "") + obstacle.cell[i].decimal();
   return fmt::format("lattice {}, atom {}, cell ({})", obstacle.lattice, obstacle.atom, cell);
 }
 
-std::string decision_text(const oracle::HardestDecision& decision, int dimension) {
-  const std::string name = name_of(decision.obstacle, dimension);
+std::string decision_text(const oracle::HardestDecision& decision, const Components& count) {
+  const std::string name = name_of(decision.obstacle, count);
   if (decision.margin >= oracle::kLargestMargin)
     return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
   const std::string answer =
@@ -77,13 +78,13 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
   const bool names = names_obstacle(given) && !flaw_of(Query{query.x, query.v, given.obstacle}, scene);
   if (names && given.outcome == exact.outcome && given.obstacle == exact.obstacle) return std::nullopt;
   if (names && decisive.value_or(given.obstacle) == given.obstacle)
-    if (auto dispute = about_named(margins.approach(query, given.obstacle), given,
-                                   name_of(given.obstacle, scene.dimension)))
+    if (auto dispute =
+            about_named(margins.approach(query, given.obstacle), given, name_of(given.obstacle, scene)))
       return dispute;
   if (!names_obstacle(exact)) return std::nullopt;
   const ObstacleId& obstacle = decisive ? *decisive : exact.obstacle;
   const oracle::Approach approach = margins.approach(query, obstacle);
-  const std::string name = name_of(obstacle, scene.dimension);
+  const std::string name = name_of(obstacle, scene);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)
     return about_start(approach, obstacle, name);
   const bool later = given.outcome == Outcome::hit;
@@ -104,7 +105,7 @@ std::string reason_of(const oracle::Margins& margins, const Scene& scene, const 
   if (!dispute) return "";
   std::string text = indent + dispute->text + '\n';
   if (const auto decision = margins.hardest_decision(query, exact))
-    text += indent + decision_text(*decision, scene.dimension) + '\n';
+    text += indent + decision_text(*decision, scene) + '\n';
   return text;
 }
 

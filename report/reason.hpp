@@ -10,10 +10,10 @@
 namespace lorentz::report {
 
 /// "lattice 0, atom 1, cell (2, -1)".
-std::string name_of(const ObstacleId& obstacle, int dimension);
+std::string name_of(const ObstacleId& obstacle, const Components& count);
 
 /// The decision that an exact answer rests on with the smallest margin, in a sentence.
-std::string decision_text(const oracle::HardestDecision& decision, int dimension);
+std::string decision_text(const oracle::HardestDecision& decision, const Components& count);
 
 /// What an answer comes down to that names another obstacle or outcome than the exact one.
 struct Dispute {

@@ -22,6 +22,7 @@ bool in_range(const Scene& scene, const cases::Box& box) {
   double largest = 0, size = 0;
   for (int i = 0; i < box.dimension; ++i)
     for (const double component : box.vectors[i]) size += box.cells[i] * std::fabs(component);
+  for (const double component : box.corner) size += std::fabs(component);
   for_each_atom(scene, [&](const Atom& atom) {
     for (const double component : atom.position) largest = std::max(largest, std::fabs(component));
     largest = std::max(largest, atom.radius);
@@ -41,7 +42,7 @@ std::string nowhere_to_start(std::uint64_t draws) {
 Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed, std::uint64_t cells)
     : ensemble_(ensemble),
       seed_(seed),
-      in_many_cells_(scene.lattices.size() > 1),
+      in_many_cells_(scene.lattices.size() > 1 && is_crystal(scene)),
       box_(cases::Box::of(scene, cells)) {
   if (!in_range(scene, box_))
     throw InputError(
@@ -49,25 +50,40 @@ Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed
   if (ensemble == Ensemble::surface) choose_by_surface(scene);
 }
 
+namespace {
+
+// Of each atom, lattice by lattice, in proportion to each other: by volume, or of one period of each lattice
+// where these repeat in fewer directions. Nothing if they are beyond the range of binary64.
+std::vector<double> surfaces_of(const Scene& scene) {
+  std::vector<double> surfaces;
+  if (!is_crystal(scene)) {
+    for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
+  } else if (const auto shares = shares_of(scene)) {
+    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
+  }
+  return surfaces;
+}
+
+}  // namespace
+
 // A word chooses the obstacle: each has its share of them, in steps of 2^-40 of the largest, since elliptic
 // integrals are not the same to the last bit everywhere.
 void Candidates::choose_by_surface(const Scene& scene) {
-  const auto shares = shares_of(scene);
+  const std::vector<double> surfaces = surfaces_of(scene);
   double largest = 0, sum = 0, before = 0;
-  if (shares)
-    for (const AtomShares::AtomShare& share : shares->atoms) largest = std::max(largest, share.surface);
+  for (const double surface : surfaces) largest = std::max(largest, surface);
   if (!std::isnormal(largest))
     throw InputError(
         "the obstacles are too large, too small or too slender for their surface to be known in binary64; no "
         "start on it can be drawn");
   const auto steps = [largest](double surface) { return std::round(surface / largest * 0x1p40); };
-  for (const AtomShares::AtomShare& share : shares->atoms) sum += steps(share.surface);
+  for (const double surface : surfaces) sum += steps(surface);
   std::size_t number = 0;
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
-    count_cells(lattice);
+    if (in_many_cells_) count_cells(lattice);
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
-      before += steps(shares->atoms[number++].surface);
+      before += steps(surfaces[number++]);
       const auto below = static_cast<std::uint64_t>(before / sum * 0x1p53);
       obstacles_.push_back({static_cast<std::int32_t>(l), static_cast<std::int32_t>(a),
                             lattice.atoms[a].position, Surface(lattice.atoms[a], scene.dimension), below});

@@ -20,7 +20,7 @@ using flights::Ensemble;
 /// so that any number of threads, shards and machines draws the same, to the bit.
 ///
 /// uniform: the point is uniform in a cell of the first lattice, of a superposition in a box of many such
-/// cells; directions are isotropic. surface: an obstacle is chosen by its surface, over all lattices and
+/// cells, and where a lattice repeats in fewer directions in a box around it (cases::Box); directions are isotropic. surface: an obstacle is chosen by its surface, over all lattices and
 /// atoms, of a superposition also its cell among those around the box; the point is uniform on its surface,
 /// the direction by the cosine law about the outward normal, and `from` is that obstacle. These are the two
 /// measures of a gas in equilibrium: at any moment, and after a collision.

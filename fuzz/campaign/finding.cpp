@@ -91,11 +91,11 @@ Answer read_answer(const std::string& line) {
 
 // As a line that can be read back. What no answer stream has a word for is left out: a time that is no
 // number, and the bytes of a message that are not ASCII, where they are not UTF-8.
-std::string answer_text(const std::string& id, Answer answer, int dimension) {
+std::string answer_text(const std::string& id, Answer answer, const Scene& scene) {
   if (!(answer.time.value_or(0) > -HUGE_VAL)) answer.time.reset();
   const auto line_of = [&] {
     std::string line;
-    append_answer_line(line, id, answer, dimension);
+    append_answer_line(line, id, answer, scene);
     line.pop_back();
     return line;
   };
@@ -138,11 +138,11 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
   const std::string quoted = json_quoted(id);
   std::string scene_line, query_line;
   append_scene_line(scene_line, scene);
-  append_query_line(query_line, quoted, query, scene.dimension);
+  append_query_line(query_line, quoted, query, scene);
   return {std::string(without_line_end(scene_line)),
           std::string(without_line_end(query_line)),
-          answer_text(quoted, examined.given, scene.dimension),
-          answer_text(quoted, examined.exact, scene.dimension),
+          answer_text(quoted, examined.given, scene),
+          answer_text(quoted, examined.exact, scene),
           examined.departs,
           {}};
 }

@@ -90,10 +90,10 @@ Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_ke
 /// The same of a scene whose numbers may be texts with rational numbers (rational_from).
 RationalScene read_rational_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
-/// Appends a line, with its line end. A 2D problem has two components everywhere.
+/// Appends a line, with its line end. `components`: the scene, or among crystals the dimension.
 void append_scene_line(std::string& out, const Scene& scene);
-void append_query_line(std::string& out, const Id& id, const Query& query, int dimension);
-void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension);
+void append_query_line(std::string& out, const Id& id, const Query& query, const Components& components);
+void append_answer_line(std::string& out, const Id& id, const Answer& answer, const Components& components);
 
 /// What all formats call it: "hit", "never", ..
 std::string_view name_of(Outcome outcome);

@@ -54,6 +54,7 @@ struct RationalAtom {
 struct RationalLattice {
   std::array<RationalVec, 3> vectors{};
   std::vector<RationalAtom> atoms;
+  int missing = 0;
 };
 
 struct RationalScene {

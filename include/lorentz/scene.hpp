@@ -24,11 +24,14 @@ struct Atom {
   friend bool operator==(const Atom&, const Atom&) = default;
 };
 
-/// Primitive vectors u_1..u_d (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_d
-/// u_d.
+/// Primitive vectors u_1..u_k (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_k
+/// u_k. In d dimensions k = d is a crystal, d - 1 a layer or (in the plane) a row, 0 single obstacles.
 struct Lattice {
-  std::array<Vec, 3> vectors{};
+  std::array<Vec, 3> vectors{};  ///< those that it does not have are zero
   std::vector<Atom> atoms;
+  int missing = 0;  ///< d - k: directions in which it does not repeat
+
+  int rank(int dimension) const { return dimension - missing; }  ///< k
 
   friend bool operator==(const Lattice&, const Lattice&) = default;
 };
@@ -39,6 +42,29 @@ struct Scene {
   std::vector<Lattice> lattices;
 
   friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+/// Does each lattice repeat in as many directions as there are?
+bool is_crystal(const Scene& scene);
+
+/// How many components vectors and cells have: in a scene, or in a dimension if all lattices are crystals.
+class Components {
+ public:
+  Components(int dimension) : dimension_(dimension) {}
+  Components(const Scene& scene) : dimension_(scene.dimension) {
+    if (is_crystal(scene)) return;
+    for (const Lattice& lattice : scene.lattices) ranks_.push_back(lattice.rank(dimension_));
+  }
+
+  int of_vectors() const { return dimension_; }
+  int of_cells(int lattice) const {
+    const auto l = static_cast<std::size_t>(lattice);
+    return l < ranks_.size() ? ranks_[l] : dimension_;
+  }
+
+ private:
+  int dimension_;
+  std::vector<int> ranks_;  ///< of each lattice; empty: all crystals
 };
 
 /// Calls visit(atom) for each atom of the scene, lattice by lattice.

@@ -157,13 +157,14 @@ class Writer {
 }  // namespace
 
 struct Prover::Impl {
+  bool crystal;
   std::variant<ExactScene<2>, ExactScene<3>> scene;
 };
 
 Prover::Prover(const Scene& scene) {
   using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
-  impl_ = std::make_unique<const Impl>(
-      Impl{scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
+  impl_ = std::make_unique<const Impl>(Impl{
+      is_crystal(scene), scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
 }
 
 Prover::Prover(Prover&&) noexcept = default;
@@ -171,6 +172,7 @@ Prover& Prover::operator=(Prover&&) noexcept = default;
 Prover::~Prover() = default;
 
 Certificate Prover::prove(const Query& query, const Answer& exact) const {
+  if (!impl_->crystal) throw std::invalid_argument("certificates are of crystals only");
   return std::visit(
       [&]<std::size_t D>(const ExactScene<D>& scene) { return Writer<D>(scene, query).prove(exact); },
       impl_->scene);

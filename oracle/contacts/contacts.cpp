@@ -45,22 +45,34 @@ Z reach_of(const Form<D>& shape) {
 
 template <std::size_t D>
 struct ExactLatticeBodies {
+  std::size_t rank = D;
   Basis<D> reduced;
   std::vector<ContactBody<D>> bodies;
+  Z far;  // more than any two obstacles of the scene's cells 0 are apart, reaches included
 };
+
+// A lattice of fewer vectors is completed by ones longer than `far`, which no two obstacles are apart: its copies
+// (exact_problem.hpp) are in contact with none.
+template <std::size_t D>
+void reduce_and_complete(Basis<D>& basis, std::size_t rank, const Z& far) {
+  if (rank == D) return reduce(basis, EuclideanForm<D>{});
+  complete<D>(basis, rank);
+  for (std::size_t i = rank; i < D; ++i)
+    for (Z& component : basis[i].p) component = shifted_left(component, bit_length(far) + 1);
+}
 
 template <std::size_t D>
 std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
   const CommonExponent common = common_exponent(scene);
   std::vector<ExactLatticeBodies<D>> result(scene.lattices.size());
+  Z far = 0;
   for (std::size_t l = 0; l < result.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
-    for (std::size_t i = 0; i < D; ++i) {
-      for (std::size_t k = 0; k < D; ++k)
-        result[l].reduced[i].p[k] = scaled(lattice.vectors[i][k], common.get());
+    result[l].rank = static_cast<std::size_t>(lattice.rank(D));
+    for (std::size_t i = 0; i < result[l].rank; ++i) {
+      result[l].reduced[i].p = scaled_vector<D>(lattice.vectors[i], common.get());
       result[l].reduced[i].n[i] = 1;
     }
-    reduce(result[l].reduced, EuclideanForm<D>{});
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const Atom& atom = lattice.atoms[a];
       ContactBody<D> body{
@@ -69,9 +81,12 @@ std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
       const std::optional<Z> radius = ball_radius<D>(body.shape);
       body.ball = radius.has_value();
       body.reach = radius ? *radius : reach_of<D>(body.shape);
+      for (const Z& component : body.position) far += 2 * abs(component);
+      far += 2 * body.reach;
       result[l].bodies.push_back(std::move(body));
     }
   }
+  for (auto& one : result) one.far = far, reduce_and_complete<D>(one.reduced, one.rank, far);
   return result;
 }
 
@@ -79,18 +94,21 @@ std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
 // lattice, since all are integers. Rows are cleared column by column with Euclid's algorithm (Hermite normal
 // form).
 template <std::size_t D>
-Basis<D> sum_of(const Basis<D>& first, const Basis<D>& second) {
-  std::vector<LatticePoint<D>> rows(first.begin(), first.end());
-  rows.insert(rows.end(), second.begin(), second.end());
-  for (std::size_t column = 0; column < D; ++column)
-    for (std::size_t i = column + 1; i < rows.size(); ++i)
+Basis<D> sum_of(const ExactLatticeBodies<D>& first, const ExactLatticeBodies<D>& second) {
+  std::vector<LatticePoint<D>> rows(first.reduced.begin(), first.reduced.begin() + first.rank);
+  rows.insert(rows.end(), second.reduced.begin(), second.reduced.begin() + second.rank);
+  std::size_t rank = 0;
+  for (std::size_t column = 0; column < D && rank < rows.size(); ++column) {
+    for (std::size_t i = rank + 1; i < rows.size(); ++i)
       while (rows[i].p[column] != 0) {
-        rows[column].add_multiple(-floor_div(rows[column].p[column], rows[i].p[column]), rows[i]);
-        std::swap(rows[column], rows[i]);
+        rows[rank].add_multiple(-floor_div(rows[rank].p[column], rows[i].p[column]), rows[i]);
+        std::swap(rows[rank], rows[i]);
       }
+    if (rows[rank].p[column] != 0) ++rank;
+  }
   Basis<D> basis;
-  std::copy_n(rows.begin(), D, basis.begin());
-  reduce(basis, EuclideanForm<D>{});
+  std::copy_n(rows.begin(), rank, basis.begin());
+  reduce_and_complete<D>(basis, rank, first.far);
   return basis;
 }
 
@@ -362,7 +380,7 @@ void ContactSearch<D>::within(std::size_t l) {
 
 template <std::size_t D>
 void ContactSearch<D>::between(std::size_t l, std::size_t m) {
-  differences_ = sum_of<D>(lattices_[l].reduced, lattices_[m].reduced);
+  differences_ = sum_of<D>(lattices_[l], lattices_[m]);
   forms_.clear();
   for (const ContactBody<D>& a : lattices_[l].bodies)
     for (const ContactBody<D>& b : lattices_[m].bodies) {

@@ -1,5 +1,7 @@
 #include "oracle/exact/exact_problem.hpp"
 
+#include <algorithm>
+
 #include "oracle/exact/short_basis.hpp"
 
 namespace lorentz::oracle {
@@ -51,6 +53,24 @@ ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p) {
   return dual_of(basis) * p;
 }
 
+template <>
+void complete<2>(Basis<2>& basis, std::size_t rank) {
+  if (rank == 0) basis[0].p = {1, 0};
+  if (rank <= 1) basis[1].p = {Z(-basis[0].p[1]), basis[0].p[0]};
+  for (std::size_t i = rank; i < 2; ++i) basis[i].n = {}, basis[i].n[i] = 1;
+}
+
+template <>
+void complete<3>(Basis<3>& basis, std::size_t rank) {
+  if (rank == 0) basis[0].p = {1, 0, 0};
+  if (rank <= 1) {
+    const ZVec<3>& a = basis[0].p;
+    basis[1].p = a[0] == 0 && a[1] == 0 ? ZVec<3>{1, 0, 0} : ZVec<3>{Z(-a[1]), a[0], 0};
+  }
+  if (rank <= 2) basis[2].p = cross(basis[0].p, basis[1].p);
+  for (std::size_t i = rank; i < 3; ++i) basis[i].n = {}, basis[i].n[i] = 1;
+}
+
 template <std::size_t D>
 DualBasis<D>::DualBasis(const Basis<D>& basis, const Z& r)
     : dual(dual_of(basis)), det(determinant<D>(basis)) {
@@ -64,8 +84,21 @@ DualBasis<D>::DualBasis(const Basis<D>& basis, const Z& r)
 
 namespace {
 
+// A short basis of the first `rank` vectors, completed.
 template <std::size_t D>
-ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<D>& reduced) {
+void shorten(Basis<D>& basis, std::size_t rank) {
+  if (rank == D) return reduce(basis, EuclideanForm<D>{});
+  if (rank == 2) {
+    std::array<LatticePoint<D>, 2> pair{std::move(basis[0]), std::move(basis[1])};
+    reduce(pair, EuclideanForm<D>{});
+    basis[0] = std::move(pair[0]), basis[1] = std::move(pair[1]);
+  }
+  complete<D>(basis, rank);
+}
+
+template <std::size_t D>
+ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<D>& reduced,
+                        std::size_t rank) {
   ExactAtom<D> exact;
   exact.position = atom.position;
   if (!atom.semiaxes) {
@@ -76,7 +109,7 @@ ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<
   BallFrame<D> frame{adjugate(*atom.semiaxes), {}};
   exact.radius = abs(dot(frame.to_ball[0], (*atom.semiaxes)[0]));
   frame.reduced = mapped(frame.to_ball, reduced);
-  reduce(frame.reduced, EuclideanForm<D>{});
+  shorten<D>(frame.reduced, rank);
   exact.home = DualBasis<D>(frame.reduced, exact.radius);
   exact.frame = std::move(frame);
   return exact;
@@ -119,7 +152,9 @@ IntegerScene<D> integer_scene(const Scene& scene) {
   exact.exponent = common_exponent(scene).get();
   for (const Lattice& lattice : scene.lattices) {
     auto& its = exact.lattices.emplace_back();
-    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = scaled_vector<D>(lattice.vectors[i], exact.exponent);
+    its.rank = static_cast<std::size_t>(lattice.rank(D));
+    for (std::size_t i = 0; i < its.rank; ++i)
+      its.vectors[i] = scaled_vector<D>(lattice.vectors[i], exact.exponent);
     for (const Atom& atom : lattice.atoms) its.atoms.push_back(integer_atom<D>(atom, exact.exponent));
   }
   return exact;
@@ -129,13 +164,15 @@ template <std::size_t D>
 ExactScene<D>::ExactScene(const IntegerScene<D>& scene) : exponent(scene.exponent) {
   for (const auto& lattice : scene.lattices) {
     ExactLattice<D>& exact = lattices.emplace_back();
-    for (std::size_t i = 0; i < D; ++i) {
+    exact.rank = lattice.rank;
+    for (std::size_t i = 0; i < exact.rank; ++i) {
       exact.primitive[i].p = lattice.vectors[i];
       for (std::size_t k = 0; k < D; ++k) exact.primitive[i].n[k] = i == k ? 1 : 0;
     }
     exact.reduced = exact.primitive;
-    reduce(exact.reduced, EuclideanForm<D>{});
-    for (const auto& atom : lattice.atoms) exact.atoms.push_back(exact_atom<D>(atom, exact.reduced));
+    shorten<D>(exact.reduced, exact.rank);
+    for (const auto& atom : lattice.atoms)
+      exact.atoms.push_back(exact_atom<D>(atom, exact.reduced, exact.rank));
   }
 }
 
@@ -147,6 +184,16 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
     for (auto& b : basis)
       for (auto& component : b.p) component = shifted_left(component, shift);
   return basis;
+}
+
+// Doubles a vector w that completes a lattice until its copies are far: |w| > 8 (height of x + 4 r), where the
+// height of x over the lattice is |offset . w| / |w|. Returns how often.
+template <std::size_t D>
+long lengthen(ZVec<D>& w, const ZVec<D>& offset, const Z& radius) {
+  const Z w2 = dot(w, w), needed = 8 * (abs(dot(offset, w)) + 4 * radius * ceil_sqrt(w2));
+  const long bits = std::max(0L, bit_length(needed) - bit_length(w2) + 1);
+  for (Z& component : w) component = shifted_left(component, bits);
+  return bits;
 }
 
 }  // namespace
@@ -171,11 +218,19 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
     view.basis = scaled_basis<D>(exact.reduced, shift);
     view.velocity = velocity;
   }
+  view.rank = exact.rank;
   // Bring the offset home: subtract the lattice vector nearest to it (by rounding; any near one will do).
   const DualBasis<D>& home = obstacle.home;
   const Z det = shifted_left(home.det, shift);
+  view.volume_bits = bit_length(home.det) + static_cast<long>(D) * shift;
   for (std::size_t i = 0; i < D; ++i) {
     Z coordinate = dot(home.dual[i], view.offset.p);
+    if (i >= view.rank) {
+      const Z reach = shifted_left(home.reach[i], shift);
+      if (compare_sizes(coordinate, reach) >= 0) view.near = false;
+      view.volume_bits += lengthen(view.basis[i].p, view.offset.p, view.radius);
+      continue;
+    }
     const Z k = round_div(coordinate, det);
     if (k != 0) {
       view.offset.add_multiple(-k, view.basis[i]);
@@ -185,16 +240,17 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
     const Z reach = shifted_left(home.reach[i], shift);
     if (compare_sizes(coordinate, reach) >= 0 && det - abs(coordinate) >= reach) view.near = false;
   }
-  view.volume_bits = bit_length(home.det) + static_cast<long>(D) * shift;
   return view;
 }
 
 template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, long exponent) {
+Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
+                             long exponent) {
   const auto& exact = scene.lattices[lattice];
   Basis<D> basis = scaled_basis<D>(exact.primitive, scene.exponent - exponent);
   if (const auto& frame = exact.atoms[atom].frame) basis = mapped(frame->to_ball, std::move(basis));
-  std::swap(basis.front(), basis.back());
+  std::copy(view.basis.begin() + view.rank, view.basis.end(), basis.begin() + view.rank);
+  std::reverse(basis.begin(), basis.begin() + view.rank);
   return basis;
 }
 
@@ -204,7 +260,7 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
   const auto& exact = scene.lattices[lattice];
   ZVec<D> centre = exact.atoms[atom].position;
   for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) centre[k] += n[i] * exact.primitive[i].p[k];
+    for (std::size_t k = 0; k < D && i < exact.rank; ++k) centre[k] += n[i] * exact.primitive[i].p[k];
   for (std::size_t k = 0; k < D; ++k) centre[k] = shifted_left(centre[k], scene.exponent - exponent) - x[k];
   return centre;
 }
@@ -215,8 +271,8 @@ template struct ExactScene<2>;
 template struct ExactScene<3>;
 template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ExactVelocity<2>&, long);
 template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ExactVelocity<3>&, long);
-template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, long);
-template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, long);
+template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, const View<2>&, long);
+template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, const View<3>&, long);
 template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);
 template ZVec<3> centre_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ZVec<3>&, long);
 

@@ -35,6 +35,21 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
+/// A lattice of fewer than D vectors is completed by vectors that are perpendicular to them and to each other,
+/// with coordinates n of their own after the lattice's. What stands in other places than 0 by these is no
+/// obstacle but a copy of one. A view makes them so long that no flight meets a copy before it has met, or
+/// missed, all obstacles; so a search whose first hit is a copy has found that there is none.
+template <std::size_t D>
+void complete(Basis<D>& basis, std::size_t rank);
+
+/// True of a copy's coordinates.
+template <std::size_t D>
+bool is_copy(const ZVec<D>& n, std::size_t rank) {
+  for (std::size_t i = rank; i < D; ++i)
+    if (n[i] != 0) return true;
+  return false;
+}
+
 /// Rows of a linear map.
 template <std::size_t D>
 using ZMatrix = std::array<ZVec<D>, D>;
@@ -60,7 +75,7 @@ ZMatrix<D> transposed(const ZMatrix<D>& map) {
 template <std::size_t D>
 struct BallFrame {
   ZMatrix<D> to_ball;  ///< adj(A)
-  Basis<D> reduced;    ///< a short basis of the lattice there
+  Basis<D> reduced;    ///< a short basis of the lattice there, completed
 };
 
 /// The coordinates of p in a basis: dual p / det.
@@ -85,8 +100,9 @@ struct ExactAtom {
 
 template <std::size_t D>
 struct ExactLattice {
-  Basis<D> primitive;  ///< the scene's own vectors
-  Basis<D> reduced;    ///< a short basis of the same lattice, shortest vector first
+  std::size_t rank = D;  ///< how many vectors the scene has; the others complete them
+  Basis<D> primitive;    ///< the scene's own vectors
+  Basis<D> reduced;      ///< a short basis of the same lattice, shortest vector first
   std::vector<ExactAtom<D>> atoms;
 };
 
@@ -109,7 +125,8 @@ struct IntegerScene {
     std::optional<std::array<ZVec<D>, D>> semiaxes;  ///< of an ellipsoid
   };
   struct Lattice {
-    std::array<ZVec<D>, D> vectors;
+    std::size_t rank = D;
+    std::array<ZVec<D>, D> vectors;  ///< the first `rank`
     std::vector<Atom> atoms;
   };
   long exponent = 0;
@@ -141,7 +158,8 @@ struct ExactVelocity {
 template <std::size_t D>
 struct View {
   ExactVelocity<D> velocity;
-  Basis<D> basis;          ///< reduced
+  Basis<D> basis;  ///< reduced, and completed by vectors far longer than x is from the lattice
+  std::size_t rank = D;
   LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
   bool near = true;        ///< false: no centre is within `radius` of x (as the view was made)
   long volume_bits = 0;    ///< bit length of |det basis|
@@ -156,7 +174,8 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
 
 /// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
 template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, long exponent);
+Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
+                             long exponent);
 
 /// The centre of the obstacle (lattice, atom, n) relative to x, in the scene's own coordinates.
 template <std::size_t D>

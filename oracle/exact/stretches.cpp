@@ -122,9 +122,27 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   return fewest;
 }
 
+// Along a vector w that completes the lattice all centres are at offset.w, and the particle's place is t v.w.
 template <std::size_t D>
-bool Stretches<D>::cut(const Z& low, const Z& high,
+std::optional<Z> last_s(const View<D>& view) {
+  std::optional<Z> last;
+  for (std::size_t i = view.rank; i < D; ++i) {
+    const ZVec<D>& w = view.basis[i].p;
+    const Z speed = abs(dot(view.velocity.v, w));
+    if (speed == 0) continue;
+    const Z reach = abs(dot(view.offset.p, w)) + 4 * view.radius * ceil_sqrt(dot(w, w));
+    const Z s = ceil_div(view.velocity.v2 * reach, speed);
+    if (!last || s < *last) last = s;
+  }
+  return last;
+}
+
+template <std::size_t D>
+bool Stretches<D>::cut(const Z& low, const Z& whole_high,
                        const std::function<bool(const RowStretch<D>&)>& take) const {
+  const std::optional<Z> end = last_s(view_);
+  const Z high = end ? std::min(whole_high, *end) : whole_high;
+  if (low > high) return false;
   // What is left to do, the first of it at the back; not on the stack, for halves may be of thousands of
   // bits.
   std::vector<RowStretch<D>> left{{low, high, view_.basis}};
@@ -192,6 +210,8 @@ bool Stretches<3>::visit(const RowStretch<3>& stretch, const RowVisitor<3>& visi
                           });
 }
 
+template std::optional<Z> last_s(const View<2>&);
+template std::optional<Z> last_s(const View<3>&);
 template class Stretches<2>;
 template class Stretches<3>;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "oracle/exact/exact_line.hpp"
 #include "oracle/exact/inside.hpp"
@@ -18,7 +19,12 @@ struct RowStretch {
   Basis<D> basis;
 };
 
-/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R).
+/// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if that never ends.
+template <std::size_t D>
+std::optional<Z> last_s(const View<D>& view);
+
+/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R; up to 4
+/// radii of the obstacles where the lattice is completed, so that no copy is among them).
 template <std::size_t D>
 class Stretches {
  public:
@@ -26,7 +32,8 @@ class Stretches {
       : view_(view), reach2_(reach2), reach_(reach2 > 0 ? root_below(reach2) : Z(0)) {}
 
   /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
-  /// shorter than about the cylinder is wide), and hands them out in order, until `take` returns true.
+  /// shorter than about the cylinder is wide), and hands them out in order, until `take` returns true. Not beyond
+  /// last_s.
   /// Returns whether it did. Two neighbours share their ends.
   bool cut(const Z& low, const Z& high, const std::function<bool(const RowStretch<D>&)>& take) const;
 

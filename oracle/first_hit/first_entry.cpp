@@ -41,10 +41,7 @@ Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query) 
   if (seen.around) return seen;
   auto view = views.begin();
   for_each_atom(scene, [&](int lattice, int atom) {
-    const Z rho2 = view->radius2 * view->velocity.v2;
-    search_first_hit(Search<D>{*view, view->velocity, lattice, atom, query.from_in(lattice, atom), rho2,
-                               root_below(rho2), seen.earliest});
-    ++view;
+    search_first_hit(*view++, lattice, atom, query.from_in(lattice, atom), seen.earliest);
   });
   return seen;
 }

@@ -15,4 +15,29 @@ void search_first_hit(const Search<2>& search);
 /// 3D, any lattice: by exact lattice reduction in windows along the flight.
 void search_first_hit(const Search<3>& search);
 
+/// The only row of a lattice of one vector. (RowsInPlane and RowsInSpace solve it as a whole.)
+inline void search_only_row(const Search<2>& search) {
+  const FlightPoint step(search.velocity, search.view.basis[0]);
+  RowsInPlane(search, step).offer_first(FlightPoint(search.velocity, search.view.offset));
+}
+inline void search_only_row(const Search<3>& search) {
+  RowsInSpace(search, search.view.basis[0]).offer_first(search.view.offset);
+}
+
+/// The same of a view, whose lattice may have fewer than D vectors. If the search finds a copy, no obstacle is
+/// entered: all that there are would have been entered before it.
+template <std::size_t D>
+void search_first_hit(const View<D>& view, int lattice, int atom, const ZVec<D>* from,
+                      Earliest<D>& earliest) {
+  const Z rho2 = view.radius2 * view.velocity.v2;
+  if (view.rank == D)
+    return search_first_hit(
+        Search<D>{view, view.velocity, lattice, atom, from, rho2, root_below(rho2), earliest});
+  Earliest<D> found = earliest;
+  const Search<D> search{view, view.velocity, lattice, atom, from, rho2, root_below(rho2), found};
+  view.rank < 2 ? search_only_row(search) : search_first_hit(search);
+  const bool is_new = found.found() && found.entry().lattice == lattice && found.entry().atom == atom;
+  if (is_new && !is_copy(found.entry().n, view.rank)) earliest = std::move(found);
+}
+
 }  // namespace lorentz::oracle

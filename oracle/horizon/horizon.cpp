@@ -214,6 +214,8 @@ Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
                    const SearchProgress& progress) {
   if (!(min_width >= 0 && std::isfinite(min_width)))
     throw InputError("min_width: needs a number, 0 or above");
+  if (!is_crystal(scene))
+    throw InputError("horizon: does crystals only, lattices that repeat in all directions");
   return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false, progress)
                               : horizon_in<3>(scene, min_width, with_cylinders, progress);
 }

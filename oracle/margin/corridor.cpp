@@ -108,6 +108,7 @@ class CorridorSearch {
 
   bool found() const {
     for (const ExactLattice<D>& lattice : query_.scene().lattices) {
+      if (lattice.rank < D) continue;
       if (along_planes(lattice.reduced)) return true;
       if (D == 3 && along_vectors(lattice.reduced)) return true;
     }
@@ -130,10 +131,8 @@ class CorridorSearch {
       }
       if (view.radius <= 0) continue;
       view.radius2 = view.radius * view.radius;
-      const Z rho2 = view.radius2 * view.velocity.v2;
       Earliest<D> earliest;
-      search_first_hit(Search<D>{view, view.velocity, atom.lattice(), atom.atom(), nullptr, rho2,
-                                 root_below(rho2), earliest});
+      search_first_hit<D>(view, atom.lattice(), atom.atom(), nullptr, earliest);
       if (earliest.found()) return false;
     }
     return true;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "oracle/exact/stretches.hpp"
+#include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
@@ -227,9 +228,13 @@ Margins::~Margins() = default;
 
 std::optional<HardestDecision> Margins::hardest_decision(const Query& query, const Answer& exact,
                                                          long budget) const {
-  if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
-  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-    return std::optional(MarginSearch<D>(perturbed, exact, budget).run());
+  const bool is_never = exact.outcome == Outcome::never;
+  if (!is_never && exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
+  using Decision = std::optional<HardestDecision>;
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) -> Decision {
+    if (!is_never) return MarginSearch<D>(perturbed, exact, budget).run();
+    if (!is_open_everywhere(perturbed.scene())) return std::nullopt;
+    return hardest_miss(perturbed, std::max(budget, kSmallBudget));
   });
 }
 

@@ -16,9 +16,17 @@ double ulp(double value) {
 template <std::size_t D>
 InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact) {
   double size = 0;
-  for (const Lattice& lattice : scene.lattices)
-    for (const Vec& u : lattice.vectors)
-      for (const double component : u) size = std::max(size, std::fabs(component));
+  const auto see = [&](const Vec& a) {
+    for (const double component : a) size = std::max(size, std::fabs(component));
+  };
+  for (const Lattice& lattice : scene.lattices) {
+    for (const Vec& u : lattice.vectors) see(u);
+    if (lattice.missing == 0) continue;
+    for (const Atom& atom : lattice.atoms) {
+      see(atom.position), size = std::max(size, atom.radius);
+      for (const Vec& axis : atom.semiaxes) see(axis);
+    }
+  }
   for (std::size_t i = 0; i < D; ++i) {
     x[i] = times_power_of_two(Real(std::max(ulp(query.x[i]), ulp(size))), -exact.length_exponent);
     v[i] = query.v[i] == 0 ? Real(0) : times_power_of_two(Real(ulp(query.v[i])), -exact.velocity_exponent);

@@ -1,6 +1,7 @@
 // How much a decision changes when the inputs move by an ulp each (docs/verdicts.md). Private to oracle/.
 //
-// The inputs: the components of x, each by max(ulp(x_i), ulp(size of the cell)); those of v, each by
+// The inputs: the components of x, each by max(ulp(x_i), ulp(size)), the size that of the primitive vectors,
+// and of what lattices that repeat in fewer directions hold; those of v, each by
 // ulp(v_i), a zero not at all; the radius of each atom by an ulp, an ellipsoid by a factor 1 +- 2^-52.
 // Everything is in the coordinates of one atom's View, in which its obstacles are balls: a change dx of x is
 // B dx there, B = to_ball. With T = s / v^2 the time at which the line is nearest to the centre c, and t the

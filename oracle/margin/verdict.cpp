@@ -5,6 +5,7 @@
 
 #include "oracle/exact/stretches.hpp"
 #include "oracle/margin/corridor.hpp"
+#include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
@@ -89,7 +90,38 @@ class DepartureBound {
   void bound_never() {
     bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
     if (exceeds_tolerance() || exact_.outcome == Outcome::never) return;
+    if (is_open_everywhere(query_.scene())) return bound_all_entered();
     needs(open_near(query_, ulps_) ? ulps_to_open_way() : kInfinity, exact_.obstacle);
+  }
+
+  // No obstacle is entered with more than k to spare.
+  void bound_all_entered() {
+    for (const Uncertain<D>& atom : query_.atoms()) {
+      const View<D>& view = atom.view();
+      const Stretches<D> stretches(view, atom.rho2());
+      const std::optional<Z> end = last_s(view);
+      const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                      const Z& last) {
+        visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
+          ++passed_over_;
+          const Centre<D> centre(view.velocity, point);
+          const bool entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= view.radius2;
+          if (entered && !query_.is_from(atom, point.n)) needs(atom.margin_of_meeting(centre), atom, centre);
+        });
+        return exceeds_tolerance() || passed_over_ > kMostPassedOver;
+      };
+      // Of a flight along the lattice as far as the first obstacle with more to spare.
+      Z low = 1, high = root_below(atom.rho2()) + 2;
+      for (bool done = false; !done && passed_over_ <= kMostPassedOver; low = high, high *= 2) {
+        done = end && high >= *end;
+        const Z limit = done ? *end : high;
+        if (low < limit)
+          done |= stretches.cut(low, limit, [&](const RowStretch<D>& stretch) {
+            return stretches.visit(stretch, visit) || ++passed_over_ > kMostPassedOver;
+          });
+      }
+      if (exceeds_tolerance()) return;
+    }
   }
 
   // The tolerance is enough. How much of it is, to 1 part in 1000?

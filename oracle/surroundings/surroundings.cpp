@@ -94,7 +94,7 @@ class SightLine {
     const RowVisitor<D> row = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
       LatticePoint<D> point = first;
       for (Z k = 0; k <= last && count <= most; ++k, point.add_multiple(1, step))
-        if (++count <= most)
+        if (!is_copy(point.n, scene_.lattices[l].rank) && ++count <= most)
           found.obstacles.push_back({{l, a, to_cell<D>(point.n)}, rounded_vector(point.p)});
       return count > most;
     };

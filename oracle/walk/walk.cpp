@@ -3,6 +3,9 @@
 // surface has |n_i - y_i| <= r |row i of M^-1| =: R_i for that obstacle, and lies within 1/2 of its cell, so
 // an obstacle that is entered in a cell has its n within K_i = floor(R_i + 1/2) of the cell's: all of these
 // are tested, each exactly. The walk ends in the cell that the ray leaves after the earliest entry found.
+//
+// A lattice of fewer vectors gets others for the missing ones, perpendicular to its own and so long that all
+// its obstacles, and x, are within half of one: the ray that leaves a cell across such a one meets no more.
 #include <lorentz/walk.hpp>
 
 #include <CGAL/MP_Float.h>
@@ -55,6 +58,7 @@ class AtomWalk {
  public:
   AtomWalk(const Scene& scene, int lattice, int atom, const Query& query)
       : dimension_(scene.dimension), lattice_(lattice), atom_(atom) {
+    rank_ = scene.lattices[lattice].rank(dimension_);
     for (int i = 0; i < 3; ++i) u_[i] = exact(scene.lattices[lattice].vectors[i]);
     if (dimension_ == 2) u_[2] = {Real(0), Real(0), Real(1)};
     const Atom& obstacle = scene.lattices[lattice].atoms[atom];
@@ -64,6 +68,7 @@ class AtomWalk {
     if (!obstacle.is_ball()) r = make_balls(obstacle.semiaxes);
     r2_ = r * r;
     v2_ = inner(v_, v_);
+    complete(r);
     if (query.from && query.from->lattice == lattice && query.from->atom == atom) from_ = query.from->cell;
     // y_i(t) = (Y_i + t W_i) / det.
     RealVec row[3] = {outer(u_[1], u_[2]), outer(u_[2], u_[0]), outer(u_[0], u_[1])};
@@ -109,6 +114,7 @@ class AtomWalk {
       const Ratio end = leaving(n, axis);
       if (limit && end >= *limit) return WalkEnd::done;
       if (best && CGAL::compare(Root(end), best->time) != CGAL::SMALLER) return WalkEnd::done;
+      if (axis >= rank_) return WalkEnd::done;
       n[axis] += sign;
       around(n, axis, sign, [&](const Index& m) { test(m, best); });
       // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing
@@ -233,7 +239,27 @@ class AtomWalk {
     return true;
   }
 
-  int dimension_, lattice_, atom_;
+  // The missing vectors.
+  void complete(const Real& r) {
+    if (rank_ == dimension_) return;
+    const RealVec z{Real(0), Real(0), Real(1)};
+    if (rank_ == 0) u_[0] = {Real(1), Real(0), Real(0)};
+    if (rank_ <= 1) {
+      u_[1] = outer(z, u_[0]);
+      if (inner(u_[1], u_[1]) == Real(0)) u_[1] = {Real(1), Real(0), Real(0)};
+    }
+    if (rank_ <= 2 && dimension_ == 3) u_[2] = outer(u_[0], u_[1]);
+    for (int i = rank_; i < dimension_; ++i)
+      while (!is_long(u_[i], r))
+        for (Real& component : u_[i]) component = component * Real(2);
+  }
+
+  // |u| > 4 (|s.u| / |u| + r), s from x to the atom's place; with |s.u| / |u| < |s| and squares for roots.
+  bool is_long(const RealVec& u, const Real& r) const {
+    return inner(u, u) > Real(64) * (inner(start_, start_) + r * r);
+  }
+
+  int dimension_, lattice_, atom_, rank_ = 0;
   std::array<RealVec, 3> u_;
   RealVec v_, start_, Y_, W_;
   Real r2_, v2_, det_;

@@ -103,7 +103,7 @@ class Errors {
                     : worst_.wrong_time ? "wrong-time"
                                         : "agree";
     worst.ulps = worst_.ulps;
-    worst.query = report::hexadecimal_query(question_.query, question_.place->scene().dimension);
+    worst.query = report::hexadecimal_query(question_.query, question_.place->scene());
     worst.command =
         fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine {}", worst.query,
                     shell_quoted(group.scene), group.radius ? " --radius " + text_of(*group.radius) : "",

@@ -28,6 +28,8 @@ std::unique_ptr<Engine> make(const Scene& scene) {
   return std::make_unique<E>(scene);
 }
 
+constexpr const char* kCrystals = "does crystals only: lattices that repeat in all directions";
+
 // All engines: name, why a scene is beyond it (or nothing), and how it is made.
 struct EngineEntry {
   const char* name;
@@ -52,8 +54,8 @@ std::vector<std::string> engine_names() {
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;
-    if (auto why = entry.beyond(scene))
-      return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
+    const auto why = is_crystal(scene) ? entry.beyond(scene) : std::optional<std::string>(kCrystals);
+    if (why) return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
     return entry.make(scene);
   }
   return nullptr;

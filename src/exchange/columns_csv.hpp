@@ -6,12 +6,14 @@
 
 namespace lorentz {
 
-/// Reads queries. A bad line becomes a row with a flaw.
+/// Reads queries. A bad line becomes a row with a flaw. Of a lattice with fewer vectors than dimensions the last
+/// columns of cells are empty (or 0).
 class CsvQueryReader final : public ColumnReader {
  public:
   /// Opens the file, or standard input for "-", and reads its first line. Throws FileError, or InputError if
   /// the columns are not those of queries in so many dimensions.
-  CsvQueryReader(const std::string& path, int dimension, const OnUnknownColumn& on_unknown_column);
+  CsvQueryReader(const std::string& path, const Components& components,
+                 const OnUnknownColumn& on_unknown_column);
 
   bool next(QueryRows& rows, std::size_t most) override;
   const std::string& name() const override { return table_.lines().name(); }
@@ -33,6 +35,7 @@ class CsvQueryReader final : public ColumnReader {
   void read_from(Row& row) const;
   void push_back(const Row& row, QueryRows& rows) const;
 
+  const Components components_;
   const int dimension_;
   std::array<std::size_t, 3> x_{}, v_{}, from_cell_{};
   std::size_t max_time_ = kNone, from_lattice_ = kNone, from_atom_ = kNone, id_ = kNone;
@@ -43,7 +46,7 @@ class CsvQueryReader final : public ColumnReader {
 class CsvAnswerReader final : public AnswerReader {
  public:
   /// As CsvQueryReader; unknown columns are ignored.
-  CsvAnswerReader(const std::string& path, int dimension);
+  CsvAnswerReader(const std::string& path, const Components& components);
 
   bool next(Answer& answer, Id& id) override;
   const std::string& name() const override { return table_.lines().name(); }
@@ -52,6 +55,7 @@ class CsvAnswerReader final : public AnswerReader {
   void understand(const CsvTable& table);
   Answer answer_of() const;
 
+  const Components components_;
   const int dimension_;
   std::size_t outcome_ = 0, lattice_ = 0, atom_ = 0, time_ = 0, id_ = CsvTable::kNone;
   std::array<std::size_t, 3> cell_{};
@@ -64,12 +68,13 @@ std::vector<std::string> csv_query_columns(int dimension);
 
 /// The line of names of queries, without ids and limits; and queries, a line each.
 void append_csv_query_names(std::string& out, int dimension, bool with_from);
-void append_csv_queries(std::string& out, const QueryRows& queries, int dimension);
+void append_csv_queries(std::string& out, const QueryRows& queries, const Components& components);
 
 /// The line of names of answers.
 void append_csv_names(std::string& out, int dimension, bool with_ids);
 
 /// Answers, a line each; the ids are those of the queries.
-void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers, bool with_ids);
+void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers,
+                        const Components& components, bool with_ids);
 
 }  // namespace lorentz

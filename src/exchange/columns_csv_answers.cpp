@@ -13,10 +13,11 @@ std::vector<std::string> columns(int dimension) {
 
 }  // namespace
 
-CsvAnswerReader::CsvAnswerReader(const std::string& path, int dimension)
-    : dimension_(dimension),
+CsvAnswerReader::CsvAnswerReader(const std::string& path, const Components& components)
+    : components_(components),
+      dimension_(components.of_vectors()),
       table_(
-          path, columns(dimension), [this](const CsvTable& table) { understand(table); },
+          path, columns(dimension_), [this](const CsvTable& table) { understand(table); },
           [](const std::string&, const std::string&) {}) {}
 
 void CsvAnswerReader::understand(const CsvTable& table) {
@@ -42,6 +43,9 @@ Answer CsvAnswerReader::answer_of() const {
   };
   answer.obstacle.lattice = index(lattice_), answer.obstacle.atom = index(atom_);
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
+    if (static_cast<int>(k) >= components_.of_cells(answer.obstacle.lattice) &&
+        table_.field(cell_[k]).empty())
+      continue;
     auto coordinate = Integer::from_decimal(table_.field(cell_[k]));
     answer.obstacle.cell[k] = coordinate ? std::move(*coordinate) : Integer(table_.integer(cell_[k]));
   }

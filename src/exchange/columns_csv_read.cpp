@@ -26,11 +26,12 @@ std::vector<std::string> csv_query_columns(int dimension) {
   return names;
 }
 
-CsvQueryReader::CsvQueryReader(const std::string& path, int dimension,
+CsvQueryReader::CsvQueryReader(const std::string& path, const Components& components,
                                const OnUnknownColumn& on_unknown_column)
-    : dimension_(dimension),
+    : components_(components),
+      dimension_(components.of_vectors()),
       table_(
-          path, csv_query_columns(dimension), [this](CsvTable& table) { understand(table); },
+          path, csv_query_columns(dimension_), [this](CsvTable& table) { understand(table); },
           on_unknown_column) {
   table_.lines().before_waiting([this] {
     if (!is_ready(table_.lines().descriptor())) before_waiting_();
@@ -98,7 +99,9 @@ void CsvQueryReader::read_from(Row& row) const {
   row.from_lattice = index(from_lattice_);
   if (row.from_lattice < 0) return;
   row.from_atom = index(from_atom_);
-  for (int k = 0; k < dimension_; ++k) row.from_cell[k] = table_.integer(from_cell_[k]);
+  for (int k = 0; k < dimension_; ++k)
+    if (k < components_.of_cells(row.from_lattice) || !table_.field(from_cell_[k]).empty())
+      row.from_cell[k] = table_.integer(from_cell_[k]);
 }
 
 void CsvQueryReader::push_back(const Row& row, QueryRows& rows) const {

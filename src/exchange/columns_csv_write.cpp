@@ -28,12 +28,14 @@ void append_text(std::string& out, const std::string& text) {
   out += '"';
 }
 
-void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large) {
+void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large,
+                           const Components& components) {
   append_int(out, answers.lattice[i]);
   out += ',';
   append_int(out, answers.atom[i]);
   for (int k = 0; k < answers.dimension; ++k) {
     out += ',';
+    if (k >= components.of_cells(answers.lattice[i])) continue;
     if (large)
       out += (*large)[k].decimal();
     else
@@ -64,7 +66,8 @@ void append_csv_query_names(std::string& out, int dimension, bool with_from) {
   out.back() = '\n';
 }
 
-void append_csv_queries(std::string& out, const QueryRows& queries, int dimension) {
+void append_csv_queries(std::string& out, const QueryRows& queries, const Components& components) {
+  const int dimension = components.of_vectors();
   for (std::size_t i = 0; i < queries.count; ++i) {
     for (const auto* vector : {&queries.x, &queries.v})
       for (int k = 0; k < dimension; ++k) {
@@ -77,7 +80,7 @@ void append_csv_queries(std::string& out, const QueryRows& queries, int dimensio
       append_int(out, queries.from_atom[i]);
       for (int k = 0; k < dimension; ++k) {
         out += ',';
-        append_int(out, queries.from_cell[k][i]);
+        if (k < components.of_cells(queries.from_lattice[i])) append_int(out, queries.from_cell[k][i]);
       }
       out += ',';
     }
@@ -93,7 +96,7 @@ void append_csv_names(std::string& out, int dimension, bool with_ids) {
 }
 
 void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers,
-                        bool with_ids) {
+                        const Components& components, bool with_ids) {
   std::size_t next_large = 0;
   for (std::size_t i = 0; i < answers.count; ++i) {
     if (with_ids) {
@@ -106,7 +109,8 @@ void append_csv_answers(std::string& out, const QueryRows& queries, const Answer
     const bool is_large =
         next_large < answers.large_cells.size() && answers.large_cells[next_large].first == i;
     if (outcome == Outcome::hit || outcome == Outcome::inside)
-      append_obstacle_cells(out, answers, i, is_large ? &answers.large_cells[next_large].second : nullptr);
+      append_obstacle_cells(out, answers, i, is_large ? &answers.large_cells[next_large].second : nullptr,
+                            components);
     else
       out.append(static_cast<std::size_t>(answers.dimension) + 2, ',');
     next_large += is_large;

@@ -67,14 +67,13 @@ FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
     } else if (key == "cell") {
       CellRead cell = read_cell(member);
       from.obstacle.cell = std::move(cell.cell);
-      from.components = cell.count;
+      from.components = cell.count, from.cell = true;
     } else {
       if (on_unknown_key) on_unknown_key("from." + std::string(key));
       skip(member, 2);
     }
   });
-  if (!from.lattice || !from.atom || from.components == 0)
-    throw InputError("from: needs lattice, atom and cell");
+  if (!from.lattice || !from.atom || !from.cell) throw InputError("from: needs lattice, atom and cell");
   return from;
 }
 

@@ -38,7 +38,7 @@ std::optional<Outcome> outcome_named(std::string_view name);
 struct FromRead {
   ObstacleId obstacle;
   std::size_t components = 0;
-  bool lattice = false, atom = false;
+  bool lattice = false, atom = false, cell = false;
 };
 
 /// The obstacle that is left; throws InputError.
@@ -52,6 +52,17 @@ bool is_blank(const LineReader::Line& line);
 /// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not
 /// for the scene before it.
 bool begins_as_scene(std::string_view text);
+
+/// Throws InputError unless the cell has as many coordinates as its lattice has vectors.
+template <class AScene>
+void check_cell(const FromRead& from, const AScene& scene) {
+  const auto l = static_cast<std::size_t>(from.obstacle.lattice);
+  if (l >= scene.lattices.size()) return;  // which is told elsewhere
+  const int rank = scene.dimension - scene.lattices[l].missing;
+  if (from.components != static_cast<std::size_t>(rank))
+    throw InputError("from.cell: has " + std::to_string(from.components) + " components, the lattice has " +
+                     std::to_string(rank) + " vectors");
+}
 
 /// Throws InputError unless `count` is the scene's dimension.
 void check_dimension(const char* what, std::size_t count, int dimension);

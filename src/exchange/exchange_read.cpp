@@ -45,7 +45,7 @@ Query query_from(QueryFields& fields, const Scene& scene) {
   check_dimension("v", fields.v.count, scene.dimension);
   Query query{fields.x.values, fields.v.values, {}};
   if (fields.from) {
-    check_dimension("from.cell", fields.from->components, scene.dimension);
+    check_cell(*fields.from, scene);
     query.from = std::move(fields.from->obstacle);
   }
   if (auto flaw = flaw_of(query, scene)) throw InputError(*flaw);
@@ -100,7 +100,7 @@ double read_time(json::Value value) {
 }
 
 struct AnswerFields {
-  bool outcome = false, lattice = false, atom = false, golden = false;
+  bool outcome = false, lattice = false, atom = false, cell = false, golden = false;
   std::size_t components = 0;  // of the cell
 };
 
@@ -126,7 +126,7 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
   } else if (key == "cell") {
     CellRead cell = read_cell(value);
     answer.obstacle.cell = std::move(cell.cell);
-    has.components = cell.count;
+    has.components = cell.count, has.cell = true;
   } else if (key == "time") {
     answer.time = read_time(value);
   } else if (key == "message") {
@@ -152,7 +152,7 @@ bool read_answer(json::Object object, Id& id, Answer& answer, std::size_t& compo
   if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
   const bool names_obstacle = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-  if (names_obstacle && !(has.lattice && has.atom && has.components > 0))
+  if (names_obstacle && !(has.lattice && has.atom && has.cell))
     throw InputError("needs lattice, atom and cell");
   components = has.components;
   return true;

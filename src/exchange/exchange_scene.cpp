@@ -92,12 +92,13 @@ std::array<Number, 3> vector_at(const SceneNode& node, int dimension, const std:
 }
 
 template <class Number>
-std::vector<std::array<Number, 3>> vectors_at(const SceneNode& node, int dimension,
+std::vector<std::array<Number, 3>> vectors_at(const SceneNode& node, int dimension, bool all,
                                               const std::string& place) {
   const auto& array = array_at(node, place);
-  if (array.size() != static_cast<std::size_t>(dimension))
-    throw InputError(place + ": needs " + std::to_string(dimension) + " vectors, has " +
-                     std::to_string(array.size()));
+  const auto most = static_cast<std::size_t>(dimension);
+  if (array.size() > most || (all && array.size() < most))
+    throw InputError(place + ": needs " + std::to_string(dimension) + " vectors" + (all ? "" : " at most") +
+                     ", has " + std::to_string(array.size()));
   std::vector<std::array<Number, 3>> result;
   for (std::size_t i = 0; i < array.size(); ++i)
     result.push_back(vector_at<Number>(array[i], dimension, item(place, i)));
@@ -116,7 +117,7 @@ AnAtom atom_from(const SceneNode& node, int dimension, const std::string& place)
   if (radius)
     atom.radius = number_at<Number>(*radius, place + ".radius");
   else
-    atom.semiaxes = vectors_at<Number>(*semiaxes, dimension, place + ".semiaxes");
+    atom.semiaxes = vectors_at<Number>(*semiaxes, dimension, true, place + ".semiaxes");
   return atom;
 }
 
@@ -156,8 +157,9 @@ AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   for (std::size_t l = 0; l < lattices.size(); ++l) {
     const std::string place = item("lattices", l);
     ALattice lattice;
-    auto vectors =
-        vectors_at<Number>(required(lattices[l], "vectors", place), scene.dimension, place + ".vectors");
+    auto vectors = vectors_at<Number>(required(lattices[l], "vectors", place), scene.dimension, false,
+                                      place + ".vectors");
+    lattice.missing = scene.dimension - static_cast<int>(vectors.size());
     std::move(vectors.begin(), vectors.end(), lattice.vectors.begin());
     const auto& atoms = array_at(required(lattices[l], "atoms", place), place + ".atoms");
     for (std::size_t a = 0; a < atoms.size(); ++a)

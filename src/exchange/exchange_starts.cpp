@@ -57,7 +57,7 @@ Start start_from(const StartFields& fields, const RationalScene& scene) {
     for (std::size_t i = 0; i < v.size(); ++i) start.v[i] = surd_at(v[i], "v");
   }
   if (fields.from) {
-    check_dimension("from.cell", fields.from->components, scene.dimension);
+    check_cell(*fields.from, scene);
     start.from = fields.from->obstacle;
   }
   if (auto flaw = flaw_of(start, scene)) throw InputError(*flaw);

@@ -73,7 +73,8 @@ void add_atom(json::Members& object, const Atom& atom, int dimension) {
 
 void add_lattice(json::Members& object, const Lattice& lattice, int dimension) {
   std::vector<std::span<const double>> vectors;
-  for (int i = 0; i < dimension; ++i) vectors.push_back(components(lattice.vectors[i], dimension));
+  for (int i = 0; i < lattice.rank(dimension); ++i)
+    vectors.push_back(components(lattice.vectors[i], dimension));
   object.add("vectors", vectors, "atoms",
              json::objects(lattice.atoms,
                            [&](json::Members& one, const Atom& atom) { add_atom(one, atom, dimension); }));
@@ -91,9 +92,9 @@ void add_hit(json::Members& object, const Answer& answer, int dimension) {
 
 }  // namespace
 
-void add_obstacle(json::Members& object, const ObstacleId& obstacle, int dimension) {
+void add_obstacle(json::Members& object, const ObstacleId& obstacle, const Components& count) {
   object.add("lattice", obstacle.lattice, "atom", obstacle.atom, "cell",
-             components(obstacle.cell, dimension));
+             components(obstacle.cell, count.of_cells(obstacle.lattice)));
 }
 
 void add_scene(json::Members& object, const Scene& scene) {
@@ -103,17 +104,16 @@ void add_scene(json::Members& object, const Scene& scene) {
              }));
 }
 
-void add_query(json::Members& object, const Query& query, int dimension) {
-  object.add("x", components(query.x, dimension), "v", components(query.v, dimension));
-  if (query.from)
-    object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, dimension); });
+void add_query(json::Members& object, const Query& query, const Components& count) {
+  object.add("x", components(query.x, count.of_vectors()), "v", components(query.v, count.of_vectors()));
+  if (query.from) object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, count); });
 }
 
-void add_answer(json::Members& object, const Answer& answer, int dimension) {
+void add_answer(json::Members& object, const Answer& answer, const Components& count) {
   object.add("outcome", json::PlainText{name_of(answer.outcome)});
   if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside)
-    add_obstacle(object, answer.obstacle, dimension);
-  if (answer.outcome == Outcome::hit) add_hit(object, answer, dimension);
+    add_obstacle(object, answer.obstacle, count);
+  if (answer.outcome == Outcome::hit) add_hit(object, answer, count.of_vectors());
   if (answer.outcome != Outcome::error) return;
   object.add("message", answer.message);
   if (answer.unsupported) object.add("reason", "unsupported");
@@ -126,18 +126,18 @@ void append_scene_line(std::string& out, const Scene& scene) {
   out += '\n';
 }
 
-void append_query_line(std::string& out, const Id& id, const Query& query, int dimension) {
+void append_query_line(std::string& out, const Id& id, const Query& query, const Components& count) {
   json::append(out, [&](json::Members& line) {
     line.add("id", json::Raw{id});
-    add_query(line, query, dimension);
+    add_query(line, query, count);
   });
   out += '\n';
 }
 
-void append_answer_line(std::string& out, const Id& id, const Answer& answer, int dimension) {
+void append_answer_line(std::string& out, const Id& id, const Answer& answer, const Components& count) {
   json::append(out, [&](json::Members& line) {
     line.add("id", json::Raw{id});
-    add_answer(line, answer, dimension);
+    add_answer(line, answer, count);
   });
   out += '\n';
 }

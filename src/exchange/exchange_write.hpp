@@ -9,22 +9,22 @@
 namespace lorentz {
 
 void add_scene(json::Members& object, const Scene& scene);
-void add_query(json::Members& object, const Query& query, int dimension);
-void add_answer(json::Members& object, const Answer& answer, int dimension);
+void add_query(json::Members& object, const Query& query, const Components& count);
+void add_answer(json::Members& object, const Answer& answer, const Components& count);
 
 /// The same as values.
-inline auto json_of(const Query& query, int dimension) {
-  return [&query, dimension](json::Members& object) { add_query(object, query, dimension); };
+inline auto json_of(const Query& query, const Components& count) {
+  return [&query, count](json::Members& object) { add_query(object, query, count); };
 }
-inline auto json_of(const Answer& answer, int dimension) {
-  return [&answer, dimension](json::Members& object) { add_answer(object, answer, dimension); };
+inline auto json_of(const Answer& answer, const Components& count) {
+  return [&answer, count](json::Members& object) { add_answer(object, answer, count); };
 }
 inline void append_json(std::string& out, const Scene& scene) {
   json::append(out, [&](json::Members& object) { add_scene(object, scene); });
 }
 
 /// Lattice, atom and cell.
-void add_obstacle(json::Members& object, const ObstacleId& obstacle, int dimension);
+void add_obstacle(json::Members& object, const ObstacleId& obstacle, const Components& count);
 
 /// The first components of a vector or of a cell: a 2D problem has two.
 template <class Three>

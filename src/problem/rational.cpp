@@ -149,6 +149,7 @@ RationalScene rational(const Scene& scene) {
   RationalScene result{scene.dimension, {}};
   for (const Lattice& lattice : scene.lattices) {
     RationalLattice& its = result.lattices.emplace_back();
+    its.missing = lattice.missing;
     for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = vector(lattice.vectors[i]);
     for (const Atom& atom : lattice.atoms) {
       RationalAtom& obstacle = its.atoms.emplace_back();

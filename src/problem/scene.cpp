@@ -1,5 +1,7 @@
 #include <lorentz/scene.hpp>
 
+#include <algorithm>
+
 #include "src/problem/finite.hpp"
 
 namespace lorentz {
@@ -28,14 +30,24 @@ std::optional<std::string> flaw_of(const Scene& scene) {
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     const std::string where = "lattice " + std::to_string(l);
-    for (int i = 0; i < scene.dimension; ++i)
+    if (lattice.missing < 0 || lattice.missing > scene.dimension)
+      return where + ": needs from 0 to " + std::to_string(scene.dimension) + " primitive vectors";
+    for (int i = 0; i < scene.dimension; ++i) {
       if (!all_finite(lattice.vectors[i])) return where + ": a primitive vector is not finite";
+      if (i >= lattice.rank(scene.dimension) && lattice.vectors[i] != Vec{})
+        return where + ": has more primitive vectors than it says";
+    }
     if (lattice.atoms.empty()) return where + ": needs at least one atom";
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a)
       if (auto flaw = flaw_of_atom(lattice.atoms[a], scene.dimension))
         return where + ", atom " + std::to_string(a) + ": " + *flaw;
   }
   return std::nullopt;
+}
+
+bool is_crystal(const Scene& scene) {
+  return std::all_of(scene.lattices.begin(), scene.lattices.end(),
+                     [](const Lattice& lattice) { return lattice.missing == 0; });
 }
 
 Scene unit_scene(int dimension, double radius) {
@@ -51,7 +63,7 @@ Scene unit_scene(int dimension, double radius) {
 bool is_unit_scene(const Scene& scene) {
   if (scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1) return false;
   const Atom& atom = scene.lattices[0].atoms[0];
-  return atom.is_ball() && atom.position == Vec{} &&
+  return atom.is_ball() && atom.position == Vec{} && is_crystal(scene) &&
          scene.lattices[0].vectors == unit_scene(scene.dimension, 1).lattices[0].vectors;
 }
 

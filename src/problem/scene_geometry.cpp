@@ -128,6 +128,7 @@ Scene scaled(Scene scene, int exponent) {
 }  // namespace
 
 std::optional<AtomShares> shares_of(const Scene& given) {
+  if (!is_crystal(given)) return std::nullopt;
   const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
   AtomShares shares{std::scalbn(1.0, exponent), {}};
   for (const Lattice& lattice : scaled(given, -exponent).lattices) {

@@ -32,7 +32,8 @@ struct AtomShares {
   std::vector<AtomShare> atoms;
 };
 
-/// Nothing if an obstacle is so large, small or slender that it is beyond the range of binary64.
+/// Nothing if a lattice repeats in fewer directions, or an obstacle is so large, small or slender that it is
+/// beyond the range of binary64.
 std::optional<AtomShares> shares_of(const Scene& scene);
 
 /// Of a scene without overlaps: the share of space that the obstacles take, their surface per volume, and the

@@ -40,6 +40,8 @@ Vec rounded(const Point<Wide>& a) {
 
 Places::Places(const Scene& scene) : scene_(scene) {
   if (const auto flaw = flaw_of(scene)) throw std::invalid_argument(*flaw);
+  if (!is_crystal(scene))
+    throw std::invalid_argument("trajectories are of crystals only: lattices that repeat in all directions");
   if (!in_range(scene))
     throw std::invalid_argument("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
 }

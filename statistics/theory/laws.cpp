@@ -66,6 +66,7 @@ double smooth_from(const Scene& scene, Ensemble ensemble) {
 
 Laws laws_of(const Scene& scene, Ensemble ensemble) {
   Laws result;
+  if (!is_crystal(scene)) return result.none = "for crystals only", result;
   const auto small = small_obstacles_of(scene, result.none);
   if (small)
     result.laws.push_back(

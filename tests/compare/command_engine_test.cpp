@@ -122,7 +122,7 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
       {"unknown-id", bad_line + "gave an answer with an id that no query has, 123456", "123456"},
       {"skips", "cmd gave no answer to this query before that to a later one",
        "gave no answer to this query"},
-      {"dimension", "cmd gave a cell of 3 components in a scene of dimension 2", "3 components"},
+      {"dimension", "cmd gave a cell of 3 components of a lattice of 2 vectors", "3 components"},
       {"twice", "", "answered this query again"},
   }));
   const Run run = folder.lorentz("first-hit --engine " + odd(fault.name) + " " + queries);

@@ -187,7 +187,7 @@ TEST_CASE("CSV: answers, a line each", "[exchange][csv]") {
   queries.id = {"a", "b,c", "\"", " d", "", "e", "f"};
   std::string out;
   append_csv_names(out, 2, true);
-  append_csv_answers(out, queries, answers, true);
+  append_csv_answers(out, queries, answers, 2, true);
   CHECK(out ==
         "id,outcome,lattice,atom,cell1,cell2,time\n"
         "a,hit,0,1,-3,4,0.1\n"

@@ -351,7 +351,7 @@ TEST_CASE("A bad answer line is refused, not guessed at", "[exchange]") {
   std::size_t components = 0;
   for (const char* text : {R"({"id":1})", R"({"id":1,"outcome":"maybe"})", R"({"id":1,"outcome":"hit"})",
                            R"({"id":1,"outcome":"hit","atom":0,"cell":[1,2],"time":1})",
-                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[]})",
+                           R"({"id":1,"outcome":"hit","lattice":0,"atom":0})",
                            R"({"id":1,"outcome":"hit","lattice":-1,"atom":0,"cell":[1,2],"time":1})"}) {
     INFO(text);
     CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer, components), InputError);
@@ -448,8 +448,8 @@ TEST_CASE("Every sort of bad scene is told by its place", "[exchange]") {
   CHECK(message("5").find("needs an object") != std::string::npos);
   CHECK(message("{\"dimension\":4,\"lattices\":[]}").find("must be 2 or 3") != std::string::npos);
   CHECK(message("{\"dimension\":2,\"lattices\":[]}").find("at least one lattice") != std::string::npos);
-  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0]],\"atoms\":[]}]}")
-            .find("needs 2 vectors") != std::string::npos);
+  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1],[1,1]],\"atoms\":[]}]}")
+            .find("needs 2 vectors at most, has 3") != std::string::npos);
   CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[]}]}")
             .find("at least one atom") != std::string::npos);
   CHECK(message(with_atom("{\"position\":[0,0]}")).find("lattices[0].atoms[0]: radius is missing") !=

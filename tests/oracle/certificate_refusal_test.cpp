@@ -50,7 +50,7 @@ TEST_CASE("Garbage is refused with a reason, and in time", "[oracle][certificate
                            [](Case& c) {
                              c.query.from = ObstacleId{0, 0, {0, 0, 1}};
                            }),
-                  "third coordinate");
+                  "more coordinates");
   require_refused(tampered(good, [](Case& c) { c.query.x[2] = 1; }), "third coordinate");
   require_refused(tampered(good, [](Case& c) { c.query.v = {0, 0, 1}; }), "third coordinate");
   require_refused(tampered(good, [](Case& c) { c.query.v = {}; }), "query: v is zero");

@@ -345,6 +345,10 @@ bool has_ellipsoids(const Scene& scene) {
 PreparedScene prepare(const Scene& scene) {
   PreparedScene prepared;
   prepared.ellipsoids = has_ellipsoids(scene);
+  if (!is_crystal(scene)) {
+    prepared.beyond = "does crystals only: lattices that repeat in all directions";
+    return prepared;
+  }
   Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});
   unscaled.run();
   const double first = length(rounded(unscaled.B[0]));

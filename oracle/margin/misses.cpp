@@ -1,0 +1,95 @@
+#include "oracle/margin/misses.hpp"
+
+#include <algorithm>
+
+#include "oracle/exact/stretches.hpp"
+
+namespace lorentz::oracle {
+
+template <std::size_t D>
+bool is_open_everywhere(const ExactScene<D>& scene) {
+  return std::all_of(scene.lattices.begin(), scene.lattices.end(),
+                     [](const ExactLattice<D>& lattice) { return lattice.rank < D; });
+}
+
+namespace {
+
+template <std::size_t D>
+class MissSearch {
+ public:
+  MissSearch(const PerturbedQuery<D>& perturbed, long budget)
+      : query_(perturbed), smallest_(kLargestMargin), budget_(budget) {}
+
+  HardestDecision run() {
+    for (const Uncertain<D>& atom : query_.atoms()) search(atom);
+    decision_.margin = to_double(smallest_, kLargestMargin);
+    return decision_;
+  }
+
+ private:
+  static constexpr int kMostDoublings = 80;  // of a flight that runs along a lattice for ever
+
+  // In windows, the first as long as the obstacle is wide, each as wide as margins below the smallest reach: as
+  // far as the radius again, beyond which the margins are large.
+  void search(const Uncertain<D>& atom) {
+    const View<D>& view = atom.view();
+    const Real radius = real(view.radius), speed = sqrt(real(view.velocity.v2));
+    const std::optional<Z> end = last_s(view);
+    Z low = -ceiling(2 * radius * speed), high = -low;
+    for (int doublings = 0; budget_ >= 0; ++doublings, low = high, high *= 2) {
+      const bool is_last = end ? high >= *end : doublings == kMostDoublings;
+      const Z limit = end ? std::min(high, *end) : high;
+      const Real change = atom.largest_change(real(limit) / real(view.velocity.v2));
+      const Real wide = radius + std::min(smallest_ * change, radius);
+      if (low < limit) look(atom, wide, low, limit);
+      if (is_last) return;
+    }
+  }
+
+  void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
+    const View<D>& view = atom.view();
+    const Stretches<D> stretches(view, ceiling(wide * wide * real(view.velocity.v2)));
+    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
+                                    const Z& last) {
+      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
+        --budget_;
+        if (!query_.is_from(atom, point.n)) weigh(atom, Centre<D>(view.velocity, point));
+      });
+      return budget_ < 0;
+    };
+    stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
+      return --budget_ < 0 || stretches.visit(stretch, visit);
+    });
+  }
+
+  // What is behind the start would be entered only by a start inside it.
+  void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
+    consider(DecisionKind::containing, atom, centre, atom.margin_of_containing(centre));
+    if (centre.s > 0) consider(DecisionKind::meeting, atom, centre, atom.margin_of_meeting(centre));
+  }
+
+  void consider(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, const Real& margin) {
+    if (margin >= smallest_) return;
+    smallest_ = margin;
+    decision_ = {kind, query_.id_of(atom, centre.point.n), false, 0};
+  }
+
+  const PerturbedQuery<D>& query_;
+  Real smallest_;
+  HardestDecision decision_;
+  long budget_;
+};
+
+}  // namespace
+
+template <std::size_t D>
+HardestDecision hardest_miss(const PerturbedQuery<D>& perturbed, long budget) {
+  return MissSearch<D>(perturbed, budget).run();
+}
+
+template bool is_open_everywhere(const ExactScene<2>&);
+template bool is_open_everywhere(const ExactScene<3>&);
+template HardestDecision hardest_miss(const PerturbedQuery<2>&, long);
+template HardestDecision hardest_miss(const PerturbedQuery<3>&, long);
+
+}  // namespace lorentz::oracle

@@ -1,0 +1,319 @@
+// Scenes that repeat in fewer directions than there are: single obstacles, rows, layers, and these among crystals.
+#include <catch2/catch.hpp>
+
+#include <lorentz/certified.hpp>
+#include <lorentz/engine.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/scene_check.hpp>
+#include <lorentz/verdict.hpp>
+#include <lorentz/walk.hpp>
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using test::Draw;
+using test::Style;
+
+namespace {
+
+Scene with_rank(Scene scene, int lattice, int rank) {
+  Lattice& its = scene.lattices[lattice];
+  its.missing = scene.dimension - rank;
+  for (int i = rank; i < scene.dimension; ++i) its.vectors[i] = {};
+  return scene;
+}
+
+Scene lone_ball(int dimension, double radius) {
+  return with_rank(unit_scene(dimension, radius), 0, 0);
+}
+
+ObstacleId cell(int n0, int n1 = 0) {
+  return {0, 0, {Integer(n0), Integer(n1), Integer(0)}};
+}
+
+constexpr Style kStyles[] = {Style::generic, Style::grid, Style::near_grid};
+
+// Every rank below the dimension, in one lattice or in one of two.
+Scene drawn_scene(Draw& draw, Style style, int dimension) {
+  Scene scene = test::with_ellipsoids(draw, style, test::scene_of(draw, style, dimension));
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    if (l == 0 || draw.one_in(2))
+      scene = with_rank(scene, l, static_cast<int>(draw.below(static_cast<std::uint64_t>(dimension))));
+  return scene;
+}
+
+// Aims at an obstacle half of the time.
+Query drawn_query(Draw& draw, Style style, const Scene& scene) {
+  Query query = test::query_of(draw, style, scene);
+  if (draw.one_in(2)) return query;
+  const Vec centre = test::centre_of(scene, test::obstacle_of(draw, scene));
+  for (int k = 0; k < scene.dimension; ++k) query.v[k] = centre[k] + draw.between(-0.5, 0.5) - query.x[k];
+  if (query.v == Vec{}) query.v[0] = 1;
+  return query;
+}
+
+}  // namespace
+
+TEST_CASE("One ball: entered, touched, missed, left", "[oracle][ranks]") {
+  const Scene scene = lone_ball(3, 1);
+  const oracle::Oracle oracle(scene);
+  const Answer hit = oracle.first_hit({{-3, 0, 0}, {1, 0, 0}, {}});
+  CHECK((hit.outcome == Outcome::hit && hit.time == 2.0 && hit.obstacle == cell(0)));
+  CHECK(oracle.first_hit({{-0x1p60, 0.5, 0}, {0x1p-1000, 0, 0}, {}}).outcome == Outcome::hit);
+  for (const Vec& x : {Vec{-3, 1, 0}, Vec{-3, 0.6, 0.8}, Vec{3, 0, 0}, Vec{-3, 0, 1.5}}) {
+    INFO(x[0] << ' ' << x[1] << ' ' << x[2]);
+    const bool tangent = x[1] == 0.6;  // not exactly: 0.6 and 0.8 are rounded
+    CHECK((tangent || oracle.first_hit({x, {1, 0, 0}, {}}).outcome == Outcome::never));
+  }
+  // On the surface: inwards, outwards, along it.
+  CHECK(oracle.first_hit({{-1, 0, 0}, {1, 0.5, 0}, {}}).time == 0.0);
+  CHECK(oracle.first_hit({{-1, 0, 0}, {-1, 0.5, 0}, {}}).outcome == Outcome::never);
+  CHECK(oracle.first_hit({{-1, 0, 0}, {0, 1, 0}, {}}).outcome == Outcome::never);
+  CHECK(oracle.first_hit({{0.5, 0, 0}, {1, 0, 0}, {}}).outcome == Outcome::inside);
+  CHECK(oracle.first_hit({{0.5, 0, 0}, {1, 0, 0}, cell(0)}).outcome == Outcome::never);
+}
+
+TEST_CASE("A tangent is missed, and what is nearer is hit, for Pythagorean directions", "[oracle][ranks]") {
+  const oracle::Oracle plane(lone_ball(2, 5));
+  for (const double far : {1.0, 16.0, 0x1p40}) {
+    const Query tangent{{3 - 4 * far, 4 + 3 * far}, {4, -3}, {}};  // touches at (3, 4)
+    CHECK(plane.first_hit(tangent).outcome == Outcome::never);
+    Query inner = tangent;
+    inner.x[1] = std::nextafter(inner.x[1], 0);
+    CHECK(plane.first_hit(inner).outcome == Outcome::hit);
+  }
+}
+
+TEST_CASE("A row: the gaps, along it, and far out", "[oracle][ranks]") {
+  const Scene scene = with_rank(unit_scene(2, 0.25), 0, 1);
+  const oracle::Oracle oracle(scene);
+  CHECK(oracle.first_hit({{0.5, -3}, {0, 1}, {}}).outcome == Outcome::never);
+  CHECK(oracle.first_hit({{0.25, -3}, {0, 1}, {}}).outcome == Outcome::never);
+  CHECK(oracle.first_hit({{0.75 + 0x1p-50, -3}, {0, 1}, {}}).obstacle == cell(1));
+  CHECK(oracle.first_hit({{0.5, 0}, {1, 0}, {}}).time == 0.25);
+  CHECK(oracle.first_hit({{0.5, 0.25}, {1, 0}, {}}).outcome == Outcome::never);
+  CHECK(oracle.first_hit({{0.5, 0.25}, {1, -0x1p-60}, {}}).outcome == Outcome::hit);
+  CHECK(oracle.first_hit({{0.5, 0.25}, {1, 0x1p-60}, {}}).outcome == Outcome::never);
+  const Answer far = oracle.first_hit({{0.5 + 0x1p50, -1}, {0x1p-3, 0x1p-3}, {}});
+  CHECK(far.outcome == Outcome::never);
+}
+
+TEST_CASE("Oracle and walk agree on scenes of every rank", "[oracle][walk][ranks]") {
+  for (const int dimension : {2, 3}) {
+    std::size_t hits = 0, nevers = 0, undecided = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+      Draw draw(seed);
+      const Style style = kStyles[seed % 3];
+      const Scene scene = drawn_scene(draw, style, dimension);
+      const oracle::Oracle oracle(scene);
+      const oracle::Walk walk(scene, 20'000);
+      const oracle::Certified certified(scene);
+      for (int i = 0; i < 10; ++i) {
+        const Query query = drawn_query(draw, style, scene);
+        const Answer exact = oracle.first_hit(query), walked = walk.first_hit(query);
+        INFO(test::stream(scene, query));
+        hits += exact.outcome == Outcome::hit, nevers += exact.outcome == Outcome::never;
+        undecided += walked.outcome == Outcome::undecided;
+        CHECK((walked.outcome == Outcome::undecided || test::same(exact, walked)));
+        CHECK(test::same(exact, certified.first_hit(query)));
+      }
+    }
+    CHECK(hits > 700);
+    CHECK(nevers > 700);
+    CHECK(undecided < 300);  // crystals beside them, tiny radii
+  }
+}
+
+TEST_CASE("A row or a layer in other words is the same", "[oracle][ranks]") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Draw draw(seed);
+    const Style style = kStyles[seed % 3];
+    Scene scene = drawn_scene(draw, style, 3);
+    scene.lattices.resize(1);
+    const Lattice& lattice = scene.lattices[0];
+    const int rank = lattice.rank(3);
+    if (rank == 0) continue;
+    // One vector doubled, and each atom twice.
+    Scene coarser = scene;
+    const Vec u = lattice.vectors[0];
+    for (double& component : coarser.lattices[0].vectors[0]) component *= 2;
+    coarser.lattices[0].atoms.clear();
+    bool exact_places = true;
+    for (const Atom& atom : lattice.atoms)
+      for (int half = 0; half < 2; ++half) {
+        Atom other = atom;
+        for (int k = 0; k < 3; ++k) {
+          other.position[k] += half * u[k];
+          exact_places &= other.position[k] - half * u[k] == atom.position[k];
+          exact_places &= other.position[k] - atom.position[k] == half * u[k];
+        }
+        coarser.lattices[0].atoms.push_back(other);
+      }
+    // The vectors turned around and, in a layer, mixed.
+    Scene mixed = scene;
+    for (double& component : mixed.lattices[0].vectors[0]) component = -component;
+    if (rank == 2 && style == Style::grid)
+      for (int k = 0; k < 3; ++k) mixed.lattices[0].vectors[1][k] += 3 * mixed.lattices[0].vectors[0][k];
+    const oracle::Oracle one(scene), two(coarser), three(mixed);
+    for (int i = 0; i < 10; ++i) {
+      Query query = drawn_query(draw, style, scene);
+      query.from.reset();
+      const Answer answer = one.first_hit(query), second = two.first_hit(query),
+                   third = three.first_hit(query);
+      INFO(test::stream(scene, query));
+      if (exact_places) CHECK((answer.outcome == second.outcome && answer.time == second.time));
+      CHECK((answer.outcome == third.outcome && answer.time == third.time));
+    }
+  }
+}
+
+TEST_CASE("Where a crystal's first hit lies in the layer cut from it, the layer's is the same",
+          "[oracle][ranks]") {
+  std::size_t same = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Draw draw(seed);
+    const Scene crystal = unit_scene(3, draw.between(0.1, 0.4));
+    const oracle::Oracle whole(crystal), layer(with_rank(crystal, 0, 2)), row(with_rank(crystal, 0, 1)),
+        ball(with_rank(crystal, 0, 0));
+    for (int i = 0; i < 20; ++i) {
+      Query query = drawn_query(draw, Style::generic, crystal);
+      query.from.reset();
+      const Answer answer = whole.first_hit(query);
+      if (answer.outcome == Outcome::never) continue;
+      const Cell& n = answer.obstacle.cell;
+      INFO(test::stream(crystal, query));
+      if (!(n[2] == Integer(0))) continue;
+      ++same;
+      CHECK(test::same(answer, layer.first_hit(query)));
+      if (n[1] == Integer(0)) CHECK(test::same(answer, row.first_hit(query)));
+      if (n[1] == Integer(0) && n[0] == Integer(0)) CHECK(test::same(answer, ball.first_hit(query)));
+    }
+  }
+  CHECK(same > 500);
+}
+
+TEST_CASE("`never` has a margin where no lattice is a crystal", "[oracle][ranks][margin]") {
+  const Scene scene = lone_ball(3, 1);
+  const oracle::Margins margins(scene);
+  const oracle::Judge judge(scene);
+  const Answer never = Answer::never(), hit = Answer::hit(cell(0), 4.0);
+  for (const double above : {0.0, 0x1p-52, 0x1p-50, 0x1p-40, 0.5}) {
+    const Query query{{-4, 1 + above, 0}, {1, 0, 0}, {}};
+    const auto decision = margins.hardest_decision(query, never);
+    INFO(above);
+    REQUIRE(decision);
+    // Only the second component of x (whose ulp is that of the size, 1, or its own) and the radius move the gap.
+    const double expected = above / 0x1p-51;
+    CHECK(decision->margin == Approx(std::min(expected, oracle::kLargestMargin)).margin(1e-9));
+    const bool forgiven = expected <= oracle::kDefaultUlps;
+    CHECK(judge.judge(query, never, hit).verdict ==
+          (forgiven ? oracle::Verdict::ill_posed : oracle::Verdict::wrong));
+  }
+  CHECK_FALSE(oracle::Margins(unit_scene(2, 0.25)).hardest_decision({{0.5, 0}, {0, 1}, {}}, never));
+}
+
+TEST_CASE("A miss that was claimed is judged by what is entered", "[oracle][ranks][margin]") {
+  const Scene row = with_rank(unit_scene(2, 0.25), 0, 1);
+  const oracle::Oracle oracle(row);
+  const oracle::Judge judge(row);
+  const auto verdict = [&](const Query& query) {
+    const Answer exact = oracle.first_hit(query);
+    REQUIRE(exact.outcome == Outcome::hit);
+    return judge.judge(query, exact, Answer::never()).verdict;
+  };
+  CHECK(verdict({{0.25 - 0x1p-53, -3}, {0, 1}, {}}) == oracle::Verdict::ill_posed);
+  CHECK(verdict({{0.25 - 0x1p-48, -3}, {0, 1}, {}}) == oracle::Verdict::wrong);
+  CHECK(verdict({{0, -3}, {0, 1}, {}}) == oracle::Verdict::wrong);
+  // Along the row for ever, just in it: the first is grazed.
+  CHECK(verdict({{0.5, 0.25 - 0x1p-54}, {1, 0}, {}}) == oracle::Verdict::ill_posed);
+  CHECK(verdict({{0.5, 0.2}, {1, 0}, {}}) == oracle::Verdict::wrong);
+}
+
+TEST_CASE("Long after a flight has left a row behind, margins and verdicts know no copies of it",
+          "[oracle][ranks][margin]") {
+  Scene scene = with_rank(unit_scene(3, 0.25), 0, 1);
+  scene.lattices.push_back(unit_scene(3, 1e-4).lattices[0]);
+  scene.lattices[1].atoms[0].position = {0.5, 0.5, 0.5};
+  const oracle::Oracle oracle(scene), crystal(Scene{3, {scene.lattices[1]}});
+  const oracle::Margins margins(scene);
+  const oracle::Judge judge(scene);
+  std::size_t far = 0;
+  const auto is_one = [](const ObstacleId& id) {
+    return id.lattice == 1 || (id.cell[1] == Integer(0) && id.cell[2] == Integer(0));
+  };
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Draw draw(seed);
+    const Query query{draw.vec(3, 0, 1), draw.vec(3, -1, 1), {}};
+    const Answer exact = oracle.first_hit(query);
+    if (exact.outcome != Outcome::hit || exact.obstacle.lattice == 0) continue;
+    INFO(test::stream(scene, query));
+    ++far;
+    CHECK(exact.time == crystal.first_hit(query).time);
+    const auto decision = margins.hardest_decision(query, exact);
+    REQUIRE(decision);
+    CHECK(is_one(decision->obstacle));
+    for (const oracle::PassedObstacle& one : margins.passed(query, exact, 5)) CHECK(is_one(one.obstacle));
+    Answer later = exact;
+    later.obstacle.cell[0] = Integer(exact.obstacle.cell[0].int64() + 1);
+    CHECK(judge.judge(query, exact, later).verdict == oracle::Verdict::wrong);
+  }
+  CHECK(far > 30);
+}
+
+TEST_CASE("Contacts of single obstacles, rows and layers", "[oracle][ranks]") {
+  const auto contacts = [](const Scene& scene) { return oracle::contacts_in(scene, 10).found; };
+  CHECK(contacts(lone_ball(3, 100)).empty());
+  CHECK(contacts(with_rank(unit_scene(3, 0.5), 0, 1)).size() == 1);
+  CHECK(contacts(with_rank(unit_scene(3, 0.5), 0, 2)).size() == 2);
+  Scene two = lone_ball(3, 1);
+  two.lattices[0].atoms.push_back({{2, 0, 0}, 1, {}});
+  REQUIRE(contacts(two).size() == 1);
+  CHECK_FALSE(contacts(two)[0].overlap);
+  two.lattices[0].atoms[1].position[0] = 2 - 0x1p-40;
+  CHECK(contacts(two)[0].overlap);
+  Scene apart = lone_ball(3, 1);
+  apart.lattices.push_back(apart.lattices[0]);
+  apart.lattices[1].atoms[0].position = {3, 0, 0};
+  CHECK(contacts(apart).empty());
+  apart.lattices[1].missing = 2, apart.lattices[1].vectors[0] = {0, 1, 0};
+  CHECK(contacts(apart).size() == 2);  // the row's balls overlap the next ones, and touch those after
+  apart.lattices[1].vectors[0] = {2.5, 0, 0};
+  REQUIRE(contacts(apart).size() == 1);  // that of the cell -1 and the other lattice's
+  CHECK(contacts(apart)[0].overlap);
+  // A crystal's ball somewhere overlaps the one.
+  Scene impurity = lone_ball(3, 0.4);
+  impurity.lattices[0].atoms[0].position = {7.5, 7.5, 7.5};
+  impurity.lattices.push_back(unit_scene(3, 0.4).lattices[0]);
+  CHECK(contacts(impurity).empty());
+  impurity.lattices[0].atoms[0].position = {7.5, 7, 7};
+  CHECK(contacts(impurity).size() == 1);
+}
+
+TEST_CASE("What does crystals only says so", "[oracle][ranks]") {
+  const Scene scene = lone_ball(2, 0.25);
+  for (const std::string& name : engine_names()) {
+    const Answer answer = make_engine(name, scene)->first_hit({{-1, 0}, {1, 0}, {}});
+    CHECK((answer.outcome == Outcome::error && answer.unsupported));
+    CHECK(answer.message.find("crystals only") != std::string::npos);
+  }
+  const oracle::Prover prover(scene);
+  CHECK_THROWS_AS(prover.prove({{-1, 0}, {1, 0}, {}}, Answer::hit(cell(0), 0.75)), std::invalid_argument);
+}
+
+TEST_CASE("Dependence and flaws of lattices with fewer vectors", "[oracle][ranks]") {
+  Scene scene = with_rank(unit_scene(3, 0.25), 0, 2);
+  CHECK_FALSE(flaw_of(scene));
+  CHECK_FALSE(oracle::dependence_in(scene));
+  scene.lattices[0].vectors[1] = {2, 0, 0};
+  CHECK(oracle::dependence_in(scene));
+  scene = with_rank(scene, 0, 1);
+  CHECK_FALSE(oracle::dependence_in(scene));
+  scene.lattices[0].vectors[0] = {};
+  CHECK(oracle::dependence_in(scene));
+  scene.lattices[0].vectors[2] = {0, 0, 1};
+  CHECK(flaw_of(scene));  // more than it says
+  scene.lattices[0].missing = 4;
+  CHECK(flaw_of(scene));
+  CHECK(flaw_of(Query{{}, {1, 0, 0}, cell(1)}, lone_ball(3, 1)));  // a cell of a lattice without vectors
+}
