@@ -123,7 +123,8 @@ class PyOracle {
   }
 
   py::tuple obstacle_tuple(const ObstacleId& obstacle) const {
-    return py::make_tuple(obstacle.lattice, obstacle.atom, to_python(obstacle.cell, scene_.dimension));
+    return py::make_tuple(obstacle.lattice, obstacle.atom,
+                          to_python(obstacle.cell, Components(scene_).of_cells(obstacle.lattice)));
   }
 
   std::shared_ptr<question::Place> place_;

@@ -66,7 +66,7 @@ class FunctionAnswerer final : public question::Answerer {
  private:
   void enter(const Scene& scene) override {
     drain();
-    dimension_ = scene.dimension;
+    dimension_ = scene.dimension, components_ = scene;
     const py::gil_scoped_acquire gil;
     scene_ = py::cast(PyScene(scene));
   }
@@ -89,7 +89,7 @@ class FunctionAnswerer final : public question::Answerer {
   // What is no answer is an error of the engine.
   Answer answer_of(const std::string& text) const {
     try {
-      return read_answer(text, dimension_);
+      return read_answer(text, components_);
     } catch (const InputError& error) {
       return Answer::error(std::string("no answer: ") + error.what());
     }
@@ -109,8 +109,8 @@ class FunctionAnswerer final : public question::Answerer {
     py::list list;
     for (const Query& query : queries_)
       if (query.from)
-        list.append(
-            py::make_tuple(query.from->lattice, query.from->atom, to_python(query.from->cell, dimension_)));
+        list.append(py::make_tuple(query.from->lattice, query.from->atom,
+                                   to_python(query.from->cell, components_.of_cells(query.from->lattice))));
       else
         list.append(py::none());
     return list;
@@ -119,6 +119,7 @@ class FunctionAnswerer final : public question::Answerer {
   const py::function* ask_;  // outlives this
   JudgeRun& run_;
   int dimension_ = 0;
+  Components components_ = 0;
   py::object scene_;
   std::vector<Query> queries_;
 };

@@ -41,7 +41,7 @@ py::dict scene_dict(const PyScene& scene) {
   py::list lattices;
   for (const RationalLattice& lattice : scene.exact().lattices) {
     py::list vectors, atoms;
-    for (int i = 0; i < scene.dimension(); ++i)
+    for (int i = 0; i < scene.dimension() - lattice.missing; ++i)
       vectors.append(to_python(lattice.vectors[i], scene.dimension()));
     for (const RationalAtom& atom : lattice.atoms) atoms.append(atom_dict(atom, scene.dimension()));
     lattices.append(py::dict(py::arg("vectors") = vectors, py::arg("atoms") = atoms));

@@ -64,7 +64,8 @@ void check(const RationalScene& scene) {
       for (std::size_t i = 0; i < D; ++i) basis[i].p = vectors[i];
       return determinant<D>(basis) != 0;
     };
-    if (scene.lattices[l].missing > 0) throw InputError(place + ".vectors: itineraries are of crystals only");
+    if (scene.lattices[l].missing > 0)
+      throw InputError(place + ".vectors: itineraries, and scenes of rational numbers, are of crystals only");
     if (!independent(lattice.vectors)) throw InputError(place + ".vectors: are linearly dependent");
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const auto& atom = lattice.atoms[a];

@@ -91,3 +91,17 @@ def test_a_text_that_is_a_float_is_one(tmp_path):
     assert minus == scene and hash(minus) == hash(scene)
     assert hash(lorentz.unit_scene(2, "1/3")) == hash(lorentz.unit_scene(2, Fraction(1, 3)))
     assert not lorentz.unit_scene(2, "0.1").is_binary64
+
+
+def test_scenes_that_repeat_in_fewer_directions():
+    ball = lorentz.Scene({"dimension": 3, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0, 0], "radius": 1}]}]})
+    assert ball == lorentz.Scene("ball") and ball.to_dict()["lattices"][0]["vectors"] == []
+    x, v = [[-3, 0, 0], [-3, 2, 0], [0, 0, 0]], [[1, 0, 0]] * 3
+    for engine in ("certified", "oracle", "reduction", "certified-batch"):
+        answers = lorentz.first_hit(ball, x, v, engine=engine)
+        assert list(answers.outcome) == ["hit", "never", "inside"] and answers.time[0] == 2
+    row = lorentz.Scene("row")
+    answer = row.oracle.first_hit([0.25, -2, 0], [0.375, 1, 0])
+    assert len(answer.cell) == 1
+    with pytest.raises(lorentz.Error, match="crystals"):
+        row.horizon()
