@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Does this ray hit this ball, and when? Four formulas that people use, judged (docs/ray_and_ball.md).
+
+    ray_ball.py engine FORMULA       answers a query stream: textbook, q-form, nearest-point or projection
+    ray_ball.py questions KIND N     N rays beside the unit ball, of one kind
+    ray_ball.py table [--write]      what each formula gets wrong, by kind of question
+
+In plain binary64, as a ray tracer would have them; none knows a tolerance.
+"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/ray_and_ball.md"
+BEGIN, END = "<!-- formulas: begin -->\n", "<!-- formulas: end -->\n"
+
+
+# ---- The formulas: the time at which x + t v enters the ball of radius r around the origin, or nothing.
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def textbook(x, v, r):
+    """(-b - sqrt(b^2 - 4 a c)) / 2 a."""
+    a, b, c = dot(v, v), 2 * dot(x, v), dot(x, x) - r * r
+    square = b * b - 4 * a * c
+    return (-b - math.sqrt(square)) / (2 * a) if square > 0 else None
+
+
+def q_form(x, v, r):
+    """The root of larger size first, the other one from their product: nothing cancels but in the discriminant."""
+    a, b, c = dot(v, v), dot(x, v), dot(x, x) - r * r
+    square = b * b - a * c
+    if not square > 0:
+        return None
+    q = -(b + math.copysign(math.sqrt(square), b))
+    return c / q if b < 0 else q / a
+
+
+def nearest_point(x, v, r):
+    """How far along the unit direction the centre is, and how far beside: |x|^2 less the square of that."""
+    speed = math.sqrt(dot(v, v))
+    along = -dot(x, v) / speed
+    square = r * r - (dot(x, x) - along * along)
+    return (along - math.sqrt(square)) / speed if square > 0 else None
+
+
+def projection(x, v, r):
+    """The part of x across the flight is computed as a vector: its length is small where that of x is large."""
+    a, b, c = dot(v, v), dot(x, v), dot(x, x) - r * r
+    across = [p - b / a * w for p, w in zip(x, v)]
+    square = a * (r * r - dot(across, across))
+    return c / (math.sqrt(square) - b) if square > 0 and b < 0 else None
+
+
+FORMULAS = {"textbook": textbook, "q-form": q_form, "nearest-point": nearest_point, "projection": projection}
+
+
+def answer(formula, x, v, r):
+    if dot(x, x) < r * r:
+        return {"outcome": "inside", "lattice": 0, "atom": 0, "cell": []}
+    try:
+        time = formula(x, v, r)
+    except (ZeroDivisionError, OverflowError, ValueError):
+        time = None
+    if time is None or not 0 <= time < math.inf:
+        return {"outcome": "never"}
+    return {"outcome": "hit", "lattice": 0, "atom": 0, "cell": [], "time": time}
+
+
+def engine(formula):
+    radius = None
+    for line in sys.stdin:
+        query = json.loads(line)
+        if "scene" in query:
+            radius = query["scene"]["lattices"][0]["atoms"][0]["radius"]
+            continue
+        said = answer(formula, [float(c) for c in query["x"]], [float(c) for c in query["v"]], radius)
+        print(json.dumps({"id": query.get("id"), **said}), flush=True)
+
+
+# ---- Questions. A ray is aimed at `beside` the centre from so far away, and begins at x.
+
+def unit(rng):
+    a = [rng.gauss(0, 1) for _ in range(3)]
+    return [c / math.sqrt(dot(a, a)) for c in a]
+
+
+def aimed(rng, far, beside):
+    along = unit(rng)
+    aside = unit(rng)
+    part = dot(aside, along)
+    aside = [a - part * b for a, b in zip(aside, along)]
+    size = math.sqrt(dot(aside, aside))
+    return [beside * a / size - far * b for a, b in zip(aside, along)], along
+
+
+def surface(rng):
+    x = unit(rng)
+    return x, [c + rng.choice([-2, 0, 2]) * p for c, p in zip(unit(rng), x)]
+
+
+def stretched(rng):
+    x, v = aimed(rng, 5, rng.uniform(0, 1.5))
+    size = 10.0 ** rng.choice([rng.uniform(-300, -150), rng.uniform(150, 300)])
+    return x, [c * size for c in v]
+
+
+KINDS = {
+    "plain": lambda rng: aimed(rng, rng.uniform(1.5, 10), rng.uniform(0, 2)),
+    "grazing": lambda rng: aimed(rng, 10, 1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-14, -4)),
+    "far": lambda rng: aimed(rng, 10 ** rng.uniform(3, 9), rng.uniform(0, 1.5)),
+    "very far": lambda rng: aimed(rng, 10 ** rng.uniform(9, 15), rng.uniform(0, 1.5)),
+    "near the surface": lambda rng: aimed(rng, 1 + 10 ** rng.uniform(-12, -3), 0),
+    "on the surface": surface,
+    "long and short v": stretched,
+}
+
+
+def questions(kind, count):
+    rng = random.Random(kind)
+    scene = {"dimension": 3, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0, 0], "radius": 1}]}]}
+    yield {"scene": scene}
+    for i in range(count):
+        x, v = KINDS[kind](rng)
+        yield {"id": i, "x": x, "v": v}
+
+
+# ---- The table.
+
+def judged(lorentz, kind, count):
+    stream = "".join(json.dumps(line) + "\n" for line in questions(kind, count))
+    command = [lorentz, "compare", "--queries", "-", "--json"]
+    for name in FORMULAS:
+        command += ["--engine", f"cmd:exec {sys.executable} {__file__} engine {name}"]
+    done = subprocess.run(command, input=stream, capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1):
+        sys.exit(done.stderr)
+    return json.loads(done.stdout)["engines"]
+
+
+def table(lorentz, count):
+    lines = ["| rays | " + " | ".join(FORMULAS) + " |", "|---" * (len(FORMULAS) + 1) + "|"]
+    for kind in KINDS:
+        cells = []
+        for one in judged(lorentz, kind, count):
+            share = [f"{100 * one[name] / one['queries']:.3g}" for name in ("wrong", "wrong_time")]
+            cells.append(" and ".join(share))
+        lines.append(f"| {kind} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parts = parser.add_subparsers(dest="part", required=True)
+    parts.add_parser("engine").add_argument("formula", choices=FORMULAS)
+    asked = parts.add_parser("questions")
+    asked.add_argument("kind", choices=KINDS)
+    asked.add_argument("count", type=int)
+    drawn = parts.add_parser("table")
+    drawn.add_argument("--lorentz", default=str(ROOT / "build/lorentz"))
+    drawn.add_argument("--count", type=int, default=10_000, help="rays of each kind (10000)")
+    drawn.add_argument("--write", action="store_true", help="put it into docs/ray_and_ball.md")
+    given = parser.parse_args()
+    if given.part == "engine":
+        engine(FORMULAS[given.formula])
+    elif given.part == "questions":
+        for line in questions(given.kind, given.count):
+            print(json.dumps(line))
+    elif given.write:
+        text = PAGE.read_text(encoding="utf-8")
+        made = BEGIN + table(given.lorentz, given.count) + END
+        PAGE.write_text(re.sub(re.escape(BEGIN) + ".*?" + re.escape(END), lambda _: made, text, flags=re.DOTALL),
+                        encoding="utf-8")
+    else:
+        print(table(given.lorentz, given.count), end="")
+
+
+if __name__ == "__main__":
+    main()
