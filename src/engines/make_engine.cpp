@@ -54,7 +54,8 @@ std::vector<std::string> engine_names() {
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;
-    const auto why = is_crystal(scene) ? entry.beyond(scene) : std::optional<std::string>(kCrystals);
+    const auto why = is_crystal(scene) || name == "reduction" ? entry.beyond(scene)
+                                                              : std::optional<std::string>(kCrystals);
     if (why) return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
     return entry.make(scene);
   }

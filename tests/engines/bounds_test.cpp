@@ -236,6 +236,18 @@ TEST_CASE("Radius and insideness: kRho, kInside, kInsideEllipsoid", "[engines][b
   covers(kInsideEllipsoid, form_of(G, d).error + 1);
 }
 
+TEST_CASE("A single ball: kLoneAlong, kLoneAcross, kLoneSlack", "[engines][bounds]") {
+  // The high part of d is half a roundoff off. The terms of s err relative to |v_k d_k|, whose sum is at most
+  // |v| |d|; those of v x d relative to |v_i d_k| + |v_k d_i|, whose norm is at most sqrt(2) of that.
+  const Carried d{1, 0.5};
+  covers(kLoneAlong, sum_of_products(one, d, none, none, none, none).error);
+  covers(kLoneAcross, std::sqrt(2) * difference_of_products(one, d, none, none).error);
+  // Of the width, |v|^2 and two products; of |v x d|^2 a square and two sums. The difference rounds once more.
+  const Carried h[3] = {one, none, none};
+  covers(kLoneSlack,
+         std::max(squared_width_of(one, speed_squared(one, none, none)).error, square_of(h).error) + 1);
+}
+
 TEST_CASE("Across the line in 3D: kAcross, kScale", "[engines][bounds]") {
   // A coordinate is the anchor's plus at most four steps along the basis. The first passes all the sums.
   Carried p = stepped(none, one, across_of_arm());

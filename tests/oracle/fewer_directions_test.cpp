@@ -1,11 +1,13 @@
 // Scenes that repeat in fewer directions than there are: single obstacles, rows, layers, and these among crystals.
 #include <catch2/catch.hpp>
 
+#include <lorentz/batch.hpp>
 #include <lorentz/certified.hpp>
 #include <lorentz/engine.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/prover.hpp>
+#include <lorentz/reduction.hpp>
 #include <lorentz/scene_check.hpp>
 #include <lorentz/verdict.hpp>
 #include <lorentz/walk.hpp>
@@ -122,6 +124,61 @@ TEST_CASE("Oracle and walk agree on scenes of every rank", "[oracle][walk][ranks
     CHECK(hits > 700);
     CHECK(nevers > 700);
     CHECK(undecided < 300);  // crystals beside them, tiny radii
+  }
+}
+
+TEST_CASE("`reduction` and batches among single obstacles are right wherever they decide, to the bit alike",
+          "[engines][reduction][batch][ranks]") {
+  for (const int dimension : {2, 3}) {
+    std::size_t undecided = 0, asked = 0, rounded = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      Draw draw(seed);
+      const Style style = kStyles[seed % 3];
+      Scene scene = drawn_scene(draw, style, dimension);
+      for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) scene = with_rank(scene, l, 0);
+      const Scene drawn = scene;
+      const double size = seed % 4 == 0 ? std::exp2(draw.between(-300, 300)) : 1;  // any unit of length
+      for_each_atom(scene, [&](Atom& atom) {
+        atom.radius *= size;
+        for (double& component : atom.position) component *= size;
+        for (Vec& axis : atom.semiaxes)
+          for (double& component : axis) component *= size;
+      });
+      if (Reduction::beyond(scene)) continue;
+      const oracle::Oracle oracle(scene);
+      const Batch batch(scene);
+      QueryTable queries;
+      std::vector<Query> kept;
+      for (int i = 0; i < 40; ++i) {
+        Query query = drawn_query(draw, style, drawn);
+        const double far = draw.one_in(4) ? std::exp2(draw.between(0, 50)) : 0;
+        for (int k = 0; k < dimension; ++k) query.x[k] = (query.x[k] - far * query.v[k]) * size;
+        if (!query.from || flaw_of(query, scene)) query.from.reset();
+        kept.push_back(query);
+        queries.push_back(query);
+      }
+      for (const Batch::Time time : {Batch::Time::close, Batch::Time::rounded}) {
+        FlightTable flights;
+        flights.resize(kept.size());
+        batch.fly(queries.columns(), flights.columns(), time);
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+          const Answer exact = oracle.first_hit(kept[i]);
+          const Flight alone = batch.one_at_a_time().fly(kept[i], HUGE_VAL, time), flight = flights[i];
+          INFO(test::stream(scene, kept[i]));
+          ++asked, undecided += alone.outcome == Outcome::undecided, rounded += alone.time_is_rounded;
+          CHECK(alone.outcome == flight.outcome);
+          CHECK(alone.time_is_rounded == flight.time_is_rounded);
+          if (alone.outcome == Outcome::undecided) continue;
+          CHECK(test::same_obstacle(answer_of(alone), exact));
+          if (alone.outcome != Outcome::hit) continue;
+          CHECK(alone.time == flight.time);
+          if (alone.time_is_rounded) CHECK(alone.time == exact.time);
+        }
+      }
+    }
+    CHECK(asked > 10'000);
+    CHECK(undecided < asked / 20);  // ties, tangents and starts on surfaces, on grids
+    CHECK(rounded > 1000);
   }
 }
 
@@ -292,11 +349,16 @@ TEST_CASE("Contacts of single obstacles, rows and layers", "[oracle][ranks]") {
 
 TEST_CASE("What does crystals only says so", "[oracle][ranks]") {
   const Scene scene = lone_ball(2, 0.25);
-  for (const std::string& name : engine_names()) {
-    const Answer answer = make_engine(name, scene)->first_hit({{-1, 0}, {1, 0}, {}});
+  const auto answer_of = [](const std::string& name, const Scene& in) {
+    return make_engine(name, in)->first_hit({{-1, 0}, {1, 0}, {}});
+  };
+  for (const std::string name : {"classical", "published"}) {
+    const Answer answer = answer_of(name, scene);
     CHECK((answer.outcome == Outcome::error && answer.unsupported));
     CHECK(answer.message.find("crystals only") != std::string::npos);
   }
+  CHECK(answer_of("reduction", scene).time == 0.75);
+  CHECK(answer_of("reduction", with_rank(unit_scene(2, 0.25), 0, 1)).unsupported);
   const oracle::Prover prover(scene);
   CHECK_THROWS_AS(prover.prove({{-1, 0}, {1, 0}, {}}, Answer::hit(cell(0), 0.75)), std::invalid_argument);
 }

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "src/engines/batch/late-inl.hpp"
+#include "src/engines/batch/lone-inl.hpp"
 #include "src/engines/batch/search_2d-inl.hpp"
 #include "src/engines/batch/search_3d-inl.hpp"
 #include "src/engines/batch/stretch.hpp"
@@ -21,9 +22,10 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// The queries [at, at + lanes) of a stretch.
-template <int D, bool kUnit, bool kBall>
+template <int D, bool kUnit, bool kBall, bool kLone>
 class Block {
-  using Search = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
+  using SearchInLattice = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
+  using Search = std::conditional_t<kLone, LoneSearch<D>, SearchInLattice>;
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
   static constexpr std::size_t kKept = kUnit ? 1 : 6;
@@ -90,7 +92,7 @@ class Block {
       if (left != nullptr && kTurned) turn_leaving(leaving);
       Search search(to, scene_.atoms[a], seen, left, s_limit);
       search.run(lanes_);
-      if constexpr (D == 2) stage2_ = Or(stage2_, search.stage2);
+      if constexpr (D == 2 || kLone) stage2_ = Or(stage2_, search.stage2);
       M next = And(lanes_.active, search.found.s < infinite());
       set_cell(search.found);
       if (a == 0) {
@@ -118,6 +120,15 @@ class Block {
   }
 
   HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
+    const Bravais& lattice = scene_.atoms[a];
+    if constexpr (kLone)
+      return to.set(lattice, velocity);
+    else
+      set_direction_in_lattice(a, velocity, to);
+  }
+
+  HWY_INLINE void set_direction_in_lattice(std::size_t a, const V (&velocity)[D],
+                                           typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
     if (a > 0) {
       const Bravais& before = scene_.atoms[a - 1];
@@ -271,6 +282,8 @@ class Block {
   // Names an obstacle of atom a by its cell in the scene's primitive vectors, from its cell in the short
   // basis.
   HWY_INLINE void name(M here, std::size_t a, const AtomStart& start, const V (&n)[D]) {
+    atom_ = select(here, all(static_cast<double>(a)), atom_);
+    if constexpr (kLone) return;  // there is only the cell 0
     const Bravais& lattice = scene_.atoms[a];
     const V limit = all(0x1p51);
     V m[D];
@@ -291,7 +304,6 @@ class Block {
       }
       cell_[k] = select(here, c, cell_[k]);
     }
-    atom_ = select(here, all(static_cast<double>(a)), atom_);
   }
 
   HWY_INLINE void tell() {
@@ -352,19 +364,21 @@ class Block {
   V time_, cell_[D], atom_;
 };
 
-template <int D, bool kUnit, bool kBall>
+template <int D, bool kUnit, bool kBall, bool kLone = false>
 HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
   LateTimes<D, kUnit, kBall> late;
   for (std::size_t at = 0; at < stretch.count; at += kLanes) {
     V x[D], v[D];
     for (int k = 0; k < D; ++k) x[k] = load(stretch.x[k] + at), v[k] = load(stretch.v[k] + at);
-    Block<D, kUnit, kBall>(scene, stretch, late, at, x, v).run();
+    Block<D, kUnit, kBall, kLone>(scene, stretch, late, at, x, v).run();
   }
   late.finish(scene, stretch);
 }
 
 template <int D, bool kBall>
 inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
+  if constexpr (kBall)
+    if (scene.lone) return fly_stretch<D, false, true, true>(scene, stretch);
   if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
   return fly_stretch<D, false, kBall>(scene, stretch);
 }

@@ -59,6 +59,7 @@ struct StretchKernels {
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
 
   StretchKernel of(const PreparedScene& scene) const {
+    if (scene.lone && scene.ellipsoids) return nullptr;
     return (scene.ellipsoids ? ellipsoids : balls)[scene.atoms[0].dimension - 2];
   }
 };

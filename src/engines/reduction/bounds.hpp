@@ -88,6 +88,10 @@ inline constexpr double kPlace = 0x1p-102;
 /// |a| of a vector with components up to 1.
 inline constexpr double kDiagonal = 2;
 
+/// A single ball: s = v . d, and v x d, relative to |v| |d|; and the slack's own roundings, relative to
+/// (r |v|)^2 + |v x d|^2.
+inline constexpr double kLoneAlong = 6, kLoneAcross = 5, kLoneSlack = 8;
+
 /// A form (height, along, across in units of r) of a vector, by what each component of the vector errs.
 inline constexpr double kForm = 4;
 

@@ -340,13 +340,61 @@ bool has_ellipsoids(const Scene& scene) {
   return false;
 }
 
+// A single obstacle: every start is in the cell 0. (The basis is one for the directions of ellipsoids.)
+std::optional<Bravais> lone_obstacle(const Scene& scene, int lattice, int atom, double scale,
+                                     bool ellipsoid) {
+  const Atom& given = scene.lattices[lattice].atoms[atom];
+  Bravais lone;
+  lone.dimension = scene.dimension, lone.lattice = lattice, lone.atom = atom;
+  lone.lone = true, lone.reaches_out = false, lone.volume = 1;
+  for (int k = 0; k < 3; ++k) {
+    lone.position[k] = given.position[k] * scale;
+    lone.dual[k] = {};
+    for (int i = 0; i < 3; ++i) lone.basis[k][i] = Wide(i == k);
+    lone.transform[k][k] = lone.inverse[k][k] = 1;
+  }
+  lone.radius = given.radius * scale;
+  if (ellipsoid) {
+    const std::array<Vec, 3> axes = semiaxes_of(given, scene.dimension);
+    std::vector<Vec> semiaxes(axes.begin(), axes.begin() + scene.dimension);
+    for (Vec& axis : semiaxes)
+      for (double& component : axis) component *= scale;
+    const std::optional<Shape> shape = shape_of(semiaxes);
+    if (!shape) return std::nullopt;
+    lone.shape = *shape, lone.radius = shape->radius;
+  }
+  if (!(lone.radius > 1 / kMaxSpacing && lone.radius < kMaxSpacing)) return std::nullopt;
+  return lone;
+}
+
+void prepare_lone(const Scene& scene, PreparedScene& prepared) {
+  for (const Lattice& lattice : scene.lattices)
+    if (lattice.rank(scene.dimension) > 0) {
+      prepared.beyond = "does crystals, and single obstacles, but no rows and layers";
+      return;
+    }
+  prepared.lone = true;
+  const Vec first = semiaxes_of(scene.lattices[0].atoms[0], scene.dimension)[0];
+  const double size = length(first);
+  if (size > 1 / kMaxLength && size < kMaxLength) prepared.exponent = std::ilogb(size);
+  const double scale = std::ldexp(1, -prepared.exponent);
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
+      const auto lone = lone_obstacle(scene, l, a, scale, prepared.ellipsoids);
+      if (!lone)
+        prepared.beyond = "does single obstacles of sizes within 2^60 of each other, and not so slender ones";
+      if (!lone) return;
+      prepared.atoms.push_back(*lone);
+    }
+}
+
 }  // namespace
 
 PreparedScene prepare(const Scene& scene) {
   PreparedScene prepared;
   prepared.ellipsoids = has_ellipsoids(scene);
   if (!is_crystal(scene)) {
-    prepared.beyond = "does crystals only: lattices that repeat in all directions";
+    prepare_lone(scene, prepared);
     return prepared;
   }
   Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});

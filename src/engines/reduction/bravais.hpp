@@ -17,6 +17,7 @@ using WideVec = std::array<Wide, 3>;
 struct Bravais {
   int dimension = 0;
   int lattice = 0, atom = 0;  ///< which of the scene
+  bool lone = false;          ///< a single obstacle: there is only the cell 0
   bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
   double radius = 0;  ///< of an ellipsoid: the shape's
   Vec position{};
@@ -35,11 +36,12 @@ struct Bravais {
 };
 
 /// All lengths are scaled by 2^-exponent, so that the shortest lattice vector of the first lattice lies in
-/// [1, 2); the unit lattices keep their own.
+/// [1, 2), or the radius of the first of single obstacles; the unit lattices keep their own.
 struct PreparedScene {
   int exponent = 0;
   std::vector<Bravais> atoms;  ///< in the order of (lattice, atom)
   bool ellipsoids = false;     ///< there are some
+  bool lone = false;           ///< single obstacles: no lattice repeats
   std::string beyond;          ///< why the reduction engine does not do the scene; empty if it does
 };
 

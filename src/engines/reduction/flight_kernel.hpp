@@ -8,18 +8,23 @@
 #include "src/engines/reduction/atom_direction.hpp"
 #include "src/engines/reduction/atom_start.hpp"
 #include "src/engines/reduction/entry_time.hpp"
+#include "src/engines/reduction/lone_obstacle.hpp"
 #include "src/engines/reduction/search_2d.hpp"
 #include "src/engines/reduction/search_3d.hpp"
 
 namespace lorentz {
 
 /// The first of one atom's obstacles that is entered.
-template <class Arch, int D, bool kUnit, bool kBall>
+template <class Arch, int D, bool kUnit, bool kBall, bool kLone = false>
 class AtomFlight {
   static constexpr bool kTurned = kUnit && kBall;
-  using Search = std::conditional_t<D == 2, Search2<Arch, kUnit, kBall>, Search3<Arch, kUnit, kBall>>;
+  using SearchInLattice =
+      std::conditional_t<D == 2, Search2<Arch, kUnit, kBall>, Search3<Arch, kUnit, kBall>>;
+  using Search = std::conditional_t<kLone, LoneSearch<D, kBall>, SearchInLattice>;
 
  public:
+  using Direction = std::conditional_t<kLone, LoneDirection<D, kBall>, AtomDirection<D, kUnit, kBall>>;
+
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;
 
@@ -34,7 +39,7 @@ class AtomFlight {
   Decision inside(const ObstacleId* from) { return start_.inside(from, N_, stage); }
 
   /// Obstacles that are entered after max_time may be ignored.
-  void find(const AtomDirection<D, kUnit, kBall>& to, const ObstacleId* from, double max_time) {
+  void find(const Direction& to, const ObstacleId* from, double max_time) {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
     Offset<SplitProduct, D> turned;
     if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;
@@ -62,7 +67,7 @@ class AtomFlight {
   }
 
  private:
-  void take(const AtomDirection<D, kUnit, kBall>& to, const Found<D>& found) {
+  void take(const Direction& to, const Found<D>& found) {
     entry_.s = found.s, entry_.s_error = found.s_error;
     entry_.slack = found.slack, entry_.slack_error = found.slack_error;
     entry_.v2 = to.direction.v2;

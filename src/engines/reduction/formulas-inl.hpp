@@ -42,6 +42,12 @@ LORENTZ_INLINE T speed_squared(const T& a, const T& b, const T& c) {
   return (a * a + b * b) + c * c;
 }
 
+/// (r |v|)^2.
+template <class T>
+LORENTZ_INLINE T squared_width_of(const T& r, const T& v2) {
+  return (r * r) * v2;
+}
+
 /// r |v|.
 template <class T>
 LORENTZ_INLINE T width_of(const T& r, const T& v2) {

@@ -47,10 +47,12 @@ inline void give_up(Flight& flight) {
 enum class SceneModel {
   unit,      ///< one square or cubic lattice of spacing 1, an obstacle at the origin
   one_atom,  ///< one obstacle in any cell
-  several    ///< several atoms, in one lattice or several
+  several,   ///< several atoms, in one lattice or several
+  lone       ///< single obstacles
 };
 
 inline SceneModel model_of(const PreparedScene& scene) {
+  if (scene.lone) return SceneModel::lone;
   if (scene.atoms.size() > 1) return SceneModel::several;
   return scene.atoms[0].unit ? SceneModel::unit : SceneModel::one_atom;
 }
@@ -63,6 +65,8 @@ auto for_model(const PreparedScene& scene, const Make& make) {
       return make.template operator()<D, SceneModel::unit, kBall>();
     case SceneModel::one_atom:
       return make.template operator()<D, SceneModel::one_atom, kBall>();
+    case SceneModel::lone:
+      return make.template operator()<D, SceneModel::lone, kBall>();
     default:
       return make.template operator()<D, SceneModel::several, kBall>();
   }

@@ -85,6 +85,11 @@ LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vect
       place[k] = DD::sum(x[k], all(-lattice.position[k]));
       size = size + Abs(place[k].hi);
     }
+    if (lattice.lone) {
+      for (int k = 0; k < D; ++k) offset.home[k] = all(0), offset.d[k] = {Neg(place[k].hi), Neg(place[k].lo)};
+      offset.error = all(kFlushed);
+      return wanted;
+    }
     for (int i = 0; i < D; ++i) {
       Number coordinate = all(0);
       for (int k = 0; k < D; ++k) coordinate = coordinate + all(lattice.dual[i][k]) * place[k].hi;
@@ -107,6 +112,11 @@ LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offs
   using Number = typename Arch::Number;
   constexpr bool kWide = !std::is_same_v<Coefficient, Number>;
   Number size = all(0), error = offset.error;
+  if constexpr (!kUnit)
+    if (lattice.lone) {
+      for (int k = 0; k < D; ++k) d[k] = DD(offset.d[k].hi, offset.d[k].lo);
+      return error;
+    }
   for (int k = 0; k < D; ++k) {
     const DD there(offset.d[k].hi, offset.d[k].lo);
     if constexpr (kUnit && kWide) {

@@ -63,6 +63,8 @@ const char* Reduction::model() const {
       return ellipsoids ? "one atom, ellipsoid" : "one atom";
     case SceneModel::several:
       return ellipsoids ? "several atoms, ellipsoids" : "several atoms";
+    case SceneModel::lone:
+      return ellipsoids ? "single obstacles, ellipsoids" : "single obstacles";
   }
   return "";
 }

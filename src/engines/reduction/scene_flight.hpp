@@ -113,11 +113,10 @@ class AtomFlights {
   std::size_t started_ = 0;
 };
 
-/// Several atoms, in one lattice or several: the earliest of their hits.
-template <class Arch, int D, bool kBall>
+/// Several atoms, in one lattice or several, or single obstacles: the earliest of their hits.
+template <class OneFlight, class Arch>
 inline void fly_several(const Task& task, Flight& flight) {
-  using OneFlight = AtomFlight<Arch, D, false, kBall>;
-  using Direction = AtomDirection<D, false, kBall>;
+  using Direction = typename OneFlight::Direction;
   const std::vector<Bravais>& atoms = task.scene.atoms;
   AtomFlights<OneFlight> flights;
   for (std::size_t a = 0; a < atoms.size(); ++a) {  // the smallest obstacle that contains x
@@ -166,8 +165,8 @@ inline void fly_several(const Task& task, Flight& flight) {
 
 template <class Arch, int D, SceneModel kModel, bool kBall>
 inline void fly_with(const Task& task, Flight& flight) {
-  if constexpr (kModel == SceneModel::several)
-    fly_several<Arch, D, kBall>(task, flight);
+  if constexpr (kModel == SceneModel::several || kModel == SceneModel::lone)
+    fly_several<AtomFlight<Arch, D, false, kBall, kModel == SceneModel::lone>, Arch>(task, flight);
   else
     fly_one<Arch, D, kModel == SceneModel::unit, kBall>(task, flight);
 }
