@@ -76,7 +76,7 @@ TEST_CASE("The oracle equals walk on every scene of the catalogue", "[cases][cat
 TEST_CASE("The mean free path of every scene without overlaps is Santalo's", "[cases][catalogue_campaign]") {
   int scenes = 0;
   for (const auto& [name, scene] : all_scenes()) {
-    if (overlaps(scene)) continue;
+    if (overlaps(scene) || !is_crystal(scene)) continue;
     CAPTURE(name);
     ++scenes;
     const double expected = filling_of(scene)->mean_free_path;
