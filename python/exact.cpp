@@ -40,7 +40,7 @@ class PyOracle {
   std::string first_hit(const std::string& query, int digits, bool detail,
                         std::optional<double> max_time) const {
     return answer_text(place_->oracle().first_hit(read_query(query, scene_), {digits, detail, max_time}),
-                       scene_.dimension);
+                       scene_);
   }
 
   bool is_free(const std::string& query) const {

@@ -282,8 +282,9 @@ def _centre_and_axes(scene: Scene, obstacle: Obstacle) -> tuple[list[Fraction], 
     lattices = scene.to_dict()["lattices"]
     lattice = lattices[_number_of("lattice", lattice_number, len(lattices))]
     atom = lattice["atoms"][_number_of("atom", atom_number, len(lattice["atoms"]))]
-    if len(cell) != dimension:
-        raise Error(f"cell: has {len(cell)} coordinates, needs {dimension}")
+    rank = len(lattice["vectors"])
+    if len(cell) != rank:
+        raise Error(f"cell: has {len(cell)} coordinates, needs {rank}")
     centre = _fractions(atom["position"], "position")
     for n, vector in zip(cell, lattice["vectors"]):
         centre = [c + integer(n, "cell") * component for c, component in zip(centre, _fractions(vector, "vectors"))]
