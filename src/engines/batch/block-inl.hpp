@@ -375,10 +375,13 @@ HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
   late.finish(scene, stretch);
 }
 
+inline void fly_lone(const PreparedScene& scene, Stretch& stretch) {
+  if (scene.atoms[0].dimension == 2) return fly_stretch<2, false, true, true>(scene, stretch);
+  return fly_stretch<3, false, true, true>(scene, stretch);
+}
+
 template <int D, bool kBall>
 inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
-  if constexpr (kBall)
-    if (scene.lone) return fly_stretch<D, false, true, true>(scene, stretch);
   if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
   return fly_stretch<D, false, kBall>(scene, stretch);
 }

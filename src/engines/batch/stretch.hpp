@@ -57,9 +57,10 @@ using StretchKernel = void (*)(const PreparedScene&, Stretch&);
 struct StretchKernels {
   const char* instructions;
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
+  StretchKernel lone_balls;
 
   StretchKernel of(const PreparedScene& scene) const {
-    if (scene.lone && scene.ellipsoids) return nullptr;
+    if (scene.lone) return scene.ellipsoids ? nullptr : lone_balls;
     return (scene.ellipsoids ? ellipsoids : balls)[scene.atoms[0].dimension - 2];
   }
 };
@@ -73,6 +74,6 @@ struct BuiltKernel {
   StretchKernel kernel;
 };
 std::vector<BuiltKernel> kernels_of_balls_in_plane(), kernels_of_balls_in_space(),
-    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space();
+    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space(), kernels_of_lone_balls();
 
 }  // namespace lorentz
