@@ -23,7 +23,11 @@ std::vector<Option> chaos_rows(ChaosOptions& options) {
 }
 
 Scene scene_of(const ChaosOptions& options) {
-  return load_scene(options.scene, options.radius);
+  Scene scene = load_scene(options.scene, options.radius);
+  if (!is_crystal(scene))
+    throw InputError("--scene: trajectories are of crystals only; " + options.scene +
+                     " has lattices that repeat in fewer directions");
+  return scene;
 }
 
 void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,

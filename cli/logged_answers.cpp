@@ -65,17 +65,27 @@ bool LoggedAnswers::find(const Id& id, Logged& logged) {
   return false;
 }
 
+// Columns have room for as many coordinates as dimensions: the last of a lattice with fewer vectors are zero.
+std::string LoggedAnswers::flaw_of_cell(const Logged& logged) const {
+  const ObstacleId& obstacle = logged.answer.obstacle;
+  const bool named = logged.answer.outcome == Outcome::hit || logged.answer.outcome == Outcome::inside;
+  if (!named || obstacle.lattice >= static_cast<int>(scene().lattices.size())) return "";
+  const int needed = Components(scene()).of_cells(obstacle.lattice);
+  int count = static_cast<int>(logged.components);
+  if (columns_)
+    for (int k = count = needed; k < 3; ++k)
+      if (!(obstacle.cell[k] == Integer(0))) count = k + 1;
+  return count == needed ? ""
+                         : fmt::format("cell: has {} components, the lattice has {} vectors", count, needed);
+}
+
 void LoggedAnswers::ask(const Id& id, const Query&) {
   Logged logged;
   if (id == "null" || !find(id, logged))
     return deliver({Answer::error("no answer"), question::Origin::not_asked});
   ++matched_;
-  const Outcome outcome = logged.answer.outcome;
-  const int needed = Components(scene()).of_cells(logged.answer.obstacle.lattice);
-  if (!columns_ && (outcome == Outcome::hit || outcome == Outcome::inside) &&
-      logged.components != static_cast<std::size_t>(needed)) {
-    complain(logged.line,
-             fmt::format("cell: has {} components, the lattice has {} vectors", logged.components, needed));
+  if (const std::string flaw = flaw_of_cell(logged); !flaw.empty()) {
+    complain(logged.line, flaw);
     logged.answer = Answer::error("cell: has another dimension");
   }
   deliver({std::move(logged.answer)});

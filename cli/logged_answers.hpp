@@ -38,6 +38,7 @@ class LoggedAnswers final : public question::Answerer {
   bool read_row(Id& id, Logged& logged);
   bool read_line(Id& id, Logged& logged);
   bool find(const Id& id, Logged& logged);
+  std::string flaw_of_cell(const Logged& logged) const;
   void complain(std::size_t line, const std::string& what);
 
   struct AnswerStream {

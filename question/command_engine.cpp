@@ -350,8 +350,9 @@ void CommandEngine::pass_over() {
 std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
   if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return {};
   const Scene& scene = *open_.front().scene;
+  const bool exists = answer.obstacle.lattice < static_cast<int>(scene.lattices.size());
   const int needed = Components(scene).of_cells(answer.obstacle.lattice);
-  if (components != static_cast<std::size_t>(needed))
+  if (exists && components != static_cast<std::size_t>(needed))
     return fmt::format("gave a cell of {} components of a lattice of {} vectors", components, needed);
   if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
     return "gave a hit without its time, which --max-time needs";

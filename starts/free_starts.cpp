@@ -8,6 +8,7 @@
 #include "cases/ulps.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "starts/candidates.hpp"
+#include "starts/surface.hpp"
 
 namespace lorentz::starts {
 
@@ -65,11 +66,21 @@ struct FreeStarts::Inside {
 
   // True if the candidate became a start of the kind.
   bool make(Random& random, Query& start) const {
+    if (kind == Kind::grazing && !is_crystal(scene)) aim(random, start);
     if (kind == Kind::grazing)
       return cases::move_to_edge(random.sign() * random.octave(-52, -10), scene, oracle, start);
     if (!is_free(start)) return false;
     if (kind == Kind::near_rational) start.v = near_rational_direction(random, scene);
     return true;
+  }
+
+  // At an obstacle of the cell 0: few lines meet any where most of space is empty.
+  void aim(Random& random, Query& start) const {
+    const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
+    const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
+    const Vec aside = Surface(atom, scene.dimension).point(random).offset;
+    const Vec aim = plus(sum(atom.position, scaled(aside, random.uniform())), -1, start.x);
+    if (aim != Vec{}) start.v = aim;
   }
 
   Scene scene;

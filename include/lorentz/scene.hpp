@@ -57,7 +57,7 @@ class Components {
   }
 
   int of_vectors() const { return dimension_; }
-  int of_cells(int lattice) const {
+  int of_cells(int lattice) const {  ///< of a lattice that is not there: the dimension
     const auto l = static_cast<std::size_t>(lattice);
     return l < ranks_.size() ? ranks_[l] : dimension_;
   }

@@ -57,15 +57,17 @@ template <std::size_t D>
 void reduce_and_complete(Basis<D>& basis, std::size_t rank, const Z& far) {
   if (rank == D) return reduce(basis, EuclideanForm<D>{});
   complete<D>(basis, rank);
-  for (std::size_t i = rank; i < D; ++i)
-    for (Z& component : basis[i].p) component = shifted_left(component, bit_length(far) + 1);
+  for (std::size_t i = rank; i < D; ++i) {
+    const Z times = far / floor_sqrt(dot(basis[i].p, basis[i].p)) + 1;
+    for (Z& component : basis[i].p) component *= times;
+  }
 }
 
 template <std::size_t D>
 std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
   const CommonExponent common = common_exponent(scene);
   std::vector<ExactLatticeBodies<D>> result(scene.lattices.size());
-  Z far = 0;
+  Z place = 0, reach = 0;
   for (std::size_t l = 0; l < result.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     result[l].rank = static_cast<std::size_t>(lattice.rank(D));
@@ -81,11 +83,12 @@ std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
       const std::optional<Z> radius = ball_radius<D>(body.shape);
       body.ball = radius.has_value();
       body.reach = radius ? *radius : reach_of<D>(body.shape);
-      for (const Z& component : body.position) far += 2 * abs(component);
-      far += 2 * body.reach;
+      for (const Z& component : body.position) place = std::max(place, Z(abs(component)));
+      reach = std::max(reach, body.reach);
       result[l].bodies.push_back(std::move(body));
     }
   }
+  const Z far = 4 * place + 2 * reach;  // 2 sqrt(D) < 4
   for (auto& one : result) one.far = far, reduce_and_complete<D>(one.reduced, one.rank, far);
   return result;
 }

@@ -179,6 +179,29 @@ TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_co
             .status == 0);
 }
 
+TEST_CASE("compare: single obstacles have cells without coordinates, which columns leave empty or zero",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "ball.json", R"({"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[10,0],"radius":1}]}]})");
+  const std::string queries = folder.write("q.csv", "x1,x2,v1,v2\n0,0,1,0\n");
+  const auto judged = [&](const std::string& row) {
+    const std::string answers = folder.write("a.csv", "outcome,lattice,atom,cell1,cell2,time\n" + row + "\n");
+    return folder.lorentz("compare --scene " + scene + " --queries " + queries + " --answers A=" + answers);
+  };
+  for (const char* row : {"hit,0,0,,,9", "hit,0,0,0,0,9"}) {
+    INFO(row);
+    CHECK(judged(row).status == 0);
+    CHECK(contains(judged(row).out, "no wrong answer in 1"));
+  }
+  CHECK(judged("hit,0,0,5,7,9").status == 2);
+  CHECK(contains(judged("hit,0,0,5,7,9").err, "cell: has 2 components, the lattice has 0 vectors"));
+  CHECK(judged("hit,7,0,0,0,9").status == 1);  // a lattice that is not there is a wrong answer
+  const Run answered =
+      folder.lorentz("first-hit --format csv --scene " + scene + " --engine batch " + queries);
+  CHECK(answered.out == "outcome,lattice,atom,cell1,cell2,time\nhit,0,0,,,9\n");
+}
+
 TEST_CASE("compare accuses nobody where it cannot judge", "[cli][compare_command]") {
   const Folder folder;
   const auto answers = folder.write("a", kGoodAnswer);

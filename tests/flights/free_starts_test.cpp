@@ -3,6 +3,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
+#include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include "starts/candidates.hpp"
 #include "starts/free_starts.hpp"
@@ -25,8 +26,9 @@ double sine(const Vec& a, const Vec& b) {
 
 TEST_CASE("Sampled starts lie in no obstacle, among overlapping ones, too", "[flights][sample]") {
   const auto scenes = all_scenes();
-  for (const char* name : {"square", "triangular", "ellipses-mixed", "overlapping", "overlapping-3d",
-                           "ellipsoids-mixed", "superposition-pi-7"}) {
+  for (const char* name :
+       {"square", "triangular", "ellipses-mixed", "overlapping", "overlapping-3d", "ellipsoids-mixed",
+        "superposition-pi-7", "two-balls", "grating", "film", "impurity"}) {
     const Scene& scene = scenes.at(name);
     const oracle::Oracle oracle(scene);
     for (const Kind kind : kKinds) {
@@ -40,6 +42,26 @@ TEST_CASE("Sampled starts lie in no obstacle, among overlapping ones, too", "[fl
         REQUIRE(oracle.first_hit(start).outcome != Outcome::inside);
       }
     }
+  }
+}
+
+TEST_CASE("Grazing starts are found where most of space is empty", "[flights][starts]") {
+  for (const char* name : {"ball", "two-balls", "row", "layer"}) {
+    Scene scene = all_scenes().at(name);
+    for_each_atom(scene, [](Atom& atom) { atom.radius = 1e-6; });
+    const oracle::Margins margins(scene);
+    const oracle::Oracle oracle(scene);
+    const FreeStarts starts(scene, Kind::grazing, kSeed);
+    std::size_t hits = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const Query start = starts[i];
+      const Answer answer = oracle.first_hit(start);
+      if (answer.outcome != Outcome::hit) continue;
+      ++hits;
+      CHECK(std::fabs(margins.approach(start, answer.obstacle).gap) < 0x1p-9);
+    }
+    INFO(name);
+    CHECK(hits > 30);  // the others pass
   }
 }
 

@@ -382,7 +382,8 @@ void prepare_lone(const Scene& scene, PreparedScene& prepared) {
     for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
       const auto lone = lone_obstacle(scene, l, a, scale, prepared.ellipsoids);
       if (!lone)
-        prepared.beyond = "does single obstacles of sizes within 2^60 of each other, and not so slender ones";
+        prepared.beyond =
+            "does single obstacles between 2^-400 and 2^400, within 2^60 of each other, and not as slender";
       if (!lone) return;
       prepared.atoms.push_back(*lone);
     }
