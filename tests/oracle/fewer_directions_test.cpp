@@ -225,6 +225,42 @@ TEST_CASE("A row or a layer in other words is the same", "[oracle][ranks]") {
   }
 }
 
+TEST_CASE("Single obstacles, rows and layers in other units and with other axes are the same",
+          "[oracle][ranks]") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Draw draw(seed);
+    const Style style = kStyles[seed % 3];
+    const Scene scene = drawn_scene(draw, style, 3);
+    const int exponent = static_cast<int>(draw.below(1200)) - 600,
+              slower = static_cast<int>(draw.below(400)) - 200;
+    const int first = static_cast<int>(draw.below(3));
+    const double sign = draw.sign();
+    // The axes in a circle, one mirrored, and another unit of length.
+    const auto changed = [&](const Vec& a, int unit) {
+      Vec image;
+      for (int k = 0; k < 3; ++k) image[k] = std::ldexp(a[(k + first) % 3] * (k == 1 ? sign : 1), unit);
+      return image;
+    };
+    Scene other = scene;
+    for (Lattice& lattice : other.lattices) {
+      for (Vec& u : lattice.vectors) u = changed(u, exponent);
+      for (Atom& atom : lattice.atoms) {
+        atom.position = changed(atom.position, exponent), atom.radius = std::ldexp(atom.radius, exponent);
+        for (Vec& axis : atom.semiaxes) axis = changed(axis, exponent);
+      }
+    }
+    const oracle::Oracle one(scene), two(other);
+    for (int i = 0; i < 10; ++i) {
+      const Query query = drawn_query(draw, style, scene);
+      const Query same{changed(query.x, exponent), changed(query.v, slower), query.from};
+      const Answer answer = one.first_hit(query), second = two.first_hit(same);
+      INFO(test::stream(scene, query));
+      CHECK(test::same_obstacle(answer, second));
+      if (answer.outcome == Outcome::hit) CHECK(std::ldexp(*answer.time, exponent - slower) == *second.time);
+    }
+  }
+}
+
 TEST_CASE("Where a crystal's first hit lies in the layer cut from it, the layer's is the same",
           "[oracle][ranks]") {
   std::size_t same = 0;
