@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracle/exact/stretches.hpp"
 #include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
@@ -109,18 +108,10 @@ class MarginSearch {
 
   void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
     const View<D>& view = atom.view();
-    const Stretches<D> stretches(view, ceiling(wide * wide * real(view.velocity.v2)));
-    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
-                                    const Z& last) {
-      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-        --budget_;
-        weigh(atom, Centre<D>(view.velocity, point));
-      });
-      return budget_ < 0;
-    };
-    stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
-      return --budget_ < 0 || stretches.visit(stretch, visit);
-    });
+    visit_centres(
+        view, ceiling(wide * wide * real(view.velocity.v2)), low, high,
+        [&](const Centre<D>& centre) { --budget_, weigh(atom, centre); },
+        [&](int steps) { return (budget_ -= steps) < 0; });
   }
 
   // The decisions about one obstacle.
@@ -183,26 +174,20 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
     for (const Uncertain<D>& atom : perturbed.atoms()) {
       const View<D>& view = atom.view();
       const Real rho = sqrt(real(atom.rho2())), v2 = real(view.velocity.v2);
-      const Stretches<D> stretches(view, ceiling(wide * wide * real(atom.rho2())));
       long budget = kMarginBudget;
-      const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
-                                      const Z& last) {
-        visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-          --budget;
-          const Centre<D> centre(view.velocity, point);
-          const Real nearest = real(centre.s) / v2, time = times_power_of_two(nearest, own_units);
-          const bool is_target = &atom == &target && point.n == hit.point.n;
-          if (!is_target && (centre.s <= 0 || nearest > target_time || perturbed.is_from(atom, point.n)))
-            return;
-          all.push_back({perturbed.id_of(atom, point.n), to_double(time, kHuge), to_string(time),
-                         to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
-                         to_double(atom.margin_of_meeting(centre), kHuge)});
-        });
-        return budget < 0;
+      const auto look = [&](const Centre<D>& centre) {
+        --budget;
+        const auto& n = centre.point.n;
+        const Real nearest = real(centre.s) / v2, time = times_power_of_two(nearest, own_units);
+        const bool is_target = &atom == &target && n == hit.point.n;
+        if (!is_target && (centre.s <= 0 || nearest > target_time || perturbed.is_from(atom, n))) return;
+        all.push_back({perturbed.id_of(atom, n), to_double(time, kHuge), to_string(time),
+                       to_double(sqrt(real(centre.h2)) / rho - 1, kHuge),
+                       to_double(atom.margin_of_meeting(centre), kHuge)});
       };
-      stretches.cut(1, ceiling(target_time * v2) + ceiling(rho), [&](const RowStretch<D>& stretch) {
-        return --budget < 0 || stretches.visit(stretch, visit);
-      });
+      visit_centres(view, ceiling(wide * wide * real(atom.rho2())), 1,
+                    ceiling(target_time * v2) + ceiling(rho), look,
+                    [&](int steps) { return (budget -= steps) < 0; });
     }
   }
   std::sort(all.begin(), all.end(), [&](const PassedObstacle& a, const PassedObstacle& b) {

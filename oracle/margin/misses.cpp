@@ -29,8 +29,8 @@ class MissSearch {
  private:
   static constexpr int kMostDoublings = 80;  // of a flight that runs along a lattice for ever
 
-  // In windows, the first as long as the obstacle is wide, each as wide as margins below the smallest reach: as
-  // far as the radius again, beyond which the margins are large.
+  // In windows, the first as long as the obstacle is wide, each as wide as margins below the smallest reach:
+  // as far as the radius again, beyond which the margins are large.
   void search(const Uncertain<D>& atom) {
     const View<D>& view = atom.view();
     const Real radius = real(view.radius), speed = sqrt(real(view.velocity.v2));
@@ -48,18 +48,13 @@ class MissSearch {
 
   void look(const Uncertain<D>& atom, const Real& wide, const Z& low, const Z& high) {
     const View<D>& view = atom.view();
-    const Stretches<D> stretches(view, ceiling(wide * wide * real(view.velocity.v2)));
-    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
-                                    const Z& last) {
-      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-        --budget_;
-        if (!query_.is_from(atom, point.n)) weigh(atom, Centre<D>(view.velocity, point));
-      });
-      return budget_ < 0;
-    };
-    stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
-      return --budget_ < 0 || stretches.visit(stretch, visit);
-    });
+    visit_centres(
+        view, ceiling(wide * wide * real(view.velocity.v2)), low, high,
+        [&](const Centre<D>& centre) {
+          --budget_;
+          if (!query_.is_from(atom, centre.point.n)) weigh(atom, centre);
+        },
+        [&](int steps) { return (budget_ -= steps) < 0; });
   }
 
   // What is behind the start would be entered only by a start inside it.

@@ -17,6 +17,7 @@
 
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/real.hpp"
+#include "oracle/exact/stretches.hpp"
 
 namespace lorentz::oracle {
 
@@ -34,6 +35,22 @@ struct Centre {
         c2(dot(point.p, point.p)),
         h2(velocity.v2 * c2 - s * s) {}
 };
+
+/// Hands to `look` the centres with |h|^2 < reach2 and low <= s <= high, of long rows those that
+/// visit_extremes chooses. Ends when `spend(steps)` returns true, which is asked before each stretch (1 step)
+/// and after each row (0). Returns whether it ended early.
+template <std::size_t D, class Look, class Spend>
+bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& high, const Look& look,
+                   const Spend& spend) {
+  const Stretches<D> stretches(view, reach2);
+  const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+    visit_extremes<D>(view.velocity, first, step, last,
+                      [&](const LatticePoint<D>& point) { look(Centre<D>(view.velocity, point)); });
+    return spend(0);
+  };
+  return stretches.cut(
+      low, high, [&](const RowStretch<D>& stretch) { return spend(1) || stretches.visit(stretch, visit); });
+}
 
 /// What an ulp of each input is, in the units of an exact query.
 template <std::size_t D>

@@ -47,6 +47,11 @@ class DepartureBound {
 
  private:
   bool exceeds_tolerance() const { return needed_.ulps > ulps_; }
+  // Counts what is passed over. Returns whether to stop.
+  bool pass_over(int steps) {
+    passed_over_ += steps;
+    return exceeds_tolerance() || passed_over_ > kMostPassedOver;
+  }
   void needs(double margin, const ObstacleId& obstacle) {
     if (margin > needed_.ulps) needed_ = {margin, obstacle};
   }
@@ -98,27 +103,21 @@ class DepartureBound {
   void bound_all_entered() {
     for (const Uncertain<D>& atom : query_.atoms()) {
       const View<D>& view = atom.view();
-      const Stretches<D> stretches(view, atom.rho2());
       const std::optional<Z> end = last_s(view);
-      const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
-                                      const Z& last) {
-        visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-          ++passed_over_;
-          const Centre<D> centre(view.velocity, point);
-          const bool entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= view.radius2;
-          if (entered && !query_.is_from(atom, point.n)) needs(atom.margin_of_meeting(centre), atom, centre);
-        });
-        return exceeds_tolerance() || passed_over_ > kMostPassedOver;
+      const auto look = [&](const Centre<D>& centre) {
+        ++passed_over_;
+        const bool entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= view.radius2;
+        if (entered && !query_.is_from(atom, centre.point.n))
+          needs(atom.margin_of_meeting(centre), atom, centre);
       };
-      // Of a flight along the lattice as far as the first obstacle with more to spare.
+      // A flight along the lattice has no end: it is followed as far as the first obstacle with more to spare.
       Z low = 1, high = root_below(atom.rho2()) + 2;
       for (bool done = false; !done && passed_over_ <= kMostPassedOver; low = high, high *= 2) {
         done = end && high >= *end;
         const Z limit = done ? *end : high;
         if (low < limit)
-          done |= stretches.cut(low, limit, [&](const RowStretch<D>& stretch) {
-            return stretches.visit(stretch, visit) || ++passed_over_ > kMostPassedOver;
-          });
+          done |=
+              visit_centres(view, atom.rho2(), low, limit, look, [&](int steps) { return pass_over(steps); });
       }
       if (exceeds_tolerance()) return;
     }
@@ -157,19 +156,10 @@ class DepartureBound {
   // nearest).
   void bound_all_earlier(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom) {
     const View<D>& view = atom.view();
-    const Stretches<D> stretches(view, atom.rho2());
     const Z end = ceiling(target.time_of(hit) * real(view.velocity.v2)) + root_below(atom.rho2()) + 1;
-    const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
-                                    const Z& last) {
-      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-        bound_earlier(target, hit, atom, Centre<D>(view.velocity, point));
-      });
-      return exceeds_tolerance() || passed_over_ > kMostPassedOver;
-    };
-    if (end >= 1)
-      stretches.cut(1, end, [&](const RowStretch<D>& stretch) {
-        return stretches.visit(stretch, visit) || ++passed_over_ > kMostPassedOver;
-      });
+    visit_centres(
+        view, atom.rho2(), 1, end, [&](const Centre<D>& centre) { bound_earlier(target, hit, atom, centre); },
+        [&](int steps) { return pass_over(steps); });
   }
 
   // One obstacle that may be entered before X: with how much to spare?
