@@ -23,11 +23,7 @@ std::vector<Option> chaos_rows(ChaosOptions& options) {
 }
 
 Scene scene_of(const ChaosOptions& options) {
-  Scene scene = load_scene(options.scene, options.radius);
-  if (!is_crystal(scene))
-    throw InputError("--scene: trajectories are of crystals only; " + options.scene +
-                     " has lattices that repeat in fewer directions");
-  return scene;
+  return load_crystal(options.scene, options.radius, "trajectories are computed");
 }
 
 void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,

@@ -41,10 +41,7 @@ struct FlightsOptions {
 
 FlightsPlan plan_of(const FlightsOptions& options, std::optional<double> radius) {
   FlightsPlan plan;
-  plan.scene = load_scene(options.scene, radius);
-  if (!is_crystal(plan.scene))
-    throw InputError("--scene: flights are counted in crystals only; " + options.scene +
-                     " has lattices that repeat in fewer directions");
+  plan.scene = load_crystal(options.scene, radius, "flights are counted");
   if (!question::engine_named(options.engine).is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "

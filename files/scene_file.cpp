@@ -99,6 +99,14 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius, 
   return scene;
 }
 
+Scene load_crystal(const std::string& name_or_file, std::optional<double> radius, const std::string& what) {
+  Scene scene = load_scene(name_or_file, radius);
+  if (!is_crystal(scene))
+    throw InputError("--scene: " + what + " in crystals only; " + name_or_file +
+                     " has lattices that repeat in fewer directions");
+  return scene;
+}
+
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
   if (flaw_of(scene) || oracle::dependence_in(scene)) return;  // what binary64 has left of rational numbers
   const oracle::Contacts contacts = oracle::contacts_in(scene, 20, oracle::Pairs::within_lattices);

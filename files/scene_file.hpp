@@ -34,6 +34,10 @@ Scene read_scene(const std::string& name_or_file, std::optional<double> radius,
 Scene load_scene(const std::string& name_or_file, std::optional<double> radius,
                  UnknownKeys unknown = UnknownKeys::warned);
 
+/// The same for what is done in crystals only, such as "flights are counted". Throws InputError if a lattice
+/// repeats in fewer directions.
+Scene load_crystal(const std::string& name_or_file, std::optional<double> radius, const std::string& what);
+
 /// The same of a scene whose numbers may be rational (texts like "1/3").
 RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
                                   UnknownKeys unknown = UnknownKeys::warned);

@@ -134,6 +134,16 @@ atoms = [{ position = [0, 0], radius = 1 }, { position = [2, 0], radius = 1 },
     CHECK(contains(folder.lorentz(help).out, "Example:"));
 }
 
+TEST_CASE("Flights and exponents refuse scenes that are not crystals", "[cli][scene_command]") {
+  const Folder folder;
+  for (const char* command : {"flights --count 100", "lyapunov", "diffusion"}) {
+    const Run run = folder.lorentz(std::string(command) + " --scene layer");
+    INFO(command << run.err);
+    CHECK((run.status == 2 && run.out.empty()));
+    CHECK(contains(run.err, "in crystals only; layer has lattices that repeat in fewer directions"));
+  }
+}
+
 TEST_CASE("scene draw: well-formed pictures of the whole catalogue", "[cli][scene_command]") {
   const Folder folder;
   for (const auto& file : fs::directory_iterator(std::string(LORENTZ_SOURCE_DIR) + "/data/scenes")) {
