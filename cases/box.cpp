@@ -16,23 +16,20 @@ double reach_of(const Atom& atom) {
 
 // Vectors perpendicular to the first `rank` ones and to each other, of length 1 up to rounding.
 void complete(std::array<Vec, 3>& vectors, int rank, int dimension) {
-  for (int i = rank; i < dimension; ++i) {
-    double largest = 0;
-    for (int axis = 0; axis < dimension; ++axis) {
-      Vec rest{};
-      rest[axis] = 1;
-      for (int j = 0; j < i; ++j) {
-        Vec before = scaled(vectors[j], 1 / length(vectors[j]));
-        if (j == 1 && rank == 2) {  // not perpendicular to the first
-          const Vec first = scaled(vectors[0], 1 / length(vectors[0]));
-          before = plus(before, -dot(before, first), first), before = scaled(before, 1 / length(before));
-        }
-        rest = plus(rest, -dot(rest, before), before);
-      }
-      if (length(rest) <= largest) continue;
-      largest = length(rest);
-      vectors[i] = scaled(rest, 1 / largest);
+  std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
+  for (int i = 0; i < dimension; ++i) {
+    const auto across = [&](Vec v) {
+      for (int j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
+      return v;
+    };
+    Vec best = i < rank ? across(vectors[i]) : Vec{};
+    for (int axis = 0; i >= rank && axis < dimension; ++axis) {
+      Vec unit{};
+      unit[axis] = 1;
+      if (length(across(unit)) > length(best)) best = across(unit);
     }
+    units[i] = scaled(best, 1 / length(best));
+    if (i >= rank) vectors[i] = units[i];
   }
 }
 

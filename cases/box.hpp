@@ -6,7 +6,7 @@
 
 namespace lorentz::cases {
 
-/// The parallelepiped that the first lattice's primitive vectors span, so many times each; or another one.
+/// A parallelepiped: its edges are `cells[i]` times `vectors[i]`, and it begins at `corner`.
 struct Box {
   static constexpr std::uint64_t kCells = 1000;  ///< of a superposition's, unless told otherwise
 
@@ -18,10 +18,11 @@ struct Box {
   /// One cell of the scene's first lattice.
   static Box cell_of(const Scene& scene) { return {scene.dimension, scene.lattices[0].vectors, {1, 1, 1}}; }
 
-  /// Where starts are drawn: a cell, but of a superposition, which has none of its own, about so many of the
-  /// first lattice. 1000: 40 by 25, or 10 by 10 by 10. Where a lattice repeats in fewer directions the box is
-  /// one around what repeats in the fewest: in these directions a period, in the others what there is of such
-  /// obstacles and as much again on either side as the longest primitive vector or the largest obstacle.
+  /// Where starts are drawn: a cell. A superposition has none of its own: its box is about `cells` cells of the
+  /// first lattice (1000: 40 by 25, or 10 by 10 by 10). Where a lattice repeats in fewer directions, the box
+  /// surrounds the lattices that repeat in the fewest: it spans one period in their directions. In the others
+  /// it spans all obstacles that do not repeat there, and on either side as much again as the longest
+  /// primitive vector or the largest obstacle.
   static Box of(const Scene& scene, std::uint64_t cells = kCells);
 
   /// Uniform in it, up to rounding.
