@@ -23,7 +23,7 @@ class AtomFlight {
   using Search = std::conditional_t<kLone, LoneSearch<D, kBall>, SearchInLattice>;
 
  public:
-  using Direction = std::conditional_t<kLone, LoneDirection<D, kBall>, AtomDirection<D, kUnit, kBall>>;
+  using Direction = std::conditional_t<kLone && kBall, LoneDirection<D>, AtomDirection<D, kUnit, kBall>>;
 
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;

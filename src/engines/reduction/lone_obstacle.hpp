@@ -12,20 +12,10 @@ namespace lorentz {
 #include "src/engines/reduction/lone_obstacle-inl.hpp"
 #undef LORENTZ_INLINE
 
-/// Of a ball nothing depends on the lattice; of an ellipsoid it is the direction as in a lattice.
-template <int D, bool kBall>
-struct LoneDirection : AtomDirection<D, false, kBall> {
-  using AtomDirection<D, false, kBall>::AtomDirection;
-
-  template <class Arch>
-  static void set(std::optional<LoneDirection>& to, Arch arch, const Bravais*, const Bravais& obstacle,
-                  const Vec& v) {
-    to.emplace(arch, obstacle, v);
-  }
-};
-
+/// A direction of flight for a single ball. (A single ellipsoid takes AtomDirection: in its own frame it is as
+/// in a lattice.)
 template <int D>
-struct LoneDirection<D, true> {
+struct LoneDirection {
   struct {
     Vec v;
     double v2, s_rho;
