@@ -1,4 +1,4 @@
-// Scenes that repeat in fewer directions than there are: single obstacles, rows, layers, and these among crystals.
+// Scenes that repeat in fewer directions than there are: single obstacles, rows, layers; also among crystals.
 #include <catch2/catch.hpp>
 
 #include <lorentz/batch.hpp>
@@ -138,6 +138,7 @@ TEST_CASE("`reduction` and batches among single obstacles are right wherever the
       for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) scene = with_rank(scene, l, 0);
       const Scene drawn = scene;
       const double size = seed % 4 == 0 ? std::exp2(draw.between(-300, 300)) : 1;  // any unit of length
+      const double speed = seed % 5 == 0 ? std::exp2(draw.between(-200, 200)) : 1;
       for_each_atom(scene, [&](Atom& atom) {
         atom.radius *= size;
         for (double& component : atom.position) component *= size;
@@ -152,7 +153,10 @@ TEST_CASE("`reduction` and batches among single obstacles are right wherever the
       for (int i = 0; i < 40; ++i) {
         Query query = drawn_query(draw, style, drawn);
         const double far = draw.one_in(4) ? std::exp2(draw.between(0, 50)) : 0;
-        for (int k = 0; k < dimension; ++k) query.x[k] = (query.x[k] - far * query.v[k]) * size;
+        for (int k = 0; k < dimension; ++k) {
+          query.x[k] = (query.x[k] - far * query.v[k]) * size;
+          query.v[k] *= speed;
+        }
         if (!query.from || flaw_of(query, scene)) query.from.reset();
         kept.push_back(query);
         queries.push_back(query);
@@ -296,7 +300,7 @@ TEST_CASE("`never` has a margin where no lattice is a crystal", "[oracle][ranks]
     const auto decision = margins.hardest_decision(query, never);
     INFO(above);
     REQUIRE(decision);
-    // Only the second component of x (whose ulp is that of the size, 1, or its own) and the radius move the gap.
+    // Only the second component of x (with the ulp of the size, 1, or its own) and the radius move the gap.
     const double expected = above / 0x1p-51;
     CHECK(decision->margin == Approx(std::min(expected, oracle::kLargestMargin)).margin(1e-9));
     const bool forgiven = expected <= oracle::kDefaultUlps;
