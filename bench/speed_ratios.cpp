@@ -131,8 +131,8 @@ class Ground {
     };
   }
 
-  // A plain loop over the same columns: the quadratic of a ball around the origin, the smaller root by Vieta's
-  // formula, which cancels nothing.
+  // A plain loop over the same columns: the quadratic of a ball around the origin, the smaller root by
+  // Vieta's formula, which cancels nothing.
   Work plain_ball(double r) {
     return [this, r](std::size_t begin, std::size_t end) {
       const QueryColumns asked = table_.columns().part(begin, end - begin);

@@ -16,14 +16,14 @@ namespace lorentz::starts {
 
 using flights::Ensemble;
 
-/// Candidates for starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and the index only,
-/// so that any number of threads, shards and machines draws the same, to the bit.
+/// Candidates for starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and
+/// the index only, so that any number of threads, shards and machines draws the same, to the bit.
 ///
-/// uniform: the point is uniform in a cell of the first lattice, of a superposition in a box of many such
-/// cells, and where a lattice repeats in fewer directions in a box around it (cases::Box); directions are isotropic. surface: an obstacle is chosen by its surface, over all lattices and
-/// atoms, of a superposition also its cell among those around the box; the point is uniform on its surface,
-/// the direction by the cosine law about the outward normal, and `from` is that obstacle. These are the two
-/// measures of a gas in equilibrium: at any moment, and after a collision.
+/// uniform: the point is uniform in the box (cases::Box::of), directions are isotropic. surface: an obstacle
+/// is chosen by its surface, over all lattices and atoms, of a superposition also its cell among those around
+/// the box; the point is uniform on its surface, the direction by the cosine law about the outward normal,
+/// and `from` is that obstacle. These are the two measures of a gas in equilibrium: at any moment, and after
+/// a collision.
 ///
 /// A box stands for all of a superposition. Lattices without a common period look different from cell to
 /// cell, and obstacles of radius r are told apart only where relative places are: the fewer cells a box has,

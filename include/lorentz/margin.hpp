@@ -73,10 +73,10 @@ class Margins {
   Margins& operator=(Margins&&) noexcept;
   ~Margins();
 
-  /// The decision with the smallest margin of all that the exact answer rests on; of errors nothing, and of
-  /// `never` only where every lattice repeats in fewer directions than there are. The margin is at most kLargestMargin (then the decision means nothing).
-  /// With a smaller budget (of which each width of the search has its own) the margin is an upper bound more
-  /// often; 0: one narrow search, some 500 obstacles.
+  /// The decision with the smallest margin of all that the exact answer rests on. An error has none; `never`
+  /// has one only where every lattice repeats in fewer directions than there are. The margin is at most
+  /// kLargestMargin (then the decision means nothing). With a smaller budget (of which each width of the
+  /// search has its own) the margin is an upper bound more often; 0: one narrow search, some 500 obstacles.
   std::optional<HardestDecision> hardest_decision(const Query& query, const Answer& exact,
                                                   long budget = kMarginBudget) const;
 

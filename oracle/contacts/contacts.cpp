@@ -51,8 +51,8 @@ struct ExactLatticeBodies {
   Z far;  // more than any two obstacles of the scene's cells 0 are apart, reaches included
 };
 
-// A lattice of fewer vectors is completed by ones longer than `far`, which no two obstacles are apart: its copies
-// (exact_problem.hpp) are in contact with none.
+// A lattice of fewer vectors is completed by ones longer than `far`, which no two obstacles are apart: its
+// copies (exact_problem.hpp) are in contact with none.
 template <std::size_t D>
 void reduce_and_complete(Basis<D>& basis, std::size_t rank, const Z& far) {
   if (rank == D) return reduce(basis, EuclideanForm<D>{});

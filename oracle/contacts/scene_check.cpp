@@ -7,7 +7,7 @@
 namespace lorentz::oracle {
 namespace {
 
-// Of the first `count` binary64 vectors, up to a positive factor: the determinant, or what there is of it.
+// Exactly: are the first `count` vectors linearly dependent?
 bool are_dependent(const std::array<Vec, 3>& vectors, int dimension, int count) {
   CommonExponent common;
   for (int i = 0; i < count; ++i)

@@ -186,8 +186,8 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
   return basis;
 }
 
-// Doubles a vector w that completes a lattice until its copies are far: |w| > 8 (height of x + 4 r), where the
-// height of x over the lattice is |offset . w| / |w|. Returns how often.
+// Doubles a vector w that completes a lattice until its copies are far: |w| > 8 (height of x + 4 r), where
+// the height of x over the lattice is |offset . w| / |w|. Returns how often.
 template <std::size_t D>
 long lengthen(ZVec<D>& w, const ZVec<D>& offset, const Z& radius) {
   const Z w2 = dot(w, w), needed = 8 * (abs(dot(offset, w)) + 4 * radius * ceil_sqrt(w2));

@@ -35,10 +35,10 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
-/// A lattice of fewer than D vectors is completed by vectors that are perpendicular to them and to each other,
-/// with coordinates n of their own after the lattice's. What stands in other places than 0 by these is no
-/// obstacle but a copy of one. A view makes them so long that no flight meets a copy before it has met, or
-/// missed, all obstacles; so a search whose first hit is a copy has found that there is none.
+/// A lattice of fewer than D vectors is completed by vectors that are perpendicular to them and to each
+/// other, with coordinates n of their own after the lattice's. What stands in other places than 0 by these is
+/// no obstacle but a copy of one. A view makes them so long that no flight meets a copy before it has met, or
+/// missed, all obstacles. So if the first hit is a copy, the flight hits no obstacle.
 template <std::size_t D>
 void complete(Basis<D>& basis, std::size_t rank);
 

@@ -19,12 +19,12 @@ struct RowStretch {
   Basis<D> basis;
 };
 
-/// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if that never ends.
+/// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if it has no end.
 template <std::size_t D>
 std::optional<Z> last_s(const View<D>& view);
 
-/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R; up to 4
-/// radii of the obstacles where the lattice is completed, so that no copy is among them).
+/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R; up
+/// to 4 radii of the obstacles where the lattice is completed, so that no copy is among them).
 template <std::size_t D>
 class Stretches {
  public:
@@ -32,9 +32,8 @@ class Stretches {
       : view_(view), reach2_(reach2), reach_(reach2 > 0 ? root_below(reach2) : Z(0)) {}
 
   /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
-  /// shorter than about the cylinder is wide), and hands them out in order, until `take` returns true. Not beyond
-  /// last_s.
-  /// Returns whether it did. Two neighbours share their ends.
+  /// shorter than about the cylinder is wide) and hands them out in order, not beyond last_s, until `take`
+  /// returns true. Returns whether it did. Two neighbours share their ends.
   bool cut(const Z& low, const Z& high, const std::function<bool(const RowStretch<D>&)>& take) const;
 
   /// The rows of a stretch that hold centres of the cylinder, each as its first such centre, the step, and

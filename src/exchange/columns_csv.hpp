@@ -6,8 +6,8 @@
 
 namespace lorentz {
 
-/// Reads queries. A bad line becomes a row with a flaw. Of a lattice with fewer vectors than dimensions the last
-/// columns of cells are empty (or 0).
+/// Reads queries. A bad line becomes a row with a flaw. Where a lattice has fewer vectors than dimensions,
+/// the last columns of its cells are empty (or 0).
 class CsvQueryReader final : public ColumnReader {
  public:
   /// Opens the file, or standard input for "-", and reads its first line. Throws FileError, or InputError if

@@ -242,7 +242,7 @@ TEST_CASE("A single ball: kLoneAlong, kLoneAcross, kLoneSlack", "[engines][bound
   const Carried d{1, 0.5};
   covers(kLoneAlong, sum_of_products(one, d, none, none, none, none).error);
   covers(kLoneAcross, std::sqrt(2) * difference_of_products(one, d, none, none).error);
-  // Of the width, |v|^2 and two products; of |v x d|^2 a square and two sums. The difference rounds once more.
+  // The width takes |v|^2 and two products, |v x d|^2 a square and two sums; their difference rounds, too.
   const Carried h[3] = {one, none, none};
   covers(kLoneSlack,
          std::max(squared_width_of(one, speed_squared(one, none, none)).error, square_of(h).error) + 1);

@@ -1,5 +1,5 @@
-// A single ball on the lines of flight, in lanes: src/engines/reduction/lone_obstacle.hpp. Private to the batch
-// engine.
+// A single ball on the lines of flight, in lanes: src/engines/reduction/lone_obstacle.hpp. Private to the
+// batch engine.
 #if defined(LORENTZ_BATCH_LONE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_LONE_INL_HPP
 #undef LORENTZ_BATCH_LONE_INL_HPP

@@ -28,7 +28,7 @@ struct LineOf3 {
   Number a, b, discriminant, unsure;
   Number first, last, slack;  ///< the range of k, and what its ends may be off by
 
-  /// From a point of the line, which errs by `unsure` across, and the steps. False where the flight misses all.
+  /// From a point of the line, which errs by `unsure` across, and the steps. False where all are missed.
   LORENTZ_INLINE Mask set(const PointOf3<Numbers>& q, const ArmOf3<Numbers>& arm, Number unsure_across) {
     unsure = unsure_across;
     a = square_of(arm.p), b = sum_of_products(q.p[0], arm.p[0], q.p[1], arm.p[1]);
@@ -103,7 +103,7 @@ class WindowOf3 {
     Number z_first, z_last, xi_error, low, high;
   };
 
-  /// Of the plane of this point; not beyond `end`. False where it is missed.
+  /// The section of the plane of this point, up to `end`. False where the flight misses it.
   LORENTZ_INLINE Mask set_section(const Point& point, Number kappa, Number end, Section& section) const {
     const Number slop = all(kSlop3d), tilt = basis->tilt();
     const auto& g1 = basis->dual[1];
@@ -200,7 +200,7 @@ class WindowOf3 {
     point.extent = Abs(point.z);
   }
 
-  // Of an anchor n cells from the home cell. False where it is not known well enough.
+  // For an anchor n cells from the home cell. False where it is not known well enough.
   LORENTZ_INLINE Mask set_errors(const Number (&n)[3]) {
     Number terms = start_size_;
     for (int j = 0; j < 3; ++j) terms = terms + Abs(n[j]) * all(to.size_of[j]);
@@ -232,7 +232,7 @@ class WindowOf3 {
     return sum_of_products(g[0], point.p[0], g[1], point.p[1], g[2], z);
   }
 
-  // Cuts a section to the part in which the plane is within r of the line; true where there is none.
+  // Cuts a section to the part in which the plane is within r of the line. True where no part is.
   LORENTZ_INLINE Mask misses(Number kappa, Section& section) const {
     const Number tilt = basis->tilt(), slop = all(kSlop3d), slope = basis->slope * all(1 + kSlop3d);
     const Number at_first = kappa - tilt * section.z_first, at_last = kappa - tilt * section.z_last;
@@ -262,7 +262,7 @@ class WindowOf3 {
   LORENTZ_INLINE Number windows_to_next_plane(Number kappa) const {
     const Number tilt = basis->tilt(), steepest = Abs(tilt) + basis->tilt_error;
     const Number up = gap_above(tilt - kappa), down = gap_above(kappa - tilt);
-    // Of a tilt that is below its error not even the sign is known.
+    // A tilt below its error may have either sign.
     const Number gap = select(Abs(tilt) <= basis->tilt_error, Min(up, down), select(tilt > all(0), up, down));
     return Min(Max(all(1), 1 + (gap - all(kSlop3d)) / steepest), all(kMaxJump));
   }
