@@ -11,10 +11,11 @@ Case Family::make(std::uint64_t seed, std::uint64_t index) const {
 
 const std::vector<Family>& families() {
   static const std::vector<Family> all{
-      generic_2d(),   generic_3d(),  near_rational(),    corridor_edge(),    grazing(),
-      large_radius(), tiny_radius(), long_flight(),      boundary_starts(),  axis_and_diagonal(),
-      ties(),         tricylinder(), published_faults(), crystal_lattices(), superpositions(),
-      ellipsoids(),   never()};
+      generic_2d(),     generic_3d(),  near_rational(),    corridor_edge(),    grazing(),
+      large_radius(),   tiny_radius(), long_flight(),      boundary_starts(),  axis_and_diagonal(),
+      ties(),           tricylinder(), published_faults(), crystal_lattices(), superpositions(),
+      ellipsoids(),     never(),       ball_2d(),          ball_3d(),          ellipsoid_alone(),
+      rows_and_layers()};
   return all;
 }
 

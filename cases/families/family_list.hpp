@@ -22,6 +22,10 @@ Family crystal_lattices();
 Family superpositions();
 Family ellipsoids();
 Family never();
+Family ball_2d();
+Family ball_3d();
+Family ellipsoid_alone();
+Family rows_and_layers();
 
 // Of campaigns only: golden sets are made of families(), and these are not among them.
 Family leaving();

@@ -44,7 +44,9 @@ const std::vector<Target>& targets() {
                                        {"crystals", {crystal_lattices()}},
                                        {"superpositions", {superpositions()}},
                                        {"ellipsoids", {ellipsoids()}},
-                                       {"never", {never()}}};
+                                       {"never", {never()}},
+                                       {"ray-ball", {ball_3d(), ball_2d(), ellipsoid_alone()}},
+                                       {"rows-and-layers", {rows_and_layers()}}};
   return all;
 }
 

@@ -1,4 +1,4 @@
-// What a campaign aims at: each target is a family of cases, or two in turn. A case follows from (seed,
+// What a campaign aims at: each target is a family of cases, or several in turn. A case follows from (seed,
 // target, index) and nothing else.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace lorentz::cases {
 
 class Target {
  public:
-  /// Of one family, or of two that take turns, kCasesPerScene cases each.
+  /// Of one family, or of several that take turns, kCasesPerScene cases each.
   Target(std::string_view name, std::vector<Family> families) : name_(name), families_(std::move(families)) {}
 
   std::string_view name() const { return name_; }

@@ -132,13 +132,20 @@ class Shrinker {
     for (std::size_t l = best_.scene.lattices.size(); l-- > 0;) drop_lattice(l);
     for (std::size_t l = 0; l < best_.scene.lattices.size(); ++l) {
       for (std::size_t a = best_.scene.lattices[l].atoms.size(); a-- > 0;) drop_atom(l, a);
-      offer([&](Candidate& one) {
-        one.scene.lattices[l].vectors = unit_scene(one.scene.dimension, 1).lattices[0].vectors;
-      });
+      offer([&](Candidate& one) { set_unit_vectors(one.scene, l); });
       for (std::size_t a = 0; a < best_.scene.lattices[l].atoms.size(); ++a) {
         to_ball(l, a);
         offer([&](Candidate& one) { one.scene.lattices[l].atoms[a].position = {}; });
       }
+    }
+  }
+
+  // As many unit vectors as the lattice has.
+  static void set_unit_vectors(Scene& scene, std::size_t l) {
+    Lattice& lattice = scene.lattices[l];
+    for (int i = 0; i < lattice.rank(scene.dimension); ++i) {
+      lattice.vectors[i] = {};
+      lattice.vectors[i][i] = 1;
     }
   }
 
@@ -155,9 +162,12 @@ class Shrinker {
           if (query.from) query.from.emplace(ObstacleId{0, 0, query.from->cell});
         };
         offer([&](Candidate& one) {
-          one.scene = unit_scene(dimension, radius);
+          one.scene = Scene{dimension, {lattice}};
+          one.scene.lattices[0].atoms = {Atom{{}, radius, {}}};
+          set_unit_vectors(one.scene, 0);
           keep_from(one.query);
         });
+        if (lattice.missing > 0) continue;
         offer([&](Candidate& one) {
           const auto dual = dual_of(lattice.vectors, dimension);
           one.scene = unit_scene(dimension, radius / size);
@@ -235,6 +245,7 @@ class Shrinker {
   // not be kept.)
   void go_home() {
     const Scene& scene = best_.scene;
+    if (scene.lattices[0].missing > 0) return;
     const auto& vectors = scene.lattices[0].vectors;
     const Vec place = coordinates(dual_of(vectors, scene.dimension), best_.query.x);
     const auto& from = best_.query.from;
@@ -405,8 +416,10 @@ double price(const Scene& scene, const Query& query) {
 bool is_sane(const Scene& scene) {
   constexpr double kLargestRadius = 100;
   for (const Lattice& lattice : scene.lattices) {
+    if (lattice.missing == scene.dimension) continue;
     double shortest = length(lattice.vectors[0]), largest = 0;
-    for (int i = 1; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+    for (int i = 1; i < lattice.rank(scene.dimension); ++i)
+      shortest = std::min(shortest, length(lattice.vectors[i]));
     for (const Atom& atom : lattice.atoms) {
       largest = std::max(largest, atom.radius);
       for (const Vec& axis : atom.semiaxes) largest = std::max(largest, length(axis));

@@ -28,7 +28,7 @@ std::optional<ReadSet> set_in(const BytesAsFile& file, std::string& reason) {
       if (read.query) require(!flaw_of(*read.query, reader.scene()), "a query has no flaw", read.text);
       if (reader.scene_number() != scenes) append_scene_line(set.text, reader.scene());
       scenes = reader.scene_number();
-      append_record_line(set.text, read.record, reader.scene().dimension);
+      append_record_line(set.text, read.record, reader.scene());
       set.records.push_back(std::move(read.record));
     }
     return set;

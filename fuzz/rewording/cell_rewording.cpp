@@ -78,12 +78,13 @@ class NewCells final : public RewordingStep {
 // Vectors that change by elementary steps, as long as they are binary64 values and M is not too large.
 class Changing {
  public:
-  Changing(const std::array<Vec, 3>& vectors, int dimension)
-      : dimension_(static_cast<std::uint64_t>(dimension)), vectors_(vectors) {}
+  Changing(const std::array<Vec, 3>& vectors, int rank)
+      : rank_(static_cast<std::uint64_t>(rank)), vectors_(vectors) {}
 
   // u_j += c u_i, as large a c as goes.
   void shear(Random& random) {
-    const std::uint64_t j = random.below(dimension_), i = (j + 1 + random.below(dimension_ - 1)) % dimension_;
+    if (rank_ < 2) return;
+    const std::uint64_t j = random.below(rank_), i = (j + 1 + random.below(rank_ - 1)) % rank_;
     const bool power = random.one_in(2);
     int bits = static_cast<int>(random.one_in(2) ? random.below(4) : random.below(kMostCellBits + 1));
     const std::int64_t drawn =
@@ -93,7 +94,7 @@ class Changing {
   }
 
   void exchange(Random& random) {
-    const std::uint64_t i = random.below(dimension_), j = random.below(dimension_);
+    const std::uint64_t i = random.below(rank_), j = random.below(rank_);
     std::swap(vectors_[i], vectors_[j]);
     std::swap(m_[i], m_[j]);
     if (!random.one_in(2)) return;
@@ -105,7 +106,7 @@ class Changing {
 
   // u_j *= factor.
   bool multiply(Random& random, std::int64_t factor) {
-    const std::uint64_t j = random.below(dimension_);
+    const std::uint64_t j = random.below(rank_);
     const auto product = exact_sum({}, {Z(static_cast<long>(factor)), 0, 0}, {vectors_[j], Vec{}, Vec{}});
     if (!product) return false;
     vectors_[j] = *product;
@@ -130,20 +131,20 @@ class Changing {
     return true;
   }
 
-  std::uint64_t dimension_;
+  std::uint64_t rank_;
   std::array<Vec, 3> vectors_;
   IntegerMatrix m_ = identity();
 };
 
 // One of each class, the first in a box that has them all.
-std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int dimension) {
+std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int rank) {
   const IntegerMatrix to_cells = adjugate(m);
   const Z index = abs(determinant(m));
   const long q = index.get_si();
   std::vector<IntegerVec> classes;
   for (long a = 0; a < q; ++a)
-    for (long b = 0; b < q; ++b)
-      for (long c = 0; c < (dimension == 3 ? q : 1); ++c) {
+    for (long b = 0; b < (rank >= 2 ? q : 1); ++b)
+      for (long c = 0; c < (rank == 3 ? q : 1); ++c) {
         const bool known = std::any_of(classes.begin(), classes.end(), [&](const IntegerVec& other) {
           const IntegerVec n = to_cells * IntegerVec{Z(a - other[0]), Z(b - other[1]), Z(c - other[2])};
           return n[0] % index == 0 && n[1] % index == 0 && n[2] % index == 0;
@@ -170,14 +171,15 @@ std::optional<std::vector<Atom>> copies_of(const Lattice& lattice, const std::ve
 std::unique_ptr<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
   const int l = static_cast<int>(random.below(scene.lattices.size()));
   Lattice& lattice = scene.lattices[l];
-  if (lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return nullptr;
-  Changing changing(lattice.vectors, scene.dimension);
+  const int rank = lattice.rank(scene.dimension);
+  if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return nullptr;
+  Changing changing(lattice.vectors, rank);
   for (std::uint64_t steps = random.below(4) + (factor == 1); steps > 0; --steps) changing.shear(random);
   if (factor > 1 && !changing.multiply(random, factor)) return nullptr;
   for (std::uint64_t steps = random.below(3); steps > 0; --steps) changing.shear(random);
   if (random.one_in(2)) changing.exchange(random);
   if (changing.matrix() == identity()) return nullptr;
-  std::vector<IntegerVec> classes = classes_of(changing.matrix(), scene.dimension);
+  std::vector<IntegerVec> classes = classes_of(changing.matrix(), rank);
   auto atoms = copies_of(lattice, classes);
   if (!atoms) return nullptr;
   lattice.vectors = changing.vectors();

@@ -87,8 +87,12 @@ Vec drawn_translation(Random& random, const Scene& scene) {
     for (double& component : by) component = component == 0 ? 0.0 : -component;
     return by;
   }
-  const int unit = std::ilogb(std::max({std::fabs(lattice.vectors[0][0]), std::fabs(lattice.vectors[0][1]),
-                                        std::fabs(lattice.vectors[0][2])}));
+  const Atom& atom = lattice.atoms[0];
+  const Vec size_of = lattice.rank(scene.dimension) > 0 ? lattice.vectors[0]
+                      : atom.is_ball()                  ? Vec{atom.radius}
+                                                        : atom.semiaxes[0];
+  const int unit =
+      std::ilogb(std::max({std::fabs(size_of[0]), std::fabs(size_of[1]), std::fabs(size_of[2])}));
   const int size = static_cast<int>(random.one_in(2) ? random.integer(-4, 4) : random.integer(5, 50));
   for (int i = 0; i < scene.dimension; ++i)
     by[i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), std::min(unit + size, 1000));
@@ -159,7 +163,7 @@ class AxisOrder final : public RewordingStep {
   Scene applied(const Scene& scene) const {
     Scene result{scene.dimension, {}};
     for (const int l : lattices_) {
-      result.lattices.push_back({scene.lattices[l].vectors, {}});
+      result.lattices.push_back({scene.lattices[l].vectors, {}, scene.lattices[l].missing});
       for (const int a : atoms_[l]) result.lattices.back().atoms.push_back(scene.lattices[l].atoms[a]);
     }
     return result;
@@ -270,17 +274,21 @@ std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
 
 // A ball or an ellipsoid whose centre is in the plane z = 0 meets it in the disc or ellipse that it was. With
 // a third vector (w, h), h more than twice any number of the scene, no other layer's comes near the plane,
-// and the layer 0 is the old lattice, whatever w is.
+// and the layer 0 is the old lattice, whatever w is. A row, or single obstacles, are what they were.
 std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
   if (scene.dimension != 2) return nullptr;
   const int least = static_cast<int>(range_of(scene).highest) + 2;
   if (least > kLargestExponent) return nullptr;
   for (Lattice& lattice : scene.lattices) {
-    const double height = drawn_height(random, least);
-    lattice.vectors[2] = {0, 0, random.one_in(2) ? -height : height};
-    if (random.one_in(2))
-      for (int i = 0; i < 2; ++i)
-        lattice.vectors[2][i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), least - 4);
+    if (lattice.missing > 0) {
+      ++lattice.missing;
+    } else {
+      const double height = drawn_height(random, least);
+      lattice.vectors[2] = {0, 0, random.one_in(2) ? -height : height};
+      if (random.one_in(2))
+        for (int i = 0; i < 2; ++i)
+          lattice.vectors[2][i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), least - 4);
+    }
     for (Atom& atom : lattice.atoms)
       if (!atom.is_ball())
         atom.semiaxes.push_back(

@@ -52,12 +52,14 @@ class FreeJsonWriter {
                                          {"lattices", array(lattices)}})}}));
   }
 
-  std::string query_line(const Query& query, int dimension) {
+  std::string query_line(const Query& query, const Components& count) {
+    const int dimension = count.of_vectors();
     std::vector<Member> members{
         {"id", "\"one\""}, {"x", text_of(query.x, dimension)}, {"v", text_of(query.v, dimension)}};
     if (query.from) {
       std::vector<std::string> cell;
-      for (int i = 0; i < dimension; ++i) append_integer(cell.emplace_back(), query.from->cell[i]);
+      for (int i = 0; i < count.of_cells(query.from->lattice); ++i)
+        append_integer(cell.emplace_back(), query.from->cell[i]);
       members.push_back({"from", object({{"lattice", std::to_string(query.from->lattice)},
                                          {"atom", std::to_string(query.from->atom)},
                                          {"cell", array(cell)}})});
@@ -123,7 +125,8 @@ class FreeJsonWriter {
 
   std::string text_of(const Lattice& lattice, int dimension) {
     std::vector<std::string> vectors, atoms;
-    for (int k = 0; k < dimension; ++k) vectors.push_back(text_of(lattice.vectors[k], dimension));
+    for (int k = 0; k < lattice.rank(dimension); ++k)
+      vectors.push_back(text_of(lattice.vectors[k], dimension));
     for (const Atom& atom : lattice.atoms) {
       std::vector<Member> members{{"position", text_of(atom.position, dimension)}};
       std::vector<std::string> axes;
@@ -153,8 +156,7 @@ StreamItem read_here(const std::string& line, const Scene* scene) {
 std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
                                      const ReadLine& reader) {
   FreeJsonWriter writer(random);
-  const std::string scene_line = writer.scene_line(scene),
-                    query_line = writer.query_line(query, scene.dimension);
+  const std::string scene_line = writer.scene_line(scene), query_line = writer.query_line(query, scene);
   const auto read = [&](const std::string& line, const Scene* known) {
     return reader ? reader(line, known) : read_here(line, known);
   };

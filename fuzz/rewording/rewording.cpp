@@ -20,9 +20,15 @@ constexpr int kFewestBits = 1, kMostBits = 50;
 constexpr long kMostBitsOfPeriod = 20;
 
 // The vectors that every lattice of a scene repeats after: of lattice 0 all multiples of `multiple`, if that
-// is no huge number. For each lattice l a matrix P with U_l P k = multiple U_0 k.
+// is no huge number. For each lattice l a matrix P with U_l P k = multiple U_0 k. A lattice of fewer vectors
+// than dimensions has its own, among others none.
 struct Periods {
   explicit Periods(const Scene& scene) {
+    if (!is_crystal(scene)) {
+      if (scene.lattices.size() == 1 && scene.lattices[0].rank(scene.dimension) > 0)
+        in_cells.push_back(identity());
+      return;
+    }
     oracle::CommonExponent common;
     for (const Lattice& lattice : scene.lattices)
       for (int k = 0; k < scene.dimension; ++k)
@@ -67,8 +73,8 @@ bool is_normal_above_least(double t) {
 
 struct Rewording::Impl {
   Impl(Random& random, const Scene& old) : scene(old), vectors(old.lattices[0].vectors), periods(old) {
-    dimension = old.dimension;
-    if (dimension == 2) vectors[2] = {};
+    rank = old.lattices[0].rank(old.dimension);
+    if (old.dimension == 2) vectors[2] = {};
     for (std::uint64_t count = 1 + random.below(kMostSteps); count > 0; --count)
       if (auto step = kSteps[random.below(std::size(kSteps))](random, scene))
         steps.push_back(std::move(step));
@@ -78,11 +84,11 @@ struct Rewording::Impl {
   void move_start(Random& random, Reworded& reworded) const {
     const auto drawn = static_cast<int>(random.integer(kFewestBits, kMostBits));
     const bool along_one = random.one_in(2), powers = random.one_in(2);
-    const std::uint64_t one = random.below(static_cast<std::uint64_t>(dimension));
+    const std::uint64_t one = random.below(static_cast<std::uint64_t>(rank));
     const bool may_round = random.one_in(4);
     for (int bits = drawn; bits > 0; bits = bits / 2) {
       std::array<std::int64_t, 3> k{};
-      for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(dimension); ++i) {
+      for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(rank); ++i) {
         const std::int64_t size = std::int64_t{1} << bits;
         const std::int64_t n = powers ? (random.one_in(2) ? size : -size) : random.integer(-size, size);
         if (!along_one || i == one) k[i] = n;
@@ -136,7 +142,7 @@ struct Rewording::Impl {
     return periods.in_cells[lattice] * integers_of(reworded.periods);
   }
 
-  int dimension;
+  int rank;                    // of lattice 0
   Scene scene;                 // in the new words
   std::array<Vec, 3> vectors;  // of lattice 0, in the old
   Periods periods;             // in the old

@@ -175,7 +175,7 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
       CHECK(count > 8);  // 11 seen at least
     }
   }
-  CHECK(names.size() == 17);
+  CHECK(names.size() == 21);
   CHECK(cases::family_named("no such family") == nullptr);
 }
 
@@ -297,6 +297,8 @@ TEST_CASE("The cases of a seed are those that they were, in every target", "[cas
       {"superpositions", "8e862933eeb96b02"},
       {"ellipsoids", "fc82f39fd99c0ebd"},
       {"never", "a514287884d39e74"},
+      {"ray-ball", "c11146bd61e9ef9d"},
+      {"rows-and-layers", "dbacdd765bdbcbdf"},
   };
   CHECK(kDigests.size() == cases::targets().size());
   for (const cases::Target& target : cases::targets()) {

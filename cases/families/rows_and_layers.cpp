@@ -1,0 +1,116 @@
+// rows-and-layers: lattices that repeat in fewer directions than there are, alone and with others.
+//
+// A row or a layer is cut from a crystal: it keeps the first primitive vectors. What is hard about it is not what
+// is hard in a crystal, where something is always hit in the end: a flight beside a row is long, one away from it
+// hits nothing, and one in the plane of a layer is a flight in two dimensions, exactly or nearly.
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "cases/crystals.hpp"
+#include "cases/families/family_list.hpp"
+#include "cases/free_start.hpp"
+#include "cases/hard_moves.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/scene_edit.hpp"
+
+namespace lorentz::cases {
+namespace {
+
+Lattice cut(Lattice lattice, int dimension, int rank) {
+  lattice.missing = dimension - rank;
+  for (int i = rank; i < dimension; ++i) lattice.vectors[i] = {};
+  return lattice;
+}
+
+// A lattice of 1 to d - 1 vectors; and, in half of the scenes, another of any number of them.
+Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
+  const int dimension = drawn.one_in(4) ? 2 : 3;
+  Scene scene = drawn_crystal(drawn, dimension).scene;
+  scale_obstacles(scene, drawn.one_in(2) ? 1 : drawn.octave(-10, 0));
+  const int rank = dimension == 2 || drawn.one_in(4) ? 1 : 2;
+  tags.push_back(rank == 2 ? "layer" : "row");
+  const Lattice whole = scene.lattices[0];
+  scene.lattices[0] = cut(whole, dimension, rank);
+  if (drawn.one_in(2)) {
+    Lattice other = cut(whole, dimension, static_cast<int>(drawn.integer(0, dimension)));
+    for (Atom& atom : other.atoms)
+      for (int i = 0; i < dimension; ++i)
+        atom.position[i] += drawn.between(0.3, 0.7) * length(whole.vectors[i]);
+    scene.lattices.push_back(std::move(other));
+    tags.push_back("mixed");
+  }
+  return scene;
+}
+
+// Along the lattice, with small integers, exactly or up to ulps and tilts.
+Vec along(Random& random, const Lattice& lattice, int dimension) {
+  Vec v{};
+  for (int i = 0; i < lattice.rank(dimension); ++i)
+    v = sum(v, scaled(lattice.vectors[i], static_cast<double>(random.integer(-5, 5))));
+  if (v == Vec{}) v = lattice.vectors[0];
+  if (random.one_in(2)) return v;
+  return sum(v, scaled(random.direction(dimension), length(v) * random.octave(-50, -4)));
+}
+
+Case make_case(Source& source) {
+  Case made;
+  Random& random = source.random;
+  made.scene = drawn_scene(source.scene, made.tags);
+  const int dimension = made.scene.dimension;
+  const Lattice& lattice = made.scene.lattices[0];
+  const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
+  Vec target = atom.position;
+  ObstacleId own{0, static_cast<int>(&atom - lattice.atoms.data()), {}};
+  for (int i = 0; i < lattice.rank(dimension); ++i) {
+    const std::int64_t n = random.integer(-50, 50);
+    own.cell[i] = Integer(n);
+    target = sum(target, scaled(lattice.vectors[i], static_cast<double>(n)));
+  }
+  const double reach = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
+  const Vec direction = random.direction(dimension);
+  made.query.x = sum(target, scaled(direction, -reach * random.octave(1, 12)));
+  made.query.v = direction;
+  switch (random.below(5)) {
+    case 0:
+      made.tags.push_back("aimed");
+      break;
+    case 1:
+      made.tags.push_back("away");
+      made.query.v = random.direction(dimension);
+      break;
+    case 2:
+      made.tags.push_back("along");
+      made.query.v = along(random, lattice, dimension);
+      made.query.x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
+      break;
+    case 3:
+      made.tags.push_back("leaving");
+      made.query.from = own;
+      made.query.x = sum(target, scaled(direction, reach));
+      made.query.v = random.one_in(2) ? along(random, lattice, dimension) : random.direction(dimension);
+      break;
+    default:
+      made.tags.push_back("edge");
+      made.query.x = sum(made.query.x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
+      move_to_edge(random, made.scene, oracle_of(made.scene), made.query);
+  }
+  return made;
+}
+
+}  // namespace
+
+Family rows_and_layers() {
+  return {"rows-and-layers",
+          "Lattices that repeat in fewer directions: rows and layers, alone, and among others.",
+          {{"row", "one primitive vector"},
+           {"layer", "two primitive vectors, in space"},
+           {"mixed", "and another lattice: of single obstacles, a row, a layer or a crystal"},
+           {"aimed", "at an obstacle, from as far as 4000 radii away"},
+           {"away", "in any direction: mostly nothing is hit"},
+           {"along", "along a row, or in the plane of a layer, exactly or nearly"},
+           {"leaving", "starts on an obstacle that it leaves"},
+           {"edge", "past the edge of what is hit first, on either side"}},
+          make_case};
+}
+
+}  // namespace lorentz::cases

@@ -1,0 +1,297 @@
+// ball-2d, ball-3d, ellipsoid-alone: a ray and one obstacle, as ray tracers, physics engines and transport codes
+// ask it, where binary64 is short.
+//
+// A case is made beside the ball of radius w around the origin, w an integer with many points (a, b, c) of
+// integers on its surface, in numbers of few bits: a start that is meant to be on the surface, or a line that is
+// meant to touch, is exactly that. A line along an axis at the height w, tilted by 2^-k, passes the edge as
+// nearly as 10^-30 radii. Then all is scaled by a power of two, and moved by integers. An ellipsoid { p + A y :
+// |y| < 1 } takes the line x + t v beside the unit ball to p + A x + t A v: where A is a diagonal of powers of
+// two, exactly.
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "cases/families/family_list.hpp"
+#include "cases/integer_vectors.hpp"
+#include "cases/symmetry.hpp"
+#include "cases/ulps.hpp"
+
+namespace lorentz::cases {
+namespace {
+
+// A point of the surface of the ball of radius w, and a direction along it there.
+struct Touching {
+  double w;
+  Vec n, tangent;
+};
+
+// (a, b, c, d) with a^2 + b^2 + c^2 = d^2, or with c = 0.
+Touching drawn_touching(Random& drawn, Random& random, int dimension) {
+  static constexpr std::int64_t kCirclePoints[][3] = {
+      {3, 4, 5}, {5, 12, 13}, {16, 63, 65}, {36, 77, 85}, {264, 23, 265}};
+  const auto& [a, b, w] = kCirclePoints[drawn.below(5)];
+  const auto [x, y, size] =
+      std::tuple(static_cast<double>(a), static_cast<double>(b), static_cast<double>(w));
+  const Symmetry symmetry(random, dimension);
+  if (dimension == 2) return {size, symmetry(Vec{x, y, 0}), symmetry(Vec{-y, x, 0})};
+  // The rows of a rotation by quaternions have the length of its norm: here (x, y, 0) in a tilted plane.
+  const double tilt = random.one_in(2) ? 0 : 3, up = tilt == 0 ? 5 : 4;
+  return {5 * size, symmetry(Vec{5 * x, up * y, tilt * y}), symmetry(Vec{-5 * y, up * x, tilt * x})};
+}
+
+// Beside the ball of radius w around the origin.
+struct Ray {
+  Vec x, v;
+  bool on_obstacle = false;  // then `from` may be it
+  std::vector<std::string> tags;
+};
+
+Vec across(Random& random, const Vec& v, int dimension) {
+  Vec n = dimension == 2 ? Vec{-v[1] * random.sign(), v[0], 0} : cross(v, random.direction(3));
+  const double size = length(n);
+  return size > 0 ? scaled(n, 1 / size) : Vec{0, 1, 0};
+}
+
+// From so far away, past the centre at `beside`; exactly, up to rounding, along a direction of any kind.
+Ray aimed(Random& random, int dimension, double far, double beside) {
+  const Vec v = random.direction(dimension);
+  return {sum(scaled(across(random, v, dimension), beside), scaled(v, -far)), v, false, {}};
+}
+
+Ray plain(Random& random, int dimension, double w) {
+  Ray ray = aimed(random, dimension, w * random.between(1.5, 10), w * random.between(0, 2));
+  ray.tags = {"plain"};
+  return ray;
+}
+
+// Past the edge by 10^-30 to 1 radii, on either side, and from any distance.
+Ray past_edge(Random& random, int dimension, double w, bool far_away) {
+  const double far = far_away ? w * random.octave(10, 50) : std::round(w * random.between(2, 20));
+  const double depth = random.octave(-100, 0) * random.sign();
+  Ray ray;
+  if (std::fabs(depth) > 0x1p-48) {
+    ray = aimed(random, dimension, far, w * (1 - depth));
+  } else {
+    const Symmetry symmetry(random, dimension);
+    ray.x = symmetry(Vec{-far, w, 0});
+    ray.v = symmetry(Vec{1, -depth * w / far, 0});
+  }
+  ray.tags = {"grazing"};
+  if (far_away) ray.tags.push_back("far-origin");
+  return ray;
+}
+
+Ray tangent(Random& random, const Touching& touching) {
+  const double steps = random.one_in(4) ? 0 : static_cast<double>(random.integer(1, std::int64_t{1} << 20));
+  Ray ray{sum(touching.n, scaled(touching.tangent, -steps)), touching.tangent, steps == 0, {"tangent"}};
+  if (steps == 0) ray.tags.push_back("self-intersection");
+  return ray;
+}
+
+// On the surface, or some ulps to 10^-3 radii off it; inwards, outwards, along it or nearly so.
+Ray at_surface(Random& random, int dimension, const Touching& touching) {
+  Ray ray{touching.n, {}, true, {"self-intersection"}};
+  switch (random.below(3)) {
+    case 0:
+      break;
+    case 1:
+      jitter(random, ray.x, dimension, 4);
+      break;
+    default:
+      ray.x = scaled(ray.x, 1 + random.octave(-50, -10) * random.sign());
+  }
+  const Vec inward = scaled(touching.n, -1);
+  switch (random.below(4)) {
+    case 0:
+      ray.v = sum(inward, scaled(touching.tangent, random.between(-2, 2)));
+      break;
+    case 1:
+      ray.v = sum(touching.n, scaled(touching.tangent, random.between(-2, 2)));
+      break;
+    case 2:
+      ray.v = sum(touching.tangent, scaled(inward, random.octave(-53, -4) * random.sign()));
+      break;
+    default:
+      ray.v = random.direction(dimension);
+  }
+  return ray;
+}
+
+Ray from_inside(Random& random, int dimension, double w) {
+  return {scaled(random.direction(dimension),
+                 w * (random.one_in(2) ? random.uniform() : 1 - random.octave(-52, -2))),
+          random.direction(dimension),
+          true,
+          {"inside"}};
+}
+
+Ray far_origin(Random& random, int dimension, double w) {
+  Ray ray = aimed(random, dimension, w * random.octave(10, 50), w * random.between(0, 1.5));
+  ray.tags = {"far-origin"};
+  return ray;
+}
+
+Ray ray_beside(Random& random, int dimension, const Touching& touching) {
+  const double w = touching.w;
+  switch (random.below(10)) {
+    case 0:
+      return plain(random, dimension, w);
+    case 1:
+    case 2:
+      return past_edge(random, dimension, w, false);
+    case 3:
+      return tangent(random, touching);
+    case 4:
+    case 5:
+      return at_surface(random, dimension, touching);
+    case 6:
+      return from_inside(random, dimension, w);
+    case 7:
+      return past_edge(random, dimension, w, true);
+    default:
+      return far_origin(random, dimension, w);
+  }
+}
+
+// Does b^2 - a c, of the quadratic a t^2 + 2 b t + c, lose half of its bits or more?
+bool cancels(const Ray& ray, double w) {
+  const double a = dot(ray.v, ray.v), b = dot(ray.x, ray.v), c = dot(ray.x, ray.x) - w * w;
+  return std::fabs(b * b - a * c) < 0x1p-26 * b * b;
+}
+
+// v times a power of two: of no consequence but to squares.
+void stretch(Random& random, Ray& ray) {
+  if (!random.one_in(8)) return;
+  const bool longer = random.one_in(2), subnormal = !longer && random.one_in(2);
+  ray.tags.push_back(longer ? "long-direction" : subnormal ? "subnormal-direction" : "short-direction");
+  const int exponent = longer ? 900 : subnormal ? -1040 : -900;
+  ray.v = scaled(ray.v, std::ldexp(1.0, exponent + static_cast<int>(random.integer(-20, 20)) -
+                                            std::ilogb(std::max({std::fabs(ray.v[0]), std::fabs(ray.v[1]),
+                                                                 std::fabs(ray.v[2])}))));
+}
+
+Scene alone(int dimension, Atom atom) {
+  Scene scene{dimension, {Lattice{}}};
+  scene.lattices[0].missing = dimension;
+  scene.lattices[0].atoms = {std::move(atom)};
+  return scene;
+}
+
+// The ray beside the ball of radius w, and what follows from it.
+Ray finished_ray(Random& random, int dimension, const Touching& touching, Case& made) {
+  Ray ray = ray_beside(random, dimension, touching);
+  if (cancels(ray, touching.w)) ray.tags.push_back("cancellation");
+  if (ray.on_obstacle && random.one_in(3)) {
+    ray.tags.push_back("leaving");
+    made.query.from = ObstacleId{};
+  }
+  stretch(random, ray);
+  made.tags = ray.tags;
+  return ray;
+}
+
+Case ball_case(Source& source, int dimension) {
+  Case made;
+  Random& drawn = source.scene;
+  const int size = drawn.one_in(2) ? 0 : static_cast<int>(drawn.integer(-600, 600));
+  const double shift = drawn.one_in(2) ? 0 : static_cast<double>(drawn.integer(1, 1 << 12));
+  const Touching touching = drawn_touching(drawn, source.random, dimension);
+  const double unit = std::ldexp(1.0, size);
+  Vec centre{};
+  for (int i = 0; i < dimension; ++i) centre[i] = shift * static_cast<double>(drawn.integer(-5, 5));
+  made.scene = alone(dimension, Atom{scaled(centre, unit), touching.w * unit, {}});
+  const Ray ray = finished_ray(source.random, dimension, touching, made);
+  made.query.x = scaled(sum(centre, ray.x), unit);
+  made.query.v = ray.v;
+  if (size < -40) made.tags.push_back("tiny-ball");
+  if (size > 40) made.tags.push_back("huge-ball");
+  return made;
+}
+
+Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
+  Vec result{};
+  for (std::size_t i = 0; i < semiaxes.size(); ++i) result = sum(result, scaled(semiaxes[i], y[i]));
+  return result;
+}
+
+// At right angles to each other, or along the axes and powers of two; the longest up to 2^8 times the shortest.
+std::vector<Vec> semiaxes_alone(Random& drawn, int dimension, bool aligned) {
+  std::vector<Vec> semiaxes(static_cast<std::size_t>(dimension), Vec{});
+  for (int i = 0; i < dimension; ++i) semiaxes[i][i] = 1;
+  if (!aligned) {
+    const Vec a = drawn.direction(dimension);
+    Vec b = dimension == 2 ? Vec{-a[1], a[0], 0} : cross(a, drawn.direction(3));
+    if (b == Vec{}) b = cross(a, a[0] == 0 ? Vec{1, 0, 0} : Vec{0, 1, 0});
+    semiaxes[0] = a, semiaxes[1] = scaled(b, 1 / length(b));
+    if (dimension == 3) semiaxes[2] = cross(a, semiaxes[1]);
+  }
+  for (Vec& axis : semiaxes)
+    axis =
+        scaled(axis, aligned ? std::ldexp(1.0, static_cast<int>(drawn.integer(-8, 0))) : drawn.octave(-8, 0));
+  return semiaxes;
+}
+
+Case ellipsoid_case(Source& source) {
+  Case made;
+  Random& drawn = source.scene;
+  const int dimension = drawn.one_in(3) ? 2 : 3;
+  const bool aligned = drawn.one_in(2), moved = drawn.one_in(2);
+  const std::vector<Vec> semiaxes = semiaxes_alone(drawn, dimension, aligned);
+  Vec centre{};
+  if (moved)
+    for (int i = 0; i < dimension; ++i) centre[i] = static_cast<double>(drawn.integer(-64, 64));
+  const Touching touching = drawn_touching(drawn, source.random, dimension);
+  // Of the radius w, as the ball of the ray is.
+  Atom atom{centre, 0, semiaxes};
+  for (Vec& axis : atom.semiaxes) axis = scaled(axis, touching.w);
+  made.scene = alone(dimension, std::move(atom));
+  const Ray ray = finished_ray(source.random, dimension, touching, made);
+  made.query.x = sum(centre, image(semiaxes, ray.x));
+  made.query.v = image(semiaxes, ray.v);
+  if (made.query.v == Vec{}) made.query.v[0] = 1;  // a subnormal one vanished
+  made.tags.push_back(aligned ? "axis-aligned" : "rotated");
+  return made;
+}
+
+std::vector<Tag> ray_tags() {
+  return {{"plain", "some radii away, well off the edge"},
+          {"grazing", "passes the edge by 10^-30 to 1 radii, on either side"},
+          {"tangent", "touches, exactly where nothing was rounded: which is not a hit"},
+          {"self-intersection", "starts on the surface, exactly, or within 10^-3 radii of it"},
+          {"inside", "starts inside, perhaps by a roundoff"},
+          {"far-origin", "starts 10^3 to 10^15 radii away"},
+          {"cancellation", "the discriminant of the quadratic loses half of its bits, or all"},
+          {"leaving", "`from` is the obstacle, which is ignored: a ray that leaves it"},
+          {"long-direction", "v has a length of about 2^900, whose square is not a binary64"},
+          {"short-direction", "v has a length of about 2^-900, whose square is 0"},
+          {"subnormal-direction", "the components of v are subnormal"}};
+}
+
+std::vector<Tag> with(std::vector<Tag> tags, std::initializer_list<Tag> more) {
+  tags.insert(tags.end(), more);
+  return tags;
+}
+
+const Tag kTiny{"tiny-ball", "a radius of 2^-600 to 2^-30"}, kHuge{"huge-ball", "a radius of 2^40 to 2^612"};
+
+}  // namespace
+
+Family ball_2d() {
+  return {"ball-2d", "A ray and one disc: far, grazing, on the surface, tiny and huge.",
+          with(ray_tags(), {kTiny, kHuge}), [](Source& source) { return ball_case(source, 2); }};
+}
+
+Family ball_3d() {
+  return {"ball-3d", "A ray and one ball: far, grazing, on the surface, tiny and huge.",
+          with(ray_tags(), {kTiny, kHuge}), [](Source& source) { return ball_case(source, 3); }};
+}
+
+Family ellipsoid_alone() {
+  return {
+      "ellipsoid-alone", "A ray and one ellipse or ellipsoid: far, grazing, on the surface.",
+      with(ray_tags(), {{"axis-aligned", "semiaxes along the axes: what is exact for a ball is exact here"},
+                        {"rotated", "semiaxes in any direction"}}),
+      ellipsoid_case};
+}
+
+}  // namespace lorentz::cases
