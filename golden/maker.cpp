@@ -93,6 +93,25 @@ const std::string& Maker::scene_line() const {
   return impl_->scene_line;
 }
 
+Proved Maker::prove(const Query& query) const {
+  oracle::Request request;
+  request.digits = kDigits;
+  Proved proved{impl_->oracle.first_hit(query, request), {}};
+  proved.certificate = impl_->proof(query, proved.exact);
+  bool too_long = false;
+  const auto why = impl_->check.refutation(query, proved.exact, proved.certificate, &too_long);
+  if (too_long)
+    throw ProofTooLong("no checker goes through the proof, which " + *why + ":\n" + asked_of(query));
+  if (why)
+    throw std::logic_error("the check of the certificate (" + *why + ") does not agree with the oracle:\n" +
+                           asked_of(query));
+  return proved;
+}
+
+std::string Maker::asked_of(const Query& query) const {
+  return impl_->scene_line + "\n{" + question_of(query, impl_->scene) + "}";
+}
+
 MadeRecord Maker::make(std::string question, const std::optional<Query>& query) const {
   MadeRecord made;
   Record& record = made.record;
@@ -102,23 +121,13 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
     record.expect = Answer::error("no query");
     return made;
   }
-  oracle::Request request;
-  request.digits = kDigits;
-  record.expect = impl_->oracle.first_hit(*query, request);
-  const std::string asked = impl_->scene_line + '\n' + json::text_of([&](json::Members& line) {
-                              line.add("id", record.id).add_members(record.question);
-                            });
-  const auto disagree = [&](const std::string& who) {
-    throw std::logic_error(who + " does not agree with the oracle:\n" + asked);
-  };
+  Proved proved = prove(*query);
+  record.expect = std::move(proved.exact);
+  record.certificate = std::move(proved.certificate);
   const Answer walked = impl_->walked(*query);
   made.walked = walked.outcome != Outcome::undecided;
-  if (made.walked && !same_answer(walked, record.expect)) disagree("walk");
-  record.certificate = impl_->proof(*query, record.expect);
-  bool too_long = false;
-  const auto why = impl_->check.refutation(*query, record.expect, *record.certificate, &too_long);
-  if (too_long) throw ProofTooLong("no checker goes through the proof, which " + *why + ":\n" + asked);
-  if (why) disagree("the check of the certificate (" + *why + ")");
+  if (made.walked && !same_answer(walked, record.expect))
+    throw std::logic_error("walk does not agree with the oracle:\n" + asked_of(*query));
   impl_->measure(*query, record);
   return made;
 }

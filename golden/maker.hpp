@@ -15,6 +15,12 @@ struct MadeRecord {
       false;  ///< `walk` could go there, and agrees; else the second opinion is the checked certificate alone
 };
 
+/// An exact answer, with kDigits digits of its time, and its proof.
+struct Proved {
+  Answer exact;
+  oracle::Certificate certificate;
+};
+
 /// An answer whose proof takes more steps than any checker goes (docs/certificates.md).
 struct ProofTooLong : InputError {
   using InputError::InputError;
@@ -38,6 +44,9 @@ class Maker {
   /// The scene's line, without the line end.
   const std::string& scene_line() const;
 
+  /// Throws std::logic_error if the check refutes the proof, and ProofTooLong.
+  Proved prove(const Query& query) const;
+
   /// Throws std::logic_error if the opinions differ: then the oracle is wrong, and nothing may be published;
   /// and ProofTooLong.
   MadeRecord make(std::string question, const std::optional<Query>& query) const;
@@ -48,6 +57,8 @@ class Maker {
                                      bool ask_walk) const;
 
  private:
+  std::string asked_of(const Query& query) const;
+
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -20,7 +20,7 @@ constexpr std::uint64_t kBatch = cases::kCasesPerScene;
 
 struct Made {
   std::string scene_line;
-  int dimension = 0;
+  Components components = 2;
   MadeRecord record;
 };
 
@@ -39,7 +39,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
     append_scene_line(scene_line, question.scene);
     scene_line.pop_back();
     if (!maker || maker->scene_line() != scene_line) maker.emplace(question.scene);
-    batch.push_back({scene_line, question.scene.dimension, maker->make(question.text, question.query)});
+    batch.push_back({scene_line, question.scene, maker->make(question.text, question.query)});
     batch.back().record.record.tags = question.tags;
   }
   return batch;
@@ -148,7 +148,7 @@ void produce_rest(const Order& order, ProductionState& state,
         state.scene_line = made.scene_line;
         text += state.scene_line + '\n';
       }
-      append_record_line(text, record, made.dimension);
+      append_record_line(text, record, made.components);
       count(state.counts, made.record);
     }
     ++state.next_batch;

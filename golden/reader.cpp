@@ -57,42 +57,50 @@ Header read_header(json::Value value) {
   return header;
 }
 
-// A basis has as many vectors as the scene dimensions, and these as many components.
-void check_size(std::size_t count, int dimension) {
-  if (count != static_cast<std::size_t>(dimension))
-    throw InputError("basis: has " +
-                     std::string(count < static_cast<std::size_t>(dimension) ? "less" : "more") + " than " +
-                     std::to_string(dimension) + " vectors or components");
+// The integers of a basis, row by row.
+std::vector<std::vector<Integer>> read_basis(json::Value value) {
+  std::vector<std::vector<Integer>> rows;
+  json::each_element(value.array(), [&](json::Value row) {
+    if (rows.size() == 3) throw InputError("basis: has more than 3 vectors");
+    rows.emplace_back();
+    json::each_element(row.array(), [&](json::Value component) {
+      if (rows.back().size() == 3) throw InputError("basis: has more than 3 components");
+      rows.back().push_back(read_integer(component, "basis"));
+    });
+  });
+  return rows;
 }
 
-oracle::CertificateBasis read_basis(json::Value value, int dimension) {
+// It has as many vectors as the lattice, and these as many components.
+oracle::CertificateBasis basis_of(const std::vector<std::vector<Integer>>& rows, int rank) {
+  const auto check = [&](std::size_t count, const char* what) {
+    if (count != static_cast<std::size_t>(rank))
+      throw InputError("basis: has " + std::to_string(count) + " " + what + " where the lattice has " +
+                       std::to_string(rank));
+  };
   oracle::CertificateBasis basis;
-  std::size_t i = 0;
-  json::each_element(value.array(), [&](json::Value row) {
-    if (i == basis.size()) check_size(i + 1, dimension);
-    std::size_t k = 0;
-    json::each_element(row.array(), [&](json::Value component) {
-      if (k == basis[i].size()) check_size(k + 1, dimension);
-      basis[i][k++] = read_integer(component, "basis");
-    });
-    check_size(k, dimension);
-    ++i;
-  });
-  check_size(i, dimension);
+  check(rows.size(), "vectors");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    check(rows[i].size(), "components");
+    std::copy(rows[i].begin(), rows[i].end(), basis[i].begin());
+  }
   return basis;
 }
 
 // A number as elsewhere, but its hexadecimal form is taken exactly.
 oracle::WindowEnd read_end(json::Value value, const std::string& key) {
   if (value.type() != json::Type::string) return read_number(value, key);
-  const auto end = oracle::window_end_from(value.text());
+  const std::string_view text = value.text();
+  if (key == "to" && text == "inf") return HUGE_VAL;
+  const auto end = oracle::window_end_from(text);
   if (!end) throw InputError(key + ": is no number and no text like \"-0x1f4p-3\"");
   return *end;
 }
 
 // A window, or of a row what it has of one.
-oracle::Window read_window(json::Value value, int dimension, bool is_row) {
+oracle::Window read_window(json::Value value, const Components& count, bool is_row) {
   oracle::Window window;
+  std::vector<std::vector<Integer>> basis;
   std::set<std::string> missing{"lattice", "atom", "basis"};
   if (!is_row) missing.insert({"from", "to"});
   json::each_member(value.object(), [&](std::string_view name, json::Value member) {
@@ -107,15 +115,16 @@ oracle::Window read_window(json::Value value, int dimension, bool is_row) {
     else if (key == "to" && !is_row)
       window.to = read_end(member, key);
     else if (key == "basis")
-      window.basis = read_basis(member, dimension);
+      basis = read_basis(member);
     else
       skip(member);
   });
   if (!missing.empty()) throw InputError("certificate: " + *missing.begin() + " is missing");
+  window.basis = basis_of(basis, count.of_cells(window.lattice));
   return window;
 }
 
-oracle::Certificate read_certificate(json::Value value, int dimension) {
+oracle::Certificate read_certificate(json::Value value, const Components& count) {
   oracle::Certificate certificate;
   bool has_windows = false, has_rows = false;
   json::each_member(value.object(), [&](std::string_view key, json::Value pieces) {
@@ -123,18 +132,18 @@ oracle::Certificate read_certificate(json::Value value, int dimension) {
     has_rows |= key == "rows";
     if (key == "windows") {
       json::each_element(pieces.array(), [&](json::Value piece) {
-        certificate.windows.push_back(read_window(piece, dimension, false));
+        certificate.windows.push_back(read_window(piece, count, false));
       });
     } else if (key == "rows") {
       json::each_element(pieces.array(), [&](json::Value piece) {
-        oracle::Window row = read_window(piece, dimension, true);
+        oracle::Window row = read_window(piece, count, true);
         certificate.rows.push_back({row.lattice, row.atom, std::move(row.basis)});
       });
     } else {
       skip(pieces);
     }
   });
-  if (has_windows == has_rows) throw InputError("certificate: has either windows or rows");
+  if (!has_windows && !has_rows) throw InputError("certificate: has neither windows nor rows");
   return certificate;
 }
 
@@ -274,7 +283,7 @@ struct Reader::Impl {
     } else if (key == "condition") {
       record.condition = read_number_or_infinity(value, key);
     } else if (key == "certificate") {
-      record.certificate = read_certificate(value, scene->dimension);
+      record.certificate = read_certificate(value, Components(*scene));
     } else {
       skip(value);
     }

@@ -11,34 +11,35 @@
 namespace lorentz::golden {
 namespace {
 
-void add_basis(json::Members& object, const oracle::CertificateBasis& basis, int dimension) {
+void add_basis(json::Members& object, const oracle::CertificateBasis& basis, int rank) {
   std::vector<std::span<const Integer>> rows;
-  for (const auto& row : components(basis, dimension)) rows.push_back(components(row, dimension));
+  for (const auto& row : components(basis, rank)) rows.push_back(components(row, rank));
   object.add("basis", rows);
 }
 
 // A number if a binary64 is exactly that, else a string.
 std::string end_text(const oracle::WindowEnd& end) {
+  if (end.infinite) return json::text_of("inf");
   const auto value = binary64_of(end);
   return value ? json::text_of(*value) : json::text_of(text_of(end));
 }
 
-void add_certificate(json::Members& object, const oracle::Certificate& certificate, int dimension) {
+}  // namespace
+
+void add_certificate(json::Members& object, const oracle::Certificate& certificate, const Components& count) {
   if (!certificate.rows.empty())
     object.add("rows", json::objects(certificate.rows, [&](json::Members& one, const oracle::Rows& rows) {
                  one.add("lattice", rows.lattice, "atom", rows.atom);
-                 add_basis(one, rows.basis, dimension);
+                 add_basis(one, rows.basis, count.of_cells(rows.lattice));
                }));
   if (!certificate.windows.empty() || certificate.rows.empty())
     object.add("windows",
                json::objects(certificate.windows, [&](json::Members& one, const oracle::Window& window) {
                  one.add("lattice", window.lattice, "atom", window.atom, "from",
                          json::Raw{end_text(window.from)}, "to", json::Raw{end_text(window.to)});
-                 add_basis(one, window.basis, dimension);
+                 add_basis(one, window.basis, count.of_cells(window.lattice));
                }));
 }
-
-}  // namespace
 
 std::string sha256(std::string_view text) {
   unsigned char digest[SHA256_DIGEST_LENGTH];
@@ -90,9 +91,8 @@ void append_record_line(std::string& out, const Record& record, const Components
     if (record.margin) line.add("margin", *record.margin);
     if (record.condition) line.add("condition", *record.condition);
     if (record.certificate)
-      line.add("certificate", [&](json::Members& object) {
-        add_certificate(object, *record.certificate, count.of_vectors());
-      });
+      line.add("certificate",
+               [&](json::Members& object) { add_certificate(object, *record.certificate, count); });
   });
   out += '\n';
 }

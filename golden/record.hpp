@@ -9,6 +9,7 @@
 
 #include <lorentz/certificate.hpp>
 #include <lorentz/exchange.hpp>
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::golden {
 
@@ -41,6 +42,9 @@ std::string question_of(const Query& query, const Components& count);
 
 /// The number of significant digits of a record's time_decimal.
 inline constexpr int kDigits = 40;
+
+/// Adds its windows and rows; a lattice's bases have as many rows as it has vectors.
+void add_certificate(json::Members& object, const oracle::Certificate& certificate, const Components& count);
 
 /// Appends a line, with its line end.
 void append_header_line(std::string& out, const Header& header);

@@ -27,11 +27,15 @@ Lemma not_after_antisymmetric o o' : not_after o o' -> not_after o' o -> o = o'.
 Proof. intros [|H] [|K]; auto. destruct (less_asymmetric _ _ H K). Qed.
 Lemma not_after_transitive o o' o'' : not_after o o' -> not_after o' o'' -> not_after o o''.
 Proof. intros [->|H] [<-|K]; unfold not_after; auto. right. exact (less_transitive _ _ _ H K). Qed.
-Lemma not_after_total o o' : length (cell o) = length (cell o') -> not_after o o' \/ not_after o' o.
+(* Obstacles of one lattice have cells of one length. *)
+Lemma not_after_total o o' : (of_lattice o = of_lattice o' -> length (cell o) = length (cell o')) ->
+  not_after o o' \/ not_after o' o.
 Proof.
-  intros E. destruct (less_total (name o) (name o')) as [H|[H|H]]; unfold not_after; auto.
-  - cbn. rewrite E. reflexivity.
-  - apply name_injective in H. auto.
+  intros E. unfold not_after. destruct (Z.lt_trichotomy (of_lattice o) (of_lattice o')) as [H|[H|H]].
+  1, 3: cbn; auto.
+  destruct (less_total (name o) (name o')) as [K|[K|K]]; auto.
+  - cbn. rewrite (E H). reflexivity.
+  - apply name_injective in K. auto.
 Qed.
 
 (* ---- At most one. *)
@@ -164,7 +168,7 @@ Ltac coordinates l := let H := fresh in
 
 (* What the determinant must not be, of the plane and of space. *)
 Definition spans (d : nat) (b : list vec) : Prop :=
-  forall k, length k = d -> combination (zero d) k b = zero d -> k = zero d.
+  forall k, length k = length b -> combination (zero d) k b = zero d -> k = zero (length b).
 Lemma determinant_2 a1 a2 b1 b2 : spans 2 [[a1; a2]; [b1; b2]] -> a1 * b2 - a2 * b1 <> 0.
 Proof.
   intros H D. unfold spans, combination, along, zero in H; cbn in H.
@@ -210,8 +214,70 @@ Proof.
     + apply sum_of_squares_0 in C0. destruct C0 as (-> & -> & ->).
       destruct (three 0 0 1) as (_ & _ & F); try ring. lra.
 Qed.
-Lemma coefficients d b p B : (d = 2 \/ d = 3)%nat -> length b = d -> Forall (fun e => length e = d) b ->
-  spans d b -> length p = d ->
+Definition volume (b : list vec) : R :=
+  match b with
+  | [[a1; a2]; [b1; b2]] => a1 * b2 - a2 * b1
+  | [[a1; a2; a3]; [b1; b2; b3]; [c1; c2; c3]] =>
+    a1 * (b2 * c3 - b3 * c2) + a2 * (b3 * c1 - b1 * c3) + a3 * (b1 * c2 - b2 * c1)
+  | _ => 0
+  end.
+(* Fewer independent vectors are completed to as many as there are dimensions. *)
+Lemma not_zero d a : spans d [a] -> length a = d -> a <> zero d.
+Proof.
+  intros H La ->. assert (K : [1] = zero 1); [apply H; [reflexivity|]|injection K; lra].
+  cbn. unfold along, zero. clear. induction d as [|d IH]; [reflexivity|]. cbn in *. f_equal; [ring|exact IH].
+Qed.
+Lemma complete_1 a1 a2 a3 : [a1; a2; a3] <> zero 3 -> exists e, length e = 2%nat /\
+  Forall (fun c => length c = 3%nat) e /\ volume ([a1; a2; a3] :: e) <> 0.
+Proof.
+  intros N. assert (a1 <> 0 \/ a2 <> 0 \/ a3 <> 0) as [K|[K|K]].
+  { apply NNPP. intros C. apply N. apply not_or_and in C. destruct C as [C1 C]. apply not_or_and in C.
+    destruct C as [C2 C3]. apply NNPP in C1, C2, C3. subst. reflexivity. }
+  - exists [[0; 1; 0]; [0; 0; 1]]. cbn. repeat split; auto. lra.
+  - exists [[1; 0; 0]; [0; 0; 1]]. cbn. repeat split; auto. lra.
+  - exists [[1; 0; 0]; [0; 1; 0]]. cbn. repeat split; auto. lra.
+Qed.
+Lemma complete_2 a1 a2 a3 b1 b2 b3 : spans 3 [[a1; a2; a3]; [b1; b2; b3]] -> exists e, length e = 1%nat /\
+  Forall (fun c => length c = 3%nat) e /\ volume ([a1; a2; a3] :: [b1; b2; b3] :: e) <> 0.
+Proof.
+  intros H. set (n1 := a2 * b3 - a3 * b2). set (n2 := a3 * b1 - a1 * b3). set (n3 := a1 * b2 - a2 * b1).
+  exists [[n1; n2; n3]]. cbn. repeat split; auto. intros D.
+  assert (N : n1 * n1 + n2 * n2 + n3 * n3 = 0) by (rewrite <- D; unfold n1, n2, n3; ring).
+  apply sum_of_squares_0 in N. destruct N as (N1 & N2 & N3).
+  assert (two : forall k1 k2, 0 + k1 * a1 + k2 * b1 = 0 -> 0 + k1 * a2 + k2 * b2 = 0 ->
+    0 + k1 * a3 + k2 * b3 = 0 -> k1 = 0 /\ k2 = 0).
+  { intros k1 k2 E1 E2 E3. assert (K : [k1; k2] = zero 2).
+    { apply H; [reflexivity|]. cbn. rewrite E1, E2, E3. reflexivity. }
+    injection K. auto. }
+  destruct (two (b1 * b1 + b2 * b2 + b3 * b3) (- (a1 * b1 + a2 * b2 + a3 * b3))) as [B0 _].
+  - transitivity (b2 * n3 - b3 * n2); [unfold n2, n3; ring|rewrite N2, N3; ring].
+  - transitivity (b3 * n1 - b1 * n3); [unfold n1, n3; ring|rewrite N1, N3; ring].
+  - transitivity (b1 * n2 - b2 * n1); [unfold n1, n2; ring|rewrite N1, N2; ring].
+  - apply sum_of_squares_0 in B0. destruct B0 as (-> & -> & ->).
+    destruct (two 0 1) as (_ & F); try ring. lra.
+Qed.
+Lemma complete d b : (d = 2 \/ d = 3)%nat -> (length b <= d)%nat -> Forall (fun e => length e = d) b ->
+  spans d b -> exists e, length (b ++ e) = d /\ Forall (fun c => length c = d) e /\ volume (b ++ e) <> 0.
+Proof.
+  intros Hd Lb Fb Sb. destruct b as [|a b].
+  { destruct Hd as [-> | ->].
+    - exists [[1; 0]; [0; 1]]. cbn. repeat split; auto. lra.
+    - exists [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]]. cbn. repeat split; auto. lra. }
+  inversion_clear Fb as [|? ? La Fb']. destruct b as [|b b'].
+  { pose proof (not_zero d a Sb La) as N. destruct Hd as [-> | ->]; coordinates a.
+    - rename r into a1, r0 into a2. exists [[- a2; a1]]. cbn. repeat split; auto. intros D. apply N.
+      destruct (sum_of_squares_0 a1 a2 0 ltac:(lra)) as (-> & -> & _). reflexivity.
+    - destruct (complete_1 _ _ _ N) as (e & Le & Fe & Ve). exists e. cbn. auto. }
+  inversion_clear Fb' as [|? ? Lb' Fb]. destruct Hd as [-> | ->].
+  - destruct b' as [|c b']; [|cbn in Lb; lia]. coordinates a. coordinates b. exists []. cbn.
+    repeat split; auto. apply determinant_2. exact Sb.
+  - coordinates a. coordinates b. destruct b' as [|c b'].
+    + destruct (complete_2 _ _ _ _ _ _ Sb) as (e & Le & Fe & Ve). exists e. cbn in *. auto.
+    + destruct b' as [|? ?]; [|cbn in Lb; lia]. inversion_clear Fb as [|? ? Lc _]. coordinates c. exists []. cbn.
+      repeat split; auto. apply determinant_3. exact Sb.
+Qed.
+Lemma full_coefficients d b p B : (d = 2 \/ d = 3)%nat -> length b = d -> Forall (fun e => length e = d) b ->
+  volume b <> 0 -> length p = d ->
   exists K, forall k, length k = d -> extent (combination p k b) <= B -> Forall (fun c => Rabs c <= K) k.
 Proof.
   intros [-> | ->] Lb Fb Sb Lp.
@@ -219,7 +285,7 @@ Proof.
     inversion_clear Fb'.
     coordinates a. coordinates b. coordinates p.
     rename r into a1, r0 into a2, r1 into b1, r2 into b2, r3 into p1, r4 into p2.
-    pose proof (determinant_2 _ _ _ _ Sb) as D. clear Sb. set (B' := B + extent [p1; p2]).
+    cbn in Sb. rename Sb into D. set (B' := B + extent [p1; p2]).
     exists (Rmax (B' * (Rabs b2 + Rabs (- b1) + Rabs 0) / Rabs (a1 * b2 - a2 * b1))
       (B' * (Rabs (- a2) + Rabs a1 + Rabs 0) / Rabs (a1 * b2 - a2 * b1))).
     intros k Hk H. coordinates k. rename r into k1, r0 into k2. cbn in H.
@@ -239,7 +305,7 @@ Proof.
     coordinates a. coordinates b. coordinates c. coordinates p.
     rename r into a1, r0 into a2, r1 into a3, r2 into b1, r3 into b2, r4 into b3, r5 into c1, r6 into c2,
       r7 into c3, r8 into p1, r9 into p2, r10 into p3.
-    pose proof (determinant_3 _ _ _ _ _ _ _ _ _ Sb) as D. clear Sb. set (B' := B + extent [p1; p2; p3]).
+    cbn in Sb. rename Sb into D. set (B' := B + extent [p1; p2; p3]).
     set (D0 := a1 * (b2 * c3 - b3 * c2) + a2 * (b3 * c1 - b1 * c3) + a3 * (b1 * c2 - b2 * c1)) in *.
     exists (Rmax (B' * (Rabs (b2 * c3 - b3 * c2) + Rabs (b3 * c1 - b1 * c3) + Rabs (b1 * c2 - b2 * c1))
       / Rabs D0)
@@ -261,6 +327,27 @@ Proof.
       apply (small k2 _ _ _ _ (u + - p1) (v + - p2) (w + - p3)); auto. unfold D0, u, v, w. ring.
     + eapply Rle_trans; [|apply Rmax_r]. eapply Rle_trans; [|apply Rmax_r].
       apply (small k3 _ _ _ _ (u + - p1) (v + - p2) (w + - p3)); auto. unfold D0, u, v, w. ring.
+Qed.
+
+Lemma combination_zeros k b : forall p e, length k = length b -> Forall (fun c => length c = length p) b ->
+  Forall (fun c => length c = length p) e -> combination p (k ++ zero (length e)) (b ++ e) = combination p k b.
+Proof.
+  revert b. induction k as [|c k IH]; intros [|f b] p e Lk Fb Fe; try discriminate Lk; cbn [app combination].
+  - clear Lk Fb. induction e as [|f e IH]; [reflexivity|]. inversion_clear Fe as [|? ? Lf Fe']. cbn.
+    replace (along p 0 f) with p; [exact (IH Fe')|]. clear - Lf. unfold along. revert f Lf.
+    induction p as [|x p IH]; intros [|y f] Lf; try discriminate; [reflexivity|]. cbn in *.
+    rewrite <- IH by congruence. f_equal. ring.
+  - inversion_clear Fb as [|? ? Lf Fb']. injection Lk as Lk. apply IH; auto; rewrite along_length by auto; auto.
+Qed.
+Lemma coefficients d b p B : (d = 2 \/ d = 3)%nat -> (length b <= d)%nat -> Forall (fun e => length e = d) b ->
+  spans d b -> length p = d ->
+  exists K, forall k, length k = length b -> extent (combination p k b) <= B -> Forall (fun c => Rabs c <= K) k.
+Proof.
+  intros Hd Lb Fb Sb Lp. destruct (complete d b Hd Lb Fb Sb) as (e & Le & Fe & Ve).
+  destruct (full_coefficients d (b ++ e) p B Hd Le ltac:(apply Forall_app; auto) Ve Lp) as [K HK]. exists K.
+  intros k Lk H. assert (F := HK (k ++ zero (length e))). rewrite app_length in F. unfold zero in F at 1.
+  rewrite repeat_length, Lk, <- app_length in F. rewrite combination_zeros in F by (rewrite ?Lp; auto).
+  specialize (F Le H). apply Forall_app in F. apply F.
 Qed.
 
 (* Of one atom: few cells are near. *)
@@ -311,16 +398,17 @@ Proof.
     - exists (B + extents (map point a)). intros sc o q Hdim HA Hq Lq Eq. apply Only in Hq; auto.
       cbv zeta in Hq.
       set (c := combination _ _ _) in *. destruct Hq as (Lc & y & Ly & Ny & ->).
-      destruct Hs as (La & Sa & _). apply norm_coordinates in Ny.
+      destruct Hs as (La & _ & Sa & _). apply norm_coordinates in Ny.
       pose proof (extent_combination y c (map point a) Ny) as K. rewrite Lc in K.
       specialize (K (sized_lengths _ _ Sa)). lra. }
   destruct (coefficients d (map point (vectors L)) (point (position A)) W) as [K HK]; auto.
   - rewrite map_length. exact Lv.
+  - unfold spans. rewrite map_length. exact Iv.
   - apply sized_length, Hp.
   - exists (up K). intros sc o q Hdim HA Hq Lq Eq.
     assert (F := HK (map IZR (cell o))). rewrite map_length in F. destruct HA as (HL & HA & Hc).
     assert (AO : atom_of sc o L A) by (split; auto).
-    specialize (F ltac:(congruence) (HW sc o q Hdim AO Hq Lq Eq)). unfold within_bounds.
+    specialize (F ltac:(rewrite map_length; exact Hc) (HW sc o q Hdim AO Hq Lq Eq)). unfold within_bounds.
     rewrite Forall_forall in *. intros i Hi. specialize (F (IZR i) (in_map IZR _ _ Hi)).
     rewrite <- abs_IZR in F. pose proof (archimed K) as [U _]. apply le_IZR. lra.
 Qed.
@@ -383,6 +471,19 @@ Qed.
 Definition named (l : list Z) : obstacle :=
   match l with i :: j :: n => Obstacle i j n | _ => Obstacle 0 0 [] end.
 
+(* Those of all lattices, whose names have at most five numbers. *)
+Definition few (K : Z) : list obstacle := flat_map (fun n => map named (lists K n)) (seq 0 6).
+Lemma few_all K o : within_bounds K (name o) -> (length (cell o) <= 3)%nat -> In o (few K).
+Proof.
+  intros H L. apply in_flat_map. exists (length (name o)). split; [apply in_seq; cbn; lia|].
+  apply in_map_iff. exists (name o). split; [destruct o; reflexivity|exact (lists_all K (name o) H)].
+Qed.
+Lemma occupied_total sc o p o' q : occupied sc o p -> occupied sc o' q -> not_after o o' \/ not_after o' o.
+Proof.
+  intros (L & A & (HL & _ & E) & _) (L' & A' & (HL' & _ & E') & _). apply not_after_total. intros S.
+  rewrite S, HL' in HL. injection HL as <-. congruence.
+Qed.
+
 (* The least of few. *)
 Lemma least {A} (before : A -> A -> Prop) (P : A -> Prop) (l : list A) :
   (forall a b, P a -> P b -> before a b \/ before b a) ->
@@ -432,14 +533,13 @@ Proof.
   intros Vs (Sx & Sv & _).
   set (within := fun o t => occupied sc o (along (point (start q)) t (point (velocity q)))).
   assert (Near : forall T, exists K, forall o t, 0 <= t -> t <= T -> within o t ->
-    In o (map named (lists K (S (S (dimension sc))))) /\ length (cell o) = dimension sc).
+    In o (few K)).
   { intros T.
     destruct (names_near sc (extent (point (start q)) + T * extent (point (velocity q))) Vs) as [K HK].
-    exists K. intros o t Ht0 Ht Ho. assert (Lc : length (cell o) = dimension sc)
-      by (destruct Ho as (L & A & (_ & _ & E) & _);
-      exact E).
-    split; [|exact Lc]. apply in_map_iff. exists (name o). split; [destruct o; reflexivity|].
-    rewrite <- Lc. apply (lists_all K (name o)). apply (HK o _ Ho).
+    exists K. intros o t Ht0 Ht Ho. apply few_all.
+    2: { destruct Ho as (L & A & (HL & _ & ->) & _). destruct Vs as (Hd & _ & Ls). rewrite Forall_forall in Ls.
+      destruct (Ls L (proj1 (item_in _ _ _ HL))) as ((Lv & _) & _). lia. }
+    apply (HK o _ Ho).
     - rewrite along_length; rewrite !(sized_length (dimension sc)); auto.
     - destruct (extent_along (point (start q)) t (point (velocity q))) as [E _].
       { rewrite !(sized_length (dimension sc)); auto. }
@@ -448,10 +548,8 @@ Proof.
   destruct (classic (exists o, from q <> Some o /\ within o 0)) as [Some0|None0].
   { destruct (Near 0) as [K HK].
     destruct (least not_after (fun o => from q <> Some o /\ within o 0)
-      (map named (lists K (S (S (dimension sc)))))) as (o & [Fo Io] & Least); auto.
-    - intros a b [_ Ia] [_ Ib]. apply not_after_total.
-      destruct (HK a 0 ltac:(lra) ltac:(lra) Ia) as [_ ->]. destruct (HK b 0 ltac:(lra) ltac:(lra) Ib)
-        as [_ ->]. reflexivity.
+      (few K)) as (o & [Fo Io] & Least); auto.
+    - intros a b [_ Ia] [_ Ib]. exact (occupied_total _ _ _ _ _ Ia Ib).
     - intros a b c _ _ _. apply not_after_transitive.
     - intros a [_ Ia]. apply (HK a 0); [lra|lra|exact Ia].
     - exists (Inside o). split; [exact Fo|]. split; [exact Io|]. auto. }
@@ -460,20 +558,19 @@ Proof.
   2: { exists Never. intros o Fo. split; [apply None'; auto|]. intros t Et. apply Never0. eauto. }
   set (P := fun o => from q <> Some o /\ exists t, t <= t0 /\ enters within o t).
   destruct (Near (t0 + 1)) as [K HK].
-  assert (Few : forall o, P o -> In o (map named (lists K (S (S (dimension sc))))) /\ length (cell o)
-    = dimension sc).
+  assert (Few : forall o, P o -> In o (few K) /\ exists t, within o t).
   { intros o (_ & t & Ht & T0 & Low & Soon). destruct (Soon (t + 1) ltac:(lra)) as (t' & I & L).
-    specialize (Low t' I). apply (HK o t'); [lra|lra|exact I]. }
+    specialize (Low t' I). split; [apply (HK o t'); [lra|lra|exact I]|exists t'; exact I]. }
   destruct (least (fun a b => forall t u, enters within a t -> enters within b u -> t < u \/ t = u /\
     not_after a b) P
-    (map named (lists K (S (S (dimension sc)))))) as (o & [Fo (t & Ht & Et)] & Least).
-  - intros a b Pa Pb. destruct (Few a Pa) as [_ La]. destruct (Few b Pb) as [_ Lb].
+    (few K)) as (o & [Fo (t & Ht & Et)] & Least).
+  - intros a b Pa Pb. destruct (Few a Pa) as (_ & ua & Ia). destruct (Few b Pb) as (_ & ub & Ib).
     destruct Pa as (_ & ta & _ & Ea). destruct Pb as (_ & tb & _ & Eb).
     assert (U : forall t, enters within a t -> t = ta) by (intros; eapply enters_once; eauto).
     assert (U' : forall t, enters within b t -> t = tb) by (intros; eapply enters_once; eauto).
     destruct (Rtotal_order ta tb) as [L|[E|L]].
     + left. intros t u H1 H2. rewrite (U t H1), (U' u H2). auto.
-    + destruct (not_after_total a b ltac:(congruence)); [left|right]; intros t u H1 H2; right;
+    + destruct (occupied_total _ _ _ _ _ Ia Ib); [left|right]; intros t u H1 H2; right;
         [rewrite (U t H1), (U' u H2)|rewrite (U u H2), (U' t H1)]; auto.
     + right. intros t u H1 H2. rewrite (U u H2), (U' t H1). auto.
   - intros a b c _ (_ & u & _ & Eb) _ H1 H2 t v Ea Ec. specialize (H1 t u Ea Eb). specialize (H2 u v Eb Ec).

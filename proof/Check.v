@@ -6,7 +6,7 @@ Local Open Scope Z_scope.
 
 (* ---- A scene, made ready once for all its records. *)
 Record placed := Placed { lattice_index : Z; atom_index : Z; its_solid : solid }.
-Record prepared := Prepared { flat : bool; count : nat; solids : list placed; bits : Z (* of all numbers *) }.
+Record prepared := Prepared { flat : bool; solids : list placed; bits : Z (* of all numbers *) }.
 
 Definition is_empty {A} (l : list A) : bool := match l with [] => true | _ => false end.
 Definition place_atoms (planar : bool) (l : Z * lattice) : option (list placed) :=
@@ -19,20 +19,20 @@ Definition prepare (sc : scene) : option prepared :=
     match all_some_long (place_atoms planar) (numbered_long (lattices sc)) with
     | Some placed =>
       let solids := concat_long placed in
-      Some (Prepared planar (dimension sc) solids
+      Some (Prepared planar solids
         (fold_left (fun b p => fold_right Z.lor b (all_numbers planar (its_solid p))) solids 0))
     | None => None
     end
   else None.
 
-(* The pieces of each atom of the scene, in the scene's order. *)
-Inductive certificate := Windows (l : list (list written_piece)) | Rows (l : list (list written_piece)).
+(* The windows and the rows of each atom of the scene, in the scene's order. *)
+Record certificate := Certificate { windows : list (list written_piece); rows_along : list (list written_piece) }.
 
 (* ---- The question. *)
 Definition same_atom (o : obstacle) (l a : Z) : bool := (of_lattice o =? l) && (of_atom o =? a).
 Definition is_obstacle (p : prepared) (o : obstacle) : bool :=
-  existsb (fun s => same_atom o (lattice_index s) (atom_index s)) (solids p) &&
-    (length (cell o) =? count p)%nat.
+  existsb (fun s => same_atom o (lattice_index s) (atom_index s) &&
+    (length (cell o) =? rank (its_solid s))%nat) (solids p).
 Definition see_all (p : prepared) (k : Z) (x v : zv) : list sight :=
   map_long (fun s => Sight (lattice_index s) (atom_index s) (see (shrink k x) (shrink k v)
     (shrink_solid (flat p) k (its_solid s))))
@@ -50,7 +50,6 @@ Definition is_question (p : prepared) (q : query) : bool :=
   end.
 
 (* ---- The answer. *)
-Definition read_cell (planar : bool) (n : list Z) : option zv := read_row planar n.
 Definition find_sight (sights : list sight) (o : obstacle) : option sight :=
   find (fun s => same_atom o (its_lattice s) (its_atom s)) sights.
 
@@ -67,17 +66,17 @@ Definition check_times (t : time) (time : option numeral) (m k : Z) : check :=
   require (Z.abs k <=? largest_exponent) NoNumber ;;
   require (if ts t * ts t =? td t then m =? 0 else rounds40 t m k) WrongDigits.
 
-Definition check_answer (planar : bool) (sights : list sight) (from : option obstacle) (a : answer)
-  (c : certificate) : check :=
-  match a, c with
-  | Hit X time m k, Windows ws =>
-    let? s := find_sight sights X else NotTheOutcome in let? n := read_cell planar (cell X) else NoVector in
-    check_hit planar sights from ws s n ;; check_times (time_of (its_view s) n) time m k
-  | Inside X, Windows ws =>
-    let? s := find_sight sights X else NotTheOutcome in let? n := read_cell planar (cell X) else NoVector in
-    check_inside planar sights from ws s n
-  | Never, Rows ws => check_never planar sights ws
-  | _, _ => fail NotTheOutcome
+Definition check_answer (sights : list sight) (from : option obstacle) (a : answer) (c : certificate) : check :=
+  match a with
+  | Hit X time m k =>
+    let? s := find_sight sights X else NotTheOutcome in
+    let? n := read_row (sk (its_view s)) (cell X) else NoVector in
+    check_hit sights from (windows c) s n ;; check_times (time_of (its_view s) n) time m k
+  | Inside X =>
+    let? s := find_sight sights X else NotTheOutcome in
+    let? n := read_row (sk (its_view s)) (cell X) else NoVector in
+    check_inside sights from (windows c) s n
+  | Never => check_never sights from (windows c) (rows_along c)
   end.
 
 Definition check_record (p : prepared) (q : query) (a : answer) (c : certificate) : check :=
@@ -87,4 +86,4 @@ Definition check_record (p : prepared) (q : query) (a : answer) (c : certificate
   require (match from q with None => true | Some o => is_obstacle p o end) BadQuery ;;
   require (0 <? dot v v) BadQuery ;;
   require ((0 <=? k) && divisible k (numbers_of x ++ numbers_of v) && visible p k v) BadScene ;;
-  check_answer (flat p) (see_all p k x v) (from q) a c.
+  check_answer (see_all p k x v) (from q) a c.

@@ -254,6 +254,85 @@ Proof.
   apply between_squares in S. assert (0 < IZR j < 1) as [L U] by lra. apply lt_IZR in L, U. lia.
 Qed.
 
+(* ---- Lattices of fewer vectors. Discs of radius 1/4 in a row, 2 apart along x; and one ball. *)
+Definition row_of_discs : scene := Scene 2 [Lattice [[number 2; number 0]] [Atom [number 0; number 0]
+  (Radius quarter)]].
+Definition ball : scene := Scene 3 [Lattice [] [Atom [number 1; number 0; number 0] (Radius quarter)]].
+Lemma row_of_discs_are o x y : occupied row_of_discs o [x; y] <->
+  exists i, o = Obstacle 0 0 [i] /\ (x - 2 * IZR i) * (x - 2 * IZR i) + y * y < 1 / 16.
+Proof.
+  split.
+  - intros (L & A & HA & K). destruct (only_atom _ _ _ _ HA _ _ eq_refl eq_refl) as (El & Ea & -> & ->).
+    destruct HA as (_ & _ & Hc). destruct o as [l a n]. cbn in El, Ea, Hc, K. subst.
+    destruct n as [|i [|j n]]; try discriminate. exists i. split; [reflexivity|].
+    rewrite value_quarter in K. apply norm_less in K; [|lra]. cbn in K. rewrite ?value_0, ?value_2 in K. lra.
+  - intros (i & -> & K). do 2 eexists. split; [split; [reflexivity|split; reflexivity]|]. cbn [shape_of].
+    rewrite value_quarter. apply norm_less; [lra|]. cbn. rewrite ?value_0, ?value_2. lra.
+Qed.
+Lemma ball_is o x y z : occupied ball o [x; y; z] <->
+  o = Obstacle 0 0 [] /\ (x - 1) * (x - 1) + y * y + z * z < 1 / 16.
+Proof.
+  split.
+  - intros (L & A & HA & K). destruct (only_atom _ _ _ _ HA _ _ eq_refl eq_refl) as (El & Ea & -> & ->).
+    destruct HA as (_ & _ & Hc). destruct o as [l a n]. cbn in El, Ea, Hc, K. subst.
+    destruct n as [|i n]; try discriminate. split; [reflexivity|].
+    rewrite value_quarter in K. apply norm_less in K; [|lra]. cbn in K. rewrite ?value_0, ?value_1 in K. lra.
+  - intros (-> & K). do 2 eexists. split; [split; [reflexivity|split; reflexivity]|]. cbn [shape_of].
+    rewrite value_quarter. apply norm_less; [lra|]. cbn. rewrite ?value_0, ?value_1. lra.
+Qed.
+(* Along the row, from one disc to the next: from 0 to 2 - 1/4, at the velocity 2. *)
+Example leaves_in_a_row : correct row_of_discs (Query [number 0; number 0] [number 2; number 0]
+  (Some (Obstacle 0 0 [0%Z]))) (Hit (Obstacle 0 0 [1%Z]) (Some (Decimal 875 (-3))) 875 (-3)).
+Proof.
+  apply correct_hit; [is_finite|reflexivity|reflexivity|]. set (within := fun _ _ => _).
+  assert (W : forall o t, within o t <-> exists i, o = Obstacle 0 0 [i] /\ IZR i - 1 / 8 < t < IZR i + 1 / 8).
+  { intros o t. unfold within. cbn. rewrite row_of_discs_are, ?value_0, ?value_2. split; intros (i & -> & K);
+      exists i; (split; [reflexivity|]).
+    - assert (S : (0 + t * 2 - 2 * IZR i) * (0 + t * 2 - 2 * IZR i) < 1 / 16) by lra.
+      apply between_squares in S. lra.
+    - assert (S : (0 + t * 2 - 2 * IZR i) * (0 + t * 2 - 2 * IZR i) < 1 / 16) by (apply between_squares; lra).
+      lra. }
+  assert (En : forall i t, enters within (Obstacle 0 0 [i]) t <-> 0 <= t /\ t = IZR i - 1 / 8).
+  { intros i t. apply (enters_interval within _ _ (IZR i + 1 / 8)); [lra|]. intros u. rewrite W. split; eauto.
+    intros (j & E & K). injection E as ->. exact K. }
+  assert (Later : forall i, Some (Obstacle 0 0 [0%Z]) <> Some (Obstacle 0 0 [i]) -> - 1 / 8 < IZR i ->
+    1 <= IZR i).
+  { intros i N K. apply (IZR_le 1). assert (-1 < i)%Z by (apply lt_IZR; lra).
+    destruct (Z.eq_dec i 0) as [->|]; [contradiction|lia]. }
+  split; [discriminate|]. split; [apply En; simpl; lra|]. split.
+  - intros o F K. apply W in K. destruct K as (i & -> & K). specialize (Later i F ltac:(lra)). lra.
+  - intros o t F K. assert (exists i, o = Obstacle 0 0 [i]) as [i ->].
+    { destruct K as (_ & _ & Near). destruct (Near (t + 1) ltac:(lra)) as (u & K & _). apply W in K.
+      destruct K as (i & -> & _). eauto. }
+    apply En in K. destruct K as [T0 ->]. specialize (Later i F ltac:(lra)).
+    destruct (Z.eq_dec i 1) as [->|N]; [right; simpl; split; [lra|left; reflexivity]|left].
+    assert (IZR i <> 1) by (intros E; apply N, eq_IZR, E). simpl. lra.
+Qed.
+(* Away from the row, which is met only before the start; in the ball, and out of it. *)
+Example away_from_a_row : correct row_of_discs (Query [number 1; number 1] [number 1; number 2] None) Never.
+Proof.
+  intros o _. assert (N : forall t, occupied row_of_discs o (along (point [number 1; number 1]) t
+    (point [number 1; number 2])) -> t < 0).
+  { intros t K. cbn in K. rewrite value_1, value_2 in K. apply row_of_discs_are in K. destruct K as (i & _ & K).
+    pose proof (Rle_0_sqr (1 + t * 1 - 2 * IZR i)) as S0. unfold Rsqr in S0.
+    assert (S : (1 + t * 2) * (1 + t * 2) < 1 / 16) by lra. apply between_squares in S. lra. }
+  split; [intros K; apply N in K; lra|]. intros t (T0 & Low & Near).
+  destruct (Near (t + 1) ltac:(lra)) as (u & K & _). specialize (Low u K). apply N in K. lra.
+Qed.
+Example in_a_ball : correct ball (Query [number 1; number 0; number 0] [number 1; number 2; number 0] None)
+  (Inside (Obstacle 0 0 [])).
+Proof.
+  split; [discriminate|]. split; [cbn; rewrite ?value_0, ?value_1; apply ball_is; split; [reflexivity|lra]|].
+  intros o _ K. cbn in K. rewrite ?value_0, ?value_1 in K. apply ball_is in K. destruct K as [-> _]. left.
+  reflexivity.
+Qed.
+Example out_of_a_ball : correct ball (Query [number 1; number 0; number 0] [number 1; number 2; number 0]
+  (Some (Obstacle 0 0 []))) Never.
+Proof.
+  apply nothing_met. intros o t F K. cbn in K. rewrite ?value_0, ?value_1 in K. apply ball_is in K.
+  destruct K as [-> _]. contradiction.
+Qed.
+
 (* ---- Numbers of binary64: up to 2^1024, which is beyond. *)
 Example largest_number : finite (Hexadecimal (2 ^ 53 - 1) 971). Proof. is_finite. Qed.
 Lemma value_2_to_1024 m : (m = 1 \/ m = -1)%Z -> value (Hexadecimal m 1024) = IZR m * bpow radix2 1024.
@@ -292,14 +371,14 @@ Definition unit_3 := [[number 1; number 0; number 0]; [number 0; number 1; numbe
   number 1]].
 Lemma unit_2_independent : independent 2 unit_2.
 Proof.
-  split; [reflexivity|]. split; [vectors_of|]. intros k Hk E. destruct k as [|a [|b [|c k]]];
+  split; [cbn; lia|]. split; [vectors_of|]. intros k Hk E. destruct k as [|a [|b [|c k]]];
     try discriminate.
   cbn in E. rewrite ?value_0, ?value_1 in E. injection E as Ea Eb. unfold zero. cbn.
   repeat (apply (f_equal2 (@cons R)); [lra|]). reflexivity.
 Qed.
 Lemma unit_3_independent : independent 3 unit_3.
 Proof.
-  split; [reflexivity|]. split; [vectors_of|]. intros k Hk E. destruct k as [|a [|b [|c [|d k]]]];
+  split; [cbn; lia|]. split; [vectors_of|]. intros k Hk E. destruct k as [|a [|b [|c [|d k]]]];
     try discriminate.
   cbn in E. rewrite ?value_0, ?value_1 in E. injection E as Ea Eb Ec. unfold zero. cbn.
   repeat (apply (f_equal2 (@cons R)); [lra|]). reflexivity.
@@ -314,10 +393,26 @@ Example ellipsoids_are_valid : valid_scene ellipsoids.
 Proof.
   split; [right; reflexivity|]. split; [discriminate|]. constructor; [|constructor].
   split; [exact unit_3_independent|]. split; [discriminate|]. constructor; [|constructor].
-  split; [are_finite|]. cbn. split; [reflexivity|]. split; [vectors_of|]. intros k Hk E.
+  split; [are_finite|]. cbn. split; [reflexivity|]. split; [cbn; lia|]. split; [vectors_of|]. intros k Hk E.
   destruct k as [|a [|b [|c [|d k]]]]; try discriminate. cbn in E.
   rewrite ?value_0, ?value_quarter, ?value_eighth in E. injection E as Ea Eb Ec. unfold zero. cbn.
   repeat (apply (f_equal2 (@cons R)); [lra|]). reflexivity.
+Qed.
+
+Example row_is_valid : valid_scene row_of_discs.
+Proof.
+  split; [left; reflexivity|]. split; [discriminate|]. constructor; [|constructor]. split.
+  - split; [cbn; lia|]. split; [vectors_of|]. intros k Hk E. destruct k as [|a [|b k]]; try discriminate.
+    cbn in E. rewrite ?value_0, ?value_2 in E. injection E as Ea. unfold zero. cbn. f_equal. lra.
+  - split; [discriminate|]. constructor; [|constructor].
+    split; [are_finite|]. cbn. split; [is_finite|]. rewrite value_quarter. lra.
+Qed.
+Example ball_is_valid : valid_scene ball.
+Proof.
+  split; [right; reflexivity|]. split; [discriminate|]. constructor; [|constructor]. split.
+  - split; [cbn; lia|]. split; [constructor|]. intros k Hk E. destruct k; [reflexivity|discriminate].
+  - split; [discriminate|]. constructor; [|constructor].
+    split; [are_finite|]. cbn. split; [is_finite|]. rewrite value_quarter. lra.
 Qed.
 
 Definition atom_0 := Atom [number 0; number 0] (Radius quarter).
@@ -337,20 +432,22 @@ Example four_dimensions : ~ valid_scene
   (Scene 4 [Lattice unit_4 [Atom [number 0; number 0; number 0; number 0] (Radius quarter)]]).
 Proof. intros ([|] & _); discriminate. Qed.
 
-(* .. of vectors that are too many, too few, too long, dependent, beyond binary64; of such semiaxes, .. *)
+(* .. of vectors that are too many, too long, dependent, beyond binary64; of such semiaxes, or of too few, .. *)
 Definition one_atom (s : shape) := Scene 2 [Lattice unit_2 [Atom [number 0; number 0] s]].
 Definition wrong_vectors : list (list (list numeral)) := [
-  unit_2 ++ [[number 1; number 1]]; [[number 1; number 0]]; [];
-  [[number 1; number 0; number 0]; [number 0; number 1; number 0]]; [[number 1]; [number 1]];
+  unit_2 ++ [[number 1; number 1]]; [[number 0; number 0]];
+  [[number 1; number 0; number 0]; [number 0; number 1; number 0]]; [[number 1]; [number 1]]; [[number 1]];
   [[number 1; number 2]; [number 2; number 4]]; [[number 0; number 0]; [number 0; number 1]];
   [[beyond; number 0]; [number 0; number 1]]; [[number 1; number 0]; [number 0; beyond]]].
 Lemma value_4 : value (number 4) = 4. Proof. apply value_integer. vm_compute. reflexivity. Qed.
 Example are_wrong b : In b wrong_vectors -> ~ independent 2 b.
 Proof.
   unfold wrong_vectors, unit_2. cbn. intros H (L & S & I).
-  repeat destruct H as [<-|H]; try discriminate; try (cbn in L; discriminate); try tauto.
-  - inversion_clear S as [|? ? [V _] _]. discriminate.
-  - inversion_clear S as [|? ? [V _] _]. discriminate.
+  repeat destruct H as [<-|H]; try (cbn in L; lia); try tauto;
+    try (inversion_clear S as [|? ? [V _] _]; discriminate).
+  - assert (K := I [1] eq_refl). cbn in K. rewrite value_0 in K.
+    assert (F : [1] = [0]); [apply K; repeat (apply (f_equal2 (@cons R)); [ring|]); reflexivity|].
+    injection F. lra.
   - assert (K := I [2; -1] eq_refl). cbn in K. rewrite value_1, value_2, value_4 in K.
     assert (F : [2; -1] = [0; 0]); [apply K; repeat (apply (f_equal2 (@cons R)); [ring|]); reflexivity|].
     injection F. lra.
@@ -365,7 +462,9 @@ Proof. intros H. first_lattice. exact (are_wrong b H (proj1 V)). Qed.
 Ltac first_atom := let H := fresh in intros (_ & _ & H); inversion_clear H as [|? ? (_ & _ & K) _];
   inversion_clear K as [|? ? V _].
 Example wrong_semiaxes b : In b wrong_vectors -> ~ valid_scene (one_atom (Semiaxes b)).
-Proof. intros H. first_atom. exact (are_wrong b H (proj2 V)). Qed.
+Proof. intros H. first_atom. exact (are_wrong b H (proj2 (proj2 V))). Qed.
+Example few_semiaxes b : In b [[]; [[number 1; number 0]]] -> ~ valid_scene (one_atom (Semiaxes b)).
+Proof. intros H. first_atom. destruct V as (_ & V & _). cbn in H. destruct H as [<-|[<-|[]]]; discriminate. Qed.
 (* .. of a radius that is 0, negative, beyond binary64, of a position that is too long, too short, or beyond.
   *)
 Example radius_0 : ~ valid_scene (one_atom (Radius (number 0))).

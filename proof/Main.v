@@ -8,7 +8,7 @@ Local Open Scope Z_scope.
 
 (* ---- The scene. *)
 Definition scene_of (sc : scene) (p : prepared) : Prop :=
-  (dimension sc = 2 \/ dimension sc = 3)%nat /\ dimension sc = size (flat p) /\ count p = dimension sc /\
+  (dimension sc = 2 \/ dimension sc = 3)%nat /\ dimension sc = size (flat p) /\
   (forall o L A, atom_of sc o L A ->
     exists S, In (Placed (of_lattice o) (of_atom o) S) (solids p) /\ read_solid (flat p) L A = Some S) /\
   (forall s, In s (solids p) -> exists L A, read_solid (flat p) L A = Some (its_solid s) /\
@@ -33,7 +33,7 @@ Proof.
   apply andb_true_iff in G. destruct G as [Gd Gl].
   rewrite all_some_long_is, numbered_long_is.
   destruct (all_some (place_atoms planar) (numbered 0 (lattices sc))) as [pls|] eqn:E; [|discriminate].
-  intros I; injection I as <-. rewrite concat_long_is. cbn [flat solids count].
+  intros I; injection I as <-. rewrite concat_long_is. cbn [flat solids].
   assert (Hd : (dimension sc = 2 \/ dimension sc = 3)%nat)
     by (unfold planar in Gd; rewrite orb_true_iff, !Nat.eqb_eq in Gd; exact Gd).
   assert (Hs : dimension sc = size planar) by (unfold planar, size; destruct Hd as [-> | ->]; reflexivity).
@@ -63,7 +63,7 @@ Proof.
       apply read_solid_ok in ES. tauto. }
     split; [|split; [exact N|rewrite Forall_forall; intros A HA; apply All, HA]].
     destruct (atoms L) as [|A rest]; [contradiction|]. apply (All A). left. reflexivity.
-  - split; [exact Hd|]. split; [exact Hs|]. split; [reflexivity|]. split.
+  - split; [exact Hd|]. split; [exact Hs|]. split.
     + intros o L A (HL & HA & _). apply numbered_0 in HL. destruct (A1 _ HL) as (ps & Hin & Ep).
       destruct (Atoms _ _ Ep) as (_ & B1 & _). destruct (B1 _ _ HA) as (S & HS & ES). exists S. split; auto.
       apply in_concat. eauto.
@@ -100,7 +100,7 @@ Section Record.
     cbn in *. rewrite Hx, Hv. ring.
   Qed.
 
-  (* A sight, its solid and its atom. *)
+  (* A sight, its solid and its atom; its rank. *)
   Definition sees (a : sight) (L : lattice) (A : atom) (S : solid) : Prop :=
     item (lattices sc) (its_lattice a) = Some L /\ item (atoms L) (its_atom a) = Some A /\
       depicts planar (unit k) L A S /\
@@ -117,7 +117,7 @@ Section Record.
   Proof.
     intros Ha. unfold sights, see_all in Ha. rewrite map_long_is in Ha. apply in_map_iff in Ha.
       destruct Ha as (s & <- & Hs).
-    destruct depicted as (_ & _ & _ & _ & B). destruct (B _ Hs) as (L & A & ES & HL & HA).
+    destruct depicted as (_ & _ & _ & B). destruct (B _ Hs) as (L & A & ES & HL & HA).
     destruct (visible_in s Hs) as (V1 & V2 & V3). exists L, A, (shrink_solid planar k (its_solid s)).
     split; [exact HL|split; [exact HA|split; [|auto]]]. apply shrink_depicts; auto.
     apply (read_solid_ok _ _ _ _ ES).
@@ -128,27 +128,28 @@ Section Record.
     intros Ha. destruct (sights_ok a Ha) as (L & A & S & _ & _ & _ & E & _ & HQ). split; [exact HQ|].
     rewrite E. apply sr_nonneg.
   Qed.
-  Lemma seen_all o t : within o t -> exists a n, In a sights /\ level planar n /\ o = obstacle_at planar a n.
+  Lemma seen_all o t : within o t -> exists a n, In a sights /\ fits (sk (its_view a)) n /\ o = obstacle_at a n.
   Proof.
-    intros (L & A & HA & _). destruct depicted as (_ & Hs & _ & B & _). destruct (B _ _ _ HA) as (S & HS & _).
-    destruct HA as (_ & _ & Hc). rewrite Hs in Hc. destruct (coordinates_of planar _ Hc) as (n & En & Ln).
+    intros (L & A & HA & _). destruct depicted as (_ & _ & B & _). destruct (B _ _ _ HA) as (S & HS & ES).
+    apply read_solid_ok in ES. destruct ES as [D _]. destruct (depicts_rank _ _ _ _ _ D) as [Rk Lk].
+    destruct HA as (_ & _ & Hc). rewrite Lk in Hc. destruct (coordinates_of _ _ Rk Hc) as (n & En & Ln).
     exists (Sight (of_lattice o) (of_atom o) (see (shrink k x) (shrink k v) (shrink_solid planar k S))), n.
     split; [|split; [exact Ln|]].
     - unfold sights, see_all. rewrite map_long_is. apply in_map_iff. exists (Placed (of_lattice o)
       (of_atom o) S). auto.
     - unfold obstacle_at. cbn. destruct o. cbn in *. subst. reflexivity.
   Qed.
-  Lemma chords a n t : In a sights -> level planar n -> let y := its_view a in let W := at_cell y n in
-    within (obstacle_at planar a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) <
+  Lemma chords a n t : In a sights -> fits (sk (its_view a)) n -> let y := its_view a in let W := at_cell y n in
+    within (obstacle_at a n) t <-> ((IZR (sQ y) * t - IZR (sS y W)) * (IZR (sQ y) * t - IZR (sS y W)) <
       IZR (sD y W))%R.
   Proof.
     intros Ha Ln y W. destruct (sights_ok a Ha) as (L & A & S & HL & HA & HS & Ey & HR & HQ). unfold within.
-    rewrite the_line.
-    destruct depicted as (_ & Hs & _).
-    assert (AO : atom_of sc (obstacle_at planar a n) L A).
-    { split; [exact HL|split; [exact HA|]]. rewrite Hs. apply coordinates_length. }
-    rewrite (depicted_occupied planar (unit k) (unit_pos k) sc (obstacle_at planar a n) L A S n _ Hs AO HS
-      eq_refl Ln (line_level t)).
+    rewrite the_line. destruct depicted as (_ & Hs & _). destruct (depicts_rank _ _ _ _ _ HS) as [Rk Lk].
+    assert (Er : sk (its_view a) = rank S) by (rewrite Ey; reflexivity).
+    assert (AO : atom_of sc (obstacle_at a n) L A).
+    { split; [exact HL|split; [exact HA|]]. rewrite Lk. cbn. rewrite Er. apply coordinates_length, Rk. }
+    rewrite (depicted_occupied planar (unit k) (unit_pos k) sc (obstacle_at a n) L A S n _ Hs AO HS
+      ltac:(cbn; rewrite Er; reflexivity) ltac:(rewrite <- Er; exact Ln) (line_level t)).
     unfold W, y. rewrite Ey in *. apply chord_view; auto.
   Qed.
 
@@ -158,17 +159,11 @@ Section Record.
     intros E. apply find_some in E. destruct E as [Hin E]. unfold same_atom in E.
     rewrite andb_true_iff, !Z.eqb_eq in E. tauto.
   Qed.
-  Lemma read_cell_ok l n : read_cell planar l = Some n -> level planar n /\ l = coordinates planar n.
-  Proof.
-    unfold read_cell, read_row, level, coordinates, three. intros E.
-    destruct planar; destruct l as [|a [|b [|c [|d l]]]]; try discriminate; injection E as <-; cbn; split;
-      auto; discriminate.
-  Qed.
-  Lemma named o a n : find_sight sights o = Some a -> read_cell planar (cell o) = Some n ->
-    In a sights /\ level planar n /\ o = obstacle_at planar a n.
+  Lemma named o a n : find_sight sights o = Some a -> read_row (sk (its_view a)) (cell o) = Some n ->
+    In a sights /\ fits (sk (its_view a)) n /\ o = obstacle_at a n.
   Proof.
     intros E1 E2. destruct (find_sight_ok _ _ E1) as (Ha & El & Ea).
-    destruct (read_cell_ok _ _ E2) as [Ln En].
+    destruct (read_row_ok _ _ _ E2) as [Ln En].
     split; [auto|split; [auto|]]. unfold obstacle_at. destruct o. cbn in *. subst. reflexivity.
   Qed.
 
@@ -199,25 +194,24 @@ Section Record.
       rewrite <- bpow_plus. reflexivity.
   Qed.
 
-  Lemma check_answer_ok a c : passes (check_answer planar sights (from q) a c) -> correct sc q a.
+  Lemma check_answer_ok a c : passes (check_answer sights (from q) a c) -> correct sc q a.
   Proof.
     intros H. unfold correct, check_answer in *. fold within.
-    destruct a as [X time m e|X|], c as [ws|ws]; try (apply passes_fail in H; tauto).
+    destruct a as [X time m e|X|].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
-      destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
+      destruct (read_row (sk (its_view s)) (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
       apply passes_both in H. destruct H as [H Ht]. destruct (named _ _ _ ES EN) as (Hs & Ln & EX).
-      pose proof (check_hit_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H)
-        as F.
+      pose proof (check_hit_ok sights (from q) _ within regular_sights seen_all chords s n Hs Ln H) as F.
       exists (time_value (time_of (its_view s) n)). rewrite EX at 1. split; [exact F|].
       destruct F as (_ & En & _).
-      pose proof (proj1 (entered planar sights within regular_sights chords s n _ Hs Ln) En)
+      pose proof (proj1 (entered sights within regular_sights chords s n _ Hs Ln) En)
         as (Hd & _ & Hp & _).
       apply check_times_ok; [apply (time_of_regular sights regular_sights); auto|apply En|lia|exact Ht].
     - destruct (find_sight sights X) as [s|] eqn:ES; [|apply passes_fail in H; tauto].
-      destruct (read_cell planar (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
+      destruct (read_row (sk (its_view s)) (cell X)) as [n|] eqn:EN; [|apply passes_fail in H; tauto].
       destruct (named _ _ _ ES EN) as (Hs & Ln & ->).
-      exact (check_inside_ok planar sights (from q) ws within regular_sights seen_all chords s n Hs Ln H).
-    - exact (check_never_ok planar sights (from q) ws within seen_all chords H).
+      exact (check_inside_ok sights (from q) _ within regular_sights seen_all chords s n Hs Ln H).
+    - exact (check_never_ok sights (from q) _ _ within regular_sights seen_all chords H).
   Qed.
 End Record.
 
@@ -232,7 +226,7 @@ Proof.
   apply passes_both in H. destruct H as [Hf H]. apply passes_both in H. destruct H as [Hv H].
   apply passes_both in H. destruct H as [Hk H]. apply passes_require in Hf, Hv, Hk.
   rewrite !andb_true_iff, Z.leb_le in Hk. destruct Hk as [[Hk Hdiv] Hvis]. apply Z.ltb_lt in Hv. split.
-  - destruct D as (_ & Ds & Dc & _ & DB). unfold valid_query. rewrite Ds.
+  - destruct D as (_ & Ds & _ & DB). unfold valid_query. rewrite Ds.
     split; [apply (read_vector_ok _ _ _ Ex)|].
     destruct (read_vector_ok _ _ _ Ev) as (Pv & Lv & Sv). split; [exact Sv|]. split.
     + intros Z0. rewrite Pv in Z0. assert (V : v = V 0 0 0); [|rewrite V in Hv; discriminate].
@@ -240,12 +234,11 @@ Proof.
       assert (K : forall c, (smallest * IZR c = 0)%R -> c = 0%Z)
         by (intros i Hi; apply Rmult_integral in Hi; destruct Hi as [Hi|Hi]; [lra|apply eq_IZR, Hi]).
       destruct (flat p); injection Z0; intros; apply zv_eq; cbn; auto.
-    + intros o Eo. rewrite Eo in Hf. unfold is_obstacle in Hf. apply andb_true_iff in Hf.
-      destruct Hf as [Hf Hc].
-      apply existsb_exists in Hf. destruct Hf as (s & Hs & Es). unfold same_atom in Es.
+    + intros o Eo. rewrite Eo in Hf. unfold is_obstacle in Hf. apply existsb_exists in Hf.
+      destruct Hf as (s & Hs & Es). apply andb_true_iff in Es. destruct Es as [Es Hc]. unfold same_atom in Es.
       rewrite andb_true_iff, !Z.eqb_eq in Es.
-      destruct (DB _ Hs) as (L & A & _ & HL & HA). destruct Es as [El Ea]. exists L, A.
-      apply Nat.eqb_eq in Hc.
-      unfold atom_of. rewrite El, Ea, Hc. auto.
+      destruct (DB _ Hs) as (L & A & ES & HL & HA). destruct Es as [El Ea]. exists L, A.
+      apply read_solid_ok in ES. destruct ES as [DS _]. destruct (depicts_rank _ _ _ _ _ DS) as [_ Lk].
+      apply Nat.eqb_eq in Hc. unfold atom_of. rewrite El, Ea, Hc. auto.
   - exact (check_answer_ok sc p q k x v D Ex Ev Hk Hdiv Hvis _ _ H).
 Qed.

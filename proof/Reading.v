@@ -163,8 +163,29 @@ Section Dimension.
         repeat split; auto; discriminate.
   Qed.
 
-  (* ---- Atoms. The layers of a planar scene are so far apart that the line meets none but its own. *)
-  Definition third (b : body) : zv := V 0 0 (match b with Ball r => r | Ellipsoid _ _ _ => 1 end).
+  (* The vectors of a lattice, and how many they are. *)
+  Definition read_lattice (l : list (list numeral)) : option (nat * zv * zv * zv) :=
+    match planar, all_some read_vector l with
+    | _, Some [] => Some (0%nat, origin, origin, origin)
+    | _, Some [a] => Some (1%nat, a, origin, origin)
+    | _, Some [a; b] => Some (2%nat, a, b, origin)
+    | false, Some [a; b; c] => Some (3%nat, a, b, c)
+    | _, _ => None
+    end.
+  Lemma read_lattice_ok l n a b c : read_lattice l = Some (n, a, b, c) ->
+    map point l = firsts planar smallest n a b c /\ level a /\ level b /\ level c /\ Forall (sized size) l /\
+    length l = n /\ (n <= size)%nat.
+  Proof.
+    unfold read_lattice. intros E. destruct (all_some read_vector l) as [bs|] eqn:Eb;
+      [|destruct planar; discriminate].
+    destruct (all_some_vectors l bs Eb) as (B1 & B2 & B3 & B4). unfold Space.firsts, Space.size.
+    assert (level origin) by (intros _; reflexivity).
+    destruct bs as [|b1 [|b2 [|b3 [|b4 bs]]]]; destruct planar eqn:Ep; try discriminate;
+      injection E as <- <- <- <-; rewrite B1, B4; rewrite ?Forall_cons_iff in B2; cbn;
+      repeat split; try tauto; auto; lia.
+  Qed.
+
+  (* ---- Atoms. *)
   Definition read_body (s : shape) : option body :=
     match s with
     | Radius r => match number r with Some k => if 0 <? k then Some (Ball k) else None | None => None end
@@ -177,8 +198,8 @@ Section Dimension.
   Definition read_solid (L : lattice) (A : atom) : option solid :=
     match read_vector (position A), read_body (shape_of A) with
     | Some p, Some b =>
-      match read_vectors (third b) (vectors L) with
-      | Some (a1, a2, a3) => if det a1 a2 a3 =? 0 then None else Some (Solid p a1 a2 a3 b)
+      match read_lattice (vectors L) with
+      | Some (n, a1, a2, a3) => if spread n a1 a2 a3 then Some (Solid p n a1 a2 a3 b) else None
       | None => None
       end
     | _, _ => None
@@ -187,14 +208,21 @@ Section Dimension.
   Lemma smallest_pos : (0 < smallest)%R.
   Proof. apply bpow_gt_0. Qed.
   Lemma read_vectors_independent t l a b c : read_vectors t l = Some (a, b, c) -> det a b c <> 0 ->
-    independent size l.
+    length l = size /\ independent size l.
   Proof.
     intros E D. destruct (read_vectors_ok _ _ _ _ _ E) as (H1 & H2 & H3 & H4 & H5 & _).
-    split; [auto|split; [auto|]].
-    rewrite H1. apply lifts_independent; auto. apply smallest_pos.
+    split; [auto|split; [lia|split; [auto|]]].
+    rewrite H1, H5. apply lifts_independent; auto. apply smallest_pos.
+  Qed.
+  Lemma read_lattice_independent l n a b c : read_lattice l = Some (n, a, b, c) -> spread n a b c = true ->
+    independent size l.
+  Proof.
+    intros E D. destruct (read_lattice_ok _ _ _ _ _ E) as (H1 & La & Lb & Lc & H4 & H5 & H6).
+    split; [lia|split; [auto|]]. rewrite H1, H5. apply firsts_independent; auto; [apply smallest_pos|].
+    revert H6. unfold Space.size. destruct planar; lia.
   Qed.
   Lemma read_body_ok s b : read_body s = Some b -> depicts_shape planar smallest s b /\
-    match s with Radius r => finite r /\ (0 < value r)%R | Semiaxes a => independent size a end.
+    match s with Radius r => finite r /\ (0 < value r)%R | Semiaxes a => length a = size /\ independent size a end.
   Proof.
     unfold read_body. destruct s as [r|a].
     - destruct (number r) as [k|] eqn:En; [|discriminate]. destruct (Z.ltb_spec 0 k) as [K|]; [|discriminate].
@@ -211,11 +239,12 @@ Section Dimension.
   Proof.
     unfold read_solid. destruct (read_vector (position A)) as [p|] eqn:Ep; [|discriminate].
     destruct (read_body (shape_of A)) as [b|] eqn:Eb; [|discriminate].
-    destruct (read_vectors (third b) (vectors L)) as [[[a1 a2] a3]|] eqn:E; [|discriminate].
-    destruct (Z.eqb_spec (det a1 a2 a3) 0) as [|D]; [discriminate|]. intros I; injection I as <-.
+    destruct (read_lattice (vectors L)) as [[[[n a1] a2] a3]|] eqn:E; [|discriminate].
+    destruct (spread n a1 a2 a3) eqn:D; [|discriminate]. intros I; injection I as <-.
     destruct (read_vector_ok _ _ Ep) as (P1 & P2 & P3). destruct (read_body_ok _ _ Eb) as (B1 & B2).
-    destruct (read_vectors_ok _ _ _ _ _ E) as (H1 & H2 & H3 & _).
-    split; [repeat split; auto|]. split; [apply (read_vectors_independent _ _ _ _ _ E D)|split; auto].
+    destruct (read_lattice_ok _ _ _ _ _ E) as (H1 & La & Lb & Lc & _ & H5 & H6).
+    assert (n <= 3)%nat by (revert H6; unfold Space.size; destruct planar; lia).
+    split; [split; [exact P1|repeat split; auto]|]. split; [apply (read_lattice_independent _ _ _ _ _ E D)|split; auto].
   Qed.
 
   (* ---- In units of 2^(k - 1074). *)
@@ -228,14 +257,13 @@ Section Dimension.
     | Ellipsoid a1 a2 a3 => Ellipsoid (shrink k a1) (shrink k a2) (if planar then a3 else shrink k a3)
     end.
   Definition shrink_solid (k : Z) (S : solid) : solid :=
-    let b := shrink_body k (shaped S) in
-    Solid (shrink k (middle S)) (shrink k (g1 S)) (shrink k (g2 S)) (if planar then third b
-      else shrink k (g3 S)) b.
+    Solid (shrink k (middle S)) (rank S) (shrink k (g1 S)) (shrink k (g2 S)) (shrink k (g3 S))
+      (shrink_body k (shaped S)).
 
   Definition numbers_of (a : zv) : list Z := [vx a; vy a; vz a].
   Definition third_numbers (a : zv) : list Z := if planar then [] else numbers_of a.
   Definition all_numbers (S : solid) : list Z :=
-    numbers_of (middle S) ++ numbers_of (g1 S) ++ numbers_of (g2 S) ++ third_numbers (g3 S) ++
+    numbers_of (middle S) ++ numbers_of (g1 S) ++ numbers_of (g2 S) ++ numbers_of (g3 S) ++
     match shaped S with
     | Ball r => [r] | Ellipsoid a1 a2 a3 => numbers_of a1 ++ numbers_of a2 ++ third_numbers a3 end.
   Definition divisible (k : Z) (l : list Z) : bool := forallb (fun c => Z.shiftl (Z.shiftr c k) k =? c) l.
@@ -280,14 +308,13 @@ Section Dimension.
     Lemma shrink_depicts L A S : depicts planar smallest L A S -> divisible k (all_numbers S) = true ->
       depicts planar (unit k) L A (shrink_solid k S).
     Proof.
-      intros (H1 & H2 & H3 & H4 & H5 & H6) D. unfold all_numbers in D.
+      intros (H1 & H2 & Hk & H3 & H4 & H5 & H7 & H6) D. unfold all_numbers in D.
       apply divisible_app in D; destruct D as [Dm D]. apply divisible_app in D; destruct D as [D1 D].
       apply divisible_app in D; destruct D as [D2 D]. apply divisible_app in D; destruct D as [D3 Db].
-      unfold depicts, shrink_solid; cbn [middle g1 g2 g3 shaped].
+      unfold depicts, shrink_solid; cbn [middle rank g1 g2 g3 shaped].
       split; [rewrite H1; apply shrink_lift; auto|]. split.
-      { rewrite H2. apply shrink_lifts; auto. intros ->. reflexivity. }
-      split; [apply shrink_level; auto|]. split; [apply shrink_level; auto|].
-      split; [apply shrink_level; auto|].
+      { rewrite H2. unfold firsts. rewrite (shrink_lift _ D1), (shrink_lift _ D2), (shrink_lift _ D3). reflexivity. }
+      split; [exact Hk|]. do 4 (split; [apply shrink_level; auto|]).
       unfold depicts_shape in *. destruct (shape_of A) as [r|a], (shaped S) as [c|a1 a2 a3]; try tauto;
         cbn [shrink_body].
       - destruct H6 as [H6 Hc]. pose proof (divisible_in _ c Db ltac:(cbn; auto)) as E. split; [lra|].

@@ -27,13 +27,13 @@ Definition hit : answer :=
     (-38).
 Definition at_number (n : numeral) : end_of_window :=
   match end_at_number n with Some e => e | None => Dyadic 0 0 end.
-Definition windows (last : Z) : certificate := Windows [[
-  WrittenPiece 0 (at_number (Decimal (-999846910161925) (-16))) (at_number (Decimal 34203543907686442 (-16)))
+Definition two_windows (last : Z) : certificate := Certificate [[
+  WrittenPiece 0 (at_number (Decimal (-999846910161925) (-16))) (Some (at_number (Decimal 34203543907686442 (-16))))
     [[1; 0]; [5; 1]];
-  WrittenPiece 1 (at_number (Decimal 3420354390768644 (-15))) (at_number (Decimal last (-15)))
-    [[1; 0]; [46; 1]]]].
+  WrittenPiece 1 (at_number (Decimal 3420354390768644 (-15))) (Some (at_number (Decimal last (-15))))
+    [[1; 0]; [46; 1]]]] [[]].
 
 Example flight_hits : correct square flight hit.
-Proof. apply (accepts_ok _ _ _ (windows 26099984691016193) 1000). vm_compute. reflexivity. Qed.
-Example window_too_short : accepts square flight hit (windows 26099984691016190) 1000 = false.
+Proof. apply (accepts_ok _ _ _ (two_windows 26099984691016193) 1000). vm_compute. reflexivity. Qed.
+Example window_too_short : accepts square flight hit (two_windows 26099984691016190) 1000 = false.
 Proof. vm_compute. reflexivity. Qed.

@@ -82,7 +82,7 @@ Proof.
 Qed.
 (* Not in the plane of another dimension's cell. *)
 Lemma no_third_coordinate q : ~ occupied (plane_of (Radius (Decimal 2 0))) (Obstacle 0 0 [1; 1; 0]%Z) q.
-Proof. intros (L & A & (_ & _ & H) & _). discriminate. Qed.
+Proof. intros (L & A & (HL & _ & H) & _). cbn in HL. injection HL as <-. discriminate. Qed.
 
 (* ---- What is first: of chords that are given. *)
 Definition a := Obstacle 0 1 [5; 5]%Z.

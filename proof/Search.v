@@ -112,43 +112,56 @@ Lemma h2_add v w k b : h2 v (add w k b) =
 Proof. rewrite lagrange. vectors. ring. Qed.
 
 Section Search.
-  Variables (v w : zv) (H : Z) (b1 b2 b3 : zv) (lo hi : Z).
+  (* The coordinates beyond the first `rank` are 0; a window may have no end. *)
+  Variables (rank : nat) (v w : zv) (H : Z) (b1 b2 b3 : zv) (lo : Z) (upper : option Z).
 
   (* Of v^2 a.(w' + k b), where (v^2 a.w - s a.v)^2 <= room and s is in the window. *)
-  Definition functional (a w' b : zv) (room : Z) : bound :=
+  Definition functional (a w' b : zv) (room s_lo s_hi : Z) : bound :=
     let av := dot a v in let r := Z.sqrt room in
-    Bound (Z.min (lo * av) (hi * av) - r) (Z.max (lo * av) (hi * av) + r)
+    Bound (Z.min (s_lo * av) (s_hi * av) - r) (Z.max (s_lo * av) (s_hi * av) + r)
       (dot v v * dot a w') (dot v v * dot a b).
 
-  Lemma functional_ok a w' b room W k : dot a W = dot a w' + k * dot a b -> lo <= dot v W <= hi ->
+  Lemma functional_ok a w' b room s_lo s_hi W k : dot a W = dot a w' + k * dot a b -> s_lo <= dot v W <= s_hi ->
     (dot v v * dot a W - dot v W * dot a v) * (dot v v * dot a W - dot v W * dot a v) <= room ->
-    satisfies (functional a w' b room) k.
+    satisfies (functional a w' b room s_lo s_hi) k.
   Proof.
     intros E Hs Hr. apply abs_sqrt in Hr. unfold satisfies, functional; cbn [low high start step].
     replace (dot v v * dot a w' + k * (dot v v * dot a b)) with (dot v v * dot a W) by (rewrite E; ring).
-    pose proof (between lo hi (dot v W) (dot a v) Hs). lia.
+    pose proof (between s_lo s_hi (dot v W) (dot a v) Hs). lia.
   Qed.
 
+  (* What a window that ends bounds besides. *)
+  Definition in_ends (bounds : Z -> list bound) : list bound :=
+    match upper with Some hi => bounds hi | None => [] end.
   (* The planes k_3, in each of them the rows k_2, in each row the obstacles k_1. *)
   Definition planes : list bound :=
-    let N := cross b1 b2 in let e := cross v N in [functional N w b3 (dot e e * H)].
-  Definition off (w3 : zv) : Z :=  (* how far v^2 L is from all s (N.v) of the window *)
+    let N := cross b1 b2 in let e := cross v N in in_ends (fun hi => [functional N w b3 (dot e e * H) lo hi]).
+  Definition off (w3 : zv) (hi : Z) : Z :=  (* how far v^2 L is from all s (N.v) of the window *)
     let N := cross b1 b2 in let Nv := dot N v in let Nw := dot v v * dot N w3 in
     Z.max 0 (Z.max (Z.min (lo * Nv) (hi * Nv) - Nw) (Nw - Z.max (lo * Nv) (hi * Nv))).
   Definition rows (w3 : zv) : list bound :=
     let N := cross b1 b2 in let e := cross v N in let s1 := dot v b1 in let h1 := cross v b1 in
     let Q := dot v v in
-    [functional (cross b1 (cross v e)) w3 b2 (s1 * s1 * Q * (dot e e * H - off w3 * off w3));
-     functional h1 w3 b2 (Q * dot h1 h1 * H)].
+    functional h1 w3 b2 (Q * dot h1 h1 * H) 0 0 :: in_ends (fun hi =>
+      let o := off w3 hi in
+      [functional (cross b1 (cross v e)) w3 b2 (s1 * s1 * Q * (dot e e * H - o * o)) lo hi]).
   Definition obstacles (w2 : zv) : list bound :=
     let h1 := cross v b1 in let h := cross v w2 in let f := dot h1 h in
     let root := Z.sqrt (f * f - dot h1 h1 * (dot h h - H)) in
-    [Bound lo hi (dot v w2) (dot v b1); Bound (- root) root f (dot h1 h1)].
+    let roots := Bound (- root) root f (dot h1 h1) in let s := dot v w2 in let s1 := dot v b1 in
+    match upper, range roots with
+    | Some hi, _ => [roots; Bound lo hi s s1]
+    | None, Some (first, last) => [roots; Bound lo (Z.max (s + first * s1) (s + last * s1)) s s1]
+    | None, None => []
+    end.
+  Definition ranging (i : nat) (bounds : list bound) : option (Z * Z) :=
+    if (i <=? rank)%nat then common bounds else Some (0, 0).
 
   Definition search (judge : zv -> zv -> check) : check :=
-    let? r3 := common planes else TooMany in each r3 (fun k3 => let w3 := add w k3 b3 in
-    let? r2 := common (rows w3) else TooMany in each r2 (fun k2 => let w2 := add w3 k2 b2 in
-    let? r1 := common (obstacles w2) else TooMany in each r1 (fun k1 => judge (V k1 k2 k3) (add w2 k1 b1)))).
+    let? r3 := ranging 3 planes else TooMany in each r3 (fun k3 => let w3 := add w k3 b3 in
+    let? r2 := ranging 2 (rows w3) else TooMany in each r2 (fun k2 => let w2 := add w3 k2 b2 in
+    let? r1 := ranging 1 (obstacles w2) else TooMany in
+    each r1 (fun k1 => judge (V k1 k2 k3) (add w2 k1 b1)))).
 
   (* Each of three lemmas: where W is in the window, and the line meets it, its k is within the bounds. *)
   Section Within.
@@ -156,33 +169,54 @@ Section Search.
     Let w3 := add w (vz n) b3.
     Let w2 := add w3 (vy n) b2.
     Let W := add w2 (vx n) b1.
-    Hypothesis in_window : lo <= dot v W <= hi.
+    Definition in_window (s : Z) : Prop := lo <= s /\ match upper with Some hi => s <= hi | None => True end.
+    Hypothesis s_in_window : in_window (dot v W).
     Hypothesis met : h2 v W <= H.
+
+    Lemma in_ends_ok bounds k : (forall hi, lo <= dot v W <= hi ->
+      Forall (fun b => satisfies b k) (bounds hi)) -> Forall (fun b => satisfies b k) (in_ends bounds).
+    Proof.
+      intros K. pose proof s_in_window as S. unfold in_window, in_ends in *.
+      destruct upper as [hi|]; [apply K, S|constructor].
+    Qed.
 
     Lemma planes_ok : Forall (fun b => satisfies b (vz n)) planes.
     Proof.
-      constructor; [|constructor]. apply functional_ok with W; auto.
+      apply in_ends_ok. intros hi Hs. constructor; [|constructor]. apply functional_ok with W; auto.
       - unfold W, w2. rewrite dot_normal. apply dot_add.
       - eapply Z.le_trans; [apply across|]. apply Z.mul_le_mono_nonneg_l; [apply square|exact met].
     Qed.
 
-    Lemma off_ok : off w3 * off w3 <=
+    Lemma off_ok hi : lo <= dot v W <= hi -> off w3 hi * off w3 hi <=
       (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W) *
         (dot v W * dot (cross b1 b2) v - dot v v * dot (cross b1 b2) W).
     Proof.
-      assert (E : dot (cross b1 b2) W = dot (cross b1 b2) w3) by apply dot_normal. rewrite E.
-      pose proof (between lo hi (dot v W) (dot (cross b1 b2) v) in_window) as B. unfold off. cbv zeta.
+      intros Hs. assert (E : dot (cross b1 b2) W = dot (cross b1 b2) w3) by apply dot_normal. rewrite E.
+      pose proof (between lo hi (dot v W) (dot (cross b1 b2) v) Hs) as B. unfold off. cbv zeta.
       set (Nw := dot v v * dot (cross b1 b2) w3) in *. set (y := dot v W * dot (cross b1 b2) v) in *.
       set (d := Z.max 0 _). assert (0 <= d <= Z.abs (y - Nw)) as [D1 D2] by (subst d; clear - B; lia).
       rewrite <- (Z.abs_square (y - Nw)). apply Z.mul_le_mono_nonneg; auto.
     Qed.
 
+    (* The first bound is of h_1.w alone, for h_1.v = 0. *)
+    Lemma beside_ok : satisfies (functional (cross v b1) w3 b2 (dot v v * dot (cross v b1) (cross v b1) * H) 0 0)
+      (vy n).
+    Proof.
+      assert (K : (dot v v * dot (cross v b1) W) * (dot v v * dot (cross v b1) W) <=
+        dot v v * dot (cross v b1) (cross v b1) * H).
+      { eapply Z.le_trans; [|apply Z.mul_le_mono_nonneg_l; [apply Z.mul_nonneg_nonneg; apply square|exact met]].
+        rewrite <- cross_twice. pose proof (across (cross v b1) v W) as A.
+        rewrite (e_across v b1), Z.mul_0_r, Z.sub_0_r in A. exact A. }
+      apply abs_sqrt in K. unfold satisfies, functional; cbn [low high start step].
+      replace (dot v v * dot (cross v b1) w3 + vy n * (dot v v * dot (cross v b1) b2))
+        with (dot v v * dot (cross v b1) W) by (unfold W, w2; rewrite dot_right; ring). lia.
+    Qed.
     Lemma rows_ok : Forall (fun b => satisfies b (vy n)) (rows w3).
     Proof.
-      pose proof off_ok as Hoff. pose proof (plane (cross b1 b2) v W) as PL.
-      pose proof (e_across v (cross b1 b2)) as ev.
-      unfold rows. cbv zeta. set (e := cross v (cross b1 b2)) in *.
-      constructor; [|constructor; [|constructor]]; apply functional_ok with W; auto.
+      constructor; [exact beside_ok|]. apply in_ends_ok. intros hi Hs. cbv zeta.
+      pose proof (off_ok hi Hs) as Hoff. pose proof (plane (cross b1 b2) v W) as PL.
+      pose proof (e_across v (cross b1 b2)) as ev. set (e := cross v (cross b1 b2)) in *.
+      constructor; [|constructor]. apply functional_ok with W; auto.
       - apply dot_left.
       - rewrite cramer by auto.
         replace (- dot v v * dot v b1 * dot e W * (- dot v v * dot v b1 * dot e W))
@@ -190,36 +224,48 @@ Section Search.
         apply Z.mul_le_mono_nonneg_l; [apply Z.mul_nonneg_nonneg; [apply Z.square_nonneg|apply square]|].
         assert (dot e e * h2 v W <= dot e e * H) by (apply Z.mul_le_mono_nonneg_l; [apply square|exact met]).
         clear - PL Hoff H0. lia.
-      - apply dot_right.
-      - eapply Z.le_trans; [apply across|]. rewrite cross_twice.
-        apply Z.mul_le_mono_nonneg_l; [apply Z.mul_nonneg_nonneg; apply square|exact met].
     Qed.
 
     Lemma obstacles_ok : Forall (fun b => satisfies b (vx n)) (obstacles w2).
     Proof.
-      constructor; [|constructor; [|constructor]]; unfold satisfies; cbv zeta; cbn [low high start step].
-      - rewrite <- dot_add. exact in_window.
-      - apply abs_sqrt. pose proof met as HH. unfold W in HH. rewrite h2_add in HH.
+      pose proof s_in_window as [Hlo Hhi]. unfold W in Hlo, Hhi. rewrite dot_add in Hlo, Hhi.
+      unfold obstacles. cbv zeta. set (roots := Bound _ _ (dot (cross v b1) (cross v w2)) _).
+      assert (R : satisfies roots (vx n)).
+      { unfold satisfies, roots; cbn [low high start step]. apply abs_sqrt. pose proof met as HH. unfold W in HH. rewrite h2_add in HH.
         pose proof (square (cross v b1)) as P. clear - HH P.
         set (f := dot (cross v b1) (cross v w2)) in *. set (hh1 := dot (cross v b1) (cross v b1)) in *.
         set (g0 := dot (cross v w2) (cross v w2)) in *. set (k := vx n) in *.
-        assert (hh1 * (hh1 * (k * k) + 2 * f * k + g0 - H) <= 0) by (apply Z.mul_nonneg_nonpos; lia). lia.
+        assert (hh1 * (hh1 * (k * k) + 2 * f * k + g0 - H) <= 0) by (apply Z.mul_nonneg_nonpos; lia). lia. }
+      destruct upper as [hi|]; [|destruct (range roots) as [[first last]|] eqn:E; [|constructor]];
+        (constructor; [exact R|constructor; [|constructor]]); unfold satisfies; cbn [low high start step].
+      - lia.
+      - pose proof (range_ok _ _ _ R E) as K. cbn [fst snd] in K. split; [exact Hlo|]. clear - K.
+        destruct (Z_le_gt_dec 0 (dot v b1)); nia.
     Qed.
   End Within.
 
+  Lemma ranging_ok i bounds k r : Forall (fun b => satisfies b k) bounds -> ((rank < i)%nat -> k = 0) ->
+    ranging i bounds = Some r -> fst r <= k <= snd r.
+  Proof.
+    unfold ranging. intros F Z0 E. destruct (Nat.leb_spec i rank); [exact (common_ok _ _ F _ E)|].
+    injection E as <-. cbn. lia.
+  Qed.
+
   (* The window lemma. *)
   Theorem search_ok judge : passes (search judge) ->
-    forall n, let W := place w n b1 b2 b3 in lo <= dot v W <= hi -> h2 v W <= H -> passes (judge n W).
+    forall n, fits rank n -> let W := place w n b1 b2 b3 in in_window (dot v W) -> h2 v W <= H ->
+      passes (judge n W).
   Proof.
-    intros Hp n W Hs HH. unfold search in Hp. subst W. destruct n as [k1 k2 k3].
+    intros Hp n (F3 & F2 & F1) W Hs HH. unfold search in Hp. subst W. destruct n as [k1 k2 k3].
     unfold place in *; cbn [vx vy vz] in *.
     pose proof (planes_ok (V k1 k2 k3) Hs HH) as P3. pose proof (rows_ok (V k1 k2 k3) Hs HH) as P2.
     pose proof (obstacles_ok (V k1 k2 k3) Hs HH) as P1. cbn [vx vy vz] in *.
-    destruct (common planes) as [r3|] eqn:C3; [|apply passes_fail in Hp; tauto].
-    apply each_ok with (k := k3) in Hp; [|apply common_ok with (1 := P3); auto].
-    cbv zeta in Hp. destruct (common (rows _)) as [r2|] eqn:C2; [|apply passes_fail in Hp; tauto].
-    apply each_ok with (k := k2) in Hp; [|apply common_ok with (1 := P2); auto].
-    cbv zeta in Hp. destruct (common (obstacles _)) as [r1|] eqn:C1; [|apply passes_fail in Hp; tauto].
-    apply each_ok with (k := k1) in Hp; [|apply common_ok with (1 := P1); auto]. exact Hp.
+    destruct (ranging 3 planes) as [r3|] eqn:C3; [|apply passes_fail in Hp; tauto].
+    apply each_ok with (k := k3) in Hp; [|apply ranging_ok with (1 := P3) (3 := C3); intros; apply F3; lia].
+    cbv zeta in Hp. destruct (ranging 2 (rows _)) as [r2|] eqn:C2; [|apply passes_fail in Hp; tauto].
+    apply each_ok with (k := k2) in Hp; [|apply ranging_ok with (1 := P2) (3 := C2); intros; apply F2; lia].
+    cbv zeta in Hp. destruct (ranging 1 (obstacles _)) as [r1|] eqn:C1; [|apply passes_fail in Hp; tauto].
+    apply each_ok with (k := k1) in Hp; [exact Hp|].
+    apply ranging_ok with (1 := P1) (3 := C1). intros. apply F1. lia.
   Qed.
 End Search.

@@ -20,7 +20,7 @@ Definition point (p : list numeral) : vec := map value p.
 Definition norm (a : vec) : R := sqrt (fold_right (fun c sum => c * c + sum) 0 a).
 Definition along (p : vec) (c : R) (b : vec) : vec :=  (* p + c b *)
   map (fun q => fst q + c * snd q) (combine p b).
-Fixpoint combination (p : vec) (k : list R) (b : list vec) : vec :=  (* p + k_1 b_1 + .. + k_d b_d *)
+Fixpoint combination (p : vec) (k : list R) (b : list vec) : vec :=  (* p + k_1 b_1 + k_2 b_2 + .. *)
   match k, b with c :: k, e :: b => combination (along p c e) k b | _, _ => p end.
 
 (* ---- Scenes, as they are written. *)
@@ -34,7 +34,7 @@ Record query := Query { start : list numeral; velocity : list numeral; from : op
 Definition item {A} (l : list A) (i : Z) : option A := if (i <? 0)%Z then None else nth_error l (Z.to_nat i).
 Definition atom_of (sc : scene) (o : obstacle) (L : lattice) (A : atom) : Prop :=
   item (lattices sc) (of_lattice o) = Some L /\ item (atoms L) (of_atom o) = Some A /\
-  length (cell o) = dimension sc.
+  length (cell o) = length (vectors L).  (* k: the lattice repeats in so many directions *)
 
 (* The point q lies in the obstacle o: obstacles are open. *)
 Definition occupied (sc : scene) (o : obstacle) (q : vec) : Prop :=
@@ -86,10 +86,10 @@ Definition correct (sc : scene) (q : query) (a : answer) : Prop :=
 Definition zero (d : nat) : vec := repeat 0 d.
 Definition sized (d : nat) (a : list numeral) : Prop := length a = d /\ Forall finite a.
 Definition independent (d : nat) (b : list (list numeral)) : Prop :=
-  length b = d /\ Forall (sized d) b /\
-  forall k, length k = d -> combination (zero d) k (map point b) = zero d -> k = zero d.
+  (length b <= d)%nat /\ Forall (sized d) b /\
+  forall k, length k = length b -> combination (zero d) k (map point b) = zero d -> k = zero (length b).
 Definition valid_atom (d : nat) (A : atom) : Prop := sized d (position A) /\
-  match shape_of A with Radius r => finite r /\ 0 < value r | Semiaxes a => independent d a end.
+  match shape_of A with Radius r => finite r /\ 0 < value r | Semiaxes a => length a = d /\ independent d a end.
 Definition valid_scene (sc : scene) : Prop :=
   (dimension sc = 2 \/ dimension sc = 3)%nat /\ lattices sc <> [] /\
   Forall (fun L => independent (dimension sc) (vectors L) /\ atoms L <> [] /\

@@ -12,6 +12,17 @@ Definition place (w n a b c : zv) := add (add (add w (vz n) c) (vy n) b) (vx n) 
   n_3 c *)
 Definition origin := V 0 0 0.
 
+(* Of k vectors a, b, c the first k are independent. Of k coordinates, the others are 0. *)
+Definition spread (k : nat) (a b c : zv) : bool :=
+  match k with
+  | 0%nat => true
+  | 1%nat => negb (dot a a =? 0)
+  | 2%nat => let n := cross a b in negb (dot n n =? 0)
+  | _ => negb (det a b c =? 0)
+  end.
+Definition fits (k : nat) (n : zv) : Prop :=
+  ((k <= 2)%nat -> vz n = 0) /\ ((k <= 1)%nat -> vy n = 0) /\ ((k <= 0)%nat -> vx n = 0).
+
 Ltac vectors := repeat match goal with a : zv |- _ => destruct a end;
   unfold place, origin, det, dot, cross, add in *; cbn [vx vy vz] in *.
 

@@ -67,10 +67,10 @@ Lemma body_view b c q : radius (adjugate b) <> 0%Z ->
 Proof. destruct b; intros H; [apply ball_view|apply ellipsoid_view, H]. Qed.
 
 (* ---- An atom as the ray sees it: as balls. *)
-Record seen := Seen { sv : zv; sw : zv; s1 : zv; s2 : zv; s3 : zv; sr : Z (* r^2 v^2 *) }.
+Record seen := Seen { sk : nat; sv : zv; sw : zv; s1 : zv; s2 : zv; s3 : zv; sr : Z (* r^2 v^2 *) }.
 Definition see (x v : zv) (S : solid) : seen :=
   let M := adjugate (shaped S) in let v' := apply_to M v in
-  Seen v' (apply_to M (add (middle S) (-1) x)) (apply_to M (g1 S)) (apply_to M (g2 S)) (apply_to M (g3 S))
+  Seen (rank S) v' (apply_to M (add (middle S) (-1) x)) (apply_to M (g1 S)) (apply_to M (g2 S)) (apply_to M (g3 S))
     (radius M * radius M * dot v' v').
 Definition at_cell (y : seen) (n : zv) : zv := place (sw y) n (s1 y) (s2 y) (s3 y).
 Definition sQ (y : seen) : Z := dot (sv y) (sv y).

@@ -10,110 +10,169 @@ Local Open Scope Z_scope.
    is said of it need not be proved: whatever it is read as, the claims are checked. *)
 Record end_of_window := Dyadic { mantissa : Z; exponent : Z }.
 Record written_piece := WrittenPiece
-  { place_in_list : Z; from_end : end_of_window; to_end : end_of_window; basis : list (list Z) }.
+  { place_in_list : Z; from_end : end_of_window; to_end : option end_of_window (* none: "inf" *);
+    basis : list (list Z) }.
 Definition twos (bits : Z) : Z := if bits =? 0 then 0 else Z.log2 (Z.land bits (- bits)).
 Definition end_at_number (n : numeral) : option end_of_window :=
   option_map (fun i => let k := twos i in Dyadic (Z.shiftr i k) (k - 1074)) (number n).
 
-(* As it is checked: from `begin_at` / E to `end_at` / E. Of `never` the ends mean nothing. *)
-Record piece := Piece { begin_at : Z; end_at : Z; r1 : zv; r2 : zv; r3 : zv }.
+(* As it is checked: from `begin_at` / E to `end_at` / E. Of rows the ends mean nothing. *)
+Record piece := Piece { begin_at : Z; end_at : option Z; r1 : zv; r2 : zv; r3 : zv }.
 
 (* E = 2^f: the ends of all these are multiples of 1 / E. *)
 Definition largest_exponent : Z := 2 ^ 14.
+Definition fraction_bits (e : end_of_window) : Z := Z.min largest_exponent (- exponent e).
 Definition fineness (ws : list written_piece) : Z := fold_left (fun f w =>
-  Z.max f (Z.min largest_exponent (Z.max (- exponent (from_end w)) (- exponent (to_end w))))) ws 0.
+  Z.max (Z.max f (fraction_bits (from_end w)))
+    match to_end w with Some e => fraction_bits e | None => 0 end) ws 0.
 Lemma fineness_nonneg ws : 0 <= fineness ws.
 Proof.
-  unfold fineness. assert (K : forall f, 0 <= f -> 0 <= fold_left (fun f w =>
-    Z.max f (Z.min largest_exponent (Z.max (- exponent (from_end w)) (- exponent (to_end w))))) ws f);
+  unfold fineness. set (finer := fun f w => _). assert (K : forall f, 0 <= f -> 0 <= fold_left finer ws f);
     [|apply K; lia].
-  induction ws as [|w ws IH]; cbn [fold_left]; auto. intros f Hf. apply IH. lia.
+  induction ws as [|w ws IH]; cbn [fold_left]; auto. intros f Hf. apply IH. unfold finer. lia.
 Qed.
 
 Definition read_end (f : Z) (e : end_of_window) : option Z :=
   if Z.abs (exponent e) <=? largest_exponent then Some (Z.shiftl (mantissa e) (exponent e + f)) else None.
-Definition read_row (planar : bool) (r : list Z) : option zv :=
-  match planar, r with true, [a; b] => Some (V a b 0) | false, [a; b; c] => Some (V a b c) | _, _ => None end.
-Definition read_basis (planar : bool) (rows : list (list Z)) : option (zv * zv * zv) :=
-  match planar, all_some (read_row planar) rows with
-  | true, Some [a; b] => Some (a, b, V 0 0 1)
-  | false, Some [a; b; c] => Some (a, b, c)
+(* k numbers, and zeros; k rows, and the vectors that complete them to a basis of space. *)
+Definition read_row (k : nat) (r : list Z) : option zv :=
+  match k, r with
+  | 0%nat, [] => Some origin
+  | 1%nat, [a] => Some (V a 0 0)
+  | 2%nat, [a; b] => Some (V a b 0)
+  | 3%nat, [a; b; c] => Some (V a b c)
   | _, _ => None
   end.
-Definition read_piece (planar : bool) (f : Z) (w : written_piece) : option piece :=
-  match read_end f (from_end w), read_end f (to_end w), read_basis planar (basis w) with
-  | Some b, Some e, Some (r1, r2, r3) => Some (Piece b e r1 r2 r3)
-  | _, _, _ => None
+Definition read_basis (k : nat) (rows : list (list Z)) : option (zv * zv * zv) :=
+  match all_some (read_row k) rows, k with
+  | Some [], 0%nat => Some (V 1 0 0, V 0 1 0, V 0 0 1)
+  | Some [a], 1%nat => Some (a, V 0 1 0, V 0 0 1)
+  | Some [a; b], 2%nat => Some (a, b, V 0 0 1)
+  | Some [a; b; c], 3%nat => Some (a, b, c)
+  | _, _ => None
   end.
+Lemma read_row_ok k r n : read_row k r = Some n -> fits k n /\ r = coordinates k n.
+Proof.
+  unfold read_row, fits, coordinates. intros E.
+  destruct k as [|[|[|[|k]]]], r as [|a [|b [|c [|d r]]]]; try discriminate; injection E as <-; cbn;
+    repeat split; auto; lia.
+Qed.
+(* What fits is a combination of the first k alone. *)
+Lemma read_basis_ok k rows r1 r2 r3 : read_basis k rows = Some (r1, r2, r3) ->
+  forall n, fits k (place origin n r1 r2 r3) -> fits k n.
+Proof.
+  unfold read_basis. destruct (all_some (read_row k) rows) as [l|] eqn:E; [|discriminate].
+  assert (F : forall a, In a l -> fits k a).
+  { intros a Ha. destruct (all_some_ok _ _ _ E) as [_ K]. destruct (K a Ha) as (r & _ & Er).
+    apply (read_row_ok k r a Er). }
+  intros B [n1 n2 n3] (P3 & P2 & P1).
+  destruct k as [|[|[|[|k]]]], l as [|a [|b [|c [|d l]]]]; try discriminate; injection B as <- <- <-;
+    unfold fits, place, add, origin in *; cbn [vx vy vz In] in *; repeat split; intros;
+    try (pose proof (F a ltac:(auto)) as (A3 & A2 & A1); rewrite ?A3, ?A2 in * by lia);
+    try (pose proof (F b ltac:(auto)) as (B3 & B2 & B1); rewrite ?B3 in * by lia);
+    try specialize (P3 ltac:(lia)); try specialize (P2 ltac:(lia)); try specialize (P1 ltac:(lia)); lia.
+Qed.
+Lemma first_fits k rows r1 r2 r3 : read_basis k rows = Some (r1, r2, r3) -> (1 <= k)%nat -> fits k r1.
+Proof.
+  unfold read_basis. destruct (all_some (read_row k) rows) as [l|] eqn:E; [|discriminate].
+  intros B Hk. assert (In r1 l).
+  { destruct k as [|[|[|[|k]]]], l as [|a [|b [|c [|d l]]]]; try discriminate; try lia; injection B as <- <- <-;
+      left; reflexivity. }
+  destruct (all_some_ok _ _ _ E) as [_ K]. destruct (K r1 H) as (r & _ & Er). apply (read_row_ok k r r1 Er).
+Qed.
+Definition read_piece (k : nat) (f : Z) (w : written_piece) : option piece :=
+  match read_end f (from_end w), read_basis k (basis w) with
+  | Some b, Some (r1, r2, r3) =>
+    match to_end w with
+    | Some e => option_map (fun e => Piece b (Some e) r1 r2 r3) (read_end f e)
+    | None => Some (Piece b None r1 r2 r3)
+    end
+  | _, _ => None
+  end.
+Definition basis_fits (k : nat) (p : piece) : Prop := forall n, fits k (place origin n (r1 p) (r2 p) (r3 p)) -> fits k n.
+Lemma read_piece_ok k f w p : read_piece k f w = Some p -> basis_fits k p.
+Proof.
+  unfold read_piece. destruct (read_end f (from_end w)); [|discriminate].
+  destruct (read_basis k (basis w)) as [[[a b] c]|] eqn:E; [|discriminate].
+  destruct (to_end w) as [e|]; [destruct (read_end f e); [|discriminate]|]; cbn; intros I; injection I as <-;
+    exact (read_basis_ok k _ _ _ _ E).
+Qed.
 (* Each costs so many steps before it is read. *)
 Definition piece_steps : Z := 10.
 
 Section Atom.
-  Variables (planar : bool) (f : Z) (y : seen).
+  Variables (f : Z) (y : seen).
   Hypothesis f_nonneg : 0 <= f.
   Let E := 2 ^ f.
   Let Q := sQ y.
+  Let rank := sk y.
   Hypothesis Q_pos : 0 < Q.
   Lemma E_pos : 0 < E.
   Proof. apply Z.pow_pos_nonneg; [reflexivity|exact f_nonneg]. Qed.
 
-  (* ---- 2. and 3.: all obstacles with lo <= s <= hi that the line meets are judged. *)
-  Definition check_window (judge : zv -> time -> check) (w : piece) (lo hi : Z) : check :=
+  (* ---- 2. and 3.: all obstacles with s in the window that the line meets are judged. *)
+  Definition check_window (judge : zv -> time -> check) (w : piece) (lo : Z) (hi : option Z) : check :=
     let b n := place origin n (s1 y) (s2 y) (s3 y) in
     require (Z.abs (det (r1 w) (r2 w) (r3 w)) =? 1) Determinant ;;
-    search (sv y) (sw y) (sr y - 1) (b (r1 w)) (b (r2 w)) (b (r3 w)) lo hi (fun k W =>
+    search rank (sv y) (sw y) (sr y - 1) (b (r1 w)) (b (r2 w)) (b (r3 w)) lo hi (fun k W =>
       let D := sD y W in
-      if D <=? 0 then done else
-      let n := place origin k (r1 w) (r2 w) (r3 w) in
-      if planar && negb (vz n =? 0) then done else judge n (Time (sS y W) D Q)).
+      if D <=? 0 then done else judge (place origin k (r1 w) (r2 w) (r3 w)) (Time (sS y W) D Q)).
 
-  Lemma check_window_ok judge w lo hi : passes (check_window judge w lo hi) ->
-    forall n, level planar n -> let W := at_cell y n in
-    0 < sD y W -> lo <= sS y W <= hi -> passes (judge n (Time (sS y W) (sD y W) Q)).
+  Lemma check_window_ok judge w lo hi : basis_fits rank w -> passes (check_window judge w lo hi) ->
+    forall n, fits rank n -> let W := at_cell y n in
+    0 < sD y W -> in_window lo hi (sS y W) -> passes (judge n (Time (sS y W) (sD y W) Q)).
   Proof.
-    intros H n Hn W HD Hs. apply passes_both in H. destruct H as [H1 H2].
+    intros B H n Hn W HD Hs. apply passes_both in H. destruct H as [H1 H2].
     apply passes_require, Z.eqb_eq in H1.
-    destruct (unimodular n _ _ _ H1) as [k Ek].
-    pose proof (search_ok _ _ _ _ _ _ _ _ _ H2 k) as K. cbv beta zeta in K.
+    destruct (unimodular n _ _ _ H1) as [k Ek]. assert (Fk : fits rank k) by (apply B; rewrite <- Ek; exact Hn).
+    pose proof (search_ok _ _ _ _ _ _ _ _ _ _ H2 k Fk) as K. cbv beta zeta in K.
     assert (EW : place (sw y) k (place origin (r1 w) (s1 y) (s2 y) (s3 y)) (place origin (r2 w) (s1 y) (s2 y)
       (s3 y))
       (place origin (r3 w) (s1 y) (s2 y) (s3 y)) = W) by (unfold W, at_cell; rewrite Ek; symmetry;
         apply place_place).
     rewrite EW in K. specialize (K Hs). assert (HH : h2 (sv y) W <= sr y - 1) by (unfold sD in HD; lia).
-    specialize (K HH).
-    destruct (Z.leb_spec (sD y W) 0); [lia|]. rewrite <- Ek in K.
-    assert (planar && negb (vz n =? 0) = false)%bool as Ep.
-    { destruct planar; auto. cbn. rewrite Hn by auto. reflexivity. }
-    rewrite Ep in K. exact K.
+    specialize (K HH). destruct (Z.leb_spec (sD y W) 0); [lia|]. rewrite <- Ek in K. exact K.
   Qed.
 
   (* ---- 1. "its windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T iff e
-     Q < s E. Up to e all has been looked at; and `last`, of how far it is at the end. *)
-  Definition check_next (judge : zv -> time -> check) (e : Z) (w : written_piece) (p : piece) : check :=
-    require (begin_at p <=? Z.min e (end_at p)) (GapBefore (place_in_list w)) ;;
-    check_window judge p (- ((- (begin_at p * Q)) / E)) ((end_at p * Q) / E).
-  Fixpoint walk (judge : zv -> time -> check) (last : Z -> check) (e : Z) (ws : list written_piece) (left :
-    Z) :
-    Z + flaw :=
+     Q < s E. Up to e all has been looked at; without an end, for ever. And `last`, of how far it is at the
+     end. *)
+  Definition nearer (e : option Z) (e' : option Z) : option Z :=
+    match e, e' with Some a, Some b => Some (Z.min a b) | Some a, None | None, Some a => Some a
+    | None, None => None end.
+  Definition farther (e : option Z) (e' : option Z) : option Z :=
+    match e, e' with Some a, Some b => Some (Z.max a b) | _, _ => None end.
+  Definition not_beyond (b : Z) (e : option Z) : bool := match e with Some e => b <=? e | None => true end.
+  Definition window_begin (p : piece) : Z := - ((- (begin_at p * Q)) / E).
+  Definition window_end (p : piece) : option Z := option_map (fun e => (e * Q) / E) (end_at p).
+  Definition check_next (judge : zv -> time -> check) (e : option Z) (w : written_piece) (p : piece) : check :=
+    require (not_beyond (begin_at p) (nearer e (end_at p))) (GapBefore (place_in_list w)) ;;
+    check_window judge p (window_begin p) (window_end p).
+  Fixpoint walk (judge : zv -> time -> check) (last : option Z -> check) (e : option Z)
+    (ws : list written_piece) (left : Z) : Z + flaw :=
     match ws with
     | [] => last e left
-    | w :: ws => (spend piece_steps ;; let? p := read_piece planar f w else NoVector in
-        check_next judge e w p ;; walk judge last (Z.max e (end_at p)) ws) left
+    | w :: ws => (spend piece_steps ;; let? p := read_piece rank f w else NoVector in
+        check_next judge e w p ;; walk judge last (farther e (end_at p)) ws) left
     end.
+  Definition up_to (e : option Z) (s : Z) : Prop := match e with Some e => s <= e * Q | None => True end.
   Lemma walk_ok judge last ws : forall e, passes (walk judge last e ws) -> exists e', passes (last e') /\
-    forall s, e * Q < s <= e' * Q -> exists p, begin_at p * Q <= s <= end_at p * Q /\
-      passes (check_window judge p (- ((- (begin_at p * Q)) / E)) ((end_at p * Q) / E)).
+    forall s, ~ up_to e s -> up_to e' s -> exists p, begin_at p * Q <= s /\ up_to (end_at p) s /\
+      basis_fits rank p /\ passes (check_window judge p (window_begin p) (window_end p)).
   Proof.
     induction ws as [|w ws IH]; intros e H.
-    - exists e. split; [exact H|]. intros s Hs. exfalso. lia.
+    - exists e. split; [exact H|]. intros s Hs Hs'. contradiction.
     - cbn [walk] in H. apply passes_both in H. destruct H as [_ H].
-      destruct (read_piece planar f w) as [p|]; [|apply passes_fail in H; tauto].
+      destruct (read_piece rank f w) as [p|] eqn:Ep; [|apply passes_fail in H; tauto].
       apply passes_both in H. destruct H as [H1 H2]. apply passes_both in H1. destruct H1 as [H0 H1].
-      apply passes_require, Z.leb_le in H0. destruct (IH _ H2) as (e' & He & K). exists e'. split;
-        [exact He|].
-      intros s Hs. destruct (Z_le_gt_dec s (end_at p * Q)).
-      + exists p. split; [nia|exact H1].
-      + apply K. nia.
+      apply passes_require in H0. destruct (IH _ H2) as (e' & He & K). exists e'. split; [exact He|].
+      intros s Hs Hs'. destruct e as [e|]; [|destruct (Hs I)]. cbn [up_to] in Hs.
+      assert (In_p : up_to (end_at p) s \/ ~ up_to (end_at p) s)
+        by (destruct (end_at p); cbn [up_to]; [lia|auto]).
+      destruct In_p as [Sp|Sp].
+      + exists p. split; [|split; [exact Sp|split; [exact (read_piece_ok _ _ _ _ Ep)|exact H1]]].
+        unfold not_beyond, nearer in H0. destruct (end_at p); apply Z.leb_le in H0; nia.
+      + apply K; auto. destruct (end_at p) as [e1|]; cbn [up_to farther] in *; [nia|tauto].
   Qed.
 
   (* "the first begins at or below -r/|v|": just below it. *)
@@ -163,45 +222,54 @@ Section Atom.
     rewrite Rmult_assoc, Rinv_l in W; lra.
   Qed.
 
-  (* ---- All obstacles of the atom that contain x or are entered no later than `until`; any, if there is no
-     `until`. *)
-  Definition check_windows_in (ws : list written_piece) (until : option time) (gap : flaw)
+  (* ---- All obstacles of the atom that contain x, or are entered in the span. *)
+  Inductive span := Nothing | Until (t : time) | Forever.
+  Definition spans (e : option Z) (asked : span) : bool :=
+    match asked, e with
+    | Nothing, _ | _, None => true
+    | Until t, Some e => reaches e t
+    | Forever, Some _ => false
+    end.
+  Definition spanned (asked : span) (t : time) : Prop :=
+    match asked with
+    | Nothing => False
+    | Until u => regular u /\ (time_value t <= time_value u)%R
+    | Forever => True
+    end.
+  Definition check_windows_in (ws : list written_piece) (asked : span) (gap : flaw)
     (judge : zv -> time -> check) : check :=
-    walk judge (fun e => require (match until with None => true | Some t => reaches e t end) gap)
-      beginning ws.
-  Lemma check_windows_in_ok ws until gap judge : regular until ->
-    passes (check_windows_in ws (Some until) gap judge) ->
-    forall n, level planar n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
-    0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D Q) <= time_value until)%R ->
-      passes (judge n (Time s D Q)).
+    walk judge (fun e => require (spans e asked) gap) (Some beginning) ws.
+  Lemma check_windows_in_ok ws asked gap judge : passes (check_windows_in ws asked gap judge) ->
+    forall n, fits rank n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
+    0 < D -> 0 < s \/ s * s < D -> spanned asked (Time s D Q) -> passes (judge n (Time s D Q)).
   Proof.
-    intros Hu H n Hn W s D HD Hs HV. destruct (walk_ok _ _ _ _ H) as (e & H2 & K). apply passes_require in H2.
+    intros H n Hn W s D HD Hs HV. destruct (walk_ok _ _ _ _ H) as (e & H2 & K). apply passes_require in H2.
     pose proof E_pos as EP.
     assert (HDR : D <= sr y) by (unfold D, sD; pose proof (h2_nonneg (sv y) W); lia).
-    destruct (K (s * E)) as (p & Hb & Hp).
-    { split.
-      - destruct Hs as [Hs|Hs]; [|apply beginning_ok; lia].
-        assert (beginning * Q < 0 * E) by (apply beginning_ok; lia).
-        assert (0 < s * E) by (apply Z.mul_pos_pos; auto). lia.
-      - apply (reaches_ok e until s D); auto. lia. }
-    apply (check_window_ok _ _ _ _ Hp); auto. fold W. fold s. split.
-    - apply Z.opp_le_mono. rewrite Z.opp_involutive. apply Z.div_le_lower_bound; auto. lia.
-    - apply Z.div_le_lower_bound; auto. lia.
+    destruct (K (s * E)) as (p & Hb & He & B & Hp).
+    - cbn [up_to]. destruct Hs as [Hs|Hs]; [|pose proof (beginning_ok s ltac:(lia)); lia].
+      assert (beginning * Q < 0 * E) by (apply beginning_ok; lia).
+      assert (0 < s * E) by (apply Z.mul_pos_pos; auto). lia.
+    - destruct e as [e|]; [|exact I]. cbn [up_to]. destruct asked as [|u|]; cbn in H2, HV; try tauto;
+        try discriminate. apply (reaches_ok e u s D); try tauto. lia.
+    - apply (check_window_ok _ _ _ _ B Hp); auto. fold W. fold s. unfold window_begin, window_end. split.
+      + apply Z.opp_le_mono. rewrite Z.opp_involutive. apply Z.div_le_lower_bound; auto. lia.
+      + destruct (end_at p) as [e1|]; cbn [option_map up_to] in *; [|exact I].
+        apply Z.div_le_lower_bound; auto. lia.
   Qed.
 
   (* ---- never: "b_1 is parallel to v, so all obstacles of a row have the same h". One of each row has 0 <= s
      <= |s_1|. *)
   Definition check_piece_of_row (w : piece) (met : zv -> flaw) : check :=
     let b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y) in let s1 := sS y b1 in let c := cross (sv y) b1 in
-    require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0) &&
-      negb (planar && negb (vz (r1 w) =? 0))) NotAlong ;;
-    check_window (fun n _ => fail (met n)) w 0 (Z.abs s1).
-  Lemma check_piece_of_row_ok w met : passes (check_piece_of_row w met) -> forall n, level planar n ->
-    ~ 0 < sD y (at_cell y n).
+    require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0)) NotAlong ;;
+    check_window (fun n _ => fail (met n)) w 0 (Some (Z.abs s1)).
+  Lemma check_piece_of_row_ok w met : basis_fits rank w -> fits rank (r1 w) ->
+    passes (check_piece_of_row w met) -> forall n, fits rank n -> ~ 0 < sD y (at_cell y n).
   Proof.
-    intros H n Hn Dp. apply passes_both in H. destruct H as [H Hw]. apply passes_require in H.
+    intros B F1 H n Hn Dp. apply passes_both in H. destruct H as [H Hw]. apply passes_require in H.
     rewrite !Bool.andb_true_iff, !Bool.negb_true_iff, !Z.eqb_eq, Z.eqb_neq in H.
-    destruct H as [[[[Hx Hy] Hz] Hs1] Hpl].
+    destruct H as [[[Hx Hy] Hz] Hs1].
     set (b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y)) in *. set (step := sS y b1) in *.
     set (W := at_cell y n) in *.
     assert (B0 : cross (sv y) b1 = V 0 0 0) by (apply zv_eq; auto).
@@ -214,31 +282,30 @@ Section Atom.
     assert (Sm : sS y (add W m b1) = sS y W + m * step) by apply dot_add.
     assert (Dm : sD y (add W m b1) = sD y W).
     { unfold sD. rewrite h2_add, B0, lagrange. unfold dot; cbn [vx vy vz]. ring. }
-    pose proof (check_window_ok _ _ _ _ Hw (add n m (r1 w))) as K. cbv zeta in K. rewrite EW, Sm, Dm in K.
+    pose proof (check_window_ok _ _ _ _ B Hw (add n m (r1 w))) as K. cbv zeta in K. rewrite EW, Sm, Dm in K.
     apply (passes_fail (met (add n m (r1 w)))), K; auto.
-    intros Ep. cbn [add vz]. rewrite (Hn Ep). rewrite Ep in Hpl. cbn in Hpl.
-    apply Bool.negb_false_iff, Z.eqb_eq in Hpl.
-    rewrite Hpl. ring.
+    destruct Hn as (N3 & N2 & N1), F1 as (R3 & R2 & R1). unfold fits, add; cbn [vx vy vz].
+    repeat split; intros; rewrite ?N3, ?N2, ?N1, ?R3, ?R2, ?R1 by lia; ring.
   Qed.
 End Atom.
 
 (* With these windows; with this row. *)
-Definition check_windows (planar : bool) (y : seen) (ws : list written_piece) : option time -> flaw ->
-  (zv -> time -> check) -> check := check_windows_in planar (fineness ws) y ws.
-Lemma check_windows_ok planar y ws until gap judge : 0 < sQ y -> regular until ->
-  passes (check_windows planar y ws (Some until) gap judge) ->
-  forall n, level planar n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
-  0 < D -> 0 < s \/ s * s < D -> (time_value (Time s D (sQ y)) <= time_value until)%R ->
-    passes (judge n (Time s D (sQ y))).
+Definition check_windows (y : seen) (ws : list written_piece) : span -> flaw -> (zv -> time -> check) -> check :=
+  check_windows_in (fineness ws) y ws.
+Lemma check_windows_ok y ws asked gap judge : 0 < sQ y -> passes (check_windows y ws asked gap judge) ->
+  forall n, fits (sk y) n -> let W := at_cell y n in let s := sS y W in let D := sD y W in
+  0 < D -> 0 < s \/ s * s < D -> spanned asked (Time s D (sQ y)) -> passes (judge n (Time s D (sQ y))).
 Proof. intros HQ. apply check_windows_in_ok; [apply fineness_nonneg|exact HQ]. Qed.
 
-Definition check_row (planar : bool) (y : seen) (w : written_piece) (met : zv -> flaw) : check :=
-  spend piece_steps ;; let? b := read_basis planar (basis w) else NoVector in
-  let '(r1, r2, r3) := b in check_piece_of_row planar y (Piece 0 0 r1 r2 r3) met.
-Lemma check_row_ok planar y w met : passes (check_row planar y w met) ->
-  forall n, level planar n -> ~ 0 < sD y (at_cell y n).
+Definition check_row (y : seen) (w : written_piece) (met : zv -> flaw) : check :=
+  spend piece_steps ;; let? b := read_basis (sk y) (basis w) else NoVector in
+  let '(r1, r2, r3) := b in require (1 <=? sk y)%nat NotAlong ;; check_piece_of_row y (Piece 0 None r1 r2 r3) met.
+Lemma check_row_ok y w met : passes (check_row y w met) -> forall n, fits (sk y) n -> ~ 0 < sD y (at_cell y n).
 Proof.
   intros H. apply passes_both in H. destruct H as [_ H].
-  destruct (read_basis planar (basis w)) as [[[r1 r2] r3]|]; [|apply passes_fail in H; tauto].
-  exact (check_piece_of_row_ok planar 0 y (Z.le_refl 0) _ _ H).
+  destruct (read_basis (sk y) (basis w)) as [[[r1 r2] r3]|] eqn:E; [|apply passes_fail in H; tauto].
+  apply passes_both in H. destruct H as [H0 H]. apply passes_require, Nat.leb_le in H0.
+  eapply (check_piece_of_row_ok 0); [apply Z.le_refl| | |exact H].
+  - exact (read_basis_ok _ _ _ _ _ E).
+  - apply (first_fits _ _ _ _ _ E H0).
 Qed.

@@ -3,7 +3,7 @@ verify`. Half of the records are tampered with in their values (each has the id 
 them get as far as its proof), half in their form: keys, numbers, texts, the ends of windows, what is around
 them.
 
-python3 proof/differential.py PROGRAM COUNT [SEED]
+python3 proof/differential.py PROGRAM COUNT [SEED [SET..]]    (sets: all that are committed)
 exit status: 0 they agree, 1 they don't (the records are printed)"""
 import collections, contextlib, fractions, hashlib, importlib.util, io, json, math, pathlib, random, re
 import subprocess, sys, tempfile
@@ -20,10 +20,10 @@ check.STEPS = 2000
 def compact(value):
     return json.dumps(value, separators=(",", ":"), allow_nan=False)  # ValueError: no way to tamper
 
-def committed():
-    """(scene line, record) of all golden sets, but for errors."""
-    for path in sorted((ROOT / "data" / "golden").glob("*.ndjson")):
-        for line in path.read_text().splitlines()[1:]:
+def records_of(paths):
+    """(scene line, record) of these golden sets, but for errors."""
+    for path in paths or sorted((ROOT / "data" / "golden").glob("*.ndjson")):
+        for line in pathlib.Path(path).read_text().splitlines()[1:]:
             if line.startswith('{"scene"'):
                 scene = line
             elif '"outcome":"error"' not in line:
@@ -67,6 +67,9 @@ def basis_sheared(record, rng):
 def window_end(record, rng):
     window, key = rng.choice(pieces(record)), rng.choice(("from", "to"))
     window[key] = nudge_end(window[key], rng)
+def window_without_end(record, rng):
+    window = rng.choice(record["certificate"]["windows"])
+    window["to"] = rng.choice((1e300, 0.0)) if window["to"] == "inf" else "inf"
 def window_gone(record, rng): l = pieces(record); l.pop(rng.randrange(len(l)))
 def window_twice(record, rng): l = pieces(record); l.insert(rng.randrange(len(l) + 1), dict(rng.choice(l)))
 def window_order(record, rng): rng.shuffle(pieces(record))
@@ -94,7 +97,7 @@ def to_hit(record, rng):
     if record["expect"]["outcome"] != "inside": raise KeyError
     record["expect"].update(outcome="hit", time=0.0); record["time_decimal"] = "0"
 WAYS = [claimed_cell, claimed_atom, start, start_ulp, velocity, other_way, scaled, basis_number, basis_rows,
-        basis_sheared, window_end, window_gone, window_twice, window_order, window_atom, toggled_from,
+        basis_sheared, window_end, window_without_end, window_gone, window_twice, window_order, window_atom, toggled_from,
         from_claimed, from_beside, time_ulp, digit, to_inside, to_hit]
 
 def line_of(scene, record):
@@ -343,8 +346,8 @@ def batch(program, records):
                                header, scene, line))
     return tally, differ
 
-def main(program, count, seed=1):
-    rng, cases = random.Random(int(seed)), list(committed())
+def main(program, count, seed=1, *paths):
+    rng, cases = random.Random(int(seed)), list(records_of(paths))
     tally, differ, done = collections.Counter(), [], 0
     while done < int(count):
         records = [rng.choice((tampered, formed))(cases, rng) for _ in range(min(BATCH, int(count) - done))]

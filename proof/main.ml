@@ -13,7 +13,7 @@ let numbers l = "(" ^ comma (List.map Z.to_string l) ^ ")"
 
 (* As check.py sees it: in space. *)
 let name o =
-  let cell = match o.cell with [ a; b ] -> [ a; b; Z.zero ] | cell -> cell in
+  let cell = List.filteri (fun i _ -> i < 3) (o.cell @ [ Z.zero; Z.zero; Z.zero ]) in
   Printf.sprintf "(%s, %s, %s)" (Z.to_string o.of_lattice) (Z.to_string o.of_atom) (numbers cell)
 
 let words outcome answer = function
@@ -24,7 +24,8 @@ let words outcome answer = function
   | Determinant -> "a determinant is not +-1: obstacles are missing"
   | NotAlong -> "b_1 is not along v"
   | GapBefore i -> Printf.sprintf "the windows leave a gap before window %s" (Z.to_string i)
-  | GapAfter (l, a) -> numbers [ l; a ] ^ ": a gap"
+  | GapAfter (l, a) -> (
+      match answer with Never -> Printf.sprintf "no rows of %s, or a gap" (numbers [ l; a ]) | _ -> numbers [ l; a ] ^ ": a gap")
   | TooMany -> "a window with too many planes, rows, or obstacles in a row"
   | NoRows (l, a) -> Printf.sprintf "no rows of [%s], or met is []" (numbers [ l; a ])
   | Met o -> Printf.sprintf "no rows of [], or met is [%s]" (name o)
@@ -64,7 +65,7 @@ let verify (scene : Record.scene) box =
   | "hit" | "inside" | "never" -> (
       let question = Record.question scene.size box in
       let answer = Record.answer scene.size outcome box in
-      let certificate = Record.certificate scene (Json.get "certificate" box) in
+      let certificate = Record.certificate scene (outcome = "never") (Json.get "certificate" box) in
       match check_record scene.prepared question answer certificate !budget with
       | Inl _ -> ()
       | Inr flaw -> Record.flaw (words outcome answer flaw))

@@ -88,6 +88,11 @@ let array size read json =
   require (List.compare_length_with l size = 0) (Printf.sprintf "no array of %d items" size);
   List.map read l
 
+let at_most size read json =
+  let l = Json.list json in
+  require (List.compare_length_with l size <= 0) (Printf.sprintf "no array of %d items at most" size);
+  List.map read l
+
 let vector size = array size number
 
 let atom size json =
@@ -100,7 +105,7 @@ let atom size json =
   { position = vector size (Json.get "position" json); shape_of = shape }
 
 let lattice size json =
-  { vectors = array size (vector size) (Json.get "vectors" json);
+  { vectors = at_most size (vector size) (Json.get "vectors" json);
     atoms = map (atom size) (Json.list (Json.get "atoms" json)) }
 
 let rec nat n = if n = 0 then O else S (nat (n - 1))
@@ -126,7 +131,7 @@ let scene json =
 let obstacle size json =
   { of_lattice = integer (Json.get "lattice" json);
     of_atom = integer (Json.get "atom" json);
-    cell = array size integer (Json.get "cell" json) }
+    cell = at_most size integer (Json.get "cell" json) }
 
 let question size json =
   { start = vector size (Json.get "x" json);
@@ -179,6 +184,7 @@ let answer size outcome json =
 (* ---- Certificates. Nothing of this need be trusted: whatever they are read as, the claims are checked. *)
 let largest_exponent = Z.of_int 16384
 
+let nothing = { mantissa = Z.zero; exponent = Z.zero }
 let window_end = function
   | Json.String text ->
       short "a window's end" text;
@@ -187,11 +193,11 @@ let window_end = function
       { mantissa = m; exponent = e }
   | json -> ( match end_at_number (numeral json) with Some e -> e | None -> flaw "no number: beyond the range of binary64")
 
-let basis size json = array size (array size integer) (Json.get "basis" json)
+let basis size json = at_most size (at_most size integer) (Json.get "basis" json)
 
 let piece size ends place json =
-  let window_end key = if ends then window_end (Json.get key json) else { mantissa = Z.zero; exponent = Z.zero } in
-  { place_in_list = Z.of_int place; from_end = window_end "from"; to_end = window_end "to"; basis = basis size json }
+  let to_end = match Json.find "to" json with Some (Json.String "inf") -> None | _ when not ends -> None | _ -> Some (window_end (Json.get "to" json)) in
+  { place_in_list = Z.of_int place; from_end = (if ends then window_end (Json.get "from" json) else nothing); to_end; basis = basis size json }
 
 (* The pieces of each atom, in the order in which they are listed. *)
 let pieces scene ends list =
@@ -205,8 +211,9 @@ let pieces scene ends list =
   List.iteri add list;
   Array.to_list (Array.map List.rev of_atom)
 
-let certificate scene json =
-  match (Json.find "windows" json, Json.find "rows" json) with
-  | Some l, None -> Windows (pieces scene true (Json.list l))
-  | None, Some l -> Rows (pieces scene false (Json.list l))
-  | _ -> flaw "a certificate has either windows or rows"
+let certificate scene never json =
+  let list ends key = match Json.find key json with Some l -> pieces scene ends (Json.list l) | None -> pieces scene ends [] in
+  require (Json.has "windows" json || Json.has "rows" json) "a certificate without windows or rows";
+  let certificate = { windows = list true "windows"; rows_along = list false "rows" } in
+  require (never || List.for_all (( = ) []) certificate.rows_along) "rows prove `never` only";
+  certificate

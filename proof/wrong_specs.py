@@ -74,10 +74,13 @@ wrong("item (atoms L) (of_atom o) = Some A /\\",
       any_atom="In A (atoms L) /\\",
       atom_not_of_the_scene="",
       atom_by_lattice="item (atoms L) (of_lattice o) = Some A /\\")
-wrong("  length (cell o) = dimension sc.",
+wrong("  length (cell o) = length (vectors L).",
       cells_of_any_length="  True.",
-      cells_may_be_short="  (length (cell o) <= dimension sc)%nat.",
-      cells_may_be_long="  (length (cell o) >= dimension sc)%nat.")
+      cells_of_the_dimension="  length (cell o) = dimension sc.",
+      cells_may_be_short="  (length (cell o) <= length (vectors L))%nat.",
+      cells_may_be_long="  (length (cell o) >= length (vectors L))%nat.",
+      cells_of_the_dimension_besides="  (length (cell o) = length (vectors L) \\/ length (cell o) = "
+        "dimension sc).")
 wrong("norm (along q (-1) centre) < value r",
       closed_balls="norm (along q (-1) centre) <= value r",
       radius_squared="norm (along q (-1) centre) < value r * value r",
@@ -237,15 +240,22 @@ wrong("length a = d /\\ Forall finite a",
       one_coordinate_finite="length a = d /\\ Exists finite a",
       at_least_so_long="(length a >= d)%nat /\\ Forall finite a",
       at_most_so_long="(length a <= d)%nat /\\ Forall finite a")
-wrong("  length b = d /\\ Forall (sized d) b /\\",
-      any_number_of_vectors="  Forall (sized d) b /\\",
-      vectors_of_any_size="  length b = d /\\",
-      one_vector_sized="  length b = d /\\ Exists (sized d) b /\\")
-wrong("  forall k, length k = d -> combination (zero d) k (map point b) = zero d -> k = zero d.",
+wrong("  (length b <= d)%nat /\\ Forall (sized d) b /\\",
+      crystals_alone="  length b = d /\\ Forall (sized d) b /\\",
+      one_vector_at_least="  (1 <= length b <= d)%nat /\\ Forall (sized d) b /\\",
+      no_row="  (length b <= d)%nat /\\ length b <> 1%nat /\\ Forall (sized d) b /\\",
+      no_crystals="  (length b < d)%nat /\\ Forall (sized d) b /\\",
+      vectors_of_any_size="  (length b <= d)%nat /\\",
+      one_vector_sized="  (length b <= d)%nat /\\ Exists (sized d) b /\\")
+wrong("  forall k, length k = length b -> combination (zero d) k (map point b) = zero d -> k = zero (length b).",
       dependent_vectors="  True.",
+      independent_as_many_as_dimensions="  length b = d -> forall k, length k = d -> combination (zero d) k "
+        "(map point b) = zero d -> k = zero d.",
+      independent_of_longer_sums="  forall k, length k = d -> combination (zero d) k (map point b) = zero d -> "
+        "k = zero d.",
       no_vector_0="  ~ In (zero d) (map point b).",
-      dependent_if_positive="  forall k, length k = d -> Forall (fun c => 0 <= c) k ->\n    "
-        "combination (zero d) k (map point b) = zero d -> k = zero d.")
+      dependent_if_positive="  forall k, length k = length b -> Forall (fun c => 0 <= c) k ->\n    "
+        "combination (zero d) k (map point b) = zero d -> k = zero (length b).")
 wrong("Prop := sized d (position A) /\\",
       any_position="Prop :=",
       position_as_long="Prop := length (position A) = d /\\")
@@ -256,7 +266,9 @@ wrong("Radius r => finite r /\\ 0 < value r",
       radius_not_0="Radius r => finite r /\\ value r <> 0",
       no_condition_of_radius="Radius r => True",
       no_discs="Radius r => False")
-wrong("Semiaxes a => independent d a",
+wrong("Semiaxes a => length a = d /\\ independent d a",
+      flat_ellipsoids="Semiaxes a => independent d a",
+      two_semiaxes_are_enough="Semiaxes a => (2 <= length a)%nat /\\ independent d a",
       any_semiaxes="Semiaxes a => True",
       semiaxes_of_their_size="Semiaxes a => length a = d /\\ Forall (sized d) a",
       no_ellipsoids="Semiaxes a => False")

@@ -94,7 +94,7 @@ class PyOracle {
   PyCertificate prove(const std::string& text) const {
     const auto [query, exact] = question(text);
     if (!prover_) prover_.emplace(scene_);
-    PyCertificate proved{prover_->prove(query, exact), scene_.dimension};
+    PyCertificate proved(prover_->prove(query, exact), scene_);
     bool too_long = false;
     const auto why = check().refutation(query, exact, proved.proof, &too_long);
     if (too_long) throw InputError("no checker goes through the proof: " + *why);

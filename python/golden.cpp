@@ -37,7 +37,7 @@ class PyGoldenSet {
                   py::arg("margin") = record.margin, py::arg("condition") = record.condition,
                   py::arg("certificate") = py::none());
     if (!record.expect.time_decimal.empty()) dict["time_decimal"] = record.expect.time_decimal;
-    if (record.certificate) dict["certificate"] = PyCertificate{*record.certificate, d};
+    if (record.certificate) dict["certificate"] = PyCertificate(*record.certificate, reader_.scene());
     if (!read.query) {
       dict["flaw"] = read.flaw;
       return dict;

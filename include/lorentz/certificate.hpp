@@ -17,21 +17,24 @@ namespace lorentz::oracle {
 inline constexpr long kMostSteps = 1'000'000;
 inline constexpr std::size_t kLongestText = 2500;
 
-/// Integer vectors b_1, .., b_d in the coordinates n of a lattice's primitive vectors. Of a 2D problem: the
-/// first two rows and columns; the rest is zero.
+/// Integer vectors b_1, .., b_k in the coordinates n of a lattice's k primitive vectors: the first k rows and
+/// columns; the rest is zero.
 using CertificateBasis = std::array<Cell, 3>;
 
-/// An end of a window: mantissa * 2^exponent.
+/// An end of a window: mantissa * 2^exponent; or, of a window that has no end, infinity.
 struct WindowEnd {
   static constexpr long kMostExponent = 1 << 14;  ///< in absolute value; no checker goes further
 
   Integer mantissa;
   long exponent = 0;
+  bool infinite = false;
 
   WindowEnd() = default;
   WindowEnd(Integer mantissa, long exponent = 0) : mantissa(std::move(mantissa)), exponent(exponent) {}
-  WindowEnd(double value) {  ///< must be finite
+  WindowEnd(double value) {  ///< finite, or infinity
     int e = 0;
+    infinite = std::isinf(value);
+    if (infinite) return;
     mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &e), 53));
     exponent = e - 53;
   }
@@ -44,11 +47,11 @@ std::string text_of(const WindowEnd& end);
 /// kLongestText, or has an exponent beyond kMostExponent once the mantissa is an integer.
 std::optional<WindowEnd> window_end_from(std::string_view text);
 
-/// The binary64 that an end is exactly, if there is one.
+/// The binary64 that an end is exactly, if there is one; infinity is one.
 std::optional<double> binary64_of(const WindowEnd& end);
 
-/// Of `hit` and `inside`: the obstacles of one atom with `from` <= T <= `to`, T the time at which the line is
-/// nearest to the centre (in the atom's own coordinates), are to be looked at in this basis.
+/// The obstacles of one atom with `from` <= T <= `to`, T the time at which the line is nearest to the centre
+/// (in the atom's own coordinates), are to be looked at in this basis; of a window without an end, all from `from` on.
 struct Window {
   int lattice = 0;
   int atom = 0;
@@ -64,8 +67,8 @@ struct Rows {
 };
 
 struct Certificate {
-  std::vector<Window> windows;  ///< of `hit` and `inside`; those of an atom in the order of time
-  std::vector<Rows> rows;       ///< of `never`; one of each atom
+  std::vector<Window> windows;  ///< those of an atom in the order of time; of `never` the last has no end
+  std::vector<Rows> rows;       ///< of `never`; one of each atom that has no windows
 };
 
 }  // namespace lorentz::oracle

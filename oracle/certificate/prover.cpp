@@ -11,10 +11,11 @@
 namespace lorentz::oracle {
 namespace {
 
+// Of the lattice's `rank` vectors; what completes them is not of it.
 template <std::size_t D>
-CertificateBasis certificate_basis(const Basis<D>& basis) {
+CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank = D) {
   CertificateBasis result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = to_cell<D>(basis[i].n);
+  for (std::size_t i = 0; i < rank; ++i) result[i] = to_cell<D>(basis[i].n);
   return result;
 }
 
@@ -22,10 +23,11 @@ CertificateBasis certificate_basis(const Basis<D>& basis) {
 // however long the window, what lies just beyond its end may be crowded.
 class Ends {
  public:
-  Ends(const Z& low, const Z& high, const Z& rho, const Z& v2, long exponent) : v2_(v2), exponent_(exponent) {
+  Ends(const Z& low, const std::optional<Z>& high, const Z& rho, const Z& v2, long exponent)
+      : v2_(v2), exponent_(exponent) {
     unit_ = bit_length(rho) - bit_length(v2) - 8 + exponent;
     from = end(low, false);
-    to = end(high, true);
+    to = high ? end(*high, true) : WindowEnd(HUGE_VAL);
   }
   WindowEnd from, to;
 
@@ -54,13 +56,18 @@ ZVec<D> primitive_vector(ZVec<D> n) {
   return n;
 }
 
-// Bases of Z^d that begin with n, a vector without a common divisor.
+// Bases of Z^d that begin with n, a vector without a common divisor; of its first `rank` coordinates, if the
+// others are 0.
 std::array<ZVec<2>, 2> completed(const ZVec<2>& n) {
   const Bezout one = bezout(n[0], n[1]);
   return {n, ZVec<2>{-one.y, one.x}};
 }
 
 std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
+  if (n[2] == 0) {
+    const auto [first, second] = completed(ZVec<2>{n[0], n[1]});
+    return {n, ZVec<3>{second[0], second[1], 0}, ZVec<3>{0, 0, 1}};
+  }
   if (n[0] == 0 && n[1] == 0) return {n, ZVec<3>{1, 0, 0}, ZVec<3>{0, 1, 0}};
   const Bezout pair = bezout(n[0], n[1]), all = bezout(pair.gcd, n[2]);
   const Z a = n[0] / pair.gcd, b = n[1] / pair.gcd;
@@ -76,13 +83,26 @@ struct AcrossForm {
   }
 };
 
-void shorten_across(Basis<2>&, const ExactVelocity<2>&) {}
+// That, and the product of the parts along v, in a window as long as it is wide.
+template <std::size_t D>
+struct WindowForm {
+  AcrossForm<D> across;
+  Z wide2, long2;  // squares, of h and of s; long2 = 0: a window without an end
 
-void shorten_across(Basis<3>& basis, const ExactVelocity<3>& velocity) {
-  std::array<LatticePoint<3>, 2> pair{basis[1], basis[2]};
-  reduce(pair, AcrossForm<3>{velocity});
-  basis[1] = std::move(pair[0]);
-  basis[2] = std::move(pair[1]);
+  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
+    if (long2 == 0) return across(a, b);
+    const ZVec<D>& v = across.velocity.v;
+    return long2 * across(a, b) + wide2 * (dot(v, a.p) * dot(v, b.p));
+  }
+};
+
+// Vectors `first` and the next, made a short pair.
+template <std::size_t D, class Form>
+void shorten_pair(Basis<D>& basis, std::size_t first, const Form& form) {
+  std::array<LatticePoint<D>, 2> pair{basis[first], basis[first + 1]};
+  reduce(pair, form);
+  basis[first] = std::move(pair[0]);
+  basis[first + 1] = std::move(pair[1]);
 }
 
 // A row is the same wherever along v the next one begins. Where the numbers would become too long to be
@@ -107,7 +127,7 @@ class Writer {
       const View<D> view = query_.view(scene_, l, a);
       const Z rho_above = root_below(view.radius2 * view.velocity.v2) + 1;
       if (exact.outcome == Outcome::never)
-        add_rows(view, l, a);
+        add_endless(view, l, a, rho_above);
       else if (exact.outcome == Outcome::hit)
         add_windows(view, l, a, rho_above, -rho_above, s_of_hit(view, exact.obstacle) + rho_above);
       else if (std::pair(l, a) <= std::pair(exact.obstacle.lattice, exact.obstacle.atom))
@@ -130,6 +150,7 @@ class Writer {
 
   void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
                    const Z& high) {
+    if (view.rank < D) return add_window(view, lattice, atom, rho_above, low, high);
     const long exponent = query_.length_exponent - query_.velocity_exponent;
     Stretches<D>(view, view.radius2 * view.velocity.v2).cut(low, high, [&](const RowStretch<D>& stretch) {
       const Ends ends(stretch.low, stretch.high, rho_above, view.velocity.v2, exponent);
@@ -139,14 +160,32 @@ class Writer {
     });
   }
 
-  void add_rows(const View<D>& view, int lattice, int atom) {
-    const auto n = completed(primitive_vector<D>(cramer(view.basis, view.velocity.v)));
+  // Of a lattice of fewer than D vectors one window does: in it the pair is short, so that it has few rows.
+  void add_window(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
+                  const std::optional<Z>& high) {
+    Basis<D> basis = view.basis;
+    if (view.rank == 2) {
+      const Z length = high ? Z(*high - low) : Z(0);
+      shorten_pair(basis, 0, WindowForm<D>{{view.velocity}, 4 * rho_above * rho_above, length * length});
+    }
+    const Ends ends(low, high, rho_above, view.velocity.v2,
+                    query_.length_exponent - query_.velocity_exponent);
+    certificate_.windows.push_back(
+        {lattice, atom, ends.from, ends.to, certificate_basis<D>(basis, view.rank)});
+  }
+
+  // Rows along v where there are such, else a window without an end.
+  void add_endless(const View<D>& view, int lattice, int atom, const Z& rho_above) {
+    const ZVec<D> along = cramer(view.basis, view.velocity.v);
+    if (is_copy<D>(along, view.rank))
+      return add_window(view, lattice, atom, rho_above, -rho_above, std::nullopt);
+    const auto n = completed(primitive_vector<D>(along));
     Basis<D> basis;
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t k = 0; k < D; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
-    shorten_across(basis, view.velocity);
-    for (std::size_t i = 1; i < D; ++i) shorten_along(basis[0], view.velocity.v, basis[i]);
-    certificate_.rows.push_back({lattice, atom, certificate_basis<D>(basis)});
+    for (std::size_t i = 0; i < view.rank; ++i)
+      for (std::size_t k = 0; k < view.rank; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
+    if (view.rank == 3) shorten_pair(basis, 1, AcrossForm<D>{view.velocity});
+    for (std::size_t i = 1; i < view.rank; ++i) shorten_along(basis[0], view.velocity.v, basis[i]);
+    certificate_.rows.push_back({lattice, atom, certificate_basis<D>(basis, view.rank)});
   }
 
   const ExactScene<D>& scene_;
@@ -157,14 +196,13 @@ class Writer {
 }  // namespace
 
 struct Prover::Impl {
-  bool crystal;
   std::variant<ExactScene<2>, ExactScene<3>> scene;
 };
 
 Prover::Prover(const Scene& scene) {
   using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
-  impl_ = std::make_unique<const Impl>(Impl{
-      is_crystal(scene), scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
+  impl_ = std::make_unique<const Impl>(
+      Impl{scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
 }
 
 Prover::Prover(Prover&&) noexcept = default;
@@ -172,7 +210,6 @@ Prover& Prover::operator=(Prover&&) noexcept = default;
 Prover::~Prover() = default;
 
 Certificate Prover::prove(const Query& query, const Answer& exact) const {
-  if (!impl_->crystal) throw std::invalid_argument("certificates are of crystals only");
   return std::visit(
       [&]<std::size_t D>(const ExactScene<D>& scene) { return Writer<D>(scene, query).prove(exact); },
       impl_->scene);

@@ -26,6 +26,16 @@ for line in r"""
 {"name":"exact","scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[-0.75,0],"v":[1,0]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0.5},"time_decimal":"0.5000000000000000000000000000000000000000","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.25,"to":0.75,"basis":[[1,0],[0,1]]}]}}
 {"name":"inf","scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[0.5,0.125],"v":[1e-320,0]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":"inf"},"time_decimal":"2.834968051720322701504158358630275386392e+319","certificate":{"windows":[{"lattice":0,"atom":0,"from":"-0x26dadaf2fc0a443cf863867419d951e00a246afa25108413fe1ccd272a1f7db1dae88731cade824c127f4211950828873457b8daeb148e6f7fc084d75e634c107da134627db21518cedfed9f24ef884a5d5dac1a5a3bf56761fe9561b380000000000000000000000000000000000000000000000000000000000000000000000000000000p0","to":"0x40c21794f96671baf3508ac1806a332010e75cf63dc63176a78555ebf0df26d317838bfda772d92974296e1d4db8438c01e7896cdd2242b9d4eb88119d502970d16201f97c28cdd4037536b3e839e3269b9c1ed69663ee56f8a84e4d80800000000000000000000000000000000000000000000000000000000000000000000000000000000p0","basis":[[1,0],[0,1]]}]}}
 {"name":"grazing","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.0625}]}]},"query":{"x":[-0.125,0.5,-0.5788799140207264],"v":[-0.7370550907175644,2.3659868388811133e-14,1.0]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[-13629053087962,1,18491227127531],"time":18491227127531.58},"time_decimal":"18491227127531.57887511304201284117765100","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.05031087208648526,"to":18491227127531.633,"basis":[[3760203,0,-5101658],[536027,0,-727255],[-28801017958691,1,39075800874873]]}]}}
+{"name":"ball","scene":{"dimension":3,"lattices":[{"vectors":[],"atoms":[{"position":[1,0,0],"radius":0.25}]}]},"query":{"x":[0,0,0],"v":[1,0.2,0.1]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[],"time":0.8333333333333334},"time_decimal":"0.8333333333333333487530975642382872809222","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.244140625,"to":1.078125,"basis":[]}]}}
+{"name":"ball missed","scene":{"dimension":3,"lattices":[{"vectors":[],"atoms":[{"position":[1,0,0],"radius":0.25}]}]},"query":{"x":[0,0,0],"v":[1,0.5,0.1]},"expect":{"outcome":"never"},"certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.2236328125,"to":"inf","basis":[]}]}}
+{"name":"row","scene":{"dimension":2,"lattices":[{"vectors":[[2,0]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[0.5,1],"v":[3,-0.5]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[3],"time":1.7602086128846213},"time_decimal":"1.760208612884621234326343088267311765970","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.0947265625,"to":1.864990234375,"basis":[[1]]}]}}
+{"name":"row missed","scene":{"dimension":2,"lattices":[{"vectors":[[2,0]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[1,1],"v":[1,2]},"expect":{"outcome":"never"},"certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.150390625,"to":"inf","basis":[[1]]}]}}
+{"name":"row followed","scene":{"dimension":2,"lattices":[{"vectors":[[2,0]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[1,0.5],"v":[1,0]},"expect":{"outcome":"never"},"certificate":{"rows":[{"lattice":0,"atom":0,"basis":[[1]]}]}}
+{"name":"layer","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0]],"atoms":[{"position":[0,0,0],"radius":0.125}]}]},"query":{"x":[0.5,0.5,9.5],"v":[5,7,-1]},"expect":{"outcome":"hit","lattice":0,"atom":0,"cell":[48,67],"time":9.48556624327026},"time_decimal":"9.485566243270259355887271280487451063609","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.0150146484375,"to":9.501708984375,"basis":[[1,1],[1,2]]}]}}
+{"name":"layer missed","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0]],"atoms":[{"position":[0,0,0],"radius":0.125}]}]},"query":{"x":[0.5,0.5,1],"v":[3,1,-1]},"expect":{"outcome":"never"},"certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.045654296875,"to":"inf","basis":[[1,0],[1,1]]}]}}
+{"name":"impurity","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.25}]},{"vectors":[],"atoms":[{"position":[5,0.5,0.5],"radius":0.125}]}]},"query":{"x":[0.5,0.5,0.5],"v":[1,0,0]},"expect":{"outcome":"hit","lattice":1,"atom":0,"cell":[],"time":4.375},"time_decimal":"4.375000000000000000000000000000000000000","certificate":{"windows":[{"lattice":0,"atom":0,"from":-0.25,"to":4.625,"basis":[[1,0,0],[0,1,0],[0,0,1]]},{"lattice":1,"atom":0,"from":-0.125,"to":4.5,"basis":[]}]}}
+{"name":"impurity missed","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.25}]},{"vectors":[],"atoms":[{"position":[5,0.5,0.5],"radius":0.125}]}]},"query":{"x":[0.5,0.5,0.5],"v":[-1,0,0]},"expect":{"outcome":"never"},"certificate":{"rows":[{"lattice":0,"atom":0,"basis":[[-1,0,0],[0,-1,0],[0,0,1]]}],"windows":[{"lattice":1,"atom":0,"from":-0.125,"to":"inf","basis":[]}]}}
+{"name":"impurity left","scene":{"dimension":3,"lattices":[{"vectors":[[1,0,0],[0,1,0],[0,0,1]],"atoms":[{"position":[0,0,0],"radius":0.25}]},{"vectors":[],"atoms":[{"position":[5,0.5,0.5],"radius":0.125}]}]},"query":{"x":[5,0.5,0.5],"v":[-1,0,0],"from":{"lattice":1,"atom":0,"cell":[]}},"expect":{"outcome":"never"},"certificate":{"rows":[{"lattice":0,"atom":0,"basis":[[-1,0,0],[0,-1,0],[0,0,1]]}],"windows":[{"lattice":1,"atom":0,"from":-0.125,"to":"inf","basis":[]}]}}
 {"name":"error","scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]],"atoms":[{"position":[0,0],"radius":0.25}]}]},"query":{"x":[0.5,0.5],"v":[0,0]},"expect":{"outcome":"error"}}
 """.strip().splitlines():
     case = json.loads(line)
@@ -112,33 +122,41 @@ class Search(unittest.TestCase):
     def test_finds_what_is_met(self):
         """met() against the definition, tried on all obstacles near by, in bases of all kinds."""
         rng = random.Random(20240229)
-        for trial in range(120):
-            size, small = 2 + trial % 2, trial >= 60  # of small integers ends and bounds meet
+        for trial in range(240):
+            size, small = 2 + trial % 2, trial >= 120  # of small integers ends and bounds meet
+            rank = rng.choice((size, size, *range(size)))
             numbers = [[rng.choice((rng.randint(-3, 3), rng.randint(-16, 16) / 8)[: 2 - small]) for _ in range(size)] for _ in range(10)]
             shape = {"radius": rng.choice((1, 2) if small else (0.5, 1.25))} if trial % 3 else {"semiaxes": numbers[:size]}
-            scene = {"dimension": size, "lattices": [{"vectors": numbers[3:3 + size], "atoms": [
+            scene = {"dimension": size, "lattices": [{"vectors": numbers[3:3 + rank], "atoms": [
                 {"position": numbers[6], **shape}]}]}
-            basis = [[int(i == j) for j in range(size)] for i in range(size)]
-            for _ in range(rng.randint(0, 5)):
-                (i, j), k = rng.sample(range(size), 2), rng.choice((-1, 1, 3))
+            basis = [[int(i == j) for j in range(rank)] for i in range(rank)]
+            for _ in range(rng.randint(0, 5) if rank > 1 else 0):
+                (i, j), k = rng.sample(range(rank), 2), rng.choice((-1, 1, 3))
                 basis[i] = [a + k * b for a, b in zip(basis[i], basis[j])]
             rng.shuffle(basis)
             try:
-                ball = check.read_query({"x": numbers[7], "v": numbers[8]}, *check.read_scene(scene))[1][0, 0]
+                ball = check.read_query({"x": numbers[7], "v": numbers[8]}, *check.read_scene(scene))[2][0, 0]
             except ValueError:
                 continue
-            v, Q, R, w, u = ball
+            v, Q, R, w, u, k = ball
+            self.assertEqual(k, rank)
             near = {}
-            for n in itertools.product(range(-5, 6), repeat=size):
-                n += (0,) * (3 - size)
+            for n in itertools.product(range(-5, 6), repeat=rank):
+                n += (0,) * (3 - rank)
                 c = check.add(w, 1, check.combine(n, u))
                 near[n] = check.dot(v, c), R - check.dot(check.cross(v, c), check.cross(v, c))
             low, high = sorted((rng.choice([s for s, _ in near.values()]), rng.randint(-3 * Q, 9 * Q)))  # one end is at an obstacle
-            found = {tuple(n): (s, D) for s, D, n in check.met(ball, check.matrix(basis, size, int), low, high, [10**6])}
-            for n, (s, D) in near.items():
-                self.assertTrue(n in found if D > 0 and low <= s <= high else D > 0 or n not in found, (scene, basis, n))
-                self.assertEqual(found.get(n, (s, D)), (s, D))
-            self.assertTrue(all(D > 0 for _, D in found.values()))
+            rows = [*check.matrix(basis, rank, int), *((1, 0, 0), (0, 1, 0), (0, 0, 1))[rank:]]
+            def all_met(high):
+                found = {tuple(n): (s, D) for s, D, n in check.met(ball, rows, low, high, [10**6])}
+                for n, (s, D) in near.items():
+                    inside = low <= s and (high is None or s <= high)
+                    self.assertTrue(n in found if D > 0 and inside else D > 0 or n not in found, (scene, basis, n))
+                    self.assertEqual(found.get(n, (s, D)), (s, D))
+                self.assertTrue(all(D > 0 for _, D in found.values()))
+            all_met(high)
+            if rank < size and check.independent([v, *u[:rank]]): all_met(None)
+            elif rank == size: self.assertRaises(ValueError, all_met, None)
 
 class Refuses(unittest.TestCase):
     def test_a_format_that_is_not_known_is_bad_input(self):
@@ -263,6 +281,27 @@ class Refuses(unittest.TestCase):
         self.refused("never2", "no rows", lambda case: case["scene"]["lattices"][0]["atoms"].append({"position": [0, 0], "radius": 0.1}),
                      lambda case: case["scene"]["lattices"].append({"vectors": [[1, 0], [0, 1]], "atoms": [{"position": [0, 0], "radius": 0.1}]}))
         self.claim("exact", "Error", {"outcome": "never"})
+
+    def test_lattices_of_fewer_vectors(self):
+        """Obstacles of cells of their own length, windows without an end, bases of the lattice's size."""
+        def window(case): return case["certificate"]["windows"][0]
+        for name, v in (("ball missed", [1, 0.2, 0.1]), ("row missed", [1, -1]), ("row missed", [-1, -1]), ("layer missed", [1.5, 1.5, -1]),
+                        ("impurity missed", [1, 0, 0])):
+            self.refused(name, "met", lambda case: case["query"].update(v=v) or window(case).update({"from": -9}))
+        for name in ("ball missed", "row missed", "layer missed", "impurity missed"):
+            self.refused(name, "no rows of|gap", lambda case: window(case).update(to=1e300), lambda case: case["certificate"]["windows"].clear())
+            self.refused(name, "gap", lambda case: window(case).update({"from": 0}))
+            self.refused(name, "Error", lambda case: window(case).update({"from": "inf"}), lambda case: window(case).update(to="-inf"))
+        self.refused("impurity left", "met", lambda case: case["query"].pop("from") and None)
+        self.refused("impurity missed", "no rows", lambda case: case["certificate"].pop("rows"))
+        self.refused("never2", "planes, rows|Error", lambda case: case["certificate"].update(
+            rows=[], windows=[{"lattice": 0, "atom": 0, "from": -9, "to": "inf", "basis": [[1, 0], [0, 1]]}]))
+        self.refused("row followed", "along", lambda case: case["query"].update(v=[1, 2**-60]))
+        self.refused("ball", "Error", lambda case: case["expect"].update(cell=[0]), lambda case: window(case).update(basis=[[1]]))
+        self.refused("row", "Error", lambda case: case["expect"].update(cell=[]), lambda case: case["expect"].update(cell=[0, 0]),
+                     lambda case: window(case).update(basis=[]), lambda case: window(case).update(basis=[[1, 0], [0, 1]]))
+        self.refused("row", "determinant", lambda case: window(case).update(basis=[[2]]))
+        self.refused("row", "rows prove", lambda case: case["certificate"].update(rows=[{"lattice": 0, "atom": 0, "basis": [[1]]}]))
 
     def test_never_of_several_atoms(self):
         """Nobody's rows may be missing, of two lattices with three atoms each, wherever the atom is."""

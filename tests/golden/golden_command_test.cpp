@@ -276,3 +276,42 @@ TEST_CASE("golden make overwrites golden sets, and nothing else", "[golden][gold
   for (int twice = 0; twice < 2; ++twice) CHECK(folder.lorentz(make + folder.file("set")).status == 0);
   CHECK(folder.lorentz(make + folder.write("empty", "")).status == 0);
 }
+
+TEST_CASE("Golden: sets of single obstacles as tables, and as a header of C", "[golden]") {
+  const Folder folder;
+  const Run csv = folder.lorentz("golden export ball-2d");
+  INFO(csv.err);
+  REQUIRE((csv.status == 0 && lines(csv.out) == 641));
+  CHECK(csv.out.starts_with("id,tags,dimension,c1,c2,c3,radius,a11,"));
+  // Each line has as many columns, and a hit's point is at its time.
+  for (std::size_t at = 0; at < csv.out.size(); at = csv.out.find('\n', at) + 1) {
+    const std::string line = csv.out.substr(at, csv.out.find('\n', at) - at);
+    REQUIRE(std::count(line.begin(), line.end(), ',') == 31);
+  }
+  const auto queries = folder.write(
+      "q",
+      R"({"scene":{"dimension":3,"lattices":[{"vectors":[],"atoms":[{"position":[1,0,0],"radius":0.5}]}]}})"
+      "\n"
+      R"({"id":1,"x":[-1,0,0],"v":[0.5,0,0]})"
+      "\n"
+      R"({"id":2,"x":[-1,0,0],"v":[-1,0,0]})");
+  const auto set = folder.write("set", folder.lorentz("first-hit --prove --records " + queries).out);
+  const std::string both = folder.lorentz("golden export " + set).out;
+  CHECK(contains(both, ",given,3,1,0,0,0.5,,,,,,,,,,-1,0,0,0.5,0,0,0,hit,3,0.5,0,0,-1,0,0,"));
+  CHECK(contains(both, ",given,3,1,0,0,0.5,,,,,,,,,,-1,0,0,-1,0,0,0,never,,,,,,,,"));
+  const auto header = folder.write("cases.h", folder.lorentz("golden export --format c " + set).out);
+  const auto program = folder.write("main.c", "#include \"" + header + R"("
+#include <stdio.h>
+int main(void) {
+  const struct lorentz_case *one = lorentz_cases;
+  printf("%d %g %c %g %g %d\n", one->dimension, one->asked[3], one->outcome, one->told[0], one->told[4],
+         isnan(lorentz_cases[1].told[0]));
+  return sizeof lorentz_cases / sizeof *one == 2 ? 0 : 1;
+})");
+  const Run compiled = folder.run("cc -Wall -Wextra -Werror -o " + folder.file("cases") + " " + program +
+                                  " && " + folder.file("cases"));
+  INFO(compiled.err);
+  CHECK((compiled.status == 0 && compiled.out == "3 0.5 h 3 -1 1\n"));
+  const Run crystal = folder.lorentz("golden export ties");
+  CHECK((crystal.status == 2 && crystal.out.empty() && contains(crystal.err, "single obstacle")));
+}

@@ -110,7 +110,7 @@ ACCEPTED = {
                            in_record("error", ("[0,0]", '["0x0","-0x0p9"]')),
     "keys": in_record("hit", ('"margin"', '"more":{"x":[1],"y":null},"margin"'),
                       ('"margin"', '"m\\u0061rgin"'), ('"expect":{', '"expect":{"other":[],'),
-                      ('"v":', '"note":"\\ud83d\\ude00","v":')) +
+                      ('"v":', '"note":"\\ud83d\\ude00","v":'), ('"windows":', '"rows":[],"windows":')) +
             [golden("hit", '"scene":{', '"scene":{"more":1,', "scene"),
              golden("hit", '{"golden"', '{"more":1,"golden"', "header")],
     "escapes": [golden("hit", '"margin"', '"more":{"%s":1,"%s":2},"margin"' % pair) for pair in NEAR] +
@@ -137,7 +137,8 @@ REFUSED = {
                                   '"1f4p-3"', '"0x1_0p0"', '" 0x1p0"', '"0x1p0 "', '"--0x1"', '"0x1p1.5"',
                                   '"0x1.8.0"', '"0x1p\u0663"', "[0]", "{}", "1e400", '"0x1p-99999999"')]) +
                   in_record("hit", (TIME, '"time":-0.1469403008318714'), (TO, '"to":"0x0p65537"'),
-                            (TO, '"to":"0x0p99999999999999999999"'), (TO, '"to":"inf"')),
+                            (TO, '"to":"0x0p99999999999999999999"'), (TO, '"to":"inf"'),
+                            (FROM, '"from":"inf"'), (TO, '"to":"1' + "0" * 2400 + '"')),
     "no integers": in_record("hit",
                              *[(BASIS, f'"basis":[[{n},-1],[1,0]]')
                                for n in ("true", "null", '"1.0"', '"+1"', '""', '"0x1"', "1.5", "[1]",
@@ -152,7 +153,7 @@ REFUSED = {
                                (TIME, '"time":0.14694030083187137999'), (TIME, '"time":"0x1.2ceefp-3"'),
                                (TIME, '"time":-0.0'), (TIME, '"time":"inf"')),
     "proofs": in_record("hit", ('"certificate"', '"other"'), ('"windows"', '"rows"'),
-                        ('"windows":', '"rows":[],"windows":'), (LATTICE, "[{"),
+                        (LATTICE, "[{"),
                         ('"atom":0,"from"', '"from"'), ("," + BASIS, ""), (BASIS, '"basis":[[1],[1,0]]'),
                         (BASIS, '"basis":[[1,-1,0],[1,0,0]]'), (BASIS, '"basis":[[1,-1]]'),
                         (BASIS, '"basis":{}'), (FROM + ",", ""), ("," + TO, "")) +

@@ -19,8 +19,7 @@ struct GoldenCase {
 };
 
 inline GoldenCase golden_case(const Scene& scene, const Query& query) {
-  golden::Record record =
-      golden::Maker(scene).make(golden::question_of(query, scene.dimension), query).record;
+  golden::Record record = golden::Maker(scene).make(golden::question_of(query, scene), query).record;
   record.tags = {"drawn"};
   return {scene, query, std::move(record)};
 }
@@ -30,9 +29,9 @@ inline std::string flaw(const GoldenCase& c, bool ask_walk = false) {
   return golden::Maker(c.scene).flaw_of(c.record, c.query, ask_walk).value_or("");
 }
 
-inline std::string record_line(const golden::Record& record, int dimension) {
+inline std::string record_line(const golden::Record& record, const Components& count) {
   std::string line;
-  golden::append_record_line(line, record, dimension);
+  golden::append_record_line(line, record, count);
   return line;
 }
 
@@ -42,7 +41,7 @@ inline std::string set_of(const std::vector<GoldenCase>& cases) {
   golden::append_header_line(text, {"drawn", "for a test", "none", "0", cases.size(), {{"drawn", "a tag"}}});
   for (const GoldenCase& c : cases) {
     append_scene_line(text, c.scene);
-    text += record_line(c.record, c.scene.dimension);
+    text += record_line(c.record, c.scene);
   }
   return text;
 }

@@ -18,10 +18,10 @@ TEST_CASE("never: rows that are met, missing, or not along the flight are refuse
     require_refused(tampered, "lattice 0, atom 0: no rows");
     tampered = c;
     tampered.proof.rows.push_back(c.proof.rows[0]);
-    require_refused(tampered, "second");
+    require_refused(tampered, "other rows");
     tampered = c;
     tampered.proof.windows = proof_of(scene, c.query, Answer::hit({}, 1)).windows;
-    require_refused(tampered, "windows do not prove");
+    require_refused(tampered, "other rows, or windows");
     tampered = c;
     std::swap(tampered.proof.rows[0].basis[0], tampered.proof.rows[0].basis[1]);
     require_refused(tampered, "not parallel");
@@ -106,7 +106,7 @@ TEST_CASE("never: of several atoms and lattices nobody's rows may be missing",
       REQUIRE(oracle::Oracle(c.scene).first_hit(c.query).outcome != Outcome::never);
       require_refused(c, name + ": no rows");
       c.proof.rows.push_back(c.proof.rows[0]);
-      require_refused(c, "the atom's second");
+      require_refused(c, "other rows");
     }
   }
 }

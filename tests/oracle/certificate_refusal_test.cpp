@@ -43,9 +43,9 @@ TEST_CASE("Garbage is refused with a reason, and in time", "[oracle][certificate
         INFO(length << " characters");
         CHECK((refutation(c).find("characters") != std::string::npos) == (length > most));
       }
-  require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[0][2] = 1; }), "third coordinate");
-  require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[2][2] = 1; }), "third vector");
-  require_refused(tampered(good, [](Case& c) { c.answer.obstacle.cell[2] = 1; }), "third coordinate");
+  require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[0][2] = 1; }), "2 coordinates");
+  require_refused(tampered(good, [](Case& c) { c.proof.windows[0].basis[2][2] = 1; }), "2 vectors");
+  require_refused(tampered(good, [](Case& c) { c.answer.obstacle.cell[2] = 1; }), "2 coordinates");
   require_refused(tampered(good,
                            [](Case& c) {
                              c.query.from = ObstacleId{0, 0, {0, 0, 1}};

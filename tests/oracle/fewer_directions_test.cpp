@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/batch.hpp>
+#include <lorentz/certificate_check.hpp>
 #include <lorentz/certified.hpp>
 #include <lorentz/engine.hpp>
 #include <lorentz/margin.hpp>
@@ -399,8 +400,6 @@ TEST_CASE("What does crystals only says so", "[oracle][ranks]") {
   }
   CHECK(answer_of("reduction", scene).time == 0.75);
   CHECK(answer_of("reduction", with_rank(unit_scene(2, 0.25), 0, 1)).unsupported);
-  const oracle::Prover prover(scene);
-  CHECK_THROWS_AS(prover.prove({{-1, 0}, {1, 0}, {}}, Answer::hit(cell(0), 0.75)), std::invalid_argument);
 }
 
 TEST_CASE("Dependence and flaws of lattices with fewer vectors", "[oracle][ranks]") {
@@ -418,4 +417,38 @@ TEST_CASE("Dependence and flaws of lattices with fewer vectors", "[oracle][ranks
   scene.lattices[0].missing = 4;
   CHECK(flaw_of(scene));
   CHECK(flaw_of(Query{{}, {1, 0, 0}, cell(1)}, lone_ball(3, 1)));  // a cell of a lattice without vectors
+}
+
+TEST_CASE("Fewer directions: answers are proved, and others are not", "[oracle][ranks][prover]") {
+  INFO("seed 36");
+  Draw draw(36);
+  int by_outcome[3] = {}, next_ones = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Style style = kStyles[draw.below(3)];
+    const Scene scene = drawn_scene(draw, style, 2 + i % 2);
+    const oracle::Oracle oracle(scene);
+    const oracle::Prover prover(scene);
+    const oracle::CertificateCheck check(scene);
+    const Query query = drawn_query(draw, style, scene);
+    oracle::Request request;
+    request.digits = 40;
+    const Answer exact = oracle.first_hit(query, request);
+    INFO(test::stream(scene, query) << test::line(exact, scene));
+    REQUIRE(check.refutation(query, exact, prover.prove(query, exact)).value_or("") == "");
+    ++by_outcome[exact.outcome == Outcome::hit ? 0 : exact.outcome == Outcome::inside ? 1 : 2];
+    if (exact.outcome == Outcome::never) continue;
+    // That nothing is hit; that the next one is, which is proved where the first is left.
+    const Answer never = Answer::never();
+    REQUIRE(check.refutation(query, never, prover.prove(query, never)));
+    const Query leaving{query.x, query.v, exact.obstacle};
+    const Answer next = oracle.first_hit(leaving, request);
+    if (next.outcome == Outcome::never) continue;
+    const oracle::Certificate proof = prover.prove(leaving, next);
+    REQUIRE(check.refutation(leaving, next, proof).value_or("") == "");
+    if (query.from) continue;
+    REQUIRE(check.refutation(query, next, proof));
+    ++next_ones;
+  }
+  INFO(by_outcome[0] << ' ' << by_outcome[1] << ' ' << by_outcome[2] << ' ' << next_ones);
+  CHECK((by_outcome[0] > 100 && by_outcome[1] > 30 && by_outcome[2] > 100 && next_ones > 100));
 }

@@ -199,9 +199,9 @@ inline std::string stream(const Scene& scene, const Query& query) {
   return out;
 }
 
-inline std::string line(const Answer& answer, int dimension) {
+inline std::string line(const Answer& answer, const Components& count) {
   std::string out;
-  append_answer_line(out, "1", answer, dimension);
+  append_answer_line(out, "1", answer, count);
   return out;
 }
 

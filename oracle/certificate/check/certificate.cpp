@@ -51,6 +51,7 @@ std::optional<WindowEnd> window_end_from(std::string_view text) {
 }
 
 std::optional<double> binary64_of(const WindowEnd& end) {
+  if (end.infinite) return HUGE_VAL;
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   if (!end.mantissa.fits_int64() || end.mantissa.int64() > kMost || end.mantissa.int64() < -kMost ||
       end.exponent > 1100 || end.exponent < -1200)

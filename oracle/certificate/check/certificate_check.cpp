@@ -68,40 +68,41 @@ class Budget {
   long most_, left_;
 };
 
-template <std::size_t D>
 struct Obstacle {
-  int lattice, atom;
-  ZVec<D> n;
+  int lattice, atom, rank;
+  ZVec3 n;
 
   auto key() const { return std::tie(lattice, atom, n); }
-  std::string name() const { return name_of(lattice, atom, n); }
+  std::string name() const {
+    return name_of(lattice, atom, std::span(n).first(static_cast<std::size_t>(rank)));
+  }
 };
 
 /// What is claimed: `hit` at a time, `inside`, or `never`.
-template <std::size_t D>
 struct Claim {
   Outcome outcome;
-  Obstacle<D> obstacle;
-  std::optional<Obstacle<D>> from;
+  Obstacle obstacle{};
+  std::optional<Obstacle> from{};
   ProofTime time{};  // of `inside`: 0
 
-  bool is_from(const Obstacle<D>& other) const { return from && from->key() == other.key(); }
+  bool is_from(const Obstacle& other) const { return from && from->key() == other.key(); }
 
   /// Refutes if an obstacle that is met, with d = r^2 v^2 - |h|^2 > 0, contradicts the claim. It contains x
   /// iff v^2 w^2 = s^2 + |h|^2 < r^2 v^2, that is s^2 < d; else the ray enters it iff s > 0.
   template <class CellOf>
-  void hold_against(const CertificateView<D>& view, const Z& s, const Z& d, const CellOf& cell_of) const {
-    if (outcome == Outcome::never) refute("the line meets " + name_of(view.lattice, view.atom, cell_of()));
+  void hold_against(const CertificateView& view, const Z& s, const Z& d, const CellOf& cell_of) const {
     const bool contains_x = s * s < d, hit = outcome == Outcome::hit;
     int order = -1;
     if (!contains_x) {
-      if (!hit || s <= 0) return;
-      order = compare(ProofTime{s, d, view.v2}, time);
+      if (outcome == Outcome::inside || s <= 0) return;
+      if (hit) order = compare(ProofTime{s, d, view.v2}, time);
       if (order > 0) return;
     }
-    const Obstacle<D> other{view.lattice, view.atom, cell_of()};
+    const Obstacle other{view.lattice, view.atom, view.rank, cell_of()};
     if (is_from(other)) return;
-    if (hit && contains_x) refute(other.name() + " contains x");
+    const std::string what = contains_x ? " contains x" : " is entered";
+    if (outcome == Outcome::never) refute(other.name() + what + ": the outcome is not never");
+    if (hit && contains_x) refute(other.name() + what);
     if (hit && order < 0) refute(other.name() + " is entered earlier");
     if (other.key() < obstacle.key())
       refute(other.name() + (hit ? " is entered at the same time" : " contains x, too,") +
@@ -111,14 +112,31 @@ struct Claim {
 
 // ---- Windows
 
-/// Finds all obstacles w = w_0 + k_1 b_1 + .. + k_d b_d of a window that are met, those with s in a range and
-/// |h|^2 <= H = r^2 v^2 - 1, and holds them against the claim.
-template <std::size_t D>
-class WindowSearch {
+/// The s of a window, which may have no end.
+struct WindowRange {
+  Z lo;
+  std::optional<Z> hi;
+
+  bool contains(const Z& s) const { return lo <= s && (!hi || s <= *hi); }
+  /// The k of a range with k * divisor + offset in it, divisor != 0.
+  TimeRange of(TimeRange k, const Z& offset, const Z& divisor) const {
+    if (hi) return intersection(k, quotients({lo, *hi}, offset, divisor));
+    if (divisor > 0)
+      k.lo = std::max(k.lo, ceil_div(lo - offset, divisor));
+    else
+      k.hi = std::min(k.hi, floor_div(lo - offset, divisor));
+    return k;
+  }
+};
+
+/// All obstacles w = w_0 + k_1 b_1 + k_2 b_2 + k_3 b_3, of which the first `rank` k are free, that are met:
+/// those with |h|^2 <= H = r^2 v^2 - 1 and s in the window. Calls met(s, d, n()) for each, d =
+/// r^2 v^2 - |h|^2.
+template <class Met>
+class Search {
  public:
-  WindowSearch(const CertificateView<D>& view, const Basis<D>& basis, const TimeRange& s,
-               const Claim<D>& claim, Budget& budget)
-      : view_(view), basis_(basis), b_(basis.b), window_(s), claim_(claim), budget_(budget) {
+  Search(const CertificateView& view, const Basis& basis, WindowRange window, Budget& budget, Met met)
+      : view_(view), n_(basis.n), b_(basis.b), window_(std::move(window)), budget_(budget), met_(met) {
     most_h2_ = view.rho2 - 1;
     s1_ = dot(view.v, b_[0]), s2_ = dot(view.v, b_[1]);
     h11_ = view.across(b_[0], s1_, b_[0], s1_);
@@ -126,11 +144,56 @@ class WindowSearch {
     h22_ = view.across(b_[1], s2_, b_[1], s2_);
   }
 
-  void run();
+  /// With N = b_1 x b_2 and e = v x N: (v^2 N.w - s (N.v))^2 <= e^2 H, and N.w = N.w_0 + k_3 N.b_3.
+  void run() {
+    const ZVec3 normal = cross(b_[0], b_[1]), e = cross(view_.v, normal);
+    TimeRange k3{0, 0};
+    if (view_.rank == 3) {
+      const TimeRange bounds = image(dot(normal, view_.v), ends(), 0, floor_sqrt(most_h2_ * dot(e, e)));
+      k3 = quotients(bounds, view_.v2 * dot(normal, view_.w0), view_.v2 * dot(normal, b_[2]));
+    }
+    if (k3.empty()) return;
+    budget_.spend(k3.size());
+    for (Z k = k3.lo; k <= k3.hi; ++k) {
+      const ZVec3 w = sum(view_.w0, k, b_[2]);
+      search_plane(w, k, view_.rank < 2 ? TimeRange{0, 0} : rows_in_plane(w, normal, e));
+    }
+  }
 
  private:
+  /// The window's ends, for what has no bound but these.
+  TimeRange ends() const {
+    if (!window_.hi) refute("has no end, and endless obstacles");
+    return {window_.lo, *window_.hi};
+  }
+
+  /// The k_2 in the plane through w, with L = N.w:
+  ///   v^2 (e.w)^2 + (s (N.v) - v^2 L)^2 = e^2 |h|^2 <= e^2 H,
+  /// so v^2 (e.w)^2 <= e^2 H - m^2 for the smallest m = |s (N.v) - v^2 L| in the window. The two equations
+  ///   e.w' = e.w + k_1 (e.b_1) + k_2 (e.b_2),  s' = s + k_1 (v.b_1) + k_2 (v.b_2)
+  /// have the determinant (e.b_1)(v.b_2) - (e.b_2)(v.b_1) = (e x v).N = e^2, so by Cramer's rule
+  ///   e^2 k_2 = (e.b_1)(s' - s) - (v.b_1)(e.w' - e.w), here times v^2.
+  /// And (h_1.w')^2 v^2 <= h_1^2 H, for h_1.v = 0; h_1.b_1 = 0 and h_1.b_2 = N.v. Not both of e and N.v are 0.
+  TimeRange rows_in_plane(const ZVec3& w, const ZVec3& normal, const ZVec3& e) const {
+    const Z along = dot(normal, view_.v), e2 = dot(e, e);
+    std::optional<TimeRange> k2;
+    if (along != 0) {
+      const Z most = floor_sqrt(h11_ * most_h2_ / view_.v2);  // |h_1.w'|
+      k2 = quotients({Z(-most), most}, dot(cross(view_.v, b_[0]), w), along);
+    }
+    if (e2 == 0 || (k2 && !window_.hi)) return *k2;
+    const TimeRange off = image(along, ends(), -(view_.v2 * dot(normal, w)), 0);
+    const Z m = off.contains(0) ? Z(0) : std::min(Z(abs(off.lo)), Z(abs(off.hi)));
+    const Z square = e2 * most_h2_ - m * m;
+    if (square < 0) return {1, 0};  // the plane is not reached
+    const Z e1 = dot(e, b_[0]), at_w = e1 * dot(view_.v, w) - s1_ * dot(e, w);
+    const TimeRange bounds = image(e1 * view_.v2, ends(), 0, floor_sqrt(s1_ * s1_ * view_.v2 * square));
+    const TimeRange by_cramer = quotients(bounds, view_.v2 * at_w, view_.v2 * e2);
+    return k2 ? intersection(*k2, by_cramer) : by_cramer;
+  }
+
   /// The obstacles w + k_1 b_1 + k_2 b_2 with s in the window and k_2 in the range.
-  void search_plane(const ZVec<D>& w, const Z& k3, const TimeRange& k2) {
+  void search_plane(const ZVec3& w, const Z& k3, const TimeRange& k2) {
     if (k2.empty()) return;
     budget_.spend(k2.size());
     const Z s0 = dot(view_.v, w), h01 = view_.across(w, s0, b_[0], s1_),
@@ -141,88 +204,36 @@ class WindowSearch {
   }
 
   /// The obstacles at w + k_1 b_1, with s0 = v.w, b = h.h_1 and c = |h|^2 - r^2 v^2, which are met iff
-  /// h_1^2 k_1^2 + 2 b k_1 + c < 0. If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met.
-  /// h_1 and s_1 are not both 0.
+  /// h_1^2 k_1^2 + 2 b k_1 + c < 0.
   void search_row(const Z& s0, const Z& b, const Z& c, const Z& k2, const Z& k3) {
-    TimeRange k;
-    if (h11_ == 0) {
-      if (c >= 0) return;
-      k = quotients(window_, s0, s1_);
-    } else {
-      k = below_zero(h11_, b, c);
-      if (s1_ != 0)
-        k = intersection(k, quotients(window_, s0, s1_));
-      else if (!window_.contains(s0))
-        return;
-    }
+    const TimeRange k = obstacles_in_row(s0, b, c);
     if (k.empty()) return;
     budget_.spend(k.size());
     for (Z k1 = k.lo; k1 <= k.hi; ++k1)
-      claim_.hold_against(view_, s0 + k1 * s1_, -c - k1 * (2 * b + k1 * h11_), [&] {
-        ZVec<D> coefficients{k1, k2};
-        if constexpr (D == 3) coefficients[2] = k3;
-        return combination(coefficients, basis_.n);
-      });
+      met_(s0 + k1 * s1_, Z(-c - k1 * (2 * b + k1 * h11_)), [&] { return combination({k1, k2, k3}, n_); });
   }
 
-  TimeRange rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const;
+  /// If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met. h_1 and s_1 are not both 0.
+  TimeRange obstacles_in_row(const Z& s0, const Z& b, const Z& c) const {
+    const TimeRange none{1, 0};
+    if (view_.rank == 0) return c < 0 && window_.contains(s0) ? TimeRange{0, 0} : none;
+    if (h11_ == 0) {
+      const TimeRange s = ends();
+      return c < 0 ? quotients(s, s0, s1_) : none;
+    }
+    const TimeRange k = below_zero(h11_, b, c);
+    if (s1_ != 0) return window_.of(k, s0, s1_);
+    return window_.contains(s0) ? k : none;
+  }
 
-  const CertificateView<D>& view_;
-  const Basis<D>& basis_;
-  const ZMatrix<D>& b_;
-  const TimeRange& window_;
-  const Claim<D>& claim_;
+  const CertificateView& view_;
+  const ZMatrix &n_, &b_;
+  const WindowRange window_;
   Budget& budget_;
+  const Met met_;
   Z most_h2_;                    // H
   Z s1_, s2_, h11_, h12_, h22_;  // s_i = v.b_i, h_ij = (v x b_i).(v x b_j)
 };
-
-/// With v' = v turned by a right angle, v^2 w = s v + h v'; cross(b_1, v') = b_1.v = s_1, so
-/// v^2 cross(b_1, w) = s cross(b_1, v) + h s_1.
-template <>
-void WindowSearch<2>::run() {
-  budget_.spend(1);  // the plane
-  const Z slack = floor_sqrt(most_h2_ * s1_ * s1_);
-  const TimeRange bounds = image(cross(b_[0], view_.v), window_, 0, slack);
-  search_plane(view_.w0, 0,
-               quotients(bounds, view_.v2 * cross(b_[0], view_.w0), view_.v2 * cross(b_[0], b_[1])));
-}
-
-/// The k_2 in the plane through w, with L = N.w:
-///   v^2 (e.w)^2 + (s (N.v) - v^2 L)^2 = e^2 |h|^2 <= e^2 H,
-/// so v^2 (e.w)^2 <= e^2 H - m^2 for the smallest m = |s (N.v) - v^2 L| in the window. The two equations
-///   e.w' = e.w + k_1 (e.b_1) + k_2 (e.b_2),  s' = s + k_1 (v.b_1) + k_2 (v.b_2)
-/// have the determinant (e.b_1)(v.b_2) - (e.b_2)(v.b_1) = (e x v).N = e^2, so by Cramer's rule
-///   e^2 k_2 = (e.b_1)(s' - s) - (v.b_1)(e.w' - e.w), here times v^2.
-/// And (h_1.w')^2 v^2 <= h_1^2 H, for h_1.v = 0; h_1.b_1 = 0 and h_1.b_2 = N.v. Not both of e and N.v are 0.
-template <>
-TimeRange WindowSearch<3>::rows_in_plane(const ZVec<3>& w, const ZVec<3>& normal, const ZVec<3>& e) const {
-  const Z along = dot(normal, view_.v), e2 = dot(e, e);
-  const Z most = floor_sqrt(h11_ * most_h2_ / view_.v2);  // |h_1.w'|
-  const ZVec<3> h1 = cross(view_.v, b_[0]);
-  if (e2 == 0) return quotients({Z(-most), most}, dot(h1, w), along);
-  const TimeRange off = image(along, window_, -(view_.v2 * dot(normal, w)), 0);
-  const Z m = off.contains(0) ? Z(0) : std::min(Z(abs(off.lo)), Z(abs(off.hi)));
-  const Z square = e2 * most_h2_ - m * m;  // of a plane that is looked at, not below 0
-  const Z e1 = dot(e, b_[0]), at_w = e1 * dot(view_.v, w) - s1_ * dot(e, w);
-  const TimeRange bounds = image(e1 * view_.v2, window_, 0, floor_sqrt(s1_ * s1_ * view_.v2 * square));
-  const TimeRange k2 = quotients(bounds, view_.v2 * at_w, view_.v2 * e2);
-  return along == 0 ? k2 : intersection(k2, quotients({Z(-most), most}, dot(h1, w), along));
-}
-
-/// With N = b_1 x b_2 and e = v x N: (v^2 N.w - s (N.v))^2 <= e^2 H, and N.w = N.w_0 + k_3 N.b_3.
-template <>
-void WindowSearch<3>::run() {
-  const ZVec<3> normal = cross(b_[0], b_[1]), e = cross(view_.v, normal);
-  const TimeRange bounds = image(dot(normal, view_.v), window_, 0, floor_sqrt(most_h2_ * dot(e, e)));
-  const TimeRange k3 = quotients(bounds, view_.v2 * dot(normal, view_.w0), view_.v2 * dot(normal, b_[2]));
-  if (k3.empty()) return;
-  budget_.spend(k3.size());
-  for (Z k = k3.lo; k <= k3.hi; ++k) {
-    const ZVec<3> w = sum(view_.w0, k, b_[2]);
-    search_plane(w, k, rows_in_plane(w, normal, e));
-  }
-}
 
 /// An end of a window: n / 2^bits.
 struct End {
@@ -244,98 +255,185 @@ struct End {
   }
 };
 
+/// How far an atom's windows, in the order in which they are listed, leave no gap.
+class Coverage {
+ public:
+  /// T = n / 2^bits <= -r/|v| iff n v^2 <= -2^bits r |v|.
+  void add(const CertificateView& view, const End& from, const std::optional<End>& to) {
+    if (to && from > *to) refute("ends before it begins");
+    const Z unit = shifted_left(1, from.bits);
+    const bool begins_late = sign_of(-from.n * view.v2, 0, unit * unit * view.rho2) < 0;
+    if (begins_late && !reached_ && !endless_) refute("begins too late");
+    if (begins_late && !endless_ && from > *reached_) refute("a gap before it");
+    endless_ |= !to;
+    if (to && (!reached_ || *to > *reached_)) reached_ = to;
+  }
+
+  /// Of rows, which stand alone.
+  void add_rows() {
+    if (endless_ || reached_) refute("the atom has other rows, or windows");
+    endless_ = true;
+  }
+
+  /// T >= t + r/|v| for the time t = (s - sqrt(d)) / q, times q: n v^2 q >= 2^bits (v^2 (s - sqrt(d)) + q r
+  /// |v|).
+  bool reaches(const CertificateView& view, const ProofTime& time) const {
+    if (endless_ || !reached_) return endless_;
+    const Z unit = shifted_left(1, reached_->bits), factor = unit * view.v2, other = unit * time.q;
+    return sign_of(reached_->n * view.v2 * time.q - factor * time.s, factor * factor * time.d,
+                   other * other * view.rho2) >= 0;
+  }
+
+  bool endless() const { return endless_; }
+
+ private:
+  std::optional<End> reached_;
+  bool endless_ = false;
+};
+
 // ---- The check
 
-template <std::size_t D>
+/// In two dimensions third coordinates mean nothing.
+Scene flattened(Scene scene) {
+  if (scene.dimension == 3) return scene;
+  for (Lattice& lattice : scene.lattices)
+    for (Vec& vector : lattice.vectors) vector[2] = 0;
+  for_each_atom(scene, [](Atom& atom) {
+    atom.position[2] = 0;
+    for (Vec& axis : atom.semiaxes) axis[2] = 0;
+  });
+  return scene;
+}
+
 class Check {
  public:
-  Check(const Scene& scene, long most_steps) : most_steps_(most_steps) {
+  Check(const Scene& given, long most_steps) : most_steps_(most_steps), dimension_(given.dimension) {
+    const Scene scene = flattened(given);
     CommonExponent exponent;
     for (const Lattice& lattice : scene.lattices) {
-      for (std::size_t i = 0; i < D; ++i) see<D>(exponent, lattice.vectors[i]);
+      for (const Vec& vector : lattice.vectors) see(exponent, vector);
       for (const Atom& atom : lattice.atoms) {
-        see<D>(exponent, atom.position);
+        see(exponent, atom.position);
         if (atom.is_ball()) exponent.see(atom.radius);
-        for (const Vec& axis : atom.semiaxes) see<D>(exponent, axis);
+        for (const Vec& axis : atom.semiaxes) see(exponent, axis);
       }
     }
     exponent_ = exponent.get();
     for (const Lattice& lattice : scene.lattices) {
       bodies_.emplace_back();
-      for (const Atom& atom : lattice.atoms) bodies_.back().emplace_back(lattice, atom, exponent_);
+      for (const Atom& atom : lattice.atoms)
+        bodies_.back().emplace_back(scene.dimension, lattice, atom, exponent_);
     }
   }
 
   void check(const Query& query, const Answer& answer, const Certificate& certificate) const {
-    const Flight flight = flight_of(query);
-    if (answer.outcome == Outcome::never) return check_never(flight, certificate);
-    if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside)
+    const bool never = answer.outcome == Outcome::never;
+    if (!never && answer.outcome != Outcome::hit && answer.outcome != Outcome::inside)
       refute("only hit, inside and never have proofs");
-    if (!certificate.rows.empty()) refute("rows prove `never` only");
-    check_windows(claim_of(query, answer, flight), flight, certificate.windows);
+    if (!never && !certificate.rows.empty()) refute("rows prove `never` only");
+    const Flight flight = flight_of(query);
+    const Claim claim = claim_of(query, answer, flight);
+    std::vector<std::vector<Coverage>> coverage;
+    for (const auto& views : flight) coverage.emplace_back(views.size());
+    Budget budget(most_steps_, certificate.windows.size() + certificate.rows.size());
+    check_pieces("window ", flight, certificate.windows,
+                 [&](const CertificateView& view, const Window& window) {
+                   check_window(claim, view, window, coverage[view.lattice][view.atom], budget);
+                 });
+    check_pieces("rows ", flight, certificate.rows, [&](const CertificateView& view, const Rows& rows) {
+      check_rows(view, rows, coverage[view.lattice][view.atom], budget);
+    });
+    for (const auto& views : flight)
+      for (const CertificateView& view : views)
+        if (!covered(claim, view, coverage[view.lattice][view.atom]))
+          refute(name_of(view.lattice, view.atom) + (never ? ": no rows, and no windows without an end"
+                                                           : ": no window, or its windows end too early"));
   }
 
  private:
   /// A query in integers: as each atom sees it.
-  using Flight = std::vector<std::vector<CertificateView<D>>>;
+  using Flight = std::vector<std::vector<CertificateView>>;
 
   Flight flight_of(const Query& query) const;
+  CertificateView view_of(int lattice, int atom, const ZVec3& x, const ZVec3& v, long unit) const;
   bool has(int lattice, int atom) const {
     const auto l = static_cast<std::size_t>(lattice), a = static_cast<std::size_t>(atom);  // huge if negative
     return l < bodies_.size() && a < bodies_[l].size();
   }
-  Claim<D> claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
-  void check_never(const Flight& flight, const Certificate& certificate) const;
-  void check_windows(const Claim<D>& claim, const Flight& flight, const std::vector<Window>& windows) const;
+  Obstacle read_obstacle(const ObstacleId& id) const;
+  Claim claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
+
+  template <class Piece, class Look>
+  void check_pieces(const char* kind, const Flight& flight, const std::vector<Piece>& pieces,
+                    const Look& look) const {
+    for (std::size_t i = 0; i < pieces.size(); ++i) try {
+        if (!has(pieces[i].lattice, pieces[i].atom)) refute("no such atom");
+        look(flight[pieces[i].lattice][pieces[i].atom], pieces[i]);
+      } catch (Refuted& refuted) {
+        refuted.why = kind + std::to_string(i) + " (" + name_of(pieces[i].lattice, pieces[i].atom) +
+                      "): " + refuted.why;
+        throw;
+      }
+  }
+
+  static void check_window(const Claim& claim, const CertificateView& view, const Window& window,
+                           Coverage& coverage, Budget& budget);
+  static void check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget);
+  static bool covered(const Claim& claim, const CertificateView& view, const Coverage& coverage);
 
   long most_steps_, exponent_ = 0;
-  std::vector<std::vector<Body<D>>> bodies_;
+  int dimension_;
+  std::vector<std::vector<Body>> bodies_;
 };
 
-template <std::size_t D>
-typename Check<D>::Flight Check<D>::flight_of(const Query& query) const {
-  for (std::size_t i = D; i < 3; ++i)
-    if (query.x[i] != 0 || query.v[i] != 0) refute("the query has a third coordinate in two dimensions");
+Check::Flight Check::flight_of(const Query& query) const {
+  if (dimension_ == 2 && (query.x[2] != 0 || query.v[2] != 0))
+    refute("the query has a third coordinate in two dimensions");
   CommonExponent of_query;
-  see<D>(of_query, query.x), see<D>(of_query, query.v);
+  see(of_query, query.x), see(of_query, query.v);
   const long unit = std::min(exponent_, of_query.get());
-  const auto shift = static_cast<unsigned long>(exponent_ - unit);
-  const ZVec<D> x = scaled_vec<D>(query.x, unit), v = scaled_vec<D>(query.v, unit);
-  Flight flight;
-  for (std::size_t l = 0; l < bodies_.size(); ++l) {
-    flight.emplace_back();
-    for (std::size_t a = 0; a < bodies_[l].size(); ++a) {
-      const Body<D>& body = bodies_[l][a];
-      const unsigned long bits = body.bits_of_coordinates(unit);
-      CertificateView<D> view{static_cast<int>(l), static_cast<int>(a), {}, {}, {}, {}, {}};
-      view.v = shifted(body.in_own_coordinates(v), bits);
-      for (std::size_t i = 0; i < D; ++i) view.u[i] = shifted(body.u[i], bits + shift);
-      view.w0 = sum(shifted(body.p, bits + shift), -1, shifted(body.in_own_coordinates(x), bits));
-      view.v2 = dot(view.v, view.v);
-      view.rho2 = shifted_left(body.r * body.r, 2 * body.bits_of_radius(unit)) * view.v2;
-      flight.back().push_back(std::move(view));
-    }
-  }
+  const ZVec3 x = scaled_vec(query.x, unit), v = scaled_vec(query.v, unit);
+  Flight flight(bodies_.size());
+  for (std::size_t l = 0; l < bodies_.size(); ++l)
+    for (std::size_t a = 0; a < bodies_[l].size(); ++a)
+      flight[l].push_back(view_of(static_cast<int>(l), static_cast<int>(a), x, v, unit));
   return flight;
 }
 
-/// The claim about the answer's obstacle itself: it is no `from`, and is entered at this time, or contains x.
-template <std::size_t D>
-Claim<D> Check<D>::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
-  const auto& [lattice, atom, cell] = answer.obstacle;
-  if (!has(lattice, atom)) refute("the answer's " + name_of(lattice, atom) + " does not exist");
-  Claim<D> claim{answer.outcome, {lattice, atom, {}}, {}};
+CertificateView Check::view_of(int lattice, int atom, const ZVec3& x, const ZVec3& v, long unit) const {
+  const Body& body = bodies_[lattice][atom];
+  const unsigned long bits = body.bits_of_coordinates(unit),
+                      shift = static_cast<unsigned long>(exponent_ - unit);
+  CertificateView view{lattice, atom, body.rank, {}, {}, {}, {}, {}};
+  view.v = shifted(body.in_own_coordinates(v), bits);
+  for (std::size_t i = 0; i < 3; ++i) view.u[i] = shifted(body.u[i], bits + shift);
+  view.w0 = sum(shifted(body.p, bits + shift), -1, shifted(body.in_own_coordinates(x), bits));
+  view.v2 = dot(view.v, view.v);
+  view.rho2 = shifted_left(body.r * body.r, 2 * body.bits_of_radius(unit)) * view.v2;
+  return view;
+}
+
+Obstacle Check::read_obstacle(const ObstacleId& id) const {
+  const int rank = has(id.lattice, id.atom) ? bodies_[id.lattice][id.atom].rank : 3;
   try {
-    claim.obstacle.n = read_cell<D>(cell);
-    if (query.from)
-      claim.from = Obstacle<D>{query.from->lattice, query.from->atom, read_cell<D>(query.from->cell)};
+    return {id.lattice, id.atom, rank, read_cell(id.cell, rank)};
   } catch (const Refuted& refuted) {
     refute("a cell " + refuted.why);
   }
+}
+
+/// The claim about the answer's obstacle itself: it is no `from`, and is entered at this time, or contains x.
+Claim Check::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
+  Claim claim{answer.outcome};
+  if (query.from) claim.from = read_obstacle(*query.from);
+  if (answer.outcome == Outcome::never) return claim;
+  const auto& [lattice, atom, cell] = answer.obstacle;
+  if (!has(lattice, atom)) refute("the answer's " + name_of(lattice, atom) + " does not exist");
+  claim.obstacle = read_obstacle(answer.obstacle);
   const std::string name = "the answer's " + claim.obstacle.name();
   if (claim.is_from(claim.obstacle)) refute(name + " is `from`");
-  const CertificateView<D>& view = flight[lattice][atom];
-  const ZVec<D> w = sum(view.w0, 1, combination(claim.obstacle.n, view.u));
+  const CertificateView& view = flight[lattice][atom];
+  const ZVec3 w = sum(view.w0, 1, combination(claim.obstacle.n, view.u));
   const Z s = dot(view.v, w), d = view.rho2 - view.across(w, s, w, s);
   if (d <= 0) refute(name + " is not met by the line");
   const bool contains_x = s * s < d;
@@ -351,89 +449,39 @@ Claim<D> Check<D>::claim_of(const Query& query, const Answer& answer, const Flig
   return claim;
 }
 
-/// How far an atom's windows, in the order in which they are listed, leave no gap.
-class Coverage {
- public:
-  /// T = n / 2^bits <= -r/|v| iff n v^2 <= -2^bits r |v|.
-  template <std::size_t D>
-  void add(const CertificateView<D>& view, const End& from, const End& to) {
-    if (from > to) refute("ends before it begins");
-    const Z unit = shifted_left(1, from.bits);
-    const bool begins_late = sign_of(-from.n * view.v2, 0, unit * unit * view.rho2) < 0;
-    if (begins_late && !reached_) refute("begins too late");
-    if (begins_late && from > *reached_) refute("a gap before it");
-    if (!reached_ || to > *reached_) reached_ = to;
+void Check::check_window(const Claim& claim, const CertificateView& view, const Window& window,
+                         Coverage& coverage, Budget& budget) {
+  const End from(window.from);
+  std::optional<End> to;
+  WindowRange range{Z(-(-(from.n * view.v2) >> from.bits)), std::nullopt};
+  if (!window.to.infinite) {
+    to.emplace(window.to);
+    range.hi = Z(to->n * view.v2 >> to->bits);
   }
-
-  /// T >= t + r/|v| for the time t = (s - sqrt(d)) / q, times q: n v^2 q >= 2^bits (v^2 (s - sqrt(d)) + q r
-  /// |v|).
-  template <std::size_t D>
-  bool reaches(const CertificateView<D>& view, const ProofTime& time) const {
-    if (!reached_) return false;
-    const Z unit = shifted_left(1, reached_->bits), factor = unit * view.v2, other = unit * time.q;
-    return sign_of(reached_->n * view.v2 * time.q - factor * time.s, factor * factor * time.d,
-                   other * other * view.rho2) >= 0;
-  }
-
- private:
-  std::optional<End> reached_;
-};
-
-template <std::size_t D>
-void Check<D>::check_windows(const Claim<D>& claim, const Flight& flight,
-                             const std::vector<Window>& windows) const {
-  Budget budget(most_steps_, windows.size());
-  std::vector<std::vector<Coverage>> coverage;
-  for (const auto& views : flight) coverage.emplace_back(views.size());
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const auto& [lattice, atom, from_end, to_end, of_basis] = windows[i];
-    try {
-      if (!has(lattice, atom)) refute("no such atom");
-      const CertificateView<D>& view = flight[lattice][atom];
-      const End from(from_end), to(to_end);
-      coverage[lattice][atom].add(view, from, to);
-      const TimeRange s{Z(-(-(from.n * view.v2) >> from.bits)), Z(to.n * view.v2 >> to.bits)};
-      const Basis<D> basis = read_basis(of_basis, view);
-      WindowSearch<D>(view, basis, s, claim, budget).run();
-    } catch (Refuted& refuted) {
-      refuted.why = "window " + std::to_string(i) + " (" + name_of(lattice, atom) + "): " + refuted.why;
-      throw;
-    }
-  }
-  const auto last = std::tie(claim.obstacle.lattice, claim.obstacle.atom);
-  for (const auto& views : flight)
-    for (const CertificateView<D>& view : views)
-      if ((claim.outcome == Outcome::hit || std::tie(view.lattice, view.atom) <= last) &&
-          !coverage[view.lattice][view.atom].reaches(view, claim.time))
-        refute(name_of(view.lattice, view.atom) + ": no window, or its windows end too early");
+  coverage.add(view, from, to);
+  const Basis basis = read_basis(window.basis, view);
+  Search(view, basis, range, budget, [&](const Z& s, const Z& d, const auto& cell_of) {
+    claim.hold_against(view, s, d, cell_of);
+  }).run();
 }
 
 /// Of a row along v that is met, obstacles b_1 apart are: one has 0 <= s <= |s_1|.
-template <std::size_t D>
-void Check<D>::check_never(const Flight& flight, const Certificate& certificate) const {
-  if (!certificate.windows.empty()) refute("windows do not prove `never`");
-  Budget budget(most_steps_, certificate.rows.size());
-  std::vector<std::vector<bool>> seen;
-  for (const auto& views : flight) seen.emplace_back(views.size());
-  for (std::size_t i = 0; i < certificate.rows.size(); ++i) {
-    const auto& [lattice, atom, of_basis] = certificate.rows[i];
-    try {
-      if (!has(lattice, atom)) refute("no such atom");
-      if (seen[lattice][atom]) refute("the atom's second");
-      seen[lattice][atom] = true;
-      const CertificateView<D>& view = flight[lattice][atom];
-      const Basis<D> basis = read_basis(of_basis, view);
-      const Z s1 = dot(view.v, basis.b[0]);
-      if (view.across(basis.b[0], s1, basis.b[0], s1) != 0) refute("b_1 is not parallel to v");
-      WindowSearch<D>(view, basis, {0, Z(abs(s1))}, Claim<D>{Outcome::never, {}, {}}, budget).run();
-    } catch (Refuted& refuted) {
-      refuted.why = "rows " + std::to_string(i) + " (" + name_of(lattice, atom) + "): " + refuted.why;
-      throw;
-    }
-  }
-  for (std::size_t l = 0; l < seen.size(); ++l)
-    for (std::size_t a = 0; a < seen[l].size(); ++a)
-      if (!seen[l][a]) refute(name_of(static_cast<int>(l), static_cast<int>(a)) + ": no rows");
+void Check::check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget) {
+  coverage.add_rows();
+  const Basis basis = read_basis(rows.basis, view);
+  const Z s1 = dot(view.v, basis.b[0]);
+  if (view.rank == 0 || view.across(basis.b[0], s1, basis.b[0], s1) != 0) refute("b_1 is not parallel to v");
+  Search(view, basis, WindowRange{0, Z(abs(s1))}, budget, [&](const Z&, const Z&, const auto& cell_of) {
+    refute("the line meets " + Obstacle{view.lattice, view.atom, view.rank, cell_of()}.name());
+  }).run();
+}
+
+/// All that could contradict the claim has been looked at.
+bool Check::covered(const Claim& claim, const CertificateView& view, const Coverage& coverage) {
+  if (claim.outcome == Outcome::never) return coverage.endless();
+  return coverage.reaches(view, claim.time) ||
+         (claim.outcome == Outcome::inside &&
+          std::tie(view.lattice, view.atom) > std::tie(claim.obstacle.lattice, claim.obstacle.atom));
 }
 
 }  // namespace
@@ -441,8 +489,7 @@ void Check<D>::check_never(const Flight& flight, const Certificate& certificate)
 struct CertificateCheck::Impl {
   Scene scene;
   std::string flaw;  // of the scene: then there is no check
-  std::optional<Check<2>> flat;
-  std::optional<Check<3>> solid;
+  std::optional<Check> check;
 };
 
 CertificateCheck::CertificateCheck(const Scene& scene, long most_steps) {
@@ -450,8 +497,7 @@ CertificateCheck::CertificateCheck(const Scene& scene, long most_steps) {
   impl->scene = scene;
   impl->flaw = flaw_of(scene).value_or("");
   if (impl->flaw.empty()) try {
-      if (scene.dimension == 2) impl->flat.emplace(scene, most_steps);
-      if (scene.dimension == 3) impl->solid.emplace(scene, most_steps);
+      impl->check.emplace(scene, most_steps);
     } catch (const Refuted& refuted) {
       impl->flaw = refuted.why;
     }
@@ -469,8 +515,7 @@ std::optional<std::string> CertificateCheck::refutation(const Query& query, cons
   if (!impl_->flaw.empty()) return "scene: " + impl_->flaw;
   if (const auto flaw = flaw_of(query, impl_->scene)) return "query: " + *flaw;
   try {
-    if (impl_->flat) impl_->flat->check(query, answer, certificate);
-    if (impl_->solid) impl_->solid->check(query, answer, certificate);
+    impl_->check->check(query, answer, certificate);
   } catch (const TooLong& refuted) {
     if (too_long) *too_long = true;
     return refuted.why;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <lorentz/certificate.hpp>
@@ -26,142 +27,127 @@ inline std::string name_of(int lattice, int atom) {
   return "lattice " + std::to_string(lattice) + ", atom " + std::to_string(atom);
 }
 
-template <std::size_t D>
-std::string name_of(int lattice, int atom, const ZVec<D>& n) {
+inline std::string name_of(int lattice, int atom, std::span<const Z> n) {
   std::string cell;
   for (const Z& component : n) cell += (cell.empty() ? "" : ", ") + component.get_str();
   return "obstacle (" + name_of(lattice, atom) + ", cell [" + cell + "])";
 }
 
-// ---- Integers
+// ---- Integers. A planar scene is the plane z = 0 of a spatial one, its discs the equators of balls. A lattice
+// of k vectors is one of three, of whose coordinates n the first k are used.
 
-template <std::size_t D>
-using ZMatrix = std::array<ZVec<D>, D>;  // rows
+using ZVec3 = ZVec<3>;
+using ZMatrix = std::array<ZVec3, 3>;  // rows
 
-inline Z determinant(const ZMatrix<2>& m) {
-  return cross(m[0], m[1]);
-}
-
-inline Z determinant(const ZMatrix<3>& m) {
+inline Z determinant(const ZMatrix& m) {
   return dot(m[0], cross(m[1], m[2]));
 }
 
-/// adj(A) = det(A) A^-1 of the matrix with these columns.
-inline ZMatrix<2> adjugate(const ZMatrix<2>& a) {
-  return {ZVec<2>{a[1][1], Z(-a[1][0])}, ZVec<2>{Z(-a[0][1]), a[0][0]}};
+/// Are the first k rows, k <= 3, linearly independent?
+inline bool independent(const ZMatrix& m, int k) {
+  if (k == 0) return true;
+  if (k == 3) return determinant(m) != 0;
+  return (k == 1 ? m[0] : cross(m[0], m[1])) != ZVec3{};
 }
 
-inline ZMatrix<3> adjugate(const ZMatrix<3>& a) {
+/// adj(A) = det(A) A^-1 of the matrix with these columns.
+inline ZMatrix adjugate(const ZMatrix& a) {
   return {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
 }
 
-template <std::size_t D>
-ZVec<D> operator*(const ZMatrix<D>& m, const ZVec<D>& a) {
-  ZVec<D> product;
-  for (std::size_t i = 0; i < D; ++i) product[i] = dot(m[i], a);
-  return product;
+inline ZVec3 operator*(const ZMatrix& m, const ZVec3& a) {
+  return {dot(m[0], a), dot(m[1], a), dot(m[2], a)};
 }
 
-/// k_1 b_1 + .. + k_d b_d.
-template <std::size_t D>
-ZVec<D> combination(const ZVec<D>& k, const ZMatrix<D>& b) {
-  ZVec<D> sum;
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t j = 0; j < D; ++j) sum[j] += k[i] * b[i][j];
-  return sum;
+inline ZVec3 sum(const ZVec3& a, const Z& k, const ZVec3& b) {
+  return {a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]};
 }
 
-template <std::size_t D>
-ZVec<D> sum(const ZVec<D>& a, const Z& k, const ZVec<D>& b) {
-  ZVec<D> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = a[i] + k * b[i];
-  return result;
+/// k_1 b_1 + k_2 b_2 + k_3 b_3.
+inline ZVec3 combination(const ZVec3& k, const ZMatrix& b) {
+  return sum(sum(sum({}, k[0], b[0]), k[1], b[1]), k[2], b[2]);
 }
 
-template <std::size_t D>
-ZVec<D> shifted(ZVec<D> a, unsigned long bits) {
+inline ZVec3 shifted(ZVec3 a, unsigned long bits) {
   for (Z& component : a) component = shifted_left(component, bits);
   return a;
 }
 
 // ---- The problem in integers
 
-/// The first D components times 2^-exponent.
-template <std::size_t D>
-ZVec<D> scaled_vec(const Vec& a, long exponent) {
-  ZVec<D> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = scaled(a[i], exponent);
-  return result;
+/// Times 2^-exponent.
+inline ZVec3 scaled_vec(const Vec& a, long exponent) {
+  return {scaled(a[0], exponent), scaled(a[1], exponent), scaled(a[2], exponent)};
 }
 
-template <std::size_t D>
-void see(CommonExponent& exponent, const Vec& a) {
-  for (std::size_t i = 0; i < D; ++i) exponent.see(a[i]);
+inline void see(CommonExponent& exponent, const Vec& a) {
+  for (const double component : a) exponent.see(component);
 }
 
 /// An atom and its lattice in the atom's own coordinates, lengths in units of 2^exponent. For an ellipsoid {
 /// p + A y : |y| < 1 } these are multiplied by adj(A), which makes a ball of the radius |det(A)| of it; A in
-/// units of 2^axes.
-template <std::size_t D>
+/// units of 2^axes, and in the plane with (0, 0, 1) as the third semiaxis.
 struct Body {
-  std::optional<ZMatrix<D>> to_ball;
-  ZMatrix<D> u;
-  ZVec<D> p;
+  int rank;
+  std::optional<ZMatrix> to_ball;
+  ZMatrix u;
+  ZVec3 p;
   Z r;
   long axes;
 
-  Body(const Lattice& lattice, const Atom& atom, long exponent) {
-    for (std::size_t i = 0; i < D; ++i) u[i] = scaled_vec<D>(lattice.vectors[i], exponent);
-    if (determinant(u) == 0) refute("the primitive vectors are dependent");
-    p = scaled_vec<D>(atom.position, exponent);
-    axes = exponent;
+  Body(int dimension, const Lattice& lattice, const Atom& atom, long exponent)
+      : rank(lattice.rank(dimension)), axes(exponent), dimension_(static_cast<unsigned long>(dimension)) {
+    for (std::size_t i = 0; i < 3; ++i) u[i] = scaled_vec(lattice.vectors[i], exponent);
+    if (!independent(u, rank)) refute("the primitive vectors are dependent");
+    p = scaled_vec(atom.position, exponent);
     if (atom.is_ball()) {
       r = scaled(atom.radius, exponent);
       return;
     }
     CommonExponent own;
-    for (const Vec& axis : atom.semiaxes) see<D>(own, axis);
+    for (const Vec& axis : atom.semiaxes) see(own, axis);
     axes = own.get();
-    ZMatrix<D> a;
-    for (std::size_t i = 0; i < D; ++i) a[i] = scaled_vec<D>(atom.semiaxes[i], axes);
+    ZMatrix a{ZVec3{}, ZVec3{}, ZVec3{0, 0, 1}};
+    for (std::size_t i = 0; i < atom.semiaxes.size(); ++i) a[i] = scaled_vec(atom.semiaxes[i], axes);
     r = abs(determinant(a));
     if (r == 0) refute("the semiaxes are dependent");
     to_ball = adjugate(a);
-    for (ZVec<D>& vector : u) vector = *to_ball * vector;
+    for (ZVec3& vector : u) vector = *to_ball * vector;
     p = *to_ball * p;
   }
 
-  ZVec<D> in_own_coordinates(const ZVec<D>& a) const { return to_ball ? *to_ball * a : a; }
+  ZVec3 in_own_coordinates(const ZVec3& a) const { return to_ball ? *to_ball * a : a; }
 
   /// What in_own_coordinates has to be multiplied with, and r, where all numbers are in units of 2^unit, in
   /// bits.
   unsigned long bits_of_coordinates(long unit) const {
-    return to_ball ? (D - 1) * static_cast<unsigned long>(axes - unit) : 0;
+    return to_ball ? (dimension_ - 1) * static_cast<unsigned long>(axes - unit) : 0;
   }
   unsigned long bits_of_radius(long unit) const {
-    return (to_ball ? D : 1) * static_cast<unsigned long>(axes - unit);
+    return (to_ball ? dimension_ : 1) * static_cast<unsigned long>(axes - unit);
   }
+
+ private:
+  unsigned long dimension_;
 };
 
 /// A flight as an atom sees it.
-template <std::size_t D>
 struct CertificateView {
-  int lattice, atom;
-  ZMatrix<D> u;  // the lattice
-  ZVec<D> w0;    // the obstacle of cell 0, seen from the start
-  ZVec<D> v;
+  int lattice, atom, rank;
+  ZMatrix u;  // the lattice
+  ZVec3 w0;   // the obstacle of cell 0, seen from the start
+  ZVec3 v;
   Z v2, rho2;  // v^2, r^2 v^2
 
   /// v^2 a.b - (v.a)(v.b) = (v x a).(v x b), for s_a = v.a and s_b = v.b.
-  Z across(const ZVec<D>& a, const Z& s_a, const ZVec<D>& b, const Z& s_b) const {
+  Z across(const ZVec3& a, const Z& s_a, const ZVec3& b, const Z& s_b) const {
     return v2 * dot(a, b) - s_a * s_b;
   }
 };
 
 /// A certificate's basis: the rows in coordinates n, and as they stand in the atom's coordinates.
-template <std::size_t D>
 struct Basis {
-  ZMatrix<D> n, b;
+  ZMatrix n, b;
 };
 
 inline Z read_integer(const Integer& a, std::size_t longest = kLongestText) {
@@ -170,24 +156,27 @@ inline Z read_integer(const Integer& a, std::size_t longest = kLongestText) {
   return to_z(a);
 }
 
-template <std::size_t D>
-ZVec<D> read_cell(const Cell& cell) {
-  for (std::size_t i = D; i < 3; ++i)
-    if (!(cell[i] == Integer(0))) refute("holds a third coordinate in two dimensions");
-  ZVec<D> n;
-  for (std::size_t i = 0; i < D; ++i) n[i] = read_integer(cell[i]);
+/// `rank` coordinates.
+inline ZVec3 read_cell(const Cell& cell, int rank) {
+  ZVec3 n;
+  for (int i = 0; i < 3; ++i) {
+    if (i >= rank && !(cell[i] == Integer(0)))
+      refute("holds more than the lattice's " + std::to_string(rank) + " coordinates");
+    n[i] = read_integer(cell[i]);
+  }
   return n;
 }
 
-template <std::size_t D>
-Basis<D> read_basis(const CertificateBasis& given, const CertificateView<D>& view) {
-  for (std::size_t i = D; i < 3; ++i)
-    for (const Integer& component : given[i])
-      if (!(component == Integer(0))) refute("holds a third vector in two dimensions");
-  Basis<D> basis;
-  for (std::size_t i = 0; i < D; ++i) basis.n[i] = read_cell<D>(given[i]);
+/// Its first `rank` rows, completed.
+inline Basis read_basis(const CertificateBasis& given, const CertificateView& view) {
+  Basis basis{{ZVec3{1, 0, 0}, ZVec3{0, 1, 0}, ZVec3{0, 0, 1}}, {}};
+  for (int i = 0; i < 3; ++i)
+    if (i < view.rank)
+      basis.n[i] = read_cell(given[i], view.rank);
+    else if (given[i] != Cell{})
+      refute("holds more than the lattice's " + std::to_string(view.rank) + " vectors");
   if (abs(determinant(basis.n)) != 1) refute("the determinant of the basis is not +-1");
-  for (std::size_t i = 0; i < D; ++i) basis.b[i] = combination(basis.n[i], view.u);
+  for (int i = 0; i < 3; ++i) basis.b[i] = combination(basis.n[i], view.u);
   return basis;
 }
 
