@@ -5,6 +5,7 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/first_hit_columns.hpp"
+#include "cli/first_hit_proofs.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
@@ -25,7 +26,7 @@ struct FirstHitOptions {
   std::optional<std::string> scene;
   std::optional<double> radius, max_time, timeout;
   std::optional<std::uint64_t> digits, jobs;
-  bool detail = false, strict = false;
+  bool detail = false, strict = false, prove = false, records = false;
 };
 
 // The answers in the order of the lines, though those to bad lines are there at once and those to queries
@@ -107,8 +108,10 @@ int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
   if (engine.is_command())
     throw InputError(option + ": not with cmd: engines, which read and write streams in JSON");
   if (!options.scene) throw InputError(option + ": needs --scene, for columns hold no scene");
-  if (options.digits || options.detail)
-    throw InputError((options.digits ? "--digits" : "--detail") +
+  if (options.digits || options.detail || options.prove)
+    throw InputError((options.digits   ? "--digits"
+                      : options.detail ? "--detail"
+                                       : "--prove") +
                      std::string(": only streams in JSON have it (--format ndjson)"));
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = engine};
@@ -135,6 +138,8 @@ int act_on_lines(const FirstHitOptions& options) {
     answerer->set_scene(*initial);
   }
   QueryStream stream(options.queries, initial, unknown);
+  if (options.records) return write_records(stream, options.queries);
+  if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());
   answerer->on_reply([&](const question::Reply& reply) { order.answered(reply.answer); });
@@ -164,7 +169,19 @@ int act_on_lines(const FirstHitOptions& options) {
   return stream.had_bad_input() ? kBadInput : kDone;
 }
 
+void check_proving(const FirstHitOptions& options) {
+  if (options.records && !options.prove) throw InputError("--records: needs --prove");
+  if (options.records && options.engine != "oracle")
+    throw InputError("--records: holds exact answers; leave --engine out");
+  if (options.prove && (options.digits || options.detail || options.max_time))
+    throw InputError(std::string(options.digits   ? "--digits"
+                                 : options.detail ? "--detail"
+                                                  : "--max-time") +
+                     ": not with --prove, which proves the whole answer, with 40 digits");
+}
+
 int act(const FirstHitOptions& options) {
+  check_proving(options);
   switch (index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format")) {
     case 0:
       return act_on_lines(options);
@@ -193,6 +210,10 @@ Command first_hit_command() {
                "answer `later` if nothing is entered before time T"},
               {"--detail", &options->detail, "",
                "add the collision point, the outward normal and the impact parameter"},
+              {"--prove", &options->prove, "",
+               "add to each answer that is exactly right 40 digits of its time, and a proof that any of the "
+               "checkers goes through (docs/certificates.md); status 1 if one is not"},
+              {"--records", &options->records, "", "with --prove: write a golden set (docs/formats.md)"},
               {"--format", &options->format, "ndjson|csv|npy",
                "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
                "docs/formats.md), which need --scene"},
@@ -207,7 +228,9 @@ Command first_hit_command() {
           "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
           "--format "
           "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
-          "answers.npy",
+          "answers.npy\n"
+          "  lorentz sample --scene square --radius 0.1 --count 3 | lorentz first-hit --prove --records | "
+          "lorentz golden verify -",
           [options] { return act(*options); }};
 }
 

@@ -94,7 +94,7 @@ void print_golden_set(const std::vector<ExportedCase>& examples,
     const Query& query = one.shrunk.query;
     golden::Record record;
     try {
-      record = maker->make(golden::question_of(query, scene.dimension), query).record;
+      record = maker->make(golden::question_of(query, scene), query).record;
     } catch (const golden::ProofTooLong& error) {
       say("left out: {}", error.what());
       continue;
@@ -106,7 +106,7 @@ void print_golden_set(const std::vector<ExportedCase>& examples,
     tags.emplace(record.tags[1], "what was found: an answer of the kind `" + finding.kind + "`");
     if (finding.shrunk.scene != scene_line) lines += finding.shrunk.scene + '\n';
     scene_line = finding.shrunk.scene;
-    golden::append_record_line(lines, record, scene.dimension);
+    golden::append_record_line(lines, record, scene);
   }
   if (examples.empty()) explain_targets(campaigns, tags);
   header.count = ids.size();

@@ -10,5 +10,6 @@ Command golden_check_command();
 Command golden_verify_command();
 Command golden_list_command();
 Command golden_explain_command();
+Command golden_export_command();
 
 }  // namespace lorentz::cli

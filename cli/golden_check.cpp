@@ -41,7 +41,7 @@ struct Failure {
   oracle::Judgement judgement;
   std::optional<double> margin;
   Answer expect, given;
-  int dimension;
+  Components components;
   std::string reason;  // why, in words
 };
 
@@ -120,8 +120,7 @@ class EngineCheck {
     if (!failed || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, question.margin, question.exact, reply.answer, place.scene().dimension,
-                         ""});
+                         judgement, question.margin, question.exact, reply.answer, place.scene(), ""});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
@@ -152,8 +151,8 @@ std::vector<std::string> cells_of(const std::string& set, const std::string& tag
 const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agree",       "ill-posed",
                                         "wrong", "wrong time", "undecided", "unsupported", "error"};
 
-std::string short_answer(const Answer& answer, int dimension) {
-  std::string text = json::text_of(json_of(answer, dimension));
+std::string short_answer(const Answer& answer, const Components& count) {
+  std::string text = json::text_of(json_of(answer, count));
   text = text.substr(1, text.size() - 2);
   constexpr std::size_t kLongest = 160;
   return shortened(text, kLongest);
@@ -162,8 +161,8 @@ std::string short_answer(const Answer& answer, int dimension) {
 std::string describe(const Failure& failure) {
   std::string text =
       fmt::format("  {} {} ({}): expected {}, got {}\n    ", printable(failure.set), printable(failure.id),
-                  printable(failure.tags), short_answer(failure.expect, failure.dimension),
-                  short_answer(failure.given, failure.dimension));
+                  printable(failure.tags), short_answer(failure.expect, failure.components),
+                  short_answer(failure.given, failure.components));
   if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
   const bool of_time = failure.given.outcome == Outcome::hit && failure.expect.outcome == Outcome::hit &&
                        failure.given.obstacle == failure.expect.obstacle;

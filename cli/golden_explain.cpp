@@ -23,17 +23,17 @@ struct ExplainOptions {
 };
 
 std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, const ObstacleId& hit,
-                         int dimension) {
+                         const Components& count) {
   report::Table table({"obstacle", "time nearest", "passed by (radii)", "margin (ulps)", ""});
   for (const oracle::PassedObstacle& one : passed)
-    table.add({report::name_of(one.obstacle, dimension), one.time_decimal, fmt::format("{:.6g}", one.gap),
+    table.add({report::name_of(one.obstacle, count), one.time_decimal, fmt::format("{:.6g}", one.gap),
                fmt::format("{:.6g}", one.margin), one.obstacle == hit ? "hit" : ""});
   return table.text();
 }
 
 void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::size_t most) {
   const golden::Record& record = read.record;
-  const int dimension = reader.scene().dimension;
+  const Components count(reader.scene());
   print(fmt::format("{}:{}: {}\n\n{}\n{}\n\n", reader.path(), read.line, record.id, reader.scene_line(),
                     read.text));
   for (const auto& [tag, note] : reader.header().tags)
@@ -53,15 +53,14 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
   }
   const bool hit = expect.outcome == Outcome::hit;
   print(fmt::format("\n{} {}{}\n", hit ? "It hits" : "It starts inside",
-                    report::name_of(expect.obstacle, dimension),
-                    hit ? " at t = " + expect.time_decimal : ""));
+                    report::name_of(expect.obstacle, count), hit ? " at t = " + expect.time_decimal : ""));
   if (hit)
     print(fmt::format("An ulp in each input moves that time by up to {:.4g} of its ulps (its condition).\n",
                       margins.condition(*read.query, expect)));
-  print(report::decision_text(*margins.hardest_decision(*read.query, expect), dimension) + '\n');
+  print(report::decision_text(*margins.hardest_decision(*read.query, expect), count) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
-          passed_table(margins.passed(*read.query, expect, most), expect.obstacle, dimension));
+          passed_table(margins.passed(*read.query, expect, most), expect.obstacle, count));
 }
 
 // The tags are what the record is out to break: they name it, and their notes explain it.

@@ -197,11 +197,12 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   print(line("horizon", with_horizon ? horizon_verdict(scene) : "not searched, as asked for"));
 }
 
-void add_contact(json::Members& object, const oracle::Contact& contact, int dimension) {
-  object.add("lattice", contact.lattice, "atom", contact.atom, "other_lattice", contact.other_lattice,
-             "other_atom", contact.other_atom, "cell",
-             contact.cell ? std::optional(components(*contact.cell, dimension)) : std::nullopt, "kind",
-             contact.overlap ? "overlap" : "touch");
+void add_contact(json::Members& object, const oracle::Contact& contact, const Components& count) {
+  object.add(
+      "lattice", contact.lattice, "atom", contact.atom, "other_lattice", contact.other_lattice, "other_atom",
+      contact.other_atom, "cell",
+      contact.cell ? std::optional(components(*contact.cell, count.of_cells(contact.lattice))) : std::nullopt,
+      "kind", contact.overlap ? "overlap" : "touch");
 }
 
 void show_json(const std::string& name, const std::string& file, const Scene& scene,
@@ -212,9 +213,7 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
                                            : std::nullopt);
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
   const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));
-  const auto contact = [&](json::Members& one, const oracle::Contact& c) {
-    add_contact(one, c, scene.dimension);
-  };
+  const auto contact = [&](json::Members& one, const oracle::Contact& c) { add_contact(one, c, scene); };
   const auto filling = [&](double Filling::*number) {
     return findings.filling ? std::optional(*findings.filling.*number) : std::nullopt;
   };

@@ -75,14 +75,24 @@ def answer(formula, x, v, r):
     return {"outcome": "hit", "lattice": 0, "atom": 0, "cell": [], "time": time}
 
 
+def in_space(a):
+    return [float(c) if not isinstance(c, str) else float.fromhex(c) for c in a] + [0.0] * (3 - len(a))
+
+
 def engine(formula):
-    radius = None
+    ball = None
     for line in sys.stdin:
         query = json.loads(line)
         if "scene" in query:
-            radius = query["scene"]["lattices"][0]["atoms"][0]["radius"]
+            ball = query["scene"]["lattices"][0]["atoms"][0]
             continue
-        said = answer(formula, [float(c) for c in query["x"]], [float(c) for c in query["v"]], radius)
+        if "radius" not in ball:
+            said = {"outcome": "error", "message": "does balls only", "reason": "unsupported"}
+        elif "from" in query:  # the ball that the ray leaves: there is no other
+            said = {"outcome": "never"}
+        else:
+            x = [a - c for a, c in zip(in_space(query["x"]), in_space(ball["position"]))]
+            said = answer(formula, x, in_space(query["v"]), float(ball["radius"]))
         print(json.dumps({"id": query.get("id"), **said}), flush=True)
 
 

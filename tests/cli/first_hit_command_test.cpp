@@ -173,3 +173,39 @@ TEST_CASE("The paper's example has a direction that is not what it seems", "[cli
       R"({"id":45,"outcome":"hit","lattice":0,"atom":0,"cell":[1933508068799870,1933508068799870],"time":2734393333854587})"));
   CHECK(contains(published.out, R"({"id":45,"outcome":"never"})"));
 }
+
+TEST_CASE("Answers with their proofs, and golden sets of them", "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string row =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[[2,0]],"atoms":[{"position":[0,0],"radius":0.25}]}]}})";
+  const std::string missed = R"({"id":"missed","x":[1,1],"v":[1,2]})",
+                    bad = R"({"id":"bad","x":[0],"v":[1,0]})";
+  const auto queries = folder.write("q", kScene + kGood + "\n" + row + "\n" + missed);
+  const Run run = folder.lorentz("first-hit --prove " + queries);
+  INFO(run.out << run.err);
+  CHECK((run.status == 0 && lines(run.out) == 2));
+  CHECK(contains(
+      run.out, R"("time_decimal":"0.2500000000000000000000000000000000000000","certificate":{"windows":[{)"));
+  CHECK(contains(run.out,
+                 R"({"id":"missed","outcome":"never","certificate":{"windows":[{"lattice":0,"atom":0,)"));
+  CHECK(contains(run.out, R"("to":"inf","basis":[[1]]}]}})"));
+  const auto records = folder.write("set", folder.lorentz("first-hit --prove --records " + queries).out);
+  CHECK(contains(folder.lorentz("golden verify " + records).out, "2 records, all verified"));
+  CHECK(folder.run("python3 " LORENTZ_SOURCE_DIR "/data/check.py " + records).status == 0);
+  // Another answer has none, and says so; a bad line has none either.
+  const Run other = folder.lorentz("first-hit --prove --engine 'cmd:" LORENTZ_NAIVE_ENGINE "' " + queries);
+  CHECK_FALSE((other.status == 0 && other.err.empty() && !contains(other.out, "certificate")));
+  const auto with_bad = folder.write("b", kScene + kGood + "\n" + bad);
+  CHECK(folder.lorentz("first-hit --prove " + with_bad).status == 2);
+  CHECK(folder.lorentz("first-hit --prove --records " + with_bad).status == 2);
+  const auto liar =
+      folder.write("liar", R"(exec sed -un 's/.*"id":\([^,]*\),.*/{"id":\1,"outcome":"never"}/p')");
+  const Run never =
+      folder.lorentz("first-hit --prove --engine 'cmd:sh " + liar + "' " + folder.write("g", kScene + kGood));
+  INFO(never.out << never.err);
+  CHECK((never.status == 1 && contains(never.err, "can't be proved") && !contains(never.out, "certificate")));
+  for (const std::string options :
+       {"--records", "--prove --digits 3", "--prove --detail", "--prove --max-time 1",
+        "--prove --records --engine walk", "--prove --format csv --scene square"})
+    CHECK(folder.lorentz("first-hit " + options + " " + queries).status == 2);
+}

@@ -1,0 +1,114 @@
+#include "cli/first_hit_proofs.hpp"
+
+#include <set>
+
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/output.hpp"
+#include "files/messages.hpp"
+#include "golden/maker.hpp"
+#include "src/exchange/exchange_write.hpp"
+#include "src/problem/same_answer.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+// Calls with(maker, item) for each query, and other(item) for each line that is neither scene nor query. What
+// proves in a scene is made once.
+template <class With, class Other>
+void each_query(QueryStream& stream, const With& with, const Other& other) {
+  std::optional<golden::Maker> maker;
+  for (StreamItem item; stream.next(item);) {
+    if (item.kind == StreamItem::Kind::scene) {
+      maker.reset();
+    } else if (item.kind == StreamItem::Kind::query) {
+      if (!maker) maker.emplace(*stream.scene());
+      with(*maker, item);
+    } else {
+      other(item);
+    }
+  }
+}
+
+void append_proved_line(std::string& out, const Id& id, const golden::Proved& proved,
+                        const Components& count) {
+  json::append(out, [&](json::Members& line) {
+    line.add("id", json::Raw{id});
+    add_answer(line, proved.exact, count);
+    line.add("certificate",
+             [&](json::Members& object) { golden::add_certificate(object, proved.certificate, count); });
+  });
+  out += '\n';
+}
+
+}  // namespace
+
+int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
+  Output output;
+  Answer answer;
+  long unproved = 0;
+  answerer.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
+  if (stream.scene()) answerer.set_scene(*stream.scene());
+  each_query(
+      stream,
+      [&](const golden::Maker& maker, const StreamItem& item) {
+        answerer.set_scene(*stream.scene());
+        answerer.ask(item.id, item.query);
+        answerer.drain();
+        try {
+          golden::Proved proved = maker.prove(item.query);
+          if (!same_answer(answer, proved.exact)) throw InputError("it is not the exact answer");
+          append_proved_line(output.buffer(), item.id, proved, *stream.scene());
+        } catch (const InputError&) {
+          ++unproved;
+          append_answer_line(output.buffer(), item.id, answer, *stream.scene());
+        }
+        output.flush_if_due();
+      },
+      [&](const StreamItem& item) {
+        append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
+      });
+  answerer.finish();
+  output.flush();
+  if (unproved > 0) say("{} of the answers can't be proved: they have no certificate", unproved);
+  if (answerer.failed()) return kFailed;
+  if (stream.had_bad_input()) return kBadInput;
+  return unproved > 0 ? kDisagreement : kDone;
+}
+
+int write_records(QueryStream& stream, const std::string& source) {
+  std::string lines, scene_line;
+  std::set<std::string> ids;
+  long unproved = 0;
+  each_query(
+      stream,
+      [&](const golden::Maker& maker, const StreamItem& item) {
+        try {
+          golden::Record record =
+              maker.make(golden::question_of(item.query, *stream.scene()), item.query).record;
+          if (!ids.insert(record.id).second) return;
+          record.tags = {"given"};
+          if (maker.scene_line() != scene_line) lines += maker.scene_line() + '\n';
+          scene_line = maker.scene_line();
+          golden::append_record_line(lines, record, *stream.scene());
+        } catch (const golden::ProofTooLong& error) {
+          ++unproved;
+          say("left out: {}", error.what());
+        }
+      },
+      [](const StreamItem&) {});
+  golden::Header header{.name = "queries",
+                        .description = "Given queries, answered exactly.",
+                        .generator = "lorentz first-hit --prove --records " + shell_quoted(source),
+                        .version = LORENTZ_VERSION,
+                        .count = ids.size(),
+                        .tags = {{"given", "a query that was given"}}};
+  std::string first;
+  golden::append_header_line(first, header);
+  print(first + lines);
+  if (stream.had_bad_input()) return kBadInput;
+  return unproved > 0 ? kDisagreement : kDone;
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,16 @@
+// lorentz first-hit --prove: answers with their proofs, line by line, or as a golden set.
+#pragma once
+
+#include "cli/query_stream.hpp"
+#include "question/answerer.hpp"
+
+namespace lorentz::cli {
+
+/// Adds `time_decimal` and `certificate` to each answer that is exactly right; others stand without, and are
+/// counted. Returns the exit status.
+int answer_with_proofs(QueryStream& stream, question::Answerer& answerer);
+
+/// Writes a golden set of the exact answers. `source` is where the queries come from. Returns the exit status.
+int write_records(QueryStream& stream, const std::string& source);
+
+}  // namespace lorentz::cli
