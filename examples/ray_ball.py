@@ -84,10 +84,12 @@ def engine(formula):
     for line in sys.stdin:
         query = json.loads(line)
         if "scene" in query:
-            ball = query["scene"]["lattices"][0]["atoms"][0]
+            lattices = query["scene"]["lattices"]
+            atoms = [atom for lattice in lattices for atom in lattice["atoms"]]
+            ball = atoms[0] if len(atoms) == 1 and not lattices[0]["vectors"] and "radius" in atoms[0] else None
             continue
-        if "radius" not in ball:
-            said = {"outcome": "error", "message": "does balls only", "reason": "unsupported"}
+        if ball is None:
+            said = {"outcome": "error", "message": "does single balls only", "reason": "unsupported"}
         elif "from" in query:  # the ball that the ray leaves: there is no other
             said = {"outcome": "never"}
         else:
