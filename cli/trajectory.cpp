@@ -74,11 +74,12 @@ std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
       options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
 }
 
-std::string cell_text(const ObstacleId& obstacle, int dimension, const char* separator) {
+// As many columns as there are dimensions, of which a lattice of fewer vectors leaves the last empty.
+std::string cell_columns(const ObstacleId& obstacle, const Components& count) {
   std::string text;
-  for (int i = 0; i < dimension; ++i) {
-    if (i > 0) text += separator;
-    append_integer(text, obstacle.cell[i]);
+  for (int i = 0; i < count.of_vectors(); ++i) {
+    if (i > 0) text += ',';
+    if (i < count.of_cells(obstacle.lattice)) append_integer(text, obstacle.cell[i]);
   }
   return text;
 }
@@ -107,9 +108,10 @@ class StartReport {
     if (options.csv) csv_ = std::make_unique<WholeFile>(*options.csv);
   }
 
-  void begin(const Id& id, int dimension) {
+  void begin(const Id& id, const Components& count) {
+    const int dimension = count.of_vectors();
     id_ = id;
-    dimension_ = dimension;
+    components_ = count;
     number_ = 0;
     if (csv_ && columns_ == 0) {
       columns_ = dimension;
@@ -123,7 +125,7 @@ class StartReport {
     ++number_;
     json::append(out_.buffer(), [&](json::Members& line) {
       line.add("id", json::Raw{id_}, "collision", number_);
-      add_obstacle(line, c.obstacle, dimension_);
+      add_obstacle(line, c.obstacle, components_);
       line.add("time", c.time);
       add_state(line, c);
       line.add("bits", c.bits);
@@ -133,7 +135,7 @@ class StartReport {
     out_.flush_if_due();
     if (!csv_) return;
     csv_->write(fmt::format("{},{},{},{},{},{},{}", in_table(id_), number_, c.obstacle.lattice,
-                            c.obstacle.atom, cell_text(c.obstacle, dimension_, ","), c.time, c.bits));
+                            c.obstacle.atom, cell_columns(c.obstacle, components_), c.time, c.bits));
     csv_->write(rival ? fmt::format(",{:.1f}\n", rival->bits_right()) : "\n");
   }
 
@@ -160,7 +162,8 @@ class StartReport {
   const TrajectoryOptions& options_;
   std::unique_ptr<WholeFile> csv_;
   Id id_;
-  int dimension_ = 0, columns_ = 0;
+  Components components_ = 0;
+  int columns_ = 0;
   std::uint64_t number_ = 0;
 };
 
@@ -186,6 +189,8 @@ class Picture {
   void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
     if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
       drawing_.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
+    if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
+      drawing_.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
     if (!rival || !rival->diverged()) return;
     rival->go_on(arrival.collisions);
     drawing_.other = rival->path();
@@ -219,7 +224,7 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
     picture = &run.picture.emplace();
     picture->begin(scene, start);
   }
-  run.report.begin(id, scene.dimension);
+  run.report.begin(id, oracle::nearest(scene));
   const Arrival arrival =
       Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
         if (rival) rival->meet(collision);

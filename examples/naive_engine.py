@@ -77,7 +77,7 @@ def answer(query, lattices):
     if lattices is None:
         return {"outcome": "error", "message": "no scene"}
     if not lattices:
-        return {"outcome": "error", "message": "balls only", "reason": "unsupported"}
+        return {"outcome": "error", "message": "crystals of balls only", "reason": "unsupported"}
     source = (f := query.get("from")) and (f["lattice"], f["atom"], [int(n) for n in f["cell"]])
     return first_hit(lattices, query["x"], query["v"], source)
 
@@ -89,8 +89,9 @@ for line in filter(str.strip, sys.stdin):
         item = json.loads(line)
         identity = item.get("id")
         if "scene" in item:
-            lattices, scene = None, item["scene"]["lattices"]
-            lattices = [Lattice(a) for a in scene] if all("radius" in b for a in scene for b in a["atoms"]) else []
+            lattices, scene, d = None, item["scene"]["lattices"], item["scene"]["dimension"]
+            mine = all(len(a["vectors"]) == d and all("radius" in b for b in a["atoms"]) for a in scene)
+            lattices = [Lattice(a) for a in scene] if mine else []
             continue
         result = answer(item, lattices)
     except Exception as error:  # whatever is wrong with a line, the next one may be right

@@ -82,7 +82,12 @@ double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obst
 
 }  // namespace
 
-std::string draw_path(const PathDrawing& drawing) {
+std::string draw_path(const PathDrawing& given) {
+  PathDrawing drawing = given;
+  drawing.scene = with_cells(given.scene);
+  if (const auto& v = given.escape)
+    drawing.path.push_back(
+        plus(given.path.back(), 2 * cell_size(given.scene) / std::hypot((*v)[0], (*v)[1]), *v));
   const PathFrame frame(drawing);
   Svg svg;
   const bool all_obstacles = add_passed_obstacles(svg, drawing, frame);

@@ -58,6 +58,7 @@ void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>
     }
     if (!(std::fabs(at) + half < 1e15))
       throw InputError("this is too far from the origin, or too fine, to be drawn");
+    if (i >= scene.lattices[obstacle.lattice].rank(d)) continue;  // the lattice does not repeat there
     first[i] = static_cast<std::int64_t>(std::ceil(at - half));
     last[i] = static_cast<std::int64_t>(std::floor(at + half));
     cells *= 2 * half + 1;
@@ -121,18 +122,24 @@ void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std
 }
 
 double cell_size(const Scene& scene) {
-  return std::pow(cell_volume(scene.lattices[0], scene.dimension), 1.0 / scene.dimension);
+  const Scene whole = with_cells(scene);
+  return std::pow(cell_volume(whole.lattices[0], whole.dimension), 1.0 / whole.dimension);
 }
 
 Vec cell_at(const Scene& scene, const Vec& point) {
-  return cell_at(scene.lattices[0].vectors, scene.dimension, point);
+  return cell_at(scene, scene.lattices[0].vectors, point, 1);
 }
 
-Vec cell_at(const std::array<Vec, 3>& u, int dimension, const Vec& point) {
-  const auto rows = dual_of(u, dimension);
+Vec cell_at(const Scene& scene, const std::array<Vec, 3>& u, const Vec& point, double cells) {
+  const Lattice& lattice = scene.lattices[0];
+  const auto rows = dual_of(u, scene.dimension);
   Vec corner{};
-  for (int i = 0; i < dimension; ++i)
-    for (int k = 0; k < 3; ++k) corner[k] += std::floor(dot(rows[i], point)) * u[i][k];
+  for (int i = 0; i < scene.dimension; ++i) {
+    const bool repeats = i < lattice.rank(scene.dimension);
+    const double n =
+        repeats ? std::floor(dot(rows[i], point)) : dot(rows[i], lattice.atoms[0].position) - cells / 2;
+    corner = sum(corner, scaled(u[i], n));
+  }
   return corner;
 }
 
@@ -162,8 +169,25 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
   return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
 }
 
-Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights) {
-  if (!is_crystal(scene)) throw InputError("draws crystals only, lattices that repeat in all directions");
+Scene with_cells(Scene scene) {
+  const int d = scene.dimension;
+  for (Lattice& lattice : scene.lattices) {
+    double size = 0;
+    for (const Atom& atom : lattice.atoms)
+      size = std::max(size, length(plus(atom.position, -1, lattice.atoms[0].position)) + reach_of(atom, d));
+    auto& u = lattice.vectors;
+    const int rank = lattice.rank(d);
+    if (rank == 0) u[0] = {1, 0, 0};
+    if (rank <= 1)
+      u[1] = d == 2 || std::hypot(u[0][0], u[0][1]) > 0 ? Vec{-u[0][1], u[0][0], 0} : Vec{1, 0, 0};
+    if (rank <= 2 && d == 3) u[2] = cross(u[0], u[1]);
+    for (int i = rank; i < d; ++i) u[i] = scaled(u[i], 3 * size / length(u[i]));
+  }
+  return scene;
+}
+
+Drawing draw_scene(const Scene& given, const DrawOptions& options, const std::vector<DrawnFlight>& flights) {
+  const Scene scene = with_cells(given);
   return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
                               : draw_scene_3d(scene, options, flights);
 }

@@ -197,12 +197,12 @@ class Picture2D {
       window_.box = {{x0, y0, 0}, {x1, y1, 0}};
       corner_ = cell_at(scene, window_.box.centre());
     } else {
-      corner_ = lines_.empty() ? Vec{} : cell_at(scene, lines_[0].from);
+      corner_ = cell_at(scene, lines_.empty() ? Vec{} : lines_[0].from);
       window_.box = box_for(scene, corner_, lines_);
     }
     choose_obstacles();
     for (const Vec& p : corners_of(scene, corner_))
-      if (window_.box.contains(p, 0))
+      if (window_.box.contains(p, 0) && scene.lattices[0].missing == 0)
         legend_.cell = scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell";
   }
 
@@ -239,7 +239,7 @@ void Picture2D::choose_obstacles() {
 }
 
 void Picture2D::add_contents() {
-  add_grid(svg_, scene_, window_, corner_);
+  if (scene_.lattices[0].missing == 0) add_grid(svg_, scene_, window_, corner_);
   for (std::size_t i = 0; i < options_.ways.size(); ++i)
     if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
   for (const Placed& obstacle : obstacles_) add_disc(svg_, scene_, window_, obstacle, false, enlarged_);

@@ -42,9 +42,11 @@ class Picture3D {
   Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights)
       : scene_(scene),
         options_(options),
-        cell_(shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
+        cell_(scene.lattices[0].missing > 0
+                  ? ShownCell{scene.lattices[0].vectors}
+                  : shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
     lines_ = lines_of(scene, flights, drawing_.remarks);
-    if (!lines_.empty()) corner_ = cell_at(cell_.vectors, 3, lines_[0].from);
+    corner_ = cell_at(scene, cell_.vectors, lines_.empty() ? Vec{} : lines_[0].from, 2);
     choose_obstacles();
     explain();
     fit();
@@ -154,10 +156,11 @@ void Picture3D::choose_obstacles() {
 // What the legend will have to say.
 void Picture3D::explain() {
   for (const SeenObstacle& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
-  legend_.cell = cell_.primitive_cells > 1
-                     ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
-                 : scene_.lattices.size() > 1 ? "a cell of lattice 0"
-                                              : "a primitive cell";
+  if (scene_.lattices[0].missing == 0)
+    legend_.cell = cell_.primitive_cells > 1
+                       ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
+                   : scene_.lattices.size() > 1 ? "a cell of lattice 0"
+                                                : "a primitive cell";
   for (const DrawnLine& line : lines_) {
     const Outcome outcome = line.flight->answer.outcome;
     legend_.never |= outcome == Outcome::never;
@@ -182,7 +185,8 @@ Axis longer(const Axis& axis) {
 }
 
 void Picture3D::fit() {
-  box_.low = box_.high = eye_(corner_);
+  const bool has_cell = scene_.lattices[0].missing == 0;
+  box_.low = box_.high = has_cell || seen_.empty() ? eye_(corner_) : seen_[0].view;
   for (const SeenObstacle& seen : seen_) {
     const auto [rx, ry, angle] = seen.shape;
     const double half[] = {std::hypot(rx * std::cos(angle), ry * std::sin(angle)),
@@ -197,7 +201,7 @@ void Picture3D::fit() {
     box_.include(eye_(line.to));
   }
   const double reach = options_.ways.empty() ? 1 : cells_;
-  for (int n = 0; n < 8; ++n) {
+  for (int n = 0; n < (has_cell ? 8 : 0); ++n) {
     Vec p = corner_;
     for (int i = 0; i < 3; ++i)
       if (n >> i & 1) p = plus(p, reach, cell_.vectors[i]);
@@ -323,6 +327,7 @@ void Picture3D::add_cylinders() {
 }
 
 void Picture3D::add_cell() {
+  if (scene_.lattices[0].missing > 0) return;
   const auto& u = cell_.vectors;
   for (int i = 0; i < 3; ++i)
     for (int n = 0; n < 4; ++n) {

@@ -56,6 +56,7 @@ IntegerScene<D> times_unit(const RationalScene& scene, const Z& unit) {
   IntegerScene<D> result;
   for (const auto& lattice : scene.lattices) {
     auto& its = result.lattices.emplace_back();
+    its.rank = D - static_cast<std::size_t>(lattice.missing);
     for (std::size_t i = 0; i < D; ++i) its.vectors[i] = times<D>(lattice.vectors[i], unit);
     for (const auto& atom : lattice.atoms) {
       auto& its_atom = its.atoms.emplace_back();

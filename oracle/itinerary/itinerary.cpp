@@ -59,19 +59,19 @@ void check(const RationalScene& scene) {
   for (std::size_t l = 0; l < problem.scene.lattices.size(); ++l) {
     const auto& lattice = problem.scene.lattices[l];
     const std::string place = "lattices[" + std::to_string(l) + "]";
-    Basis<D> basis;
-    const auto independent = [&](const std::array<ZVec<D>, D>& vectors) {
-      for (std::size_t i = 0; i < D; ++i) basis[i].p = vectors[i];
+    const auto independent = [&](const std::array<ZVec<D>, D>& vectors, std::size_t rank) {
+      Basis<D> basis;
+      for (std::size_t i = 0; i < rank; ++i) basis[i].p = vectors[i];
+      complete<D>(basis, rank);
       return determinant<D>(basis) != 0;
     };
-    if (scene.lattices[l].missing > 0)
-      throw InputError(place + ".vectors: itineraries, and scenes of rational numbers, are of crystals only");
-    if (!independent(lattice.vectors)) throw InputError(place + ".vectors: are linearly dependent");
+    if (!independent(lattice.vectors, lattice.rank))
+      throw InputError(place + ".vectors: are linearly dependent");
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const auto& atom = lattice.atoms[a];
       const std::string its = place + ".atoms[" + std::to_string(a) + "]";
       if (!atom.semiaxes && atom.radius <= 0) throw InputError(its + ".radius: must be above 0");
-      if (atom.semiaxes && !independent(*atom.semiaxes))
+      if (atom.semiaxes && !independent(*atom.semiaxes, D))
         throw InputError(its + ".semiaxes: are linearly dependent");
     }
   }

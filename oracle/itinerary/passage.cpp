@@ -28,9 +28,10 @@ Passage<D>::Passage(Route<D>& route, long bits) : route_(route), bits_(bits), fr
   const BallVec<D> v = velocity_of<D>(route.start, route.problem.unit);
   const Bound size = largest_size<D>(v);
   if (size.is_zero()) throw InputError("v: is zero");
-  // As large as a cell, so that times are as large as free paths.
+  // As large as a cell, so that times are as large as free paths; single obstacles have none.
   for (const Z& length : route.problem.scene.lattices[0].vectors[0])
     cell_ = larger(cell_, Ball(length).size());
+  if (cell_.is_zero()) cell_ = route.sight.least_radius();
   velocity_exponent_ = cell_.exponent() - size.exponent();
   typename ErrorBox<N>::Bounds widths;
   for (std::size_t i = 0; i < D; ++i) {

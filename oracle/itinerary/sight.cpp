@@ -52,6 +52,29 @@ ExactQuery<D> later_ray(const ExactQuery<D>& ray, const Z& theta, long bits, con
   return ExactQuery<D>(x, ray.length_exponent - bits, ray.velocity.v, ray.velocity_exponent, from);
 }
 
+// How far a is from the span of a lattice's vectors.
+Ball beside_span(const IntegerScene<2>::Lattice& lattice, const BallVec<2>& a) {
+  if (lattice.rank == 0) return sqrt(dot(a, a));
+  const BallVec<2> b{Ball(lattice.vectors[0][0]), Ball(lattice.vectors[0][1])};
+  return sqrt(across_squared(a, b) / dot(b, b));
+}
+Ball beside_span(const IntegerScene<3>::Lattice& lattice, const BallVec<3>& a) {
+  if (lattice.rank == 0) return sqrt(dot(a, a));
+  const bool is_row = lattice.rank == 1;
+  const ZVec<3> exact = is_row ? lattice.vectors[0] : cross(lattice.vectors[0], lattice.vectors[1]);
+  const BallVec<3> b{Ball(exact[0]), Ball(exact[1]), Ball(exact[2])};
+  return is_row ? sqrt(across_squared(a, b) / dot(b, b)) : dot(a, b) / sqrt(dot(b, b));
+}
+
+// An obstacle lies within so much of its centre.
+template <std::size_t D>
+Bound reach_of(const typename IntegerScene<D>::Atom& atom) {
+  if (!atom.semiaxes) return Ball(atom.radius).size();
+  Bound reach;
+  for (const ZVec<D>& axis : *atom.semiaxes) reach += Ball(ceil_sqrt(dot(axis, axis))).size();
+  return reach;
+}
+
 template <std::size_t D>
 bool all_zero(const ZVec<D>& a) {
   return std::all_of(a.begin(), a.end(), [](const Z& component) { return component == 0; });
@@ -206,7 +229,24 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
     if (first.around && !(allowed < y_error + Bound(D) * Bound::power_of_two(-bits)) &&
         smallest_around(shrunk(level), ray))
       return Unseen::around;
-    if (first.around || !first.earliest.found()) return Doubt::look_closer;
+    if (first.around) return Doubt::look_closer;
+    // What the deviation of the particle from the ray makes of the question, within this time.
+    const auto doubt_within = [&](const Bound& time) -> std::optional<Doubt> {
+      const Bound of_state = y_error + time * v_error;
+      const Bound of_rounding = Bound(D) * (Bound(1) + time) * Bound::power_of_two(-bits);
+      if (allowed < of_state + of_state) return Doubt::grow_less;
+      if (!(allowed < of_rounding + of_rounding)) return std::nullopt;
+      bits += of_rounding.exponent() - allowed.exponent() + 4;
+      return Doubt::look_closer;
+    };
+    if (!first.earliest.found()) {
+      const Bound time = time_of_escape(seen);
+      if (!time.is_finite()) return Doubt::look_closer;
+      const auto doubt = doubt_within(time);
+      if (!doubt) return Unseen::never;
+      if (*doubt == Doubt::grow_less) return *doubt;
+      continue;
+    }
     const ObstacleId obstacle = obstacle_of(first.earliest.entry());
 
     State<D> state = seen.state;
@@ -220,16 +260,31 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
     const Bound time = collision->flight.size();
     if (!time.is_finite()) return Doubt::look_closer;
 
-    const Bound of_state = y_error + time * v_error;
-    const Bound of_rounding = Bound(D) * (Bound(1) + time) * Bound::power_of_two(-bits);
-    if (allowed < of_state + of_state) return Doubt::grow_less;
-    if (allowed < of_rounding + of_rounding) {
-      bits += of_rounding.exponent() - allowed.exponent() + 4;
+    if (const auto doubt = doubt_within(time)) {
+      if (*doubt == Doubt::grow_less) return *doubt;
       continue;
     }
     if (is_alone(level, ray, first.earliest.entry(), collision->flight)) return obstacle;
     return Doubt::look_closer;
   }
+}
+
+// With p beside the span of a lattice and u the part of v there, |p + t u| is more than an obstacle's reach from
+// (|p| + reach) / |u| on. Infinite if v may lie in the span, as it does in a crystal's.
+template <std::size_t D>
+Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
+  Bound latest;
+  BallVec<D> v = seen.state.v;
+  for (std::size_t i = 0; i < D; ++i) v[i] = v[i].widened(seen.v_error[i]);
+  for (const auto& lattice : integers_.lattices)
+    for (const auto& atom : lattice.atoms) {
+      BallVec<D> x;
+      for (std::size_t i = 0; i < D; ++i)
+        x[i] = (seen.state.y[i] + Ball(seen.centre[i] - atom.position[i])).widened(seen.y_error[i]);
+      const Bound slowest = lattice.rank < D ? beside_span(lattice, v).least_size() : Bound();
+      latest = larger(latest, (beside_span(lattice, x).size() + reach_of<D>(atom)) / slowest);
+    }
+  return latest;
 }
 
 // True if no grown obstacle but this one is entered by the ray before the true collision is over.

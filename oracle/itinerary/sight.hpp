@@ -34,7 +34,7 @@ struct Seen {
 
 enum class Unseen {
   around,  ///< an obstacle around the start
-  never,   ///< nothing is ever entered (exact states only)
+  never,   ///< nothing is ever entered: of exact states, and where no lattice is a crystal
   blurred  ///< the state is not known well enough
 };
 
@@ -56,6 +56,7 @@ class Sight {
   enum class Doubt { grow_less, look_closer };
   std::variant<ObstacleId, Unseen> next_exactly(const Seen<D>& seen) const;
   std::variant<ObstacleId, Unseen, Doubt> next_at(const Seen<D>& seen, long level);
+  Bound time_of_escape(const Seen<D>& seen) const;
   bool is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D>& entry, const Ball& flight);
   const ExactScene<D>& grown(long level);
   const ExactScene<D>& shrunk(long level);

@@ -87,6 +87,11 @@ class SightLine {
       for (Z& component : b.p) component = shifted_left(component, scene_.exponent - exponent());
     LatticePoint<D> offset;
     offset.p = centre_of<D>(scene_, l, a, offset.n, middle, exponent());
+    // What completes the lattice is made so long that no copy is in the ball.
+    const std::size_t rank = scene_.lattices[l].rank;
+    const Z far = ceil_sqrt(radius2) + ceil_sqrt(dot(offset.p, offset.p)) + 1;
+    for (std::size_t i = rank; i < D; ++i)
+      for (Z& component : basis[i].p) component *= far;
     const ZVec<D> coordinates = cramer(basis, offset.p);
     const Z det = determinant<D>(basis);
     for (std::size_t i = 0; i < D; ++i) offset.add_multiple(-floor_div(coordinates[i], det), basis[i]);
@@ -94,7 +99,7 @@ class SightLine {
     const RowVisitor<D> row = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
       LatticePoint<D> point = first;
       for (Z k = 0; k <= last && count <= most; ++k, point.add_multiple(1, step))
-        if (!is_copy(point.n, scene_.lattices[l].rank) && ++count <= most)
+        if (!is_copy(point.n, rank) && ++count <= most)
           found.obstacles.push_back({{l, a, to_cell<D>(point.n)}, rounded_vector(point.p)});
       return count > most;
     };

@@ -101,8 +101,8 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("rise: Fraction", lambda: oracle.convergents(Fraction(1, 3))),  # type: ignore[arg-type]
     ("rise: 9007199254740993", lambda: oracle.convergents(2**53 + 1)),
     ("x, v: need floats", lambda: oracle.margin(SQUARE, ["1/3", 0.4], V)),
-    ("from: is no finite number", lambda: lorentz.Certificate.from_dict(one_window(math.nan), 2)),
-    ("from: is no finite number", lambda: lorentz.Certificate.from_dict(one_window(-math.inf), 2)),
+    ("from: is not a finite number", lambda: lorentz.Certificate.from_dict(one_window(math.nan), 2)),
+    ("from: is not a finite number", lambda: lorentz.Certificate.from_dict(one_window(-math.inf), 2)),
     ("certificate: .*KeyError", lambda: lorentz.Certificate.from_dict({"windows": [{"lattice": 0}]}, 2)),
     ("proof: dict", lambda: oracle.check(SQUARE, X, V, lorentz.never(), {})),  # type: ignore[arg-type]
     ("answer: None", lambda: oracle.judge_answer(SQUARE, X, V, None)),  # type: ignore[arg-type]

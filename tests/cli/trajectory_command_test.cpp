@@ -208,3 +208,23 @@ TEST_CASE("survival says nothing of collisions beyond those that it looked at", 
   CHECK(folder.read("csv") == "collision,bits256\n1,1\n2,1\n3,1\n");
   CHECK_FALSE(contains(folder.lorentz("survival --radius 0.1 --count 4 --bits 53").out, "too small"));
 }
+
+TEST_CASE("trajectory ends where the particle escapes for ever", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string disc =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[0,0],"radius":1}]}]}})";
+  // From 10^30 radii away, along an irrational direction: hit, and missed.
+  const std::string x1 = R"({"id":1,"x":["-1000000000000000000000000000000","-14142135623730950488016887242)";
+  const std::string v = R"x("],"v":["1","sqrt(2)"]})x";
+  const auto starts =
+      folder.write("starts", disc + "\n" + x1 + "09.398" + v + "\n" + x1 + "07.398" + v + "\n");
+  const Run run = folder.lorentz("trajectory --collisions 4 --csv " + folder.file("table") + " --svg " +
+                                 folder.file("path") + " " + starts);
+  INFO(run.out << run.err);
+  CHECK((run.status == 0 && lines(run.out) == 3));
+  CHECK(contains(run.out, R"("lattice":0,"atom":0,"cell":[],"time":"1.0000000000000000e+30")"));
+  CHECK(contains(run.out, R"("end":"never","collisions":1)"));
+  CHECK(contains(run.out, R"("end":"never","collisions":0)"));
+  CHECK(contains(folder.read("table"), "\n1,1,0,0,,,1.0000000000000000e+30,"));
+  CHECK(contains(folder.read("path"), "</svg>"));
+}

@@ -78,7 +78,9 @@ int main(int argc, char** argv) {
       continue;
     }
     misbehave(fault, ++questions, scene);
-    if (item.kind == StreamItem::Kind::query) answer = answer_of(fault, *oracle, *margins, item.query);
+    if (item.kind == StreamItem::Kind::query)
+      answer = is_crystal(*scene) ? answer_of(fault, *oracle, *margins, item.query)
+                                  : Answer::unsupported_because("does crystals only");
     std::string text;
     append_answer_line(text, item.id, answer, scene ? scene->dimension : 2);
     std::cout << text << std::flush;
