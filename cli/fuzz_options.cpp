@@ -22,13 +22,14 @@ fuzz::Scope scope_of(const FuzzOptions& options) {
   using Scenes = fuzz::Scope::Scenes;
   fuzz::Scope scope;
   if (options.dimension) scope.dimension = static_cast<int>(*options.dimension);
-  constexpr Scenes kScenes[] = {Scenes::unit, Scenes::lattice, Scenes::any};
-  scope.scenes = kScenes[index_of_name(options.scenes, {"unit", "lattice", "any"}, "--scenes")];
+  constexpr Scenes kScenes[] = {Scenes::unit, Scenes::lattice, Scenes::ball, Scenes::any};
+  scope.scenes = kScenes[index_of_name(options.scenes, {"unit", "lattice", "ball", "any"}, "--scenes")];
   return scope;
 }
 
 std::string name_of_scenes(fuzz::Scope::Scenes scenes) {
-  return scenes == fuzz::Scope::Scenes::unit ? "unit" : "lattice";
+  using Scenes = fuzz::Scope::Scenes;
+  return scenes == Scenes::unit ? "unit" : scenes == Scenes::ball ? "ball" : "lattice";
 }
 
 // Of those that are named each must have such scenes; of all, those that have.
@@ -159,9 +160,9 @@ std::vector<Option> rows_of(FuzzOptions& options) {
            fmt::format("what to aim at (default: all): {}", fmt::join(names, ", "))},
           {"--dimension", Whole{&options.dimension, 2, 3}, "2|3",
            "only scenes in the plane, or in space (default: both)"},
-          {"--scenes", &options.scenes, "unit|lattice|any",
+          {"--scenes", &options.scenes, "unit|lattice|ball|any",
            "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
-           "ball), lattice (one, with one ball), any"},
+           "ball), lattice (one, with one ball), ball (one, that is not repeated), any"},
           {"-e,--engine", &options.engine, "ENGINE", names_for_help()},
           {"--time", Positive{&options.seconds}, "SECONDS", "how long (default: 60, or until --count)"},
           {"--count", Whole{&options.count, 1, kMostCases}, "N",

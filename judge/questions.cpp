@@ -174,7 +174,7 @@ fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {
     mixed |= !fuzz::Scope{Scenes::lattice, 0}.admits(scene);
   }
   fuzz::Scope scope;
-  if (!in_plane && !in_space) return scope;
+  if (!in_plane && !in_space) return {Scenes::ball, 0};  // no crystal: what is left are single balls
   scope.scenes = mixed ? Scenes::any : skewed ? Scenes::lattice : Scenes::unit;
   if (in_plane != in_space) scope.dimension = in_plane ? 2 : 3;
   return scope;

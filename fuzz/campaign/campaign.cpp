@@ -34,9 +34,11 @@ void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) 
 
 bool Scope::admits(const Scene& scene) const {
   if (dimension != 0 && scene.dimension != dimension) return false;
+  if (scenes == Scenes::any) return true;
   if (scenes == Scenes::unit) return is_unit_scene(scene);
-  return scenes == Scenes::any || (scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
-                                   scene.lattices[0].atoms[0].is_ball());
+  const Lattice& lattice = scene.lattices[0];
+  return scene.lattices.size() == 1 && lattice.atoms.size() == 1 && lattice.atoms[0].is_ball() &&
+         lattice.missing == (scenes == Scenes::ball ? scene.dimension : 0);
 }
 
 bool Scope::meets(const Target& target, std::uint64_t seed) const {

@@ -25,7 +25,8 @@ using question::MakeAnswerer;
 struct Scope {
   enum class Scenes {
     any,
-    lattice,  ///< one lattice, with one ball
+    lattice,  ///< one crystal lattice, with one ball
+    ball,     ///< one ball alone
     unit      ///< the same, square or cubic with spacing 1, the ball at the origin (is_unit_scene)
   };
   Scenes scenes = Scenes::any;

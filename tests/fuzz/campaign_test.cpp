@@ -249,17 +249,23 @@ TEST_CASE("What scopes admit", "[fuzz][campaign]") {
   Scene two = unit_scene(3, 0.2), stretched = unit_scene(2, 0.2);
   two.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
   stretched.lattices[0].vectors[0] = {2, 0};
+  Scene ball = unit_scene(2, 0.2), row = ball;
+  for (Vec& vector : ball.lattices[0].vectors) vector = {};
+  ball.lattices[0].missing = 2;
+  row.lattices[0].vectors[1] = {};
+  row.lattices[0].missing = 1;
   const auto admitted = [&](const fuzz::Scope& scope) {
     std::string text;
-    for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), stretched, two})
+    for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), stretched, two, ball, row})
       text += scope.admits(scene) ? '1' : '0';
     return text;
   };
-  CHECK(admitted({}) == "1111");
-  CHECK(admitted({Scenes::any, 3}) == "0101");
-  CHECK(admitted({Scenes::lattice, 0}) == "1110");
-  CHECK(admitted({Scenes::unit, 0}) == "1100");
-  CHECK(admitted({Scenes::unit, 3}) == "0100");
+  CHECK(admitted({}) == "111111");
+  CHECK(admitted({Scenes::any, 3}) == "010100");
+  CHECK(admitted({Scenes::lattice, 0}) == "111000");
+  CHECK(admitted({Scenes::ball, 0}) == "000010");
+  CHECK(admitted({Scenes::unit, 0}) == "110000");
+  CHECK(admitted({Scenes::unit, 3}) == "010000");
 }
 
 TEST_CASE("What is misread is of one cause, whatever it is", "[fuzz][campaign]") {

@@ -518,7 +518,7 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
           "certified rests on reduction, and is no judge of the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
   refused("--dimension 4", "--dimension: \"4\" is no whole number from 2 to 3");
-  refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, any");
+  refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, ball, any");
   refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");
   refused("list", "--store is required");
