@@ -18,10 +18,10 @@ struct Box {
   /// One cell of the scene's first lattice.
   static Box cell_of(const Scene& scene) { return {scene.dimension, scene.lattices[0].vectors, {1, 1, 1}}; }
 
-  /// Where starts are drawn: a cell. A superposition has none of its own: its box is about `cells` cells of the
-  /// first lattice (1000: 40 by 25, or 10 by 10 by 10). Where a lattice repeats in fewer directions, the box
-  /// surrounds the lattices that repeat in the fewest: it spans one period in their directions. In the others
-  /// it spans all obstacles that do not repeat there, and on either side as much again as the longest
+  /// Where starts are drawn: a cell. A superposition has none of its own: its box is about `cells` cells of
+  /// the first lattice (1000: 40 by 25, or 10 by 10 by 10). Where a lattice repeats in fewer directions, the
+  /// box surrounds the lattices that repeat in the fewest: it spans one period in their directions. In the
+  /// others it spans all obstacles that do not repeat there, and on either side as much again as the longest
   /// primitive vector or the largest obstacle.
   static Box of(const Scene& scene, std::uint64_t cells = kCells);
 

@@ -10,7 +10,8 @@ namespace lorentz::cli {
 /// counted. Returns the exit status.
 int answer_with_proofs(QueryStream& stream, question::Answerer& answerer);
 
-/// Writes a golden set of the exact answers. `source` is where the queries come from. Returns the exit status.
+/// Writes a golden set of the exact answers. `source` is where the queries come from. Returns the exit
+/// status.
 int write_records(QueryStream& stream, const std::string& source);
 
 }  // namespace lorentz::cli

@@ -57,15 +57,15 @@ std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<Dra
 /// The obstacles that the flights hit or start in, each once.
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines);
 
-/// For a picture, a lattice of fewer vectors is completed at right angles, by half as much again as its obstacles
-/// take there. `missing` stays: nothing is repeated along these.
+/// For a picture, a lattice of fewer vectors is completed at right angles, by half as much again as its
+/// obstacles take there. `missing` stays: nothing is repeated along these.
 Scene with_cells(Scene scene);
 
 /// The size of a cell of the first lattice: the d-th root of its volume.
 double cell_size(const Scene& scene);
 
-/// The lower corner of the first lattice's cell that holds the point; in directions in which the lattice does not
-/// repeat, so that its first obstacle is in the middle.
+/// The lower corner of the first lattice's cell that holds the point; in directions in which the lattice does
+/// not repeat, so that its first obstacle is in the middle.
 Vec cell_at(const Scene& scene, const Vec& point);
 /// The same of so many cells with these vectors.
 Vec cell_at(const Scene& scene, const std::array<Vec, 3>& vectors, const Vec& point, double cells);

@@ -1,8 +1,9 @@
 // rows-and-layers: lattices that repeat in fewer directions than there are, alone and with others.
 //
-// A row or a layer is cut from a crystal: it keeps the first primitive vectors. What is hard about it is not what
-// is hard in a crystal, where something is always hit in the end: a flight beside a row is long, one away from it
-// hits nothing, and one in the plane of a layer is a flight in two dimensions, exactly or nearly.
+// A row or a layer is cut from a crystal: it keeps the first primitive vectors. What is hard about it is not
+// what is hard in a crystal, where something is always hit in the end: a flight beside a row is long, one
+// away from it hits nothing, and one in the plane of a layer is a flight in two dimensions, exactly or
+// nearly.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>

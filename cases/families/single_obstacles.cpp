@@ -1,12 +1,12 @@
-// ball-2d, ball-3d, ellipsoid-alone: a ray and one obstacle, as ray tracers, physics engines and transport codes
-// ask it, where binary64 is short.
+// ball-2d, ball-3d, ellipsoid-alone: a ray and one obstacle, as ray tracers, physics engines and transport
+// codes ask it, where binary64 is short.
 //
 // A case is made beside the ball of radius w around the origin, w an integer with many points (a, b, c) of
-// integers on its surface, in numbers of few bits: a start that is meant to be on the surface, or a line that is
-// meant to touch, is exactly that. A line along an axis at the height w, tilted by 2^-k, passes the edge as
-// nearly as 10^-30 radii. Then all is scaled by a power of two, and moved by integers. An ellipsoid { p + A y :
-// |y| < 1 } takes the line x + t v beside the unit ball to p + A x + t A v: where A is a diagonal of powers of
-// two, exactly.
+// integers on its surface, in numbers of few bits: a start that is meant to be on the surface, or a line that
+// is meant to touch, is exactly that. A line along an axis at the height w, tilted by 2^-k, passes the edge
+// as nearly as 10^-30 radii. Then all is scaled by a power of two, and moved by integers. An ellipsoid { p +
+// A y : |y| < 1 } takes the line x + t v beside the unit ball to p + A x + t A v: where A is a diagonal of
+// powers of two, exactly.
 #include <algorithm>
 #include <cmath>
 
@@ -214,7 +214,8 @@ Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
   return result;
 }
 
-// At right angles to each other, or along the axes and powers of two; the longest up to 2^8 times the shortest.
+// At right angles to each other, or along the axes and powers of two; the longest up to 2^8 times the
+// shortest.
 std::vector<Vec> semiaxes_alone(Random& drawn, int dimension, bool aligned) {
   std::vector<Vec> semiaxes(static_cast<std::size_t>(dimension), Vec{});
   for (int i = 0; i < dimension; ++i) semiaxes[i][i] = 1;

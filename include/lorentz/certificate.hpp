@@ -51,7 +51,8 @@ std::optional<WindowEnd> window_end_from(std::string_view text);
 std::optional<double> binary64_of(const WindowEnd& end);
 
 /// The obstacles of one atom with `from` <= T <= `to`, T the time at which the line is nearest to the centre
-/// (in the atom's own coordinates), are to be looked at in this basis; of a window without an end, all from `from` on.
+/// (in the atom's own coordinates), are to be looked at in this basis; of a window without an end, all from
+/// `from` on.
 struct Window {
   int lattice = 0;
   int atom = 0;

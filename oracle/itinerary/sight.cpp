@@ -269,8 +269,8 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
   }
 }
 
-// With p beside the span of a lattice and u the part of v there, |p + t u| is more than an obstacle's reach from
-// (|p| + reach) / |u| on. Infinite if v may lie in the span, as it does in a crystal's.
+// With p beside the span of a lattice and u the part of v there, |p + t u| is more than an obstacle's reach
+// from (|p| + reach) / |u| on. Infinite if v may lie in the span, as it does in a crystal's.
 template <std::size_t D>
 Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
   Bound latest;

@@ -110,7 +110,8 @@ class DepartureBound {
         if (entered && !query_.is_from(atom, centre.point.n))
           needs(atom.margin_of_meeting(centre), atom, centre);
       };
-      // A flight along the lattice has no end: it is followed as far as the first obstacle with more to spare.
+      // A flight along the lattice has no end: it is followed as far as the first obstacle with more to
+      // spare.
       Z low = 1, high = root_below(atom.rho2()) + 2;
       for (bool done = false; !done && passed_over_ <= kMostPassedOver; low = high, high *= 2) {
         done = end && high >= *end;

@@ -159,7 +159,8 @@ TEST_CASE("scene draw: well-formed pictures of the whole catalogue", "[cli][scen
   CHECK(times(folder.lorentz("scene draw square").out, "<circle") == 16 + 1);
   // 2 x 2 x 2 cells have 27 corners.
   CHECK(times(folder.lorentz("scene draw cubic").out, "<circle") == 27 + 1);
-  // Nothing is repeated where a lattice does not: one ball, three of a row, 3 x 3 of a layer; with the legend.
+  // Nothing is repeated where a lattice does not: one ball, three of a row, 3 x 3 of a layer; with the
+  // legend.
   for (const auto& [name, count] : {std::pair("ball", 1), std::pair("row", 3), std::pair("layer", 9)}) {
     const std::string out = folder.lorentz(std::string("scene draw ") + name).out;
     INFO(name);

@@ -12,8 +12,8 @@ namespace lorentz {
 #include "src/engines/reduction/lone_obstacle-inl.hpp"
 #undef LORENTZ_INLINE
 
-/// A direction of flight for a single ball. (A single ellipsoid takes AtomDirection: in its own frame it is as
-/// in a lattice.)
+/// A direction of flight for a single ball. (A single ellipsoid takes AtomDirection: in its own frame it is
+/// as in a lattice.)
 template <int D>
 struct LoneDirection {
   struct {
