@@ -52,7 +52,8 @@ const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001",
                                       {"superposition-pi-5", {}},
                                       {"overlapping", {}},
                                       {"ellipse", {}},
-                                      {"ellipsoid", {}}};
+                                      {"ellipsoid", {}},
+                                      {"ball", {}}};
 
 std::vector<NamedPlace> places_of(const Scenery& scenery) {
   const auto place = [&](const std::optional<std::string>& radius) {

@@ -165,18 +165,18 @@ Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, uns
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {
   using Scenes = fuzz::Scope::Scenes;
-  bool in_plane = false, in_space = false, mixed = false, skewed = false;
+  bool in_plane = false, in_space = false;
+  std::vector<Scenes> fitting{Scenes::unit, Scenes::ball, Scenes::lattice, Scenes::any};
   for (const NamedPlace& place : places) {
     if (!place.place->was_answered()) continue;
     const Scene& scene = place.place->scene();
     (scene.dimension == 2 ? in_plane : in_space) = true;
-    skewed |= !is_unit_scene(scene);
-    mixed |= !fuzz::Scope{Scenes::lattice, 0}.admits(scene);
+    std::erase_if(fitting, [&](Scenes scenes) { return !fuzz::Scope{scenes, 0}.admits(scene); });
   }
-  fuzz::Scope scope;
-  if (!in_plane && !in_space) return {Scenes::ball, 0};  // no crystal: what is left are single balls
-  scope.scenes = mixed ? Scenes::any : skewed ? Scenes::lattice : Scenes::unit;
-  if (in_plane != in_space) scope.dimension = in_plane ? 2 : 3;
+  if (!in_plane && !in_space) return {};
+  fuzz::Scope scope{fitting.front(), 0};
+  // There is no disc alone to be asked about, only a ball.
+  if (in_plane != in_space && scope.scenes != Scenes::ball) scope.dimension = in_plane ? 2 : 3;
   return scope;
 }
 

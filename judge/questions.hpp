@@ -30,8 +30,8 @@ Source golden_set(const std::string& path);
 /// modulo `parts`.
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part = 0, unsigned parts = 1);
 
-/// The narrowest scope with all scenes of these in which the engine answered; all scenes if it answered
-/// nowhere.
+/// The narrowest scope with all scenes of these in which the engine answered (a ball and a disc alone are of
+/// one scope); all scenes if it answered nowhere.
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places);
 
 }  // namespace lorentz::judge

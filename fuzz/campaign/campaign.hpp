@@ -26,8 +26,8 @@ struct Scope {
   enum class Scenes {
     any,
     lattice,  ///< one crystal lattice, with one ball
-    ball,     ///< one ball alone
-    unit      ///< the same, square or cubic with spacing 1, the ball at the origin (is_unit_scene)
+    unit,     ///< the same, square or cubic with spacing 1, the ball at the origin (is_unit_scene)
+    ball      ///< one ball, which is not repeated
   };
   Scenes scenes = Scenes::any;
   int dimension = 0;  ///< 2 or 3; 0: both

@@ -11,6 +11,7 @@
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/target.hpp"
+#include "files/scene_file.hpp"
 #include "fuzz/examine/shrink.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
@@ -249,7 +250,7 @@ NamedPlace place_of(Scene scene, bool is_answered = true) {
 }
 
 std::string text_of(const fuzz::Scope& scope) {
-  constexpr const char* kNames[] = {"any", "lattice", "ball", "unit"};
+  constexpr const char* kNames[] = {"any", "lattice", "unit", "ball"};
   return std::string(kNames[static_cast<int>(scope.scenes)]) + ' ' + std::to_string(scope.dimension);
 }
 
@@ -359,7 +360,10 @@ TEST_CASE("The scope of a campaign is the narrowest with all that was answered",
   CHECK(text_of(scope_of({place_of(solid), place_of(skewed)})) == "lattice 0");
   CHECK(text_of(scope_of({place_of(motif), place_of(solid)})) == "any 3");
   CHECK(text_of(scope_of({place_of(motif, false), place_of(solid)})) == "unit 3");
-  CHECK(text_of(scope_of({place_of(flat, false)})) == "ball 0");  // an engine that does no crystal
+  CHECK(text_of(scope_of({place_of(flat, false)})) == "any 0");
+  const Scene ball = load_scene("ball", std::nullopt);
+  CHECK(text_of(scope_of({place_of(flat, false), place_of(ball)})) == "ball 0");
+  CHECK(text_of(scope_of({place_of(solid), place_of(ball)})) == "any 3");
 }
 
 TEST_CASE("Drawn and flown questions come in blocks of each place, and none is left out or comes twice",
