@@ -8,6 +8,7 @@
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
+#include "src/exchange/csv_table.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
@@ -22,7 +23,7 @@ struct ExportedRecord {
   std::optional<double> margin;
 };
 
-// Of a scene of one obstacle; others have no place in the table.
+// Throws InputError if the scene has more than one obstacle: it has no place in the table.
 ExportedRecord exported(const golden::Reader& reader, golden::ReadRecord& read) {
   const Scene& scene = reader.scene();
   const Lattice& lattice = scene.lattices[0];
@@ -82,16 +83,32 @@ std::string joined(const Columns& columns, const char* separator, const char* mi
 }
 
 std::string csv_line(const ExportedRecord& one) {
-  return fmt::format("{},{},{},{},{},{},{}\n", one.id, one.tags, one.dimension,
+  return fmt::format("{},{},{},{},{},{},{}\n", csv_field(one.id), csv_field(one.tags), one.dimension,
                      joined(asked_of(one), ",", "", "inf"), one.query.from ? 1 : 0,
                      name_of(one.exact.outcome), joined(told_of(one), ",", "", "inf"));
 }
 
+// A text as a literal of C.
+std::string literal(const std::string& text) {
+  std::string quoted;
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < ' ')
+      quoted += fmt::format("\\{:03o}", c);
+    else
+      quoted += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return '"' + quoted + '"';
+}
+
+// A text in a comment of C, which has no end in it.
+std::string in_comment(std::string text) {
+  std::erase(text, '*');
+  return text;
+}
+
 std::string c_line(const ExportedRecord& one) {
-  const Columns told = told_of(one);
-  return fmt::format("  {{\"{}\", \"{}\", {}, {{{}}}, {}, '{}', {{{}}}}},\n", one.id, one.tags, one.dimension,
-                     joined(asked_of(one), ", ", "NAN", "INFINITY"), one.query.from ? 1 : 0,
-                     name_of(one.exact.outcome)[0], joined(told, ", ", "NAN", "INFINITY"));
+  return fmt::format("  {{{}, {}, {}, {{{}}}, {}, '{}', {{{}}}}},\n", literal(one.id), literal(one.tags),
+                     one.dimension, joined(asked_of(one), ", ", "NAN", "INFINITY"), one.query.from ? 1 : 0,
+                     name_of(one.exact.outcome)[0], joined(told_of(one), ", ", "NAN", "INFINITY"));
 }
 
 constexpr const char* kCsvHead = "id,tags,dimension,{},leaving,outcome,{}\n";
@@ -105,7 +122,7 @@ constexpr const char* kCHead =
     "{};\n"
     "   the time of entry correctly rounded, the point and the outward normal there, and how far the inputs "
     "may\n"
-    "   move, in ulps, until another outcome is right. NAN: there is none. */\n"
+    "   move, in ulps, until another outcome is right. NAN: does not apply. */\n"
     "#include <math.h>\n"
     "static const struct lorentz_case {{\n  const char *id, *tags;\n  int dimension;\n  double asked[19];\n"
     "  int leaving;\n  char outcome;\n  double told[8];\n}} lorentz_cases[] = {{\n";
@@ -114,9 +131,9 @@ int act(const std::string& name, const std::string& format) {
   const bool as_c = index_of_name(format, {"csv", "c"}, "--format") == 1;
   golden::Reader reader(golden::find_set(name));
   const golden::Header& header = reader.header();
-  std::string text =
-      as_c ? fmt::format(fmt::runtime(kCHead), header.name, header.description, name, kAsked, kTold)
-           : fmt::format(fmt::runtime(kCsvHead), kAsked, kTold);
+  std::string text = as_c ? fmt::format(fmt::runtime(kCHead), in_comment(header.name),
+                                        in_comment(header.description), in_comment(name), kAsked, kTold)
+                          : fmt::format(fmt::runtime(kCsvHead), kAsked, kTold);
   for (golden::ReadRecord read; reader.next(read);) {
     const ExportedRecord one = exported(reader, read);
     text += as_c ? c_line(one) : csv_line(one);

@@ -13,6 +13,7 @@
 #include "files/whole_file.hpp"
 #include "pictures/path_drawing.hpp"
 #include "question/engines.hpp"
+#include "src/exchange/csv_table.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/exchange/nearest_name.hpp"
@@ -94,11 +95,7 @@ void add_state(json::Members& line, const State& state) {
 // An id as a table's field.
 std::string in_table(const Id& id) {
   const bool is_plain_text = id.starts_with('"') && id.find_first_of(",\\\"", 1) == id.size() - 1;
-  if (is_plain_text) return id.substr(1, id.size() - 2);
-  if (!id.starts_with('"')) return id;
-  std::string field = "\"";
-  for (const char c : id) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + '"';
+  return csv_field(is_plain_text ? id.substr(1, id.size() - 2) : id);
 }
 
 // What comes of one start: lines on stdout, rows of a table, a path for the picture.

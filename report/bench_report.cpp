@@ -8,6 +8,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "report/table.hpp"
+#include "src/exchange/csv_table.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
@@ -158,18 +159,6 @@ std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::st
   return text;
 }
 
-namespace {
-
-// A field: the command of another program may have commas in it, or quotes.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-}  // namespace
-
 std::string bench_csv(const std::vector<Cell>& cells) {
   std::string csv =
       "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,wrong,"
@@ -178,8 +167,8 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       "condition_99_percent,max_condition,instructions\n";
   for (const Cell& cell : cells) {
     if (cell.skipped) continue;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", field(cell.scene),
-                       radius_of(cell), cell.difficulty, field(cell.engine), cell.queries,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", csv_field(cell.scene),
+                       radius_of(cell), cell.difficulty, csv_field(cell.engine), cell.queries,
                        cell.ns ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.ns->mean, cell.ns->median,
                                              cell.ns->q1, cell.ns->q3)
                                : ",,,",

@@ -152,4 +152,11 @@ std::int64_t CsvTable::integer(std::size_t column) const {
   return static_cast<std::int64_t>(*real);
 }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 }  // namespace lorentz

@@ -8,6 +8,9 @@
 
 namespace lorentz {
 
+/// A text as a field: in quotes if it has commas, quotes or line ends.
+std::string csv_field(const std::string& text);
+
 class CsvTable {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -19,6 +19,16 @@ namespace {
 
 const std::string kCommitted = std::string(LORENTZ_SOURCE_DIR) + "/data/golden/";
 
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line)
+    if (c == ',')
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
+
 // An id and its record in a text of records: the first that holds all these words.
 std::string record_with(const std::string& text, std::initializer_list<const char*> words) {
   std::istringstream in(text);
@@ -283,11 +293,22 @@ TEST_CASE("Golden: sets of single obstacles as tables, and as a header of C", "[
   INFO(csv.err);
   REQUIRE((csv.status == 0 && lines(csv.out) == 641));
   CHECK(csv.out.starts_with("id,tags,dimension,c1,c2,c3,radius,a11,"));
-  // Each line has as many columns, and a hit's point is at its time.
-  for (std::size_t at = 0; at < csv.out.size(); at = csv.out.find('\n', at) + 1) {
-    const std::string line = csv.out.substr(at, csv.out.find('\n', at) - at);
-    REQUIRE(std::count(line.begin(), line.end(), ',') == 31);
+  // Each line has as many columns, and a hit's point is on the ball, where its normal says.
+  int hits = 0;
+  for (std::size_t at = csv.out.find('\n') + 1; at < csv.out.size(); at = csv.out.find('\n', at) + 1) {
+    const auto fields = fields_of(csv.out.substr(at, csv.out.find('\n', at) - at));
+    REQUIRE(fields.size() == 32);
+    if (fields[23] != "hit") continue;
+    ++hits;
+    const auto number = [&](std::size_t column) { return std::stod(fields[column]); };
+    const double radius = number(6);
+    for (std::size_t i = 0; i < 2; ++i) {
+      INFO(fields[0]);
+      CHECK(std::fabs(number(25 + i) - number(3 + i) - radius * number(28 + i)) <=
+            0x1p-51 * (radius + std::fabs(number(3 + i))));
+    }
   }
+  CHECK(hits > 200);
   const auto queries = folder.write(
       "q",
       R"({"scene":{"dimension":3,"lattices":[{"vectors":[],"atoms":[{"position":[1,0,0],"radius":0.5}]}]}})"
@@ -312,6 +333,14 @@ int main(void) {
                                   " && " + folder.file("cases"));
   INFO(compiled.err);
   CHECK((compiled.status == 0 && compiled.out == "3 0.5 h 3 -1 1\n"));
+  // Texts of a set are anybody's.
+  std::string odd = folder.read("set");
+  for (std::size_t at = 0; (at = odd.find("\"given\"", at)) != std::string::npos; at += 5)
+    odd.replace(at, 7, R"("a,\"b\\*/")");
+  const auto odd_set = folder.write("odd", odd);
+  CHECK(contains(folder.lorentz("golden export " + odd_set).out, R"(,"a,""b\*/",3,)"));
+  folder.write("cases.h", folder.lorentz("golden export --format c " + odd_set).out);
+  CHECK(folder.run("cc -Wall -Wextra -Werror -o " + folder.file("odd_cases") + " " + program).status == 0);
   const Run crystal = folder.lorentz("golden export ties");
   CHECK((crystal.status == 2 && crystal.out.empty() && contains(crystal.err, "single obstacle")));
 }
