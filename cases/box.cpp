@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -14,32 +15,13 @@ double reach_of(const Atom& atom) {
   return std::sqrt(square);
 }
 
-// Vectors perpendicular to the first `rank` ones and to each other, of length 1 up to rounding.
-void complete(std::array<Vec, 3>& vectors, int rank, int dimension) {
-  std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
-  for (int i = 0; i < dimension; ++i) {
-    const auto across = [&](Vec v) {
-      for (int j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
-      return v;
-    };
-    Vec best = i < rank ? across(vectors[i]) : Vec{};
-    for (int axis = 0; i >= rank && axis < dimension; ++axis) {
-      Vec unit{};
-      unit[axis] = 1;
-      if (length(across(unit)) > length(best)) best = across(unit);
-    }
-    units[i] = scaled(best, 1 / length(best));
-    if (i >= rank) vectors[i] = units[i];
-  }
-}
-
 Box around_fewest(const Scene& scene) {
   const auto fewest =
       std::max_element(scene.lattices.begin(), scene.lattices.end(),
                        [](const Lattice& a, const Lattice& b) { return a.missing < b.missing; });
   const int d = scene.dimension, rank = fewest->rank(d);
   Box box{d, fewest->vectors, {1, 1, 1}, {}};
-  complete(box.vectors, rank, d);
+  complete_perpendicularly(box.vectors, rank, d);
   double beside = 0;
   for (const Lattice& lattice : scene.lattices) {
     for (const Vec& u : lattice.vectors) beside = std::max(beside, length(u));

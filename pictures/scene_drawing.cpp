@@ -175,13 +175,9 @@ Scene with_cells(Scene scene) {
     double size = 0;
     for (const Atom& atom : lattice.atoms)
       size = std::max(size, length(plus(atom.position, -1, lattice.atoms[0].position)) + reach_of(atom, d));
-    auto& u = lattice.vectors;
     const int rank = lattice.rank(d);
-    if (rank == 0) u[0] = {1, 0, 0};
-    if (rank <= 1)
-      u[1] = d == 2 || std::hypot(u[0][0], u[0][1]) > 0 ? Vec{-u[0][1], u[0][0], 0} : Vec{1, 0, 0};
-    if (rank <= 2 && d == 3) u[2] = cross(u[0], u[1]);
-    for (int i = rank; i < d; ++i) u[i] = scaled(u[i], 3 * size / length(u[i]));
+    complete_perpendicularly(lattice.vectors, rank, d);
+    for (int i = rank; i < d; ++i) lattice.vectors[i] = scaled(lattice.vectors[i], 3 * size);
   }
   return scene;
 }
