@@ -67,7 +67,7 @@ double cell_size(const Scene& scene);
 /// The lower corner of the first lattice's cell that holds the point; in directions in which the lattice does
 /// not repeat, so that its first obstacle is in the middle.
 Vec cell_at(const Scene& scene, const Vec& point);
-/// The same of so many cells with these vectors.
+/// The lower corner of a block of `cells` cells in each direction, with these vectors.
 Vec cell_at(const Scene& scene, const std::array<Vec, 3>& vectors, const Vec& point, double cells);
 
 /// A short basis of the lattice.

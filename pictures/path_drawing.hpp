@@ -14,7 +14,7 @@ struct PathDrawing {
   std::size_t collisions = 0;
   std::vector<Vec> path;      ///< the start, places of collisions, perhaps an end
   std::optional<Vec> escape;  ///< the velocity with which it goes on for ever, if it does
-  std::vector<Vec> other;     ///< the same of another path; empty: there is none
+  std::vector<Vec> other;     ///< another path beside it, or empty
   std::size_t parting = 0;    ///< the first place in which they differ, in `other`
   std::string other_name;     ///< whose it is
   double width = 800;         ///< in pixels, at most

@@ -242,7 +242,7 @@ Case ellipsoid_case(Source& source) {
   if (moved)
     for (int i = 0; i < dimension; ++i) centre[i] = static_cast<double>(drawn.integer(-64, 64));
   const Touching touching = drawn_touching(drawn, source.random, dimension);
-  // Of the radius w, as the ball of the ray is.
+  // The ray was made beside the ball of radius w.
   Atom atom{centre, 0, semiaxes};
   for (Vec& axis : atom.semiaxes) axis = scaled(axis, touching.w);
   made.scene = alone(dimension, std::move(atom));

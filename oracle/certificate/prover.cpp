@@ -11,7 +11,7 @@
 namespace lorentz::oracle {
 namespace {
 
-// Of the lattice's `rank` vectors; what completes them is not of it.
+// The first `rank` vectors: those that complete the lattice are left out.
 template <std::size_t D>
 CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank = D) {
   CertificateBasis result;
@@ -160,7 +160,7 @@ class Writer {
     });
   }
 
-  // Of a lattice of fewer than D vectors one window does: in it the pair is short, so that it has few rows.
+  // One window, for a lattice of fewer than D vectors. A pair is made short in it, so that it has few rows.
   void add_window(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
                   const std::optional<Z>& high) {
     Basis<D> basis = view.basis;

@@ -24,7 +24,7 @@ inline void search_only_row(const Search<3>& search) {
   RowsInSpace(search, search.view.basis[0]).offer_first(search.view.offset);
 }
 
-/// The same of a view, whose lattice may have fewer than D vectors. If the search finds a copy, no obstacle
+/// The same for a view, whose lattice may have fewer than D vectors. If the search finds a copy, no obstacle
 /// is entered: all that there are would have been entered before it.
 template <std::size_t D>
 void search_first_hit(const View<D>& view, int lattice, int atom, const ZVec<D>* from,

@@ -269,7 +269,7 @@ class Coverage {
     if (to && (!reached_ || *to > *reached_)) reached_ = to;
   }
 
-  /// Of rows, which stand alone.
+  /// Rows stand alone: no windows beside them.
   void add_rows() {
     if (endless_ || reached_) refute("the atom has other rows, or windows");
     endless_ = true;
