@@ -33,14 +33,15 @@ constexpr const char* kCrystals = "does crystals only: lattices that repeat in a
 // All engines: name, why a scene is beyond it (or nothing), and how it is made.
 struct EngineEntry {
   const char* name;
+  bool crystals_only;
   std::optional<std::string> (*beyond)(const Scene&);
   std::unique_ptr<Engine> (*make)(const Scene&);
 };
 
 constexpr EngineEntry kEngines[] = {
-    {"classical", beyond_classical, make_classical},
-    {"published", Published::beyond, make<Published>},
-    {"reduction", Reduction::beyond, make<Reduction>},
+    {"classical", true, beyond_classical, make_classical},
+    {"published", true, Published::beyond, make<Published>},
+    {"reduction", false, Reduction::beyond, make<Reduction>},
 };
 
 }  // namespace
@@ -54,8 +55,8 @@ std::vector<std::string> engine_names() {
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;
-    const auto why = is_crystal(scene) || name == "reduction" ? entry.beyond(scene)
-                                                              : std::optional<std::string>(kCrystals);
+    const bool is_beyond = entry.crystals_only && !is_crystal(scene);
+    const auto why = is_beyond ? std::optional<std::string>(kCrystals) : entry.beyond(scene);
     if (why) return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);
     return entry.make(scene);
   }

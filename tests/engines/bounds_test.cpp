@@ -12,6 +12,7 @@
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
 #include "src/engines/reduction/reduce_3d.hpp"
+#include "src/engines/reduction/sparse_rows.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -246,6 +247,87 @@ TEST_CASE("A single ball: kLoneAlong, kLoneAcross, kLoneSlack", "[engines][bound
   const Carried h[3] = {one, none, none};
   covers(kLoneSlack,
          std::max(squared_width_of(one, speed_squared(one, none, none)).error, square_of(h).error) + 1);
+}
+
+TEST_CASE("Rows beside a line: kSparse, kSparseOfShape", "[engines][bounds]") {
+  // A row's start d + k e, where e = t_0 B_0 + t_1 B_1; high parts are half a roundoff off.
+  const Carried high{1, 0.5}, step = high * one + none, start = step * one + none;
+  covers(kSparse, std::sqrt(2) * difference_of_products(one, start, none, none).error);
+  covers(kSparse, sum_of_products(one, start, none, none, none, none).error);
+  // N a for two vectors, whose norms are at most the condition times those of their images.
+  const Carried N{1, 0.5}, image = sum_of_products(N, high, none, none, none, none);
+  covers(kSparseOfShape, std::sqrt(3) * 2 * image.error);
+}
+
+namespace {
+
+using Exact = boost::multiprecision::mpfr_float_100;
+using ExactVec = std::array<Exact, 3>;
+
+ExactVec exact(const Vec& a) {
+  return {a[0], a[1], a[2]};
+}
+ExactVec exact_sum(const Vec& a, double n, const Vec& b) {
+  ExactVec sum = exact(a);
+  for (int k = 0; k < 3; ++k) sum[k] += Exact(n) * Exact(b[k]);
+  return sum;
+}
+Exact exact_square(const ExactVec& a) {
+  return a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+}
+ExactVec exact_cross(const ExactVec& a, const ExactVec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Exact exact_dot(const ExactVec& a, const ExactVec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+// Lines that pass a row at up to a radius, half of them nearly along it, far out; two in three meet a ball, or a
+// row, by less than is computed.
+TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engines][bounds]") {
+  Draw draw(20261125);
+  long met = 0, looked_at = 0, met_rows = 0, rows = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    const Vec b = draw.vec(dimension, -1, 1), e = draw.vec(dimension, -1, 1),
+              aside = draw.vec(dimension, -1, 1);
+    Vec v = draw.vec(dimension, -1, 1), d{};
+    if (draw.one_in(2))
+      for (int k = 0; k < 3; ++k) v[k] = b[k] + std::exp2(draw.between(-20, -1)) * v[k];
+    double r = length(b) * draw.between(0.01, 0.5);
+    const double far = std::round(std::exp2(draw.between(0, 30)));
+    for (int k = 0; k < 3; ++k) d[k] = far * v[k] - 4 * b[k] + r * aside[k];
+    const ExactVec c = exact_cross(exact(v), exact(b));
+    const double number = static_cast<double>(draw.below(9));
+    const Exact of_ball =
+                    exact_square(exact_cross(exact(v), exact_sum(d, number, b))) / exact_square(exact(v)),
+                of_row = abs(exact_dot(exact_sum(d, number, e), c)) / sqrt(exact_square(c));
+    const auto touching = draw.below(3);
+    if (touching > 0)
+      r = std::nextafter((touching == 1 ? sqrt(of_ball) : of_row).convert_to<double>(), 1e300);
+    const SparseRow row(v, kSparse * kRoundoff, {b, length(b)}, r);
+    const SparseRange range = row.balls({d, length(d)}), planes = row.rows({d, length(d)}, {e, length(e)});
+    if (row.is_level()) continue;
+    if (range.is_known()) looked_at += static_cast<long>(std::clamp(range.last - range.first + 1, 0.0, 25.0));
+    if (planes.is_known()) rows += static_cast<long>(std::clamp(planes.last - planes.first + 1, 0.0, 25.0));
+    for (double n = -8; n <= 16; ++n) {
+      const ExactVec ball = exact_sum(d, n, b), start = exact_sum(d, n, e);
+      const Exact across = exact_square(exact_cross(exact(v), ball)), distance = exact_dot(start, c);
+      if (range.is_known() && across < Exact(r) * Exact(r) * exact_square(exact(v))) {
+        ++met;
+        CHECK((range.first <= n && n <= range.last));
+      }
+      if (planes.is_known() && distance * distance < Exact(r) * Exact(r) * exact_square(c)) {
+        ++met_rows;
+        CHECK((planes.first <= n && n <= planes.last));
+      }
+    }
+  }
+  INFO(met << " of " << looked_at << ", rows " << met_rows << " of " << rows);
+  CHECK((met > 5000 && looked_at < 3 * met));
+  CHECK((met_rows > 5000 && rows < 3 * met_rows));
 }
 
 TEST_CASE("Across the line in 3D: kAcross, kScale", "[engines][bounds]") {

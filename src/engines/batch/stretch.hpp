@@ -60,7 +60,8 @@ struct StretchKernels {
   StretchKernel lone_balls;
 
   StretchKernel of(const PreparedScene& scene) const {
-    if (scene.lone) return scene.ellipsoids ? nullptr : lone_balls;
+    if (scene.most_rank == 0) return scene.ellipsoids ? nullptr : lone_balls;
+    if (scene.least_rank < scene.atoms[0].dimension) return nullptr;
     return (scene.ellipsoids ? ellipsoids : balls)[scene.atoms[0].dimension - 2];
   }
 };

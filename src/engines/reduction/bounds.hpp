@@ -92,6 +92,10 @@ inline constexpr double kDiagonal = 2;
 /// (r |v|)^2 + |v x d|^2.
 inline constexpr double kLoneAlong = 6, kLoneAcross = 5, kLoneSlack = 8;
 
+/// Rows beside a line: v x b and v . b, relative to |v| |b|, of a vector that is summed from two steps along
+/// the basis; and per condition of the shape, where ellipsoids are seen as balls.
+inline constexpr double kSparse = 10, kSparseOfShape = 16;
+
 /// A form (height, along, across in units of r) of a vector, by what each component of the vector errs.
 inline constexpr double kForm = 4;
 
@@ -194,6 +198,9 @@ inline constexpr double kRhoOfAnchor = 0x1p-20;
 /// 2D: the low part of a height that Euclid's algorithm may leave aside until then, relative to the high one;
 /// and the quotient of its last step where that is taken back for a shape.
 inline constexpr double kMaxLowPart = 0x1p-8, kMaxBackwardQuotient = 0x1p40;
+
+/// Rows whose direction across the line is known worse than this, relatively, count as parallel to it.
+inline constexpr double kMaxGamma = 0x1p-10;
 
 /// What a candidate's number may be unsure by before it is computed in double-double.
 inline constexpr double kMaxUnsure = 0.25;

@@ -8,6 +8,7 @@
 #include <lorentz/geometry.hpp>
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/formulas.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz {
 namespace {
@@ -41,7 +42,7 @@ struct Metric {
 // A basis while it is made shorter: integer combinations of the primitive vectors, recomputed from these at
 // each step, so that no error accumulates.
 struct Shortening {
-  int dimension;
+  int rank;
   std::array<Vec, 3> primitive;
   Metric metric;
   double T[3][3]{};
@@ -49,9 +50,10 @@ struct Shortening {
   bool complete = true;  // no component was taken as zero
 
   Shortening(const Lattice& lattice, int d, double scale, Metric in)
-      : dimension(d), primitive(lattice.vectors), metric(in) {
-    for (int i = 0; i < d; ++i)
+      : rank(lattice.rank(d)), primitive(lattice.vectors), metric(in) {
+    for (int i = 0; i < rank; ++i)
       for (double& component : primitive[i]) set_component(component, scale);
+    complete_perpendicularly(primitive, rank, d);
     for (int i = d; i < 3; ++i) primitive[i] = Vec{double(i == 0), double(i == 1), double(i == 2)};
     for (int i = 0; i < 3; ++i) {
       T[i][i] = 1;
@@ -92,7 +94,7 @@ struct Shortening {
   // B_i minus the nearest integer combination of the shorter ones; true if that shortens it.
   bool shorten(int i) {
     bool changed = false;
-    for (int j = 0; j < dimension; ++j) {
+    for (int j = 0; j < rank; ++j) {
       if (j == i) continue;
       const Vec a = seen(i), b = seen(j);
       if (dot(b, b) > dot(a, a)) continue;
@@ -115,11 +117,11 @@ struct Shortening {
   void run() {
     for (int pass = 0; pass < kMaxShorteningPasses; ++pass) {
       bool changed = false;
-      for (int i = 0; i < dimension; ++i) changed |= shorten(i);
+      for (int i = 0; i < rank; ++i) changed |= shorten(i);
       if (!changed) break;
     }
-    for (int i = 0; i < dimension; ++i)  // shortest first
-      for (int j = i + 1; j < dimension; ++j)
+    for (int i = 0; i < rank; ++i)  // shortest first
+      for (int j = i + 1; j < rank; ++j)
         if (length(seen(j)) < length(seen(i))) {
           std::swap(B[i], B[j]);
           std::swap(T[i], T[j]);
@@ -137,14 +139,15 @@ void set_dual(Bravais& bravais) {
   bravais.volume = std::fabs(volume);
   double defect = 1 / bravais.volume, shortest = kInfinity;
   for (int i = 0; i < 3; ++i) defect *= length(b[i]);
-  for (int i = 0; i < bravais.dimension; ++i) shortest = std::min(shortest, length(b[i]));
+  for (int i = 0; i < bravais.rank; ++i) shortest = std::min(shortest, length(b[i]));
   bravais.coordinate_error = kCoordinate * kRoundoff * defect * defect / shortest;
+  for (int i = bravais.rank; i < bravais.dimension; ++i) bravais.dual[i] = {};
 }
 
 // Of the coordinates of what lies within half a cell of a lattice point.
 double home_error(const Bravais& bravais) {
   double size = 0;
-  for (int i = 0; i < bravais.dimension; ++i)
+  for (int i = 0; i < bravais.rank; ++i)
     for (const Wide& component : bravais.basis[i]) size += std::fabs(component.hi);
   return kHomeCell * size * bravais.coordinate_error;
 }
@@ -166,12 +169,13 @@ bool set_inverse(Bravais& bravais) {
 // A lower bound of the shortest lattice vector: a vector with a coefficient of 2 or more in absolute value is
 // at least 2/|dual_i| long; the others are tried.
 double shortest_vector(const Bravais& bravais, const Metric& metric) {
-  const int d = bravais.dimension;
+  const int second = bravais.rank >= 2, third = bravais.rank == 3;  // the coefficients that are tried
   double shortest = kInfinity;
-  for (int i = 0; i < d; ++i) shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
+  for (int i = 0; i < bravais.rank; ++i)
+    shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
   for (int a = 0; a <= 1; ++a)
-    for (int b = -1; b <= 1; ++b)
-      for (int c = d == 3 ? -1 : 0; c <= (d == 3 ? 1 : 0); ++c) {
+    for (int b = -second; b <= second; ++b)
+      for (int c = -third; c <= third; ++c) {
         if (a == 0 && b == 0 && c == 0) continue;
         Vec sum{};
         for (int k = 0; k < 3; ++k)
@@ -190,6 +194,9 @@ bool is_too_skewed(const Shortening& shortening) {
 
 // Why this atom is beyond the engine, or nothing.
 std::string beyond(const Bravais& bravais, const Metric& metric) {
+  if (!(bravais.radius > 1 / kMaxSpacing && bravais.radius < kMaxSpacing))
+    return "does obstacles and lattices only whose sizes are within 2^60 of each other";
+  if (bravais.rank == 0) return "";
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
   const double shortest = bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - kAmple);
   const Vec& reach = bravais.reach;
@@ -200,7 +207,7 @@ std::string beyond(const Bravais& bravais, const Metric& metric) {
   if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
   if (!(std::max({reach[0], reach[1], reach[2]}) < 1 - 2 * kMaxHomeError))
     return "does not do obstacles that reach so far into a cell so flat";
-  if (!(bravais.radius >= smallest * shortest))
+  if (bravais.rank == bravais.dimension && !(bravais.radius >= smallest * shortest))
     return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
            " of the shortest lattice vector only";
   return "";
@@ -240,6 +247,7 @@ class LatticePreparation {
     for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
       Bravais bravais;
       bravais.dimension = scene_.dimension;
+      bravais.rank = lattice_.rank(scene_.dimension);
       bravais.lattice = index_;
       bravais.atom = a;
       const std::string why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
@@ -340,53 +348,13 @@ bool has_ellipsoids(const Scene& scene) {
   return false;
 }
 
-// A single obstacle: every start is in the cell 0. (The basis is one for the directions of ellipsoids.)
-std::optional<Bravais> lone_obstacle(const Scene& scene, int lattice, int atom, double scale,
-                                     bool ellipsoid) {
-  const Atom& given = scene.lattices[lattice].atoms[atom];
-  Bravais lone;
-  lone.dimension = scene.dimension, lone.lattice = lattice, lone.atom = atom;
-  lone.lone = true, lone.reaches_out = false, lone.volume = 1;
-  for (int k = 0; k < 3; ++k) {
-    lone.position[k] = given.position[k] * scale;
-    lone.dual[k] = {};
-    for (int i = 0; i < 3; ++i) lone.basis[k][i] = Wide(i == k);
-    lone.transform[k][k] = lone.inverse[k][k] = 1;
-  }
-  lone.radius = given.radius * scale;
-  if (ellipsoid) {
-    const std::array<Vec, 3> axes = semiaxes_of(given, scene.dimension);
-    std::vector<Vec> semiaxes(axes.begin(), axes.begin() + scene.dimension);
-    for (Vec& axis : semiaxes)
-      for (double& component : axis) component *= scale;
-    const std::optional<Shape> shape = shape_of(semiaxes);
-    if (!shape) return std::nullopt;
-    lone.shape = *shape, lone.radius = shape->radius;
-  }
-  if (!(lone.radius > 1 / kMaxSpacing && lone.radius < kMaxSpacing)) return std::nullopt;
-  return lone;
-}
-
-void prepare_lone(const Scene& scene, PreparedScene& prepared) {
-  for (const Lattice& lattice : scene.lattices)
-    if (lattice.rank(scene.dimension) > 0) {
-      prepared.beyond = "does crystals, and single obstacles, but no rows and layers";
-      return;
-    }
-  prepared.lone = true;
-  const Vec first = semiaxes_of(scene.lattices[0].atoms[0], scene.dimension)[0];
-  const double size = length(first);
-  if (size > 1 / kMaxLength && size < kMaxLength) prepared.exponent = std::ilogb(size);
-  const double scale = std::ldexp(1, -prepared.exponent);
-  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
-    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a) {
-      const auto lone = lone_obstacle(scene, l, a, scale, prepared.ellipsoids);
-      if (!lone)
-        prepared.beyond =
-            "does single obstacles between 2^-400 and 2^400, within 2^60 of each other, and not as slender";
-      if (!lone) return;
-      prepared.atoms.push_back(*lone);
-    }
+// What lengths are measured by: the first lattice's shortest vector, or the size of a single obstacle.
+double first_length(const Scene& scene) {
+  const Lattice& first = scene.lattices[0];
+  if (first.rank(scene.dimension) == 0) return length(semiaxes_of(first.atoms[0], scene.dimension)[0]);
+  Shortening unscaled(first, scene.dimension, 1, {});
+  unscaled.run();
+  return length(rounded(unscaled.B[0]));
 }
 
 }  // namespace
@@ -394,21 +362,19 @@ void prepare_lone(const Scene& scene, PreparedScene& prepared) {
 PreparedScene prepare(const Scene& scene) {
   PreparedScene prepared;
   prepared.ellipsoids = has_ellipsoids(scene);
-  if (!is_crystal(scene)) {
-    prepare_lone(scene, prepared);
-    return prepared;
-  }
-  Shortening unscaled(scene.lattices[0], scene.dimension, 1, {});
-  unscaled.run();
-  const double first = length(rounded(unscaled.B[0]));
+  const double first = first_length(scene);
   if (!(first > 1 / kMaxLength && first < kMaxLength)) {
-    prepared.beyond = "does lattice vectors between 2^-400 and 2^400 only";
+    prepared.beyond = "does lattice vectors and single obstacles between 2^-400 and 2^400 only";
     return prepared;
   }
   prepared.exponent = std::ilogb(first);
   const double scale = std::ldexp(1, -prepared.exponent);
   for (int l = 0; l < static_cast<int>(scene.lattices.size()) && prepared.beyond.empty(); ++l)
     prepared.beyond = LatticePreparation(scene, l, scale).add_to(prepared);
+  for (const Bravais& atom : prepared.atoms) {
+    prepared.least_rank = std::min(prepared.least_rank, atom.rank);
+    prepared.most_rank = std::max(prepared.most_rank, atom.rank);
+  }
   return prepared;
 }
 

@@ -16,15 +16,16 @@ using WideVec = std::array<Wide, 3>;
 
 struct Bravais {
   int dimension = 0;
+  int rank = 0;               ///< how many vectors the lattice has
   int lattice = 0, atom = 0;  ///< which of the scene
-  bool lone = false;          ///< a single obstacle: there is only the cell 0
   bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
   double radius = 0;  ///< of an ellipsoid: the shape's
   Vec position{};
-  WideVec
-      basis[3];  ///< a short basis B_i = sum_j transform[i][j] u_j; columns beyond the dimension: the axes
+  WideVec basis
+      [3];  ///< a short basis B_i = sum_j transform[i][j] u_j; from the rank on vectors perpendicular to it
+            ///< (length 1), from the dimension on the axes
   std::int64_t transform[3][3]{};
-  Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64
+  Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64; from the rank on 0
   double coordinate_error = 0;   ///< a coordinate dual_i . a errs by at most this times |a_1| + |a_2| + |a_3|
   Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
   bool reaches_out = true;       ///< some reach is so large that x may lie in an obstacle of another cell
@@ -36,13 +37,13 @@ struct Bravais {
 };
 
 /// All lengths are scaled by 2^-exponent, so that the shortest lattice vector of the first lattice lies in
-/// [1, 2), or the radius of the first of single obstacles; the unit lattices keep their own.
+/// [1, 2), or the radius of a single obstacle if the first is that; the unit lattices keep their own.
 struct PreparedScene {
   int exponent = 0;
-  std::vector<Bravais> atoms;  ///< in the order of (lattice, atom)
-  bool ellipsoids = false;     ///< there are some
-  bool lone = false;           ///< single obstacles: no lattice repeats
-  std::string beyond;          ///< why the reduction engine does not do the scene; empty if it does
+  std::vector<Bravais> atoms;         ///< in the order of (lattice, atom)
+  bool ellipsoids = false;            ///< there are some
+  int least_rank = 3, most_rank = 0;  ///< of the lattices
+  std::string beyond;                 ///< why the reduction engine does not do the scene; empty if it does
 };
 
 /// For a scene without flaws.

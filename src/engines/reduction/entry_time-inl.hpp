@@ -81,7 +81,7 @@ class CloseTime {
   LORENTZ_INLINE Number distance(int k) const {
     if constexpr (kUnit) return high(N_[k]) + offset_.d[k].hi;
     Number d = offset_.d[k].hi;
-    if (lattice_.lone) return d;
+    if (lattice_.rank == 0) return d;
     for (int i = 0; i < D; ++i) d = d + all(lattice_.basis[i][k].hi) * high(N_[i]);
     return d;
   }

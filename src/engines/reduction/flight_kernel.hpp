@@ -8,22 +8,23 @@
 #include "src/engines/reduction/atom_direction.hpp"
 #include "src/engines/reduction/atom_start.hpp"
 #include "src/engines/reduction/entry_time.hpp"
-#include "src/engines/reduction/lone_obstacle.hpp"
+#include "src/engines/reduction/kernels.hpp"
 #include "src/engines/reduction/search_2d.hpp"
 #include "src/engines/reduction/search_3d.hpp"
+#include "src/engines/reduction/sparse_search.hpp"
 
 namespace lorentz {
 
 /// The first of one atom's obstacles that is entered.
-template <class Arch, int D, bool kUnit, bool kBall, bool kLone = false>
+template <class Arch, int D, SceneModel kModel, bool kBall>
 class AtomFlight {
-  static constexpr bool kTurned = kUnit && kBall;
-  using SearchInLattice =
+  static constexpr bool kUnit = kModel == SceneModel::unit, kTurned = kUnit && kBall;
+  using SearchInCrystal =
       std::conditional_t<D == 2, Search2<Arch, kUnit, kBall>, Search3<Arch, kUnit, kBall>>;
-  using Search = std::conditional_t<kLone, LoneSearch<D, kBall>, SearchInLattice>;
 
  public:
-  using Direction = std::conditional_t<kLone && kBall, LoneDirection<D>, AtomDirection<D, kUnit, kBall>>;
+  using Direction = std::conditional_t<kModel == SceneModel::sparse && kBall, SparseDirection<D>,
+                                       AtomDirection<D, kUnit, kBall>>;
 
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;
@@ -40,6 +41,26 @@ class AtomFlight {
 
   /// Obstacles that are entered after max_time may be ignored.
   void find(const Direction& to, const ObstacleId* from, double max_time) {
+    if constexpr (kModel == SceneModel::sparse)
+      search<SparseSearch<D, kBall>>(to, from, max_time);
+    else if (kModel == SceneModel::mixed && start_.lattice->rank < D)
+      search<SparseSearch<D, kBall>>(to, from, max_time);
+    else
+      search<SearchInCrystal>(to, from, max_time);
+  }
+
+  /// The cell of what is found, in the scene's own primitive vectors; false if 64 bits do not hold it.
+  bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
+
+  double rough_time(double& error) const { return entry_.rough_time(error); }
+
+  EntryTime<Arch, D, kUnit, kBall> time(const Vec& v) const {
+    return {*start_.lattice, start_.offset, N_, entry_, v};
+  }
+
+ private:
+  template <class Search>
+  void search(const Direction& to, const ObstacleId* from, double max_time) {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
     Offset<SplitProduct, D> turned;
     if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;
@@ -57,16 +78,6 @@ class AtomFlight {
     if (outcome == Outcome::hit) take(to, search.found);
   }
 
-  /// The cell of what is found, in the scene's own primitive vectors; false if 64 bits do not hold it.
-  bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
-
-  double rough_time(double& error) const { return entry_.rough_time(error); }
-
-  EntryTime<Arch, D, kUnit, kBall> time(const Vec& v) const {
-    return {*start_.lattice, start_.offset, N_, entry_, v};
-  }
-
- private:
   void take(const Direction& to, const Found<D>& found) {
     entry_.s = found.s, entry_.s_error = found.s_error;
     entry_.slack = found.slack, entry_.slack_error = found.slack_error;

@@ -11,8 +11,7 @@ void fly_split(const Task& task, Flight& flight) {
 
 template <int D, SceneModel kModel, bool kBall>
 std::shared_ptr<const AtomDirections> directions_for(const PreparedScene& scene, const Vec& v) {
-  using Item = typename AtomFlight<SplitProduct, D, kModel == SceneModel::unit, kBall,
-                                   kModel == SceneModel::lone>::Direction;
+  using Item = typename AtomFlight<SplitProduct, D, kModel, kBall>::Direction;
   auto directions = std::make_shared<DirectionsOfModel<Item>>();
   // As fly_several sets them, one from the one before: so that both decide alike, to the bit.
   std::optional<Item> to;

@@ -63,7 +63,9 @@ LORENTZ_RARE typename Arch::Mask refine_home(const Bravais& lattice, const Doubl
 }
 
 /// Reduces x to its home cell, whose coordinates are within 1/2 of those of x, and kMaxHomeError; of those
-/// wanted true where x is not too far away for that. On the unit lattices d is exact.
+/// wanted true where x is not too far away for that. On the unit lattices d is exact. (Beside a row or a layer
+/// x may be so far away that another cell is called its home: then it lies in no obstacle, and nothing else
+/// rests on it.)
 template <class Arch, bool kUnit, int D, class Vector, class Numbers>
 LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vector& x,
                                               typename Arch::Mask wanted, Offset<Numbers, D>& offset) {
@@ -85,7 +87,7 @@ LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vect
       place[k] = DD::sum(x[k], all(-lattice.position[k]));
       size = size + Abs(place[k].hi);
     }
-    if (lattice.lone) {
+    if (lattice.rank == 0) {
       for (int k = 0; k < D; ++k) offset.home[k] = all(0), offset.d[k] = {Neg(place[k].hi), Neg(place[k].lo)};
       offset.error = all(kFlushed);
       return wanted;
@@ -99,7 +101,8 @@ LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vect
     set_offset_from_home(lattice, place, size, offset);
     const auto far = AndNot(size * all(lattice.coordinate_error) < all(kMaxHomeError), wanted);
     if (nowhere(far)) return wanted;
-    return AndNot(refine_home(lattice, place, size, far, offset), wanted);
+    const auto lost = refine_home(lattice, place, size, far, offset);
+    return lattice.rank < D ? wanted : AndNot(lost, wanted);
   }
 }
 
@@ -113,7 +116,7 @@ LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offs
   constexpr bool kWide = !std::is_same_v<Coefficient, Number>;
   Number size = all(0), error = offset.error;
   if constexpr (!kUnit)
-    if (lattice.lone) {
+    if (lattice.rank == 0) {
       for (int k = 0; k < D; ++k) d[k] = DD(offset.d[k].hi, offset.d[k].lo);
       return error;
     }

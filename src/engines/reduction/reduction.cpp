@@ -63,8 +63,10 @@ const char* Reduction::model() const {
       return ellipsoids ? "one atom, ellipsoid" : "one atom";
     case SceneModel::several:
       return ellipsoids ? "several atoms, ellipsoids" : "several atoms";
-    case SceneModel::lone:
-      return ellipsoids ? "single obstacles, ellipsoids" : "single obstacles";
+    case SceneModel::sparse:
+      return ellipsoids ? "rows and layers, ellipsoids" : "rows and layers";
+    case SceneModel::mixed:
+      return ellipsoids ? "mixed, ellipsoids" : "mixed";
   }
   return "";
 }

@@ -74,7 +74,7 @@ template <class Arch, int D, bool kUnit, bool kBall>
 inline void fly_one(const Task& task, Flight& flight) {
   const Bravais& lattice = task.scene.atoms[0];
   using Direction = AtomDirection<D, kUnit, kBall>;
-  AtomFlight<Arch, D, kUnit, kBall> atom;
+  AtomFlight<Arch, D, kUnit ? SceneModel::unit : SceneModel::one_atom, kBall> atom;
   if (!atom.start(lattice, task.x)) return give_up(flight);
   const Decision inside = atom.inside(task.from);
   if (inside == Decision::doubtful) return give_up(flight);
@@ -113,7 +113,7 @@ class AtomFlights {
   std::size_t started_ = 0;
 };
 
-/// Several atoms, in one lattice or several, or single obstacles: the earliest of their hits.
+/// Several atoms, in one lattice or several: the earliest of their hits.
 template <class OneFlight, class Arch>
 inline void fly_several(const Task& task, Flight& flight) {
   using Direction = typename OneFlight::Direction;
@@ -165,10 +165,10 @@ inline void fly_several(const Task& task, Flight& flight) {
 
 template <class Arch, int D, SceneModel kModel, bool kBall>
 inline void fly_with(const Task& task, Flight& flight) {
-  if constexpr (kModel == SceneModel::several || kModel == SceneModel::lone)
-    fly_several<AtomFlight<Arch, D, false, kBall, kModel == SceneModel::lone>, Arch>(task, flight);
-  else
+  if constexpr (kModel == SceneModel::unit || kModel == SceneModel::one_atom)
     fly_one<Arch, D, kModel == SceneModel::unit, kBall>(task, flight);
+  else
+    fly_several<AtomFlight<Arch, D, kModel, kBall>, Arch>(task, flight);
 }
 
 }  // namespace lorentz

@@ -1,0 +1,54 @@
+// One obstacle on the line of flight. Private to the reduction engine.
+#pragma once
+
+#include <algorithm>
+
+#include "src/engines/reduction/found.hpp"
+#include "src/engines/reduction/stable_meeting.hpp"
+
+namespace lorentz {
+
+#define LORENTZ_INLINE inline
+#include "src/engines/reduction/lone_obstacle-inl.hpp"
+#undef LORENTZ_INLINE
+
+enum class Look { met, missed, behind, doubtful };
+
+/// Is the obstacle at d, whose components err by at most `error`, entered ahead? If so, or if it is doubtful,
+/// `found` has all but its cell.
+template <int D>
+[[gnu::noinline]] Look look_closely_at(const Wide (&d)[D], double error, const Bravais& obstacle,
+                                       bool is_ball, const Vec& v, Found<D>& found) {
+  found.needs(Stage::double_double);
+  const auto decide = [&](const auto& meeting) {
+    const Decision met = meets(meeting), ahead = is_ahead(meeting);
+    if (met == Decision::no) return Look::missed;
+    if (met == Decision::yes && ahead == Decision::no) return Look::behind;
+    found.s = meeting.s.hi, found.slack = meeting.slack.hi;
+    found.s_error = meeting.s_error + kRoundoff * found.s;
+    found.slack_error = meeting.slack_error + kRoundoff * found.slack;
+    if constexpr (D == 2) found.h = difference_of_products(d[1], v[0], d[0], v[1]).hi;
+    return met == Decision::yes && ahead == Decision::yes ? Look::met : Look::doubtful;
+  };
+  if (is_ball) return decide(StableMeeting<SplitProduct, D, true>(v, d, error, obstacle));
+  return decide(StableMeeting<SplitProduct, D, false>(v, d, error, obstacle));
+}
+
+/// The same: a ball in binary64 if that is certain; else, and an ellipsoid, in double-double. v2 = |v|^2.
+template <int D, bool kBall>
+inline Look look_at(const Wide (&d)[D], double error, const Bravais& obstacle, const Vec& v, double v2,
+                    Found<D>& found) {
+  if constexpr (kBall) {
+    double velocity[D];
+    std::copy_n(v.begin(), D, velocity);
+    const LoneBall<SplitProduct, D> ball(velocity, d, error, v2, obstacle.radius);
+    if (ball.is_missed()) return Look::missed;
+    if (ball.is_behind()) return Look::behind;
+    found.s = ball.s, found.s_error = ball.s_error;
+    found.slack = ball.slack, found.slack_error = ball.slack_error;
+    if (ball.is_met() && ball.is_ahead()) return Look::met;
+  }
+  return look_closely_at<D>(d, error, obstacle, kBall, v, found);
+}
+
+}  // namespace lorentz
