@@ -40,7 +40,7 @@ enum class Stop {
   collisions,  ///< it made as many as were asked for
   time,        ///< the time that was asked for has come; it is where it is then
   condition,   ///< the visitor wished it
-  never,       ///< it flies on for ever
+  never,       ///< it flies on for ever; from rows, layers and single obstacles particles escape
   later,       ///< so says the engine, of a flight without a limit
   inside,      ///< it lies in an obstacle: a start, or a corner between obstacles that touch or overlap
   undecided,   ///< the engine does not know what is hit next

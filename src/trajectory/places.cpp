@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <lorentz/geometry.hpp>
+#include "src/problem/scene_geometry.hpp"
 #include "src/trajectory/motion.hpp"
 
 namespace lorentz {
@@ -19,7 +20,7 @@ bool in_range(const Vec& a) {
 bool in_range(const Scene& scene) {
   bool good = true;
   for (const Lattice& lattice : scene.lattices) {
-    for (int i = 0; i < scene.dimension; ++i) good &= in_range(lattice.vectors[i]);
+    for (int i = 0; i < lattice.rank(scene.dimension); ++i) good &= in_range(lattice.vectors[i]);
     for (const Atom& atom : lattice.atoms) {
       for (const double component : atom.position) good &= std::fabs(component) <= kLargest;
       for (int i = 0; i < scene.dimension; ++i) good &= in_range(semiaxes_of(atom, scene.dimension)[i]);
@@ -40,8 +41,6 @@ Vec rounded(const Point<Wide>& a) {
 
 Places::Places(const Scene& scene) : scene_(scene) {
   if (const auto flaw = flaw_of(scene)) throw std::invalid_argument(*flaw);
-  if (!is_crystal(scene))
-    throw std::invalid_argument("trajectories are of crystals only: lattices that repeat in all directions");
   if (!in_range(scene))
     throw std::invalid_argument("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
 }
@@ -58,8 +57,11 @@ void Places::set_home(const Query& start, Particle& particle) const {
     }
     return;
   }
-  const Vec n = coordinates(dual_of(scene_.lattices[0].vectors, scene_.dimension), start.x);
-  for (int i = 0; i < scene_.dimension; ++i) {
+  const int rank = scene_.lattices[0].rank(scene_.dimension);
+  std::array<Vec, 3> vectors = scene_.lattices[0].vectors;
+  complete_perpendicularly(vectors, rank, scene_.dimension);
+  const Vec n = coordinates(dual_of(vectors, scene_.dimension), start.x);
+  for (int i = 0; i < rank; ++i) {
     if (!(std::fabs(n[i]) < 0x1p53))
       throw std::invalid_argument("a trajectory starts within 2^53 cells of the origin");
     particle.cell[i] = static_cast<std::int64_t>(std::round(n[i]));

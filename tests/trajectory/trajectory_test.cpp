@@ -496,28 +496,69 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
 
 // ---- superposed lattices
 
-TEST_CASE("Superposed lattices: every flight is the oracle's", "[trajectory]") {
-  const Scene scene = two_lattices();
+namespace {
+
+// Collisions of each lattice, until there were so many or the particle escaped.
+std::vector<int> check_flights(const Scene& scene, const Query& start, int collisions) {
   const oracle::Oracle oracle(scene);
   const Reduction engine(scene);
-  Draw draw(23);
-  Trajectory trajectory(engine, scene, start_between(draw, 2));
-  std::array<int, 2> seen{};
-  for (int i = 0; i < 200; ++i) {
+  Trajectory trajectory(engine, scene, start);
+  std::vector<int> seen(scene.lattices.size());
+  for (int i = 0; i < collisions; ++i) {
     const Particle before = trajectory.state();
     Query query{trajectory.place(), before.velocity, {}};
-    if (before.leaves)
-      query.from = ObstacleId{before.lattice, before.atom, {before.cell[0], before.cell[1], 0}};
+    if (before.leaves) {
+      query.from = ObstacleId{before.lattice, before.atom, {}};
+      for (int k = 0; k < 3; ++k) query.from->cell[k] = before.cell[k];
+    }
     const Answer answer = oracle.first_hit(query);
-    REQUIRE(trajectory.advance());
+    const bool hit = trajectory.advance();
     const Particle& now = trajectory.state();
-    REQUIRE(answer.outcome == Outcome::hit);
+    REQUIRE((hit ? answer.outcome == Outcome::hit
+                 : answer.outcome == Outcome::never && trajectory.stop() == Stop::never));
+    if (!hit) break;
     CHECK(now.lattice == answer.obstacle.lattice);
-    for (int k = 0; k < 2; ++k) CHECK(now.cell[k] == answer.obstacle.cell[k].int64());
+    for (int k = 0; k < 3; ++k) CHECK(now.cell[k] == answer.obstacle.cell[k].int64());
     ++seen[now.lattice];
   }
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("Superposed lattices: every flight is the oracle's", "[trajectory]") {
+  Draw draw(23);
+  const std::vector<int> seen = check_flights(two_lattices(), start_between(draw, 2), 200);
   CHECK(seen[0] > 50);
   CHECK(seen[1] > 20);
+}
+
+TEST_CASE("Among rows and layers every flight is the oracle's, until the particle escapes", "[trajectory]") {
+  for (const int dimension : {2, 3})
+    for (int rank = 0; rank < dimension; ++rank) {
+      Draw draw(static_cast<std::uint64_t>(10 * dimension + rank));
+      // Two lattices of that rank face each other, in other vectors.
+      Scene scene = unit_scene(dimension, 0.45);
+      scene.lattices.push_back(scene.lattices[0]);
+      for (Lattice& lattice : scene.lattices) {
+        lattice.missing = dimension - rank;
+        for (int i = rank; i < dimension; ++i) lattice.vectors[i] = {};
+      }
+      if (rank > 0) scene.lattices[1].vectors[0][0] = 1.125;
+      scene.lattices[1].atoms[0].position[dimension - 1] = 1.5;
+      int collisions = 0, longest = 0;
+      for (int i = 0; i < 200; ++i) {
+        Query start{draw.vec(dimension, -3, 3), draw.vec(dimension, -1, 1), {}};
+        start.x[dimension - 1] = 0.75;
+        for (int k = rank; k < dimension - 1; ++k) start.x[k] *= 0.1, start.v[k] *= 0.1;
+        start.x[0] += std::ldexp(1, 30) * (rank > 0);
+        const std::vector<int> seen = check_flights(scene, start, 40);
+        collisions += seen[0] + seen[1], longest = std::max(longest, seen[0] + seen[1]);
+      }
+      INFO(dimension << "D, rank " << rank << ": " << collisions << ", " << longest);
+      CHECK(collisions > (rank == 0 ? 10 : 200));
+      CHECK(longest >= (rank == 0 ? 2 : 3));
+    }
 }
 
 TEST_CASE("A displacement is exact where both places are far away", "[trajectory]") {
