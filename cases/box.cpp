@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -89,4 +89,25 @@ namespace lorentz {
   return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};
 }
 
+/// Sets the vectors after the first `rank` ones: perpendicular to these and to each other, of length 1 up to
+/// rounding.
+[[gnu::always_inline]] inline void complete_perpendicularly(std::array<Vec, 3>& vectors, int rank,
+                                                            int dimension) {
+  std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
+  for (int i = 0; i < dimension; ++i) {
+    const auto across = [&](Vec v) {
+      for (int j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
+      return v;
+    };
+    Vec best = i < rank ? across(vectors[i]) : Vec{};
+    for (int axis = 0; i >= rank && axis < dimension; ++axis) {
+      Vec unit{};
+      unit[axis] = 1;
+      if (length(across(unit)) > length(best)) best = across(unit);
+    }
+    units[i] = scaled(best, 1 / length(best));
+    if (i >= rank) vectors[i] = units[i];
+  }
+}
+
 }  // namespace lorentz

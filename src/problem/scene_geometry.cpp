@@ -40,24 +40,6 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   return lengths;
 }
 
-void complete_perpendicularly(std::array<Vec, 3>& vectors, int rank, int dimension) {
-  std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
-  for (int i = 0; i < dimension; ++i) {
-    const auto across = [&](Vec v) {
-      for (int j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
-      return v;
-    };
-    Vec best = i < rank ? across(vectors[i]) : Vec{};
-    for (int axis = 0; i >= rank && axis < dimension; ++axis) {
-      Vec unit{};
-      unit[axis] = 1;
-      if (length(across(unit)) > length(best)) best = across(unit);
-    }
-    units[i] = scaled(best, 1 / length(best));
-    if (i >= rank) vectors[i] = units[i];
-  }
-}
-
 double cell_volume(const Lattice& lattice, int dimension) {
   const auto& u = lattice.vectors;
   return std::fabs(dimension == 2 ? cross(u[0], u[1])[2] : dot(cross(u[0], u[1]), u[2]));

@@ -14,10 +14,6 @@ namespace lorentz {
 /// values of its matrix.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 
-/// Sets the vectors after the first `rank` ones: perpendicular to these and to each other, of length 1 up to
-/// rounding.
-void complete_perpendicularly(std::array<Vec, 3>& vectors, int rank, int dimension);
-
 double cell_volume(const Lattice& lattice, int dimension);
 double volume_of(const Atom& atom, int dimension);
 double surface_of(const Atom& atom, int dimension);

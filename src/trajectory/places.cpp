@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include <lorentz/geometry.hpp>
-#include "src/problem/scene_geometry.hpp"
 #include "src/trajectory/motion.hpp"
 
 namespace lorentz {

@@ -3,6 +3,7 @@
 // are and 50 times too small. What an ellipsoid brings is measured besides: shape_test.cpp.
 #include "src/engines/reduction/bounds.hpp"
 #include <lorentz/engine_base.hpp>
+#include <lorentz/geometry.hpp>
 #include "src/engines/reduction/basis_3d.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -307,19 +308,22 @@ TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engi
     const auto touching = draw.below(3);
     if (touching > 0)
       r = std::nextafter((touching == 1 ? sqrt(of_ball) : of_row).convert_to<double>(), 1e300);
-    const SparseRow row(v, kSparse * kRoundoff, {b, length(b)}, r);
-    const SparseRange range = row.balls({d, length(d)}), planes = row.rows({d, length(d)}, {e, length(e)});
+    const auto seen = [](const Vec& a) {
+      return SparseVector<SplitProduct, 3>{{a[0], a[1], a[2]}, length(a)};
+    };
+    const SparseRow<SplitProduct, 3> row({v[0], v[1], v[2]}, kSparse * kRoundoff, seen(b), r, 0);
+    const auto range = row.balls(seen(d)), planes = row.rows(seen(d), seen(e));
     if (row.is_level()) continue;
-    if (range.is_known()) looked_at += static_cast<long>(std::clamp(range.last - range.first + 1, 0.0, 25.0));
-    if (planes.is_known()) rows += static_cast<long>(std::clamp(planes.last - planes.first + 1, 0.0, 25.0));
+    if (range.known) looked_at += static_cast<long>(std::clamp(range.last - range.first + 1, 0.0, 25.0));
+    if (planes.known) rows += static_cast<long>(std::clamp(planes.last - planes.first + 1, 0.0, 25.0));
     for (double n = -8; n <= 16; ++n) {
       const ExactVec ball = exact_sum(d, n, b), start = exact_sum(d, n, e);
       const Exact across = exact_square(exact_cross(exact(v), ball)), distance = exact_dot(start, c);
-      if (range.is_known() && across < Exact(r) * Exact(r) * exact_square(exact(v))) {
+      if (range.known && across < Exact(r) * Exact(r) * exact_square(exact(v))) {
         ++met;
         CHECK((range.first <= n && n <= range.last));
       }
-      if (planes.is_known() && distance * distance < Exact(r) * Exact(r) * exact_square(c)) {
+      if (planes.known && distance * distance < Exact(r) * Exact(r) * exact_square(c)) {
         ++met_rows;
         CHECK((planes.first <= n && n <= planes.last));
       }

@@ -10,9 +10,9 @@
 #include <cstring>
 
 #include "src/engines/batch/late-inl.hpp"
-#include "src/engines/batch/lone-inl.hpp"
 #include "src/engines/batch/search_2d-inl.hpp"
 #include "src/engines/batch/search_3d-inl.hpp"
+#include "src/engines/batch/sparse-inl.hpp"
 #include "src/engines/batch/stretch.hpp"
 #include "src/engines/batch/turn-inl.hpp"
 
@@ -21,11 +21,14 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
+enum class Lattices { crystals, sparse, none };
+
 /// The queries [at, at + lanes) of a stretch.
-template <int D, bool kUnit, bool kBall, bool kLone>
+template <int D, bool kUnit, bool kBall, Lattices kLattices>
 class Block {
-  using SearchInLattice = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
-  using Search = std::conditional_t<kLone, LoneSearch<D>, SearchInLattice>;
+  static constexpr bool kFewer = kLattices != Lattices::crystals, kSingle = kLattices == Lattices::none;
+  using SearchInCrystal = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
+  using Search = std::conditional_t<kFewer, SparseSearch<D, kSingle>, SearchInCrystal>;
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
   static constexpr std::size_t kKept = kUnit ? 1 : 6;
@@ -92,7 +95,7 @@ class Block {
       if (left != nullptr && kTurned) turn_leaving(leaving);
       Search search(to, scene_.atoms[a], seen, left, s_limit);
       search.run(lanes_);
-      if constexpr (D == 2 || kLone) stage2_ = Or(stage2_, search.stage2);
+      if constexpr (D == 2 || kFewer) stage2_ = Or(stage2_, search.stage2);
       M next = And(lanes_.active, search.found.s < infinite());
       set_cell(search.found);
       if (a == 0) {
@@ -121,13 +124,13 @@ class Block {
 
   HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
-    if constexpr (kLone)
+    if constexpr (kFewer)
       return to.set(lattice, velocity);
     else
-      set_direction_in_lattice(a, velocity, to);
+      set_direction_in_crystal(a, velocity, to);
   }
 
-  HWY_INLINE void set_direction_in_lattice(std::size_t a, const V (&velocity)[D],
+  HWY_INLINE void set_direction_in_crystal(std::size_t a, const V (&velocity)[D],
                                            typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
     if (a > 0) {
@@ -283,7 +286,7 @@ class Block {
   // basis.
   HWY_INLINE void name(M here, std::size_t a, const AtomStart& start, const V (&n)[D]) {
     atom_ = select(here, all(static_cast<double>(a)), atom_);
-    if constexpr (kLone) return;  // there is only the cell 0
+    if constexpr (kSingle) return;  // there is only the cell 0
     const Bravais& lattice = scene_.atoms[a];
     const V limit = all(0x1p51);
     V m[D];
@@ -364,20 +367,26 @@ class Block {
   V time_, cell_[D], atom_;
 };
 
-template <int D, bool kUnit, bool kBall, bool kLone = false>
+template <int D, bool kUnit, bool kBall, Lattices kLattices = Lattices::crystals>
 HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
   LateTimes<D, kUnit, kBall> late;
   for (std::size_t at = 0; at < stretch.count; at += kLanes) {
     V x[D], v[D];
     for (int k = 0; k < D; ++k) x[k] = load(stretch.x[k] + at), v[k] = load(stretch.v[k] + at);
-    Block<D, kUnit, kBall, kLone>(scene, stretch, late, at, x, v).run();
+    Block<D, kUnit, kBall, kLattices>(scene, stretch, late, at, x, v).run();
   }
   late.finish(scene, stretch);
 }
 
-inline void fly_lone(const PreparedScene& scene, Stretch& stretch) {
-  if (scene.atoms[0].dimension == 2) return fly_stretch<2, false, true, true>(scene, stretch);
-  return fly_stretch<3, false, true, true>(scene, stretch);
+template <int D>
+inline void fly_sparse_in(const PreparedScene& scene, Stretch& stretch) {
+  if (scene.most_rank == 0) return fly_stretch<D, false, true, Lattices::none>(scene, stretch);
+  fly_stretch<D, false, true, Lattices::sparse>(scene, stretch);
+}
+
+inline void fly_sparse(const PreparedScene& scene, Stretch& stretch) {
+  if (scene.atoms[0].dimension == 2) return fly_sparse_in<2>(scene, stretch);
+  fly_sparse_in<3>(scene, stretch);
 }
 
 template <int D, bool kBall>

@@ -10,14 +10,14 @@ std::vector<StretchKernels> stretch_kernels() {
   const std::vector<BuiltKernel> discs = kernels_of_balls_in_plane(), balls = kernels_of_balls_in_space(),
                                  ellipses = kernels_of_ellipsoids_in_plane(),
                                  ellipsoids = kernels_of_ellipsoids_in_space(),
-                                 lone = kernels_of_lone_balls();
+                                 sparse = kernels_of_sparse_balls();
   std::vector<StretchKernels> kernels;
   for (std::size_t i = 0; i < discs.size(); ++i)
     if ((hwy::SupportedTargets() & discs[i].target) != 0)
       kernels.push_back({hwy::TargetName(discs[i].target),
                          {discs[i].kernel, balls[i].kernel},
                          {ellipses[i].kernel, ellipsoids[i].kernel},
-                         lone[i].kernel});
+                         sparse[i].kernel});
   kernels.push_back({"none", {}, {}, {}});
   return kernels;
 }

@@ -134,7 +134,9 @@ struct LaneFma {
 #include "src/engines/reduction/entry_time-inl.hpp"
 
 #include "src/engines/reduction/frame_3d-inl.hpp"
+#include "src/engines/reduction/one_obstacle-inl.hpp"
 #include "src/engines/reduction/search_2d-inl.hpp"
+#include "src/engines/reduction/sparse_rows-inl.hpp"
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_RARE
 #undef LORENTZ_INLINE

@@ -57,12 +57,13 @@ using StretchKernel = void (*)(const PreparedScene&, Stretch&);
 struct StretchKernels {
   const char* instructions;
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
-  StretchKernel lone_balls;
+  StretchKernel sparse_balls;
 
   StretchKernel of(const PreparedScene& scene) const {
-    if (scene.most_rank == 0) return scene.ellipsoids ? nullptr : lone_balls;
-    if (scene.least_rank < scene.atoms[0].dimension) return nullptr;
-    return (scene.ellipsoids ? ellipsoids : balls)[scene.atoms[0].dimension - 2];
+    const int dimension = scene.atoms[0].dimension;
+    if (scene.most_rank < dimension) return scene.ellipsoids ? nullptr : sparse_balls;
+    if (scene.least_rank < dimension) return nullptr;
+    return (scene.ellipsoids ? ellipsoids : balls)[dimension - 2];
   }
 };
 
@@ -75,6 +76,6 @@ struct BuiltKernel {
   StretchKernel kernel;
 };
 std::vector<BuiltKernel> kernels_of_balls_in_plane(), kernels_of_balls_in_space(),
-    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space(), kernels_of_lone_balls();
+    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space(), kernels_of_sparse_balls();
 
 }  // namespace lorentz

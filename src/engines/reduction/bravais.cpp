@@ -8,7 +8,6 @@
 #include <lorentz/geometry.hpp>
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/formulas.hpp"
-#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz {
 namespace {

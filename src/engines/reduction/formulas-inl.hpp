@@ -27,6 +27,25 @@ LORENTZ_INLINE T square_of(const T (&d)[D]) {
   return sum;
 }
 
+/// a . b.
+template <int D, class T>
+LORENTZ_INLINE T product_of(const T (&a)[D], const T (&b)[D]) {
+  T sum = a[0] * b[0];
+  for (int k = 1; k < D; ++k) sum = sum + a[k] * b[k];
+  return sum;
+}
+
+/// a x b; in the plane its third component alone.
+template <class T>
+LORENTZ_INLINE void cross_of(const T (&a)[2], const T (&b)[2], T (&c)[1]) {
+  c[0] = difference_of_products(a[0], b[1], a[1], b[0]);
+}
+template <class T>
+LORENTZ_INLINE void cross_of(const T (&a)[3], const T (&b)[3], T (&c)[3]) {
+  for (int k = 0; k < 3; ++k)
+    c[k] = difference_of_products(a[(k + 1) % 3], b[(k + 2) % 3], a[(k + 2) % 3], b[(k + 1) % 3]);
+}
+
 /// d . G d, from the high parts of G.
 template <int D, class Matrix, class T>
 LORENTZ_INLINE T form_of(const Matrix& G, const T (&d)[D]) {

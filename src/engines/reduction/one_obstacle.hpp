@@ -9,7 +9,7 @@
 namespace lorentz {
 
 #define LORENTZ_INLINE inline
-#include "src/engines/reduction/lone_obstacle-inl.hpp"
+#include "src/engines/reduction/one_obstacle-inl.hpp"
 #undef LORENTZ_INLINE
 
 enum class Look { met, missed, behind, doubtful };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include <lorentz/geometry.hpp>
 #include "src/engines/reduction/atom_direction.hpp"
 #include "src/engines/reduction/one_obstacle.hpp"
 #include "src/engines/reduction/sparse_rows.hpp"
@@ -57,85 +56,68 @@ class SparseSearch {
   }
 
  private:
-  // The lattice vector t_0 B_0 + t_1 B_1.
-  struct Combination {
-    double t[2];
-    SparseVector seen;
-  };
+  using Vector = SparseVector<SplitProduct, D>;
+  using Row = SparseRow<SplitProduct, D>;
+  using Range = SparseRange<SplitProduct>;
 
   // False: undecided.
   bool scan() {
-    for (Combination& none : rows_) none = {};
+    for (auto& row : rows_) row = {};
     if (lattice_.rank == 0) return look(0, 0) != Look::doubtful;
     see();
-    if (lattice_.rank == 2) shorten_across();
-    Combination& row = rows_[0];
-    if (dot(seen_v_, row.seen.a) < 0) row = plus({}, -1, row);
-    const SparseRow along(seen_v_, unit(), row.seen, lattice_.radius);
+    if constexpr (D == 3)
+      if (lattice_.rank == 2) shorten_across<SplitProduct>(seen_v_, rows_);
+    turn_forward<SplitProduct>(seen_v_, rows_[0]);
+    const Row along(seen_v_, unit(), rows_[0].seen, lattice_.radius, error());
     if (lattice_.rank == 1) return along.is_level() ? scan_level_row(along) : scan_row(along, 0);
-    if (along.is_level()) return false;
-    const SparseRange rows = along.rows(start_, rows_[1].seen);
-    if (!rows.is_known() || rows.last - rows.first > kMaxRows) return false;
-    for (double k = rows.first; k <= rows.last; ++k)
-      if (!scan_row(along, k)) return false;
+    if constexpr (D == 3) {
+      const Range rows = along.rows(start_, rows_[1].seen);
+      if (along.is_level() || !rows.known || rows.last - rows.first > kMaxRows) return false;
+      for (double k = rows.first; k <= rows.last; ++k)
+        if (!scan_row(along, k)) return false;
+    }
     return true;
   }
 
-  // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp).
+  // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp), and d by so much more.
   double unit() const {
     if constexpr (kBall) return kSparse * kRoundoff;
     return (kSparse + kSparseOfShape * lattice_.shape.condition) * kRoundoff;
   }
-  Vec image(const Vec& a) const {
-    if constexpr (kBall) return a;
-    const Vec* N = lattice_.shape.to_ball;
-    return {dot(N[0], a), dot(N[1], a), D == 3 ? dot(N[2], a) : 0};
+  double error() const {
+    if constexpr (kBall) return offset_.error;
+    return offset_.error * std::sqrt(lattice_.shape.metric_size);
   }
+
+  // The vectors as sparse_rows.hpp takes them: velocity, start, the row that is followed, the step to the next.
   void see() {
-    const auto high = [](const auto& wide) {
-      Vec a{};
-      for (int k = 0; k < D; ++k) a[k] = wide[k].hi;
-      return a;
+    const auto image = [&](const auto& a, double(&there)[D]) {
+      for (int i = 0; i < D; ++i) {
+        if constexpr (kBall) there[i] = a(i);
+        if constexpr (!kBall) there[i] = 0;
+        for (int k = 0; k < D && !kBall; ++k) there[i] += lattice_.shape.to_ball[i][k] * a(k);
+      }
     };
-    const auto seen = [&](const Vec& a) {
-      const Vec there = image(a);
-      return SparseVector{there, length(there)};
+    const auto seen = [&](const auto& wide) {
+      Vector vector;
+      image([&](int k) { return wide[k].hi; }, vector.a);
+      vector.size = std::sqrt(square_of(vector.a));
+      return vector;
     };
-    seen_v_ = image(v_);
-    start_ = seen(high(offset_.d));
-    start_.error = offset_.error;
-    if constexpr (!kBall) start_.error *= std::sqrt(lattice_.shape.metric_size);
-    for (int i = 0; i < lattice_.rank; ++i) {
-      rows_[i].t[i] = 1;
-      rows_[i].seen = seen(high(lattice_.basis[i]));
-    }
-  }
-
-  static Combination plus(const Combination& a, double k, const Combination& b) {
-    return {{a.t[0] + k * b.t[0], a.t[1] + k * b.t[1]}, a.seen.plus(k, b.seen)};
-  }
-
-  // Two vectors of the plane that are short across the line: few rows along the first one come near it.
-  void shorten_across() {
-    for (int pass = 0; pass < kMaxPlaneReductionSteps; ++pass) {
-      Vec c = cross(seen_v_, rows_[0].seen.a), e = cross(seen_v_, rows_[1].seen.a);
-      if (dot(e, e) < dot(c, c)) std::swap(rows_[0], rows_[1]), std::swap(c, e);
-      const double m = std::nearbyint(dot(c, e) / dot(c, c));
-      if (m == 0 || !(std::fabs(m) < kMaxTransform)) return;
-      const Combination shorter = plus(rows_[1], -m, rows_[0]);
-      if (!(length(cross(seen_v_, shorter.seen.a)) < length(e))) return;
-      rows_[1] = shorter;
-    }
+    image([&](int k) { return v_[k]; }, seen_v_);
+    start_ = seen(offset_.d);
+    for (int i = 0; i < lattice_.rank; ++i) rows_[i].t[i] = 1, rows_[i].seen = seen(lattice_.basis[i]);
   }
 
   // The first obstacle of row k that is met ahead, if it comes before the best so far. False: undecided.
-  bool scan_row(const SparseRow& along, double k) {
-    const SparseVector start = start_.plus(k, rows_[1].seen);
-    SparseRange range = along.balls(start);
-    if (!range.is_known()) return false;
+  bool scan_row(const Row& along, double k) {
+    Vector start = start_;
+    start.add(k, rows_[1].seen);
+    Range range = along.balls(start);
+    if (!range.known) return false;
     if (range.last - range.first >= kMaxCandidatesInRow) {
-      const SparseRange ahead = along.ahead(start);
-      if (!ahead.is_known()) return false;
+      const Range ahead = along.ahead(start);
+      if (!ahead.known) return false;
       range.first = std::max(range.first, ahead.first);
     }
     double n = range.first;
@@ -147,12 +129,12 @@ class SparseSearch {
   }
 
   // A row that is exactly parallel to the line: all are met, or none is.
-  bool scan_level_row(const SparseRow& along) {
+  bool scan_level_row(const Row& along) {
     double n[D]{};
     n[0] = 1;
     if (!is_parallel<SplitProduct, D>(lattice_, v_, n)) return false;
-    const SparseRange ahead = along.ahead(start_);
-    if (!ahead.is_known()) return false;
+    const Range ahead = along.ahead(start_);
+    if (!ahead.known) return false;
     for (int step = 0; step < kMaxCandidatesInRow; ++step) {
       const Look seen = look(ahead.first + step, 0);
       if (seen != Look::behind) return seen != Look::doubtful;
@@ -188,9 +170,9 @@ class SparseSearch {
   const double v2_;
   const Offset<SplitProduct, D>& offset_;
   const Wide* from_ = nullptr;
-  Vec seen_v_;
-  SparseVector start_;
-  Combination rows_[2];  ///< the row that is followed, and the step to the next one
+  double seen_v_[D];
+  Vector start_;
+  SparseCombination<SplitProduct, D> rows_[2];  ///< the row that is followed, and the step to the next one
 };
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// A single ball on the line of flight: the text of lone_obstacle.hpp, and of the batch engine.
+// A single ball on the line of flight: the text of one_obstacle.hpp, and of the batch engine.
 
 /// Seen from x: the centre at d, s = v . d, slack = (r |v|)^2 - |v x d|^2, in binary64. Entries are at
 /// s - s_rho at the earliest.
@@ -14,20 +14,15 @@ struct LoneBall {
                           double radius) {
     Number place[D], h[D == 2 ? 1 : 3];
     for (int k = 0; k < D; ++k) place[k] = d[k].hi;
-    h[0] = difference_of_products(v[0], place[1], v[1], place[0]);
-    if constexpr (D == 2) {
-      s = sum_of_products(v[0], place[0], v[1], place[1]);
-    } else {
-      h[1] = difference_of_products(v[1], place[2], v[2], place[1]);
-      h[2] = difference_of_products(v[2], place[0], v[0], place[2]);
-      s = sum_of_products(v[0], place[0], v[1], place[1], v[2], place[2]);
-    }
-    const Number h2 = square_of(h), rho2 = squared_width_of(all(radius), v2);
-    const Number product = sqrt(v2 * square_of(place)), of_d = 4 * kDiagonal * error + all(kFlushed);
+    cross_of(v, place, h);
+    s = product_of(v, place);
+    const Number h2 = square_of(h), across = sqrt(h2), rho2 = squared_width_of(all(radius), v2);
+    const Number product = Abs(s) + across;  // at least |v| |d|, which is the root of their squares
+    const Number of_d = 4 * kDiagonal * error + all(kFlushed);
     const Number h_error = kLoneAcross * kRoundoff * product + of_d;
     s_error = kLoneAlong * kRoundoff * product + of_d;
     slack = rho2 - h2;
-    slack_error = 2 * h_error * (sqrt(h2) + 2 * h_error) + kLoneSlack * kRoundoff * (rho2 + h2);
+    slack_error = 2 * h_error * (across + 2 * h_error) + kLoneSlack * kRoundoff * (rho2 + h2);
   }
 
   LORENTZ_INLINE Mask is_met() const { return slack > slack_error; }
