@@ -1,0 +1,159 @@
+// A point a / 2^bits is given by a and bits; below 0 they make it an even integer.
+#include "oracle/horizon/real_roots.hpp"
+
+#include <algorithm>
+
+#include "oracle/exact/quadratic.hpp"
+
+namespace lorentz::oracle {
+namespace {
+
+// Without leading zeros and common factors.
+Polynomial primitive(Polynomial p) {
+  while (!p.empty() && p.back() == 0) p.pop_back();
+  Z common = 0;
+  for (const Z& c : p) common = gcd(common, c);
+  for (Z& c : p) c /= common;
+  return p;
+}
+
+// The remainder of a by b, times a positive number.
+Polynomial remainder(Polynomial a, const Polynomial& b) {
+  while (a.size() >= b.size()) {
+    const Z factor = a.back() * sgn(b.back()), scale = abs(b.back());
+    for (Z& c : a) c *= scale;
+    for (std::size_t i = 0; i < b.size(); ++i) a[a.size() - b.size() + i].subtract_product(factor, b[i]);
+    a = primitive(std::move(a));
+  }
+  return a;
+}
+
+// a / b, where b divides a.
+Polynomial exact_quotient(Polynomial a, const Polynomial& b) {
+  Polynomial result(a.size() - b.size() + 1);
+  for (std::size_t k = result.size(); k-- > 0;) {
+    result[k] = a[k + b.size() - 1] / b.back();
+    for (std::size_t i = 0; i < b.size(); ++i) a[k + i].subtract_product(result[k], b[i]);
+  }
+  return result;
+}
+
+Polynomial derivative(const Polynomial& p) {
+  Polynomial result;
+  for (std::size_t i = 1; i < p.size(); ++i) result.push_back(i * p[i]);
+  return result;
+}
+
+// Euclid's remainders of a and b with alternating signs; the last is their greatest common divisor.
+std::vector<Polynomial> remainders(const Polynomial& a, const Polynomial& b) {
+  std::vector<Polynomial> chain{a};
+  for (Polynomial next = primitive(b); !next.empty();) {
+    chain.push_back(next);
+    next = remainder(chain[chain.size() - 2], next);
+    for (Z& c : next) c = -c;
+  }
+  return chain;
+}
+
+int sign_of_value(const Polynomial& p, const Z& a, long bits) {
+  const auto shift = static_cast<unsigned long>(std::labs(bits));
+  const Z point = bits < 0 ? shifted_left(a, shift) : a;
+  Z value = 0;
+  for (std::size_t k = p.size(); k-- > 0;)
+    value = value * point + (bits < 0 ? p[k] : shifted_left(p[k], shift * (p.size() - 1 - k)));
+  return sgn(value);
+}
+
+// Sturm's theorem: how many roots in (low, high] / 2^bits, for a polynomial without multiple roots.
+class RootCount {
+ public:
+  explicit RootCount(const Polynomial& p) : chain_(remainders(p, derivative(p))) {}
+
+  const Polynomial& multiple_roots() const { return chain_.back(); }
+  std::size_t operator()(const Z& low, const Z& high, long bits) const {
+    return changes_at(low, bits) - changes_at(high, bits);
+  }
+
+ private:
+  std::size_t changes_at(const Z& a, long bits) const {
+    std::size_t changes = 0;
+    int before = 0;
+    for (const Polynomial& p : chain_) {
+      const int sign = sign_of_value(p, a, bits);
+      changes += sign * before < 0;
+      if (sign != 0) before = sign;
+    }
+    return changes;
+  }
+
+  std::vector<Polynomial> chain_;
+};
+
+// No root is 2^result or larger in size: |c_i / c_n| + 1 is more than any.
+long bits_of_roots(const Polynomial& p) {
+  long most = 0;
+  for (const Z& c : p) most = std::max(most, bit_length(c) - bit_length(p.back()) + 1);
+  return most + 1;
+}
+
+}  // namespace
+
+void RealRoot::refine() {
+  low = 2 * low;
+  ++bits;
+  const int sign = sign_of_value(polynomial, low + 1, bits);
+  if (sign != 0 && sign != sign_above) ++low;
+}
+
+std::vector<RealRoot> real_roots(Polynomial polynomial) {
+  polynomial = primitive(std::move(polynomial));
+  if (polynomial.size() < 2) return {};
+  RootCount count(polynomial);
+  if (count.multiple_roots().size() > 1) {
+    polynomial = exact_quotient(std::move(polynomial), count.multiple_roots());
+    count = RootCount(polynomial);
+  }
+  std::vector<RealRoot> roots;
+  const auto search = [&](const auto& self, const Z& low, long bits) -> void {
+    const Z high = low + 1;
+    const std::size_t inside = count(low, high, bits);
+    if (inside == 1) {
+      roots.push_back({polynomial, sign_of_value(polynomial, high, bits), low, bits});
+    } else if (inside > 1) {
+      self(self, 2 * low, bits + 1);
+      self(self, 2 * low + 1, bits + 1);
+    }
+  };
+  for (const int half : {-1, 0}) search(search, half, -bits_of_roots(polynomial));
+  return roots;
+}
+
+// The intervals are disjoint, or one is within the other. A common root of the polynomials there is the only
+// root of either.
+int compare(RealRoot& a, RealRoot& b) {
+  constexpr int kCheap = 16;  // refinements before equality is thought of
+  for (int round = 0;; ++round) {
+    RealRoot &wide = a.bits <= b.bits ? a : b, &fine = a.bits <= b.bits ? b : a;
+    const int side = sgn((fine.low >> static_cast<unsigned long>(fine.bits - wide.bits)) - wide.low);
+    if (side != 0) return &fine == &a ? side : -side;
+    if (round == kCheap) {
+      const Polynomial common = remainders(a.polynomial, b.polynomial).back();
+      if (RootCount(common)(fine.low, fine.low + 1, fine.bits) > 0) return 0;
+    }
+    wide.refine();
+  }
+}
+
+// That ends: the root is midway between two binary64 only if it is an end of the interval from some
+// refinement on.
+double round_to_binary64(RealRoot root) {
+  for (;; root.refine()) {
+    const Z high = root.low + 1;
+    const double rounded = round_to_binary64({high, 1, 0, 1, -root.bits});
+    if (sign_of_value(root.polynomial, high, root.bits) == 0 ||
+        rounded == round_to_binary64({root.low, 1, 0, 1, -root.bits}))
+      return rounded;
+  }
+}
+
+}  // namespace lorentz::oracle
