@@ -42,7 +42,7 @@ Command horizon_command() {
   auto options = std::make_shared<HorizonOptions>();
   return {"horizon",
           "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
-          "channels (3D).",
+          "channels (3D); of rows the directions that are closed.",
           {
               {"name", &options->name, "SCENE", "the scene: a file, or a name of the catalogue"},
               {"--scene", &options->scene, "SCENE", "the same"},

@@ -72,7 +72,6 @@ int list(const SceneOptions& options) {
 
 // Whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
-  if (!is_crystal(scene)) return "not searched: it is of crystals only";
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
@@ -83,6 +82,8 @@ std::string horizon_verdict(const Scene& scene) {
     return verdict;
   } catch (const oracle::TooManyChannels& error) {
     return std::string("not searched: ") + error.what() + "; see `lorentz horizon --min-width`";
+  } catch (const InputError& error) {  // "horizon: unsupported for .."
+    return "not searched" + std::string(error.what()).substr(std::string("horizon").size());
   }
 }
 

@@ -138,6 +138,7 @@ std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
 // The widest corridors, or planar channels and, as many again, cylinders. Those that only the rounding of a
 // radius leaves open are too narrow to be seen.
 std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
+  if (!is_crystal(scene)) throw InputError("--channels: supports crystals only");
   std::vector<FreeWay> ways;
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, true, search_progress());

@@ -1,4 +1,4 @@
-// What there is to say of the channels of a scene.
+// What there is to say of the channels of a scene, and of the closed directions of rows.
 #pragma once
 
 #include <cstddef>

@@ -49,9 +49,28 @@ struct CylinderFamily {
   double directions = 0;           ///< not infinite: about so many directions would have to be looked at
 };
 
+/// Where an arc of closed directions ends: along the row itself, or where a gap in its shadow opens.
+struct ArcEnd {
+  double angle = 0;                 ///< in radians, from the row's vector counterclockwise: 0 to pi
+  double cotangent = 0;             ///< of the angle, correctly rounded; infinite along the row
+  Vec vector{};                     ///< in this direction, about as long as the row's vector
+  std::vector<ObstacleId> between;  ///< the two obstacles beside the gap; none along the row
+};
+
+/// Directions along which rows in the plane leave no way open. The ends belong to the arc, since a way of width
+/// 0 is not open; the direction of the row does not, since it is open. An arc may be a single direction.
+struct ClosedArc {
+  ArcEnd from, to;
+};
+
 /// All ways through a scene that are free for ever.
 struct Horizon {
   int dimension = 0;
+
+  /// The closed directions of a scene of rows, in the order of their angles; all others are open. Only a scene
+  /// of rows has this, and it has nothing else.
+  std::optional<std::vector<ClosedArc>> closed;
+
   std::vector<Channel> channels;  ///< the widest first
   std::size_t normals = 0;        ///< different directions (3D: normals) among the channels
   /// Directions (3D: normals) of which it is not known whether they have channels: three lattices or more
@@ -84,13 +103,19 @@ using SearchProgress = std::function<void(const std::string& what, std::size_t d
 
 /// What is open is decided exactly.
 /// held by "Horizon: square and cubic lattices by their closed forms",
-///         "Horizon: the oracle flies for ever in a channel, and nowhere else"
+///         "Horizon: the oracle flies for ever in a channel, and nowhere else",
+///         "Horizon: the closed directions of rows, by looking at drawn ones"
 ///
-/// All open channels of a scene without flaws (flaw_of, dependence_in); with `min_width` above 0 the
+/// All open channels of a crystal without flaws (flaw_of, dependence_in); with `min_width` above 0 the
 /// corridors and planar channels at least that wide. The search for cylinders can be left out: among
 /// small obstacles it is the longer one. Throws TooManyChannels, mostly at once, for directions that come
 /// into question are counted before any is looked at; a search of very many takes half a minute, and
-/// `progress` hears of it. Throws InputError for a `min_width` that is below 0 or not finite.
+/// `progress` hears of it.
+///
+/// A scene of rows (parallel ones in the plane, any in space), also with single obstacles, gets its closed
+/// directions. Throws InputError for all other scenes with lattices that do not repeat in all directions; for
+/// rows with too many pairs of obstacles; for a `min_width` that is below 0 or not finite, and for rows if it
+/// is above 0.
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
                    const SearchProgress& progress = {});
 

@@ -8,6 +8,7 @@
 #include <lorentz/scene_check.hpp>
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
+#include "oracle/horizon/closed_directions.hpp"
 #include "oracle/horizon/cylinders.hpp"
 #include "oracle/horizon/slabs.hpp"
 #include "oracle/integers/dyadic.hpp"
@@ -203,7 +204,8 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
 
 bool Horizon::is_infinite() const {
   const auto infinite = [](const CylinderFamily& family) { return family.infinite; };
-  return !channels.empty() || !cylinders.empty() || std::any_of(families.begin(), families.end(), infinite);
+  return closed || !channels.empty() || !cylinders.empty() ||
+         std::any_of(families.begin(), families.end(), infinite);
 }
 
 bool Horizon::is_finite() const {
@@ -214,8 +216,13 @@ Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
                    const SearchProgress& progress) {
   if (!(min_width >= 0 && std::isfinite(min_width)))
     throw InputError("min_width: needs a number, 0 or above");
-  if (!is_crystal(scene))
-    throw InputError("horizon: does crystals only, lattices that repeat in all directions");
+  if (!is_crystal(scene)) {
+    if (min_width > 0) throw InputError("min_width: supports crystals only");
+    Horizon horizon;
+    horizon.dimension = scene.dimension;
+    horizon.closed = closed_directions(scene);
+    return horizon;
+  }
   return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false, progress)
                               : horizon_in<3>(scene, min_width, with_cylinders, progress);
 }
