@@ -103,14 +103,15 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
 
     Returns what `lorentz horizon --json` says: ``horizon`` ("finite", "infinite" or "undecided"), ``channels``
     with their widths, ``cylinders`` in 3D, ``tail_constant`` C of P(path > t) ~ C / t; and ``verdict``, all of
-    it in words.
+    it in words. Of rows it has ``closed``, the arcs of directions that are closed, in place of channels and tail.
 
     Args:
         min_width: only corridors and planar channels at least that wide.
         cylinders: search for cylindrical channels, too (3D; among small obstacles the longer search).
 
     Raises:
-        Error: the obstacles are so small that there are too many channels to list.
+        Error: the obstacles are so small that there are too many channels to list, or the scene is unsupported
+            (single obstacles, layers, crystals beside other lattices, rows in different directions).
     """
     if not finite(min_width, "min_width") >= 0:
         raise Error(f"min_width: {min_width} is below 0")

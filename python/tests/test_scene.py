@@ -1,5 +1,6 @@
 """Scenes from dicts, files and names; numbers as they are."""
 
+import math
 import pickle
 from fractions import Fraction
 
@@ -104,5 +105,9 @@ def test_scenes_that_repeat_in_fewer_directions():
     row = lorentz.Scene("row")
     answer = oracle.first_hit(row, [0.25, -2, 0], [0.375, 1, 0])
     assert len(answer.cell) == 1
-    with pytest.raises(lorentz.Error, match="crystals"):
-        lorentz.horizon(row)
+    assert lorentz.horizon(row)["closed"] == []
+    arcs = lorentz.horizon("grating")["closed"]
+    assert [arc["to"]["angle"] for arc in arcs] == pytest.approx([math.pi / 6, math.pi])
+    assert [obstacle["cell"] for obstacle in arcs[0]["to"]["between"]] == [[0], [1]]
+    with pytest.raises(lorentz.Error, match="unsupported for single obstacles"):
+        lorentz.horizon(ball)
