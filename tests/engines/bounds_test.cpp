@@ -250,6 +250,19 @@ TEST_CASE("A single ball: kLoneAlong, kLoneAcross, kLoneSlack", "[engines][bound
          std::max(squared_width_of(one, speed_squared(one, none, none)).error, square_of(h).error) + 1);
 }
 
+TEST_CASE("A root from above is at least the root, and little more", "[engines][bounds]") {
+  Draw draw(7);
+  for (int i = 0; i < 100'000; ++i) {
+    // All mantissas; also next to those at which it is the root.
+    double a = std::fabs(draw.tiny(-1000, 1000)) * draw.between(1, 4);
+    if (draw.one_in(4)) a = std::nextafter(std::ldexp(1, std::ilogb(a)), draw.one_in(2) ? 0 : HUGE_VAL);
+    const double root = root_above(a);
+    CHECK((root >= std::sqrt(a) && root <= 1.07 * std::sqrt(a)));
+  }
+  CHECK((root_above(0) >= 0 && root_above(0x1p-1074) >= 0x1p-537 && root_above(HUGE_VAL) == HUGE_VAL));
+  CHECK(std::isnan(root_above(std::nan(""))));
+}
+
 TEST_CASE("Rows beside a line: kSparse, kSparseOfShape", "[engines][bounds]") {
   // A row's start d + k e, where e = t_0 B_0 + t_1 B_1; high parts are half a roundoff off.
   const Carried high{1, 0.5}, step = high * one + none, start = step * one + none;

@@ -7,6 +7,7 @@
 #define LORENTZ_BATCH_NATIVE_INL_HPP
 #endif
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -79,6 +80,13 @@ HWY_INLINE unsigned bits_of(NM m) {
 
 HWY_INLINE NM first_native(std::size_t count) {
   return FirstN(kTag, count);
+}
+
+/// numbers.hpp.
+HWY_INLINE N root_above(N a) {
+  constexpr RebindToUnsigned<Tag> kBits{};
+  const auto halved = ShiftRight<1>(BitCast(kBits, a)) + Set(kBits, std::uint64_t{1023} << 51);
+  return IfThenElse(a < Set(kTag, HUGE_VAL), BitCast(kTag, halved), a);
 }
 
 /// 2^-e of a normal number of exponent e.

@@ -246,7 +246,7 @@ class LatticePreparation {
     for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
       Bravais bravais;
       bravais.dimension = scene_.dimension;
-      bravais.rank = lattice_.rank(scene_.dimension);
+      bravais.rank = static_cast<std::int8_t>(lattice_.rank(scene_.dimension));
       bravais.lattice = index_;
       bravais.atom = a;
       const std::string why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
@@ -371,8 +371,8 @@ PreparedScene prepare(const Scene& scene) {
   for (int l = 0; l < static_cast<int>(scene.lattices.size()) && prepared.beyond.empty(); ++l)
     prepared.beyond = LatticePreparation(scene, l, scale).add_to(prepared);
   for (const Bravais& atom : prepared.atoms) {
-    prepared.least_rank = std::min(prepared.least_rank, atom.rank);
-    prepared.most_rank = std::max(prepared.most_rank, atom.rank);
+    prepared.least_rank = std::min<int>(prepared.least_rank, atom.rank);
+    prepared.most_rank = std::max<int>(prepared.most_rank, atom.rank);
   }
   return prepared;
 }

@@ -16,8 +16,8 @@ using WideVec = std::array<Wide, 3>;
 
 struct Bravais {
   int dimension = 0;
-  int rank = 0;               ///< how many vectors the lattice has
   int lattice = 0, atom = 0;  ///< which of the scene
+  std::int8_t rank = 0;       ///< how many vectors the lattice has
   bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
   double radius = 0;  ///< of an ellipsoid: the shape's
   Vec position{};

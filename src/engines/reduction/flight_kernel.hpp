@@ -60,7 +60,7 @@ class AtomFlight {
 
  private:
   template <class Search>
-  void search(const Direction& to, const ObstacleId* from, double max_time) {
+  [[gnu::always_inline]] void search(const Direction& to, const ObstacleId* from, double max_time) {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
     Offset<SplitProduct, D> turned;
     if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;

@@ -16,13 +16,12 @@ struct LoneBall {
     for (int k = 0; k < D; ++k) place[k] = d[k].hi;
     cross_of(v, place, h);
     s = product_of(v, place);
-    const Number h2 = square_of(h), across = sqrt(h2), rho2 = squared_width_of(all(radius), v2);
-    const Number product = Abs(s) + across;  // at least |v| |d|, which is the root of their squares
-    const Number of_d = 4 * kDiagonal * error + all(kFlushed);
+    const Number h2 = square_of(h), rho2 = squared_width_of(all(radius), v2);
+    const Number product = root_above(v2 * square_of(place)), of_d = 4 * kDiagonal * error + all(kFlushed);
     const Number h_error = kLoneAcross * kRoundoff * product + of_d;
     s_error = kLoneAlong * kRoundoff * product + of_d;
     slack = rho2 - h2;
-    slack_error = 2 * h_error * (across + 2 * h_error) + kLoneSlack * kRoundoff * (rho2 + h2);
+    slack_error = 2 * h_error * (root_above(h2) + 2 * h_error) + kLoneSlack * kRoundoff * (rho2 + h2);
   }
 
   LORENTZ_INLINE Mask is_met() const { return slack > slack_error; }

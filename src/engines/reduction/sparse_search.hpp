@@ -61,9 +61,10 @@ class SparseSearch {
   using Range = SparseRange<SplitProduct>;
 
   // False: undecided.
-  bool scan() {
-    for (auto& row : rows_) row = {};
-    if (lattice_.rank == 0) return look(0, 0) != Look::doubtful;
+  bool scan() { return lattice_.rank == 0 ? look_at_only() : scan_rows(); }
+
+  // (No part of its caller, whose registers it would take.)
+  [[gnu::noinline]] bool scan_rows() {
     see();
     if constexpr (D == 3)
       if (lattice_.rank == 2) shorten_across<SplitProduct>(seen_v_, rows_);
@@ -77,6 +78,14 @@ class SparseSearch {
         if (!scan_row(along, k)) return false;
     }
     return true;
+  }
+
+  bool look_at_only() {
+    if (from_) return true;  // which can be no other
+    for (Wide& n : found.N) n = Wide();
+    const Look seen = look_at<D, kBall>(offset_.d, offset_.error, lattice_, v_, v2_, found);
+    if (seen != Look::met) found.s = Found<D>::kNothing;
+    return seen != Look::doubtful;
   }
 
   // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp), and d by so much more.
@@ -104,6 +113,7 @@ class SparseSearch {
       vector.size = std::sqrt(square_of(vector.a));
       return vector;
     };
+    for (auto& row : rows_) row = {};
     image([&](int k) { return v_[k]; }, seen_v_);
     start_ = seen(offset_.d);
     for (int i = 0; i < lattice_.rank; ++i) rows_[i].t[i] = 1, rows_[i].seen = seen(lattice_.basis[i]);
