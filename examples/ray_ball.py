@@ -4,6 +4,7 @@
     ray_ball.py engine FORMULA       answers a query stream: textbook, q-form, nearest-point or projection
     ray_ball.py questions KIND N     N rays beside the unit ball, of one kind
     ray_ball.py table [--write]      what each formula gets wrong, by kind of question
+    ray_ball.py chart [--write]      the same against the distance of the ball, as SVG
 
 In plain binary64, as a ray tracer would have them; none knows a tolerance.
 """
@@ -136,18 +137,23 @@ KINDS = {
 }
 
 
+def from_afar(power):
+    return lambda rng: aimed(rng, 10 ** power, rng.uniform(0, 1.5))
+
+
 def questions(kind, count):
-    rng = random.Random(kind)
+    rng, draw = (random.Random(kind), KINDS[kind]) if kind in KINDS else (random.Random(str(kind)), from_afar(kind))
     scene = {"dimension": 3, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0, 0], "radius": 1}]}]}
     yield {"scene": scene}
     for i in range(count):
-        x, v = KINDS[kind](rng)
+        x, v = draw(rng)
         yield {"id": i, "x": x, "v": v}
 
 
 # ---- The table.
 
 def judged(lorentz, kind, count):
+    """What `compare` says of each formula; of a number the kind is rays from 10 to that power radii away."""
     stream = "".join(json.dumps(line) + "\n" for line in questions(kind, count))
     command = [lorentz, "compare", "--queries", "-", "--json"]
     for name in FORMULAS:
@@ -169,6 +175,46 @@ def table(lorentz, count):
     return "\n".join(lines) + "\n"
 
 
+# ---- The chart.
+
+WIDTH, HEIGHT, LEFT, TOP, PLOT_WIDTH, PLOT_HEIGHT, FARTHEST = 680, 360, 50, 20, 440, 290, 15
+CURVES = {"textbook": ("#c0392b", "textbook, q-form"), "nearest-point": ("#d68910", "nearest point"),
+          "projection": ("#1e8449", "projection")}  # those of textbook and q-form are the same to a pixel
+
+
+def at(power, percent):
+    return f"{LEFT + PLOT_WIDTH * power / FARTHEST:.1f},{TOP + PLOT_HEIGHT * (1 - percent / 100):.1f}"
+
+
+def text_at(power, percent, text, moved=(0, 0), anchor="middle"):
+    x, y = (float(c) + m for c, m in zip(at(power, percent).split(","), moved))
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{text}</text>'
+
+
+def chart(lorentz, count):
+    powers = range(1, FARTHEST + 1)
+    found = {power: dict(zip(FORMULAS, judged(lorentz, power, count))) for power in powers}
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" '
+           'font-size="12">', '<rect width="100%" height="100%" fill="white"/>']
+    for power in range(0, FARTHEST + 1, 3):
+        out.append(f'<path d="M{at(power, 0)} L{at(power, 100)}" stroke="#ddd"/>')
+        out.append(text_at(power, 0, f'10<tspan dy="-5" font-size="9">{power}</tspan>', (0, 18)))
+    for percent in range(0, 101, 25):
+        out.append(f'<path d="M{at(0, percent)} L{at(FARTHEST, percent)}" stroke="#ddd"/>')
+        out.append(text_at(0, percent, f"{percent} %", (-6, 4), "end"))
+    out.append(text_at(FARTHEST / 2, 0, "distance of the ball, in its radii", (0, 38)))
+    for row, (name, (colour, label)) in enumerate(CURVES.items()):
+        shares = [[100 * sum(found[power][name][key] for key in keys) / count for power in powers]
+                  for keys in (("wrong",), ("wrong", "wrong_time"))]
+        for share, dashes in zip(shares, ("", ' stroke-dasharray="5 3"')):
+            points = " ".join(at(power, percent) for power, percent in zip(powers, share))
+            out.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2"{dashes}/>')
+        out.append(text_at(FARTHEST, 92 - 8 * row, f'<tspan fill="{colour}">{label}</tspan>', (12, 0), "start"))
+    out.append(text_at(FARTHEST, 60, "solid: wrong", (12, 0), "start"))
+    out.append(text_at(FARTHEST, 53, "dashed: or wrong in time", (12, 0), "start"))
+    return "\n".join([*out, "</svg>"]) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parts = parser.add_subparsers(dest="part", required=True)
@@ -176,16 +222,23 @@ def main():
     asked = parts.add_parser("questions")
     asked.add_argument("kind", choices=KINDS)
     asked.add_argument("count", type=int)
-    drawn = parts.add_parser("table")
-    drawn.add_argument("--lorentz", default=str(ROOT / "build/lorentz"))
-    drawn.add_argument("--count", type=int, default=10_000, help="rays of each kind (10000)")
-    drawn.add_argument("--write", action="store_true", help="put it into docs/ray_and_ball.md")
+    for part, count, place in (("table", 10_000, "docs/ray_and_ball.md"), ("chart", 1000, "docs/ray_and_ball.svg")):
+        drawn = parts.add_parser(part)
+        drawn.add_argument("--lorentz", default=str(ROOT / "build/lorentz"))
+        drawn.add_argument("--count", type=int, default=count, help=f"rays of each kind ({count})")
+        drawn.add_argument("--write", action="store_true", help=f"put it into {place}")
     given = parser.parse_args()
     if given.part == "engine":
         engine(FORMULAS[given.formula])
     elif given.part == "questions":
         for line in questions(given.kind, given.count):
             print(json.dumps(line))
+    elif given.part == "chart":
+        svg = chart(given.lorentz, given.count)
+        if given.write:
+            PAGE.with_suffix(".svg").write_text(svg, encoding="utf-8")
+        else:
+            print(svg, end="")
     elif given.write:
         text = PAGE.read_text(encoding="utf-8")
         made = BEGIN + table(given.lorentz, given.count) + END

@@ -25,6 +25,9 @@ check("plain", lambda of: all(wrong == 0 for wrong, _ in of.values()) and of["pr
 check("grazing", lambda of: of["projection"] == (0, 0) and of["textbook"][1] > 20 and of["nearest-point"][1] > 20)
 check("far", lambda of: of["projection"] == (0, 0) and all(of[name][0] > 5 for name in of if name != "projection"))
 check("long and short v", lambda of: all(wrong > 80 for wrong, _ in of.values()))
+# Powers of ten, as in the chart.
+check(12, lambda of: of["projection"] == (0, 0) and all(of[name][0] > 50 for name in ("textbook", "q-form")))
+check(1, lambda of: all(wrong == 0 for wrong, _ in of.values()))
 page = ray_ball.PAGE.read_text(encoding="utf-8")
 table = page.split(ray_ball.BEGIN)[1].split(ray_ball.END)[0]
 if [line.split(" | ")[0] for line in table.splitlines()[2:]] != [f"| {kind}" for kind in ray_ball.KINDS]:
