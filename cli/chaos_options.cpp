@@ -23,7 +23,7 @@ std::vector<Option> chaos_rows(ChaosOptions& options) {
 }
 
 Scene scene_of(const ChaosOptions& options) {
-  return load_crystal(options.scene, options.radius, "trajectories are computed");
+  return load_crystal(options.scene, options.radius, "means of trajectories are taken");
 }
 
 void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,

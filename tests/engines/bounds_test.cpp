@@ -268,6 +268,8 @@ TEST_CASE("Rows beside a line: kSparse, kSparseOfShape", "[engines][bounds]") {
   const Carried high{1, 0.5}, step = high * one + none, start = step * one + none;
   covers(kSparse, std::sqrt(2) * difference_of_products(one, start, none, none).error);
   covers(kSparse, sum_of_products(one, start, none, none, none, none).error);
+  const Carried normal = difference_of_products(high, high, none, none);
+  covers(kLayer, sum_of_products(high, normal, none, none, none, none).error);
   // N a for two vectors, whose norms are at most the condition times those of their images.
   const Carried N{1, 0.5}, image = sum_of_products(N, high, none, none, none, none);
   covers(kSparseOfShape, std::sqrt(3) * 2 * image.error);

@@ -230,6 +230,28 @@ TEST_CASE("`reduction` and batches of every rank are right wherever they decide,
     }
 }
 
+TEST_CASE("`reduction` decides flights nearly along a row, and those that stay outside of a layer",
+          "[engines][reduction][ranks]") {
+  const auto check = [](const Scene& scene, const Query& query, Outcome outcome) {
+    const Flight flight = Reduction(scene).fly(query);
+    INFO(test::stream(scene, query));
+    CHECK(flight.outcome == outcome);
+    CHECK(test::same_obstacle(answer_of(flight), oracle::Oracle(scene).first_hit(query)));
+  };
+  const Scene row = with_rank(unit_scene(2, 0.125), 0, 1), layer = with_rank(unit_scene(3, 0.125), 0, 2);
+  for (const double tilt : {1e-6, 1e-8, 1e-11, 1e-13, 1e-16}) {
+    check(row, {{0.3, 0.06}, {1, -tilt}, {}}, Outcome::hit);
+    check(row, {{0.3, -0.06}, {-1, -tilt}, {}}, Outcome::hit);
+  }
+  check(row, {{0.3, 0.16}, {1, 1e-8}, {}}, Outcome::never);
+  check(layer, {{0.3, 0.2, 0.2}, {0.8, 0.61, 0}, {}}, Outcome::never);
+  check(layer, {{0.3, 0.2, -0.2}, {1, 0, 0}, {}}, Outcome::never);
+  check(layer, {{0.3, 0.2, 200}, {0.8, 0.61, 1e-7}, {}}, Outcome::never);
+  check(layer, {{0.3, 0.2, -200}, {0.8, 0.61, -1e-7}, {}}, Outcome::never);
+  // It comes nearer, however slowly.
+  CHECK(Reduction(layer).fly({{0.3, 0.2, 0.2}, {0.8, 0.61, -1e-7}, {}}).outcome != Outcome::never);
+}
+
 TEST_CASE("A row or a layer in other words is the same", "[oracle][ranks]") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Draw draw(seed);

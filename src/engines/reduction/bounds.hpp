@@ -96,6 +96,9 @@ inline constexpr double kLoneAlong = 6, kLoneAcross = 5, kLoneSlack = 8;
 /// the basis; and per condition of the shape, where ellipsoids are seen as balls.
 inline constexpr double kSparse = 10, kSparseOfShape = 16;
 
+/// The height over a layer, and the speed towards it: relative to the sizes of the terms of a . (b_0 x b_1).
+inline constexpr double kLayer = 8;
+
 /// A form (height, along, across in units of r) of a vector, by what each component of the vector errs.
 inline constexpr double kForm = 4;
 

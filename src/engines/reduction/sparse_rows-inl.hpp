@@ -22,7 +22,7 @@ struct SparseRange {
   LORENTZ_INLINE SparseRange(Number middle, Number within, Number unsure)
       : first(Ceil(middle - within - unsure)),
         last(Floor(middle + within + unsure)),
-        known(And(unsure < all(kMaxUnsure), Abs(middle) + within < all(kMaxCoefficient))) {}
+        known(Abs(middle) + within + unsure < all(kMaxCoefficient)) {}
 };
 
 /// A vector, and what its terms come to: at least its length.

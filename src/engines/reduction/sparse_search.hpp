@@ -73,7 +73,7 @@ class SparseSearch {
     if (lattice_.rank == 1) return along.is_level() ? scan_level_row(along) : scan_row(along, 0);
     if constexpr (D == 3) {
       const Range rows = along.rows(start_, rows_[1].seen);
-      if (along.is_level() || !rows.known || rows.last - rows.first > kMaxRows) return false;
+      if (along.is_level() || !rows.known || rows.last - rows.first > kMaxRows) return stays_outside();
       for (double k = rows.first; k <= rows.last; ++k)
         if (!scan_row(along, k)) return false;
     }
@@ -138,18 +138,39 @@ class SparseSearch {
     return n > range.last;
   }
 
-  // A row that is exactly parallel to the line: all are met, or none is.
+  // A row nearly parallel to the line: if the next one is met, that is the first. If the row is exactly parallel,
+  // all are met, or none is.
   bool scan_level_row(const Row& along) {
-    double n[D]{};
-    n[0] = 1;
-    if (!is_parallel<SplitProduct, D>(lattice_, v_, n)) return false;
     const Range ahead = along.ahead(start_);
     if (!ahead.known) return false;
+    double n[D]{};
+    n[0] = 1;
     for (int step = 0; step < kMaxCandidatesInRow; ++step) {
       const Look seen = look(ahead.first + step, 0);
-      if (seen != Look::behind) return seen != Look::doubtful;
+      if (seen == Look::missed) return is_parallel<SplitProduct, D>(lattice_, v_, n);
+      if (seen != Look::behind) return seen == Look::met;
     }
     return false;
+  }
+
+  // Does the line begin outside of the slab of a layer of balls, and not come nearer? (Of what is exactly zero
+  // nothing is unsure.)
+  bool stays_outside() const {
+    if constexpr (!kBall) return false;
+    const auto& b = lattice_.basis;
+    double depth = 0, depth_error = 0, approach = 0, approach_error = 0, normal = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const double one = b[0][j].hi * b[1][k].hi, other = b[0][k].hi * b[1][j].hi,
+                   unsure = kLayer * kRoundoff * (std::fabs(one) + std::fabs(other)),
+                   n = std::fabs(one - other) + unsure, place = offset_.d[i].hi;
+      depth += place * (one - other);
+      depth_error += std::fabs(place) * unsure + offset_.error * n;
+      approach += v_[i] * (one - other), approach_error += std::fabs(v_[i]) * unsure;
+      normal += n * n;
+    }
+    return std::fabs(depth) > depth_error + (1 + kAmple) * lattice_.radius * std::sqrt(normal) &&
+           approach * std::copysign(1, depth) + approach_error <= 0;
   }
 
   // The obstacle n of row k. The one that is left counts as behind.
