@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 template <int D>
-struct SparseDirection {
+struct LaneDirection {
   V v[D], v2, s_rho;
 
   HWY_INLINE void set(const Bravais& ball, const V (&velocity)[D]) {
@@ -27,13 +27,13 @@ struct SparseDirection {
 
 /// A ball in double-double: what is rare gets copies.
 template <int D>
-struct CloseBall {
+struct LaneMeeting {
   V s, s_error, slack, slack_error;
   M hit, passed;
 
-  static HWY_NOINLINE CloseBall look(SparseDirection<D> to, const Bravais& ball, Offset<LaneFma, D> start) {
+  static HWY_NOINLINE LaneMeeting look(LaneDirection<D> to, const Bravais& ball, Offset<LaneFma, D> start) {
     const StableMeeting<LaneFma, D, true> meeting(to.v, start.d, start.error, ball);
-    CloseBall close;
+    LaneMeeting close;
     close.s = meeting.s.hi, close.slack = meeting.slack.hi;
     close.s_error = meeting.s_error + kRoundoff * close.s;
     close.slack_error = meeting.slack_error + kRoundoff * close.slack;
@@ -49,7 +49,7 @@ struct CloseBall {
 template <int D, bool kSingle>
 class SparseSearch {
  public:
-  using Direction = SparseDirection<D>;
+  using Direction = LaneDirection<D>;
 
   LaneEntry<D, true> found;  ///< of the lanes in which it is met: found.s is finite
   M stage2;
@@ -177,7 +177,7 @@ class SparseSearch {
     Offset<LaneFma, D> there;
     for (int k = 0; k < D; ++k) there.d[k] = d[k], there.home[k] = none();
     there.error = error;
-    const CloseBall<D> close = CloseBall<D>::look(to_, balls_, there);
+    const LaneMeeting<D> close = LaneMeeting<D>::look(to_, balls_, there);
     stage2 = Or(stage2, asked);
     lanes.give_up(AndNot(Or(close.hit, close.passed), asked));
     const M here = And(close.hit, asked);
