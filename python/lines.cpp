@@ -78,7 +78,10 @@ Answer read_answer(const std::string& text, const Components& count) {
     throw InputError("is no answer");
   const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
   const int needed = count.of_cells(answer.obstacle.lattice);
-  if (names_one && components != static_cast<std::size_t>(needed))
+  // Columns have as many coordinates as there are dimensions, the last ones zero.
+  bool fits = components == static_cast<std::size_t>(count.of_vectors());
+  for (int i = needed; i < count.of_vectors(); ++i) fits &= answer.obstacle.cell[i] == Integer(0);
+  if (names_one && !fits && components != static_cast<std::size_t>(needed))
     throw InputError("cell: has " + std::to_string(components) + " coordinates, the lattice has " +
                      std::to_string(needed) + " vectors");
   return answer;

@@ -67,7 +67,7 @@ class Engine:
         count = len(positions)
         limits = None if max_time is None else _limits(max_time, count)
         return self._engine.first_hit(positions, velocities, limits,
-                                      _columns(start_from, count, self._scene.dimension), on_error == "raise", out)
+                                      _columns(start_from, count, self._scene), on_error == "raise", out)
 
 
 def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: float | None = None, *,
@@ -150,20 +150,21 @@ def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats) ->
 _Left = tuple[Any, Any, Any, list[Any]]
 
 
-def _columns(start_from: StartFrom, count: int, dimension: int) -> _Left | None:
+def _columns(start_from: StartFrom, count: int, scene: Any) -> _Left | None:
     if start_from is None:
         return None
     if isinstance(start_from, Answers):
         return _columns_of_answers(start_from)
     try:
         if isinstance(start_from, (list, tuple)) and all(map(_is_obstacle_or_none, start_from)):
-            return _columns_of_rows(list(start_from), count, dimension)
+            return _columns_of_rows(list(start_from), count, scene)
         lattice, atom, cell = start_from
-        if _is_obstacle_or_none(start_from) and isinstance(cell, (tuple, list)) and not _fits_64_bits(cell):
-            return _columns_of_rows([start_from] * count, count, dimension)
+        if _is_obstacle_or_none(start_from) and isinstance(cell, (tuple, list)) and (
+                len(cell) < scene.dimension or not _fits_64_bits(cell)):
+            return _columns_of_rows([start_from] * count, count, scene)
         return (np.broadcast_to(_integers(lattice, np.int32), (count,)),
                 np.broadcast_to(_integers(atom, np.int32), (count,)),
-                np.broadcast_to(_integers(cell, np.int64), (count, dimension)), [])
+                np.broadcast_to(_integers(cell, np.int64), (count, scene.dimension)), [])
     except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"start_from: needs lattice, atom, cell for {count} queries: {error}") from None
 
@@ -180,19 +181,27 @@ def _is_obstacle_or_none(row: Any) -> bool:
     return row is None or (isinstance(row, tuple) and len(row) == 3 and np.ndim(row[0]) == 0 and np.ndim(row[2]) == 1)
 
 
-def _columns_of_rows(rows: list[Any], count: int, dimension: int) -> _Left:
-    """Of a list of obstacles and None, as a judge's function gets it."""
-    if len(rows) != count or any(row is not None and len(row[2]) != dimension for row in rows):
-        raise ValueError(f"there are {len(rows)}, or cells have not {dimension} coordinates")
-    none = (-1, 0, (0,) * dimension)
-    whole_rows = [none if row is None else (_index(row[0]), _index(row[1]), tuple(integer(n, "cell") for n in row[2]))
-                  for row in rows]
+def _whole_row(row: Any, ranks: list[int], dimension: int) -> tuple[int, int, tuple[int, ...]]:
+    lattice, cell = _index(row[0]), tuple(integer(n, "cell") for n in row[2])
+    rank = ranks[lattice] if 0 <= lattice < len(ranks) else dimension
+    if len(cell) not in (rank, dimension):
+        raise ValueError(f"cells have not {rank} coordinates")
+    return lattice, _index(row[1]), cell + (0,) * (dimension - len(cell))
+
+
+def _columns_of_rows(rows: list[Any], count: int, scene: Any) -> _Left:
+    """Of a list of obstacles and None, as a judge's function gets it: cells as long as their lattice has vectors."""
+    ranks = [len(lattice["vectors"]) for lattice in scene.to_dict()["lattices"]] if any(rows) else []
+    if len(rows) != count:
+        raise ValueError(f"there are {len(rows)}")
+    none = (-1, 0, (0,) * scene.dimension)
+    whole_rows = [none if row is None else _whole_row(row, ranks, scene.dimension) for row in rows]
     large = [(i, *row) for i, row in enumerate(whole_rows) if not _fits_64_bits(row[2])]
     for i, *_ in large:
         whole_rows[i] = none
     lattice, atom, cell = zip(*whole_rows) if rows else ((), (), ())
     return (_integers(np.array(lattice, int), np.int32), _integers(np.array(atom, int), np.int32),
-            np.reshape(np.array(cell, np.int64), (count, dimension)), large)
+            np.reshape(np.array(cell, np.int64), (count, scene.dimension)), large)
 
 
 def _fits_64_bits(cell: Any) -> bool:

@@ -46,7 +46,7 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     most = whole(collisions, "collisions", 0, 2**31 - 1)
     last = time_limit(until, "until")
     place, positions = native(scene), _vectors(x, "x")
-    left = _columns(start_from, len(positions), place.dimension)
+    left = _columns(start_from, len(positions), place)
     return _lorentz.follow(place, positions, _vectors(v, "v"), left, most, math.inf if last is None else float(last),
                            engine, precision == "double-double")
 
