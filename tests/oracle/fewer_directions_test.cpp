@@ -248,8 +248,21 @@ TEST_CASE("`reduction` decides flights nearly along a row, and those that stay o
   check(layer, {{0.3, 0.2, -0.2}, {1, 0, 0}, {}}, Outcome::never);
   check(layer, {{0.3, 0.2, 200}, {0.8, 0.61, 1e-7}, {}}, Outcome::never);
   check(layer, {{0.3, 0.2, -200}, {0.8, 0.61, -1e-7}, {}}, Outcome::never);
-  // It comes nearer, however slowly.
+  // It comes nearer, however slowly, whichever axis is across the layer.
   CHECK(Reduction(layer).fly({{0.3, 0.2, 0.2}, {0.8, 0.61, -1e-7}, {}}).outcome != Outcome::never);
+  for (const double slope : {1e-7, 1e-140, 1e-200, 0x1p-1000})
+    for (int across = 0; across < 3; ++across) {
+      Scene tilted = layer;
+      auto& u = tilted.lattices[0].vectors;
+      u = {};
+      Query query{{0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}, {}};
+      u[0][(across + 1) % 3] = u[1][(across + 2) % 3] = 1, u[0][across] = slope, query.v[across] = 0;
+      INFO(test::stream(tilted, query));
+      CHECK(oracle::Oracle(tilted).first_hit(query).outcome == Outcome::hit);
+      CHECK(Reduction(tilted).fly(query).outcome != Outcome::never);
+      query.v[across] = 1e-3;
+      check(tilted, query, Outcome::never);
+    }
 }
 
 TEST_CASE("A row or a layer in other words is the same", "[oracle][ranks]") {

@@ -84,7 +84,7 @@ class SparseSearch {
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) rows_[i].t[j] = all(i == j && i < balls_.rank ? 1 : 0);
       for (int k = 0; k < D; ++k) rows_[i].seen.a[k] = all(i < balls_.rank ? balls_.basis[i][k].hi : 0);
-      rows_[i].seen.size = Sqrt(square_of(rows_[i].seen.a));
+      rows_[i].seen.size = Sqrt(square_of(rows_[i].seen.a)) + all(balls_.basis_error / kRoundoff);
     }
   }
 

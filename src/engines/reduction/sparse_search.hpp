@@ -69,7 +69,7 @@ class SparseSearch {
     if constexpr (D == 3)
       if (lattice_.rank == 2) shorten_across<SplitProduct>(seen_v_, rows_);
     turn_forward<SplitProduct>(seen_v_, rows_[0]);
-    const Row along(seen_v_, unit(), rows_[0].seen, lattice_.radius, error());
+    const Row along(seen_v_, unit(), rows_[0].seen, lattice_.radius, of_place(offset_.error));
     if (lattice_.rank == 1) return along.is_level() ? scan_level_row(along) : scan_row(along, 0);
     if constexpr (D == 3) {
       const Range rows = along.rows(start_, rows_[1].seen);
@@ -88,14 +88,14 @@ class SparseSearch {
     return seen != Look::doubtful;
   }
 
-  // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp), and d by so much more.
+  // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp); and what a place errs by.
   double unit() const {
     if constexpr (kBall) return kSparse * kRoundoff;
     return (kSparse + kSparseOfShape * lattice_.shape.condition) * kRoundoff;
   }
-  double error() const {
-    if constexpr (kBall) return offset_.error;
-    return offset_.error * std::sqrt(lattice_.shape.metric_size);
+  double of_place(double error) const {
+    if constexpr (kBall) return error;
+    return error * std::sqrt(lattice_.shape.metric_size);
   }
 
   // The vectors as sparse_rows.hpp takes them: velocity, start, the row that is followed, the step to the next.
@@ -116,7 +116,10 @@ class SparseSearch {
     for (auto& row : rows_) row = {};
     image([&](int k) { return v_[k]; }, seen_v_);
     start_ = seen(offset_.d);
-    for (int i = 0; i < lattice_.rank; ++i) rows_[i].t[i] = 1, rows_[i].seen = seen(lattice_.basis[i]);
+    for (int i = 0; i < lattice_.rank; ++i) {
+      rows_[i].t[i] = 1, rows_[i].seen = seen(lattice_.basis[i]);
+      rows_[i].seen.size += of_place(lattice_.basis_error) / kRoundoff;  // counted as the size of terms
+    }
   }
 
   // The first obstacle of row k that is met ahead, if it comes before the best so far. False: undecided.
@@ -153,8 +156,8 @@ class SparseSearch {
     return false;
   }
 
-  // Does the line begin outside of the slab of a layer of balls, and not come nearer? (Of what is exactly zero
-  // nothing is unsure.)
+  // Does the line begin outside of the slab of a layer of balls, and not come nearer? (Nothing is unsure of what is
+  // exactly zero, in a basis that is exact.)
   bool stays_outside() const {
     if constexpr (!kBall) return false;
     const auto& b = lattice_.basis;
@@ -162,7 +165,10 @@ class SparseSearch {
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       const double one = b[0][j].hi * b[1][k].hi, other = b[0][k].hi * b[1][j].hi,
-                   unsure = kLayer * kRoundoff * (std::fabs(one) + std::fabs(other)),
+                   size = std::fabs(b[0][j].hi) + std::fabs(b[0][k].hi) + std::fabs(b[1][j].hi) +
+                          std::fabs(b[1][k].hi),
+                   unsure = kLayer * kRoundoff * (std::fabs(one) + std::fabs(other)) +
+                            2 * lattice_.basis_error * size,
                    n = std::fabs(one - other) + unsure, place = offset_.d[i].hi;
       depth += place * (one - other);
       depth_error += std::fabs(place) * unsure + offset_.error * n;
