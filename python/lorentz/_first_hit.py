@@ -181,21 +181,21 @@ def _is_obstacle_or_none(row: Any) -> bool:
     return row is None or (isinstance(row, tuple) and len(row) == 3 and np.ndim(row[0]) == 0 and np.ndim(row[2]) == 1)
 
 
-def _whole_row(row: Any, ranks: list[int], dimension: int) -> tuple[int, int, tuple[int, ...]]:
+def _whole_row(row: Any, scene: Any) -> tuple[int, int, tuple[int, ...]]:
+    """A cell has as many coordinates as its lattice has vectors, or zeros after them."""
     lattice, cell = _index(row[0]), tuple(integer(n, "cell") for n in row[2])
-    rank = ranks[lattice] if 0 <= lattice < len(ranks) else dimension
-    if len(cell) not in (rank, dimension):
-        raise ValueError(f"cells have not {rank} coordinates")
-    return lattice, _index(row[1]), cell + (0,) * (dimension - len(cell))
+    rank = scene.rank(lattice)
+    if len(cell) not in (rank, scene.dimension):
+        raise ValueError(f"a cell of lattice {lattice} has {rank} coordinates, not {len(cell)}")
+    return lattice, _index(row[1]), cell + (0,) * (scene.dimension - len(cell))
 
 
 def _columns_of_rows(rows: list[Any], count: int, scene: Any) -> _Left:
-    """Of a list of obstacles and None, as a judge's function gets it: cells as long as their lattice has vectors."""
-    ranks = [len(lattice["vectors"]) for lattice in scene.to_dict()["lattices"]] if any(rows) else []
+    """Columns from a list of obstacles and None, as a judge's function gets it."""
     if len(rows) != count:
         raise ValueError(f"there are {len(rows)}")
     none = (-1, 0, (0,) * scene.dimension)
-    whole_rows = [none if row is None else _whole_row(row, ranks, scene.dimension) for row in rows]
+    whole_rows = [none if row is None else _whole_row(row, scene) for row in rows]
     large = [(i, *row) for i, row in enumerate(whole_rows) if not _fits_64_bits(row[2])]
     for i, *_ in large:
         whole_rows[i] = none

@@ -103,7 +103,7 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
 
     Returns what `lorentz horizon --json` says: ``horizon`` ("finite", "infinite" or "undecided"), ``channels``
     with their widths, ``cylinders`` in 3D, ``tail_constant`` C of P(path > t) ~ C / t; and ``verdict``, all of
-    it in words. Of rows it has ``closed``, the arcs of directions that are closed, in place of channels and tail.
+    it in words. A scene of rows has no channels and no tail, but ``closed``: the arcs of directions that are closed.
 
     Args:
         min_width: only corridors and planar channels at least that wide.

@@ -291,3 +291,17 @@ def test_an_interrupt_comes_through(work):
         work()
     timer.join()
     assert time.monotonic() - begin[0] < 5  # soon; a machine may be busy
+
+
+def test_cells_of_rows_and_single_obstacles():
+    row = {"dimension": 2, "lattices": [{"vectors": [[1, 0]], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
+    for cell in ([3], [3, 0]):
+        one = lorentz.first_hit(row, [[3.125, 0]], [[1, 0]], start_from=(0, 0, cell))
+        assert one.outcome[0] == Outcome.HIT and one.cell[0].tolist() == [4, 0] and one.time[0] == 0.625
+        listed = lorentz.first_hit(row, [[3.125, 0]] * 2, [[1, 0]] * 2, start_from=[(0, 0, cell), None])
+        assert listed.outcome.tolist() == [Outcome.HIT, Outcome.INSIDE]
+    ball = {"dimension": 2, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0], "radius": 1}]}]}
+    assert lorentz.first_hit(ball, [[0.5, 0]], [[1, 0]], start_from=(0, 0, [])).outcome[0] == Outcome.NEVER
+    for scene, cell in (("square", [3]), (row, [3, 1]), (ball, [1])):
+        with pytest.raises(lorentz.Error, match="start_from|cell"):
+            lorentz.first_hit(scene, [[3.25, 0.5]], [[1, 0]], start_from=(0, 0, cell))

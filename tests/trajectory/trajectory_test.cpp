@@ -498,7 +498,7 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
 
 namespace {
 
-// Collisions of each lattice, until there were so many or the particle escaped.
+// Follows a particle for at most so many collisions, or until it escapes. Returns how many each lattice had.
 std::vector<int> check_flights(const Scene& scene, const Query& start, int collisions) {
   const oracle::Oracle oracle(scene);
   const Reduction engine(scene);
