@@ -14,46 +14,10 @@
 // overlap. Sturm's theorem counts them.
 #include "oracle/contacts/ellipsoid_pair.hpp"
 
-#include <vector>
+#include "oracle/exact/polynomial.hpp"
 
 namespace lorentz::oracle {
 namespace {
-
-// An integer polynomial: coefficients of 1, x, x^2, ..; the last one is not zero.
-struct Polynomial {
-  std::vector<Z> terms;
-
-  Polynomial() = default;
-  Polynomial(std::vector<Z> coefficients) : terms(std::move(coefficients)) { trim(); }
-
-  void trim() {
-    while (!terms.empty() && terms.back() == 0) terms.pop_back();
-  }
-  bool is_zero() const { return terms.empty(); }
-};
-
-Polynomial operator*(const Polynomial& a, const Polynomial& b) {
-  if (a.is_zero() || b.is_zero()) return {};
-  std::vector<Z> terms(a.terms.size() + b.terms.size() - 1);
-  for (std::size_t i = 0; i < a.terms.size(); ++i)
-    for (std::size_t k = 0; k < b.terms.size(); ++k) terms[i + k] += a.terms[i] * b.terms[k];
-  return terms;
-}
-
-Polynomial sum(const Polynomial& a, const Polynomial& b, int sign) {
-  std::vector<Z> terms = a.terms;
-  if (terms.size() < b.terms.size()) terms.resize(b.terms.size());
-  for (std::size_t i = 0; i < b.terms.size(); ++i) terms[i] += sign * b.terms[i];
-  return terms;
-}
-
-Polynomial operator+(const Polynomial& a, const Polynomial& b) {
-  return sum(a, b, 1);
-}
-
-Polynomial operator-(const Polynomial& a, const Polynomial& b) {
-  return sum(a, b, -1);
-}
 
 // Adjugates of symmetric matrices, over any ring.
 template <class T>
@@ -93,52 +57,11 @@ Polynomial separation(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
   return Polynomial({0, 1}) * form - Polynomial({1, 1}) * determinant_of(pencil, adj);
 }
 
-Polynomial derivative(const Polynomial& p) {
-  std::vector<Z> terms;
-  for (std::size_t i = 1; i < p.terms.size(); ++i) terms.push_back(p.terms[i] * static_cast<long>(i));
-  return terms;
-}
-
-// Minus the remainder of a by b, times a positive number.
-Polynomial negative_remainder(Polynomial a, const Polynomial& b) {
-  const Z lead = abs(b.terms.back());
-  const int sign = sgn(b.terms.back());
-  while (a.terms.size() >= b.terms.size()) {
-    const std::size_t shift = a.terms.size() - b.terms.size();
-    const Z factor = sign * a.terms.back();
-    for (Z& term : a.terms) term *= lead;
-    for (std::size_t i = 0; i < b.terms.size(); ++i) a.terms[i + shift] -= factor * b.terms[i];
-    a.trim();
-  }
-  Z content = 0;
-  for (const Z& term : a.terms) content = gcd(content, term);
-  for (Z& term : a.terms) term = -term / content;
-  return a;
-}
-
-int sign_changes(const std::vector<int>& signs) {
-  int changes = 0, last = 0;
-  for (const int sign : signs) {
-    if (sign == 0) continue;
-    if (sign == -last) ++changes;
-    last = sign;
-  }
-  return changes;
-}
-
 // How many different positive roots p has; p(0) is not zero.
 int positive_roots(const Polynomial& p) {
-  std::vector<int> at_zero, at_infinity;
-  Polynomial a = p, b = derivative(p);
-  while (!a.is_zero()) {
-    at_zero.push_back(sgn(a.terms.front()));
-    at_infinity.push_back(sgn(a.terms.back()));
-    if (b.is_zero()) break;
-    Polynomial next = negative_remainder(a, b);
-    a = std::move(b);
-    b = std::move(next);
-  }
-  return sign_changes(at_zero) - sign_changes(at_infinity);
+  const std::vector<Polynomial> chain = remainders(p, derivative(p));
+  return sign_changes(chain, [](const Polynomial& each) { return sgn(each[0]); }) -
+         sign_changes(chain, [](const Polynomial& each) { return sgn(each.back()); });
 }
 
 }  // namespace

@@ -23,19 +23,6 @@
 namespace lorentz::oracle {
 namespace {
 
-Polynomial product(const Polynomial& a, const Polynomial& b) {
-  Polynomial result(a.size() + b.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < b.size(); ++k) result[i + k].add_product(a[i], b[k]);
-  return result;
-}
-
-Polynomial less(Polynomial a, const Polynomial& b) {
-  a.resize(std::max(a.size(), b.size()));
-  for (std::size_t i = 0; i < b.size(); ++i) a[i] -= b[i];
-  return a;
-}
-
 constexpr std::size_t kMostPairs = 20'000;
 
 InputError too_many() {
@@ -62,12 +49,9 @@ void RowPeriod::add(const ObstacleId& id, const Z& turn, const IntegerScene<2>::
                     const ZVec<2>& shift) {
   const ZVec<2> position{atom.position[0] + shift[0], atom.position[1] + shift[1]};
   const auto seen = [&](const ZVec<2>& a) { return Polynomial{dot(a, along), -dot(a, across)}; };
-  Polynomial q(3);
+  Polynomial q;
   const std::array<ZVec<2>, 2> ball{ZVec<2>{atom.radius, 0}, ZVec<2>{0, atom.radius}};
-  for (const ZVec<2>& axis : atom.semiaxes.value_or(ball)) {
-    const Polynomial square = product(seen(axis), seen(axis));
-    for (std::size_t k = 0; k < 3; ++k) q[k] += square[k];
-  }
+  for (const ZVec<2>& axis : atom.semiaxes.value_or(ball)) q = q + seen(axis) * seen(axis);
   members.push_back({id, turn, seen(position), q});
 }
 
@@ -168,14 +152,15 @@ struct Touch {
 template <class Visit>
 void visit_pairs(const RowPeriod& row, const OpenRange& range, const Visit& visit) {
   for (std::size_t i = 0; i < row.members.size(); ++i) {
-    visit(i, i, Z(1), Polynomial{row.period, 0});
+    visit(i, i, Z(1), Polynomial{row.period});
     for (std::size_t j = i + 1; j < row.members.size(); ++j) {
-      Polynomial l = less(row.members[j].centre, row.members[i].centre);
+      Polynomial l = row.members[j].centre - row.members[i].centre;
       const Z scale = shifted_left(row.period, OpenRange::kFractionBits), low = l[1] * range.low,
               high = l[1] * range.high, start = shifted_left(l[0], OpenRange::kFractionBits);
       const Z last = ceil_div(-start - std::min(low, high), scale) + 1;
       Z n = floor_div(-start - std::max(low, high), scale) - 1;
-      for (l[0] += n * row.period; n <= last; ++n, l[0] += row.period) visit(i, j, n, l);
+      for (l = l + Polynomial{n * row.period}; n <= last; ++n, l = l + Polynomial{row.period})
+        visit(i, j, n, l);
     }
   }
 }
@@ -191,8 +176,8 @@ std::vector<std::vector<Touch>> touches_of(const RowPeriod& row) {
   });
   visit_pairs(row, range, [&](std::size_t i, std::size_t j, const Z& n, const Polynomial& l) {
     const Polynomial &a = row.members[i].q, &b = row.members[j].q;
-    const Polynomial rest = less(less(product(l, l), a), b);
-    for (RealRoot& root : real_roots(less(product(rest, rest), product(product({Z(4)}, a), b))))
+    const Polynomial rest = l * l - a - b;
+    for (RealRoot& root : real_roots(rest * rest - Polynomial{4} * a * b))
       touches.push_back({std::move(root), i, j, n});
   });
   std::vector<std::size_t> order(touches.size());

@@ -8,53 +8,6 @@
 namespace lorentz::oracle {
 namespace {
 
-// Without leading zeros and common factors.
-Polynomial primitive(Polynomial p) {
-  while (!p.empty() && p.back() == 0) p.pop_back();
-  Z common = 0;
-  for (const Z& c : p) common = gcd(common, c);
-  for (Z& c : p) c /= common;
-  return p;
-}
-
-// The remainder of a by b, times a positive number.
-Polynomial remainder(Polynomial a, const Polynomial& b) {
-  while (a.size() >= b.size()) {
-    const Z factor = a.back() * sgn(b.back()), scale = abs(b.back());
-    for (Z& c : a) c *= scale;
-    for (std::size_t i = 0; i < b.size(); ++i) a[a.size() - b.size() + i].subtract_product(factor, b[i]);
-    a = primitive(std::move(a));
-  }
-  return a;
-}
-
-// a / b, where b divides a.
-Polynomial exact_quotient(Polynomial a, const Polynomial& b) {
-  Polynomial result(a.size() - b.size() + 1);
-  for (std::size_t k = result.size(); k-- > 0;) {
-    result[k] = a[k + b.size() - 1] / b.back();
-    for (std::size_t i = 0; i < b.size(); ++i) a[k + i].subtract_product(result[k], b[i]);
-  }
-  return result;
-}
-
-Polynomial derivative(const Polynomial& p) {
-  Polynomial result;
-  for (std::size_t i = 1; i < p.size(); ++i) result.push_back(i * p[i]);
-  return result;
-}
-
-// Euclid's remainders of a and b with alternating signs; the last is their greatest common divisor.
-std::vector<Polynomial> remainders(const Polynomial& a, const Polynomial& b) {
-  std::vector<Polynomial> chain{a};
-  for (Polynomial next = primitive(b); !next.empty();) {
-    chain.push_back(next);
-    next = remainder(chain[chain.size() - 2], next);
-    for (Z& c : next) c = -c;
-  }
-  return chain;
-}
-
 int sign_of_value(const Polynomial& p, const Z& a, long bits) {
   const auto shift = static_cast<unsigned long>(std::labs(bits));
   const Z point = bits < 0 ? shifted_left(a, shift) : a;
@@ -70,29 +23,22 @@ class RootCount {
   explicit RootCount(const Polynomial& p) : chain_(remainders(p, derivative(p))) {}
 
   const Polynomial& multiple_roots() const { return chain_.back(); }
-  std::size_t operator()(const Z& low, const Z& high, long bits) const {
-    return changes_at(low, bits) - changes_at(high, bits);
+  int operator()(const Z& low, const Z& high, long bits) const {
+    const auto changes_at = [&](const Z& a) {
+      return sign_changes(chain_, [&](const Polynomial& p) { return sign_of_value(p, a, bits); });
+    };
+    return changes_at(low) - changes_at(high);
   }
 
  private:
-  std::size_t changes_at(const Z& a, long bits) const {
-    std::size_t changes = 0;
-    int before = 0;
-    for (const Polynomial& p : chain_) {
-      const int sign = sign_of_value(p, a, bits);
-      changes += sign * before < 0;
-      if (sign != 0) before = sign;
-    }
-    return changes;
-  }
-
   std::vector<Polynomial> chain_;
 };
 
 // No root is 2^result or larger in size: |c_i / c_n| + 1 is more than any.
 long bits_of_roots(const Polynomial& p) {
   long most = 0;
-  for (const Z& c : p) most = std::max(most, bit_length(c) - bit_length(p.back()) + 1);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    most = std::max(most, bit_length(p[i]) - bit_length(p.back()) + 1);
   return most + 1;
 }
 
@@ -106,17 +52,17 @@ void RealRoot::refine() {
 }
 
 std::vector<RealRoot> real_roots(Polynomial polynomial) {
-  polynomial = primitive(std::move(polynomial));
+  polynomial = primitive(polynomial);
   if (polynomial.size() < 2) return {};
   RootCount count(polynomial);
   if (count.multiple_roots().size() > 1) {
-    polynomial = exact_quotient(std::move(polynomial), count.multiple_roots());
+    polynomial = exact_quotient(polynomial, count.multiple_roots());
     count = RootCount(polynomial);
   }
   std::vector<RealRoot> roots;
   const auto search = [&](const auto& self, const Z& low, long bits) -> void {
     const Z high = low + 1;
-    const std::size_t inside = count(low, high, bits);
+    const int inside = count(low, high, bits);
     if (inside == 1) {
       roots.push_back({polynomial, sign_of_value(polynomial, high, bits), low, bits});
     } else if (inside > 1) {

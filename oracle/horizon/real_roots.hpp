@@ -4,12 +4,9 @@
 
 #include <vector>
 
-#include "oracle/integers/integer.hpp"
+#include "oracle/exact/polynomial.hpp"
 
 namespace lorentz::oracle {
-
-/// Coefficients, the constant first.
-using Polynomial = std::vector<Z>;
 
 /// The only root of `polynomial` in (low, low + 1] / 2^bits.
 struct RealRoot {

@@ -19,7 +19,7 @@ template <bool kUnit, bool kBall>
 class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   using Rows = RowsOf2<LaneFma, LaneFma, kUnit, kBall>;
   using Rows::to_;
-  using CloseBall = typename Rows::CloseBall;
+  using Close = CloseLook<LaneFma>;
 
  public:
   using Direction = Direction2<LaneFma, kUnit, kBall>;
@@ -106,7 +106,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     return start;
   }
 
-  static HWY_NOINLINE CloseBall close_ball(const Rare& rare, const Bravais& lattice, V n0, V n1) {
+  static HWY_NOINLINE Close close_ball(const Rare& rare, const Bravais& lattice, V n0, V n1) {
     const V N[2] = {n0, n1};
     return Search2(rare.to, lattice, rare.start, nullptr, none()).look_closely(N);
   }
@@ -136,7 +136,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     const M unsure = AndNot(met, candidate), close = And(unsure, exact);
     M doubtful = unsure;
     if (HWY_UNLIKELY(any(close))) {
-      const CloseBall closer = close_ball(rare(), this->lattice_, N[0], N[1]);
+      const Close closer = close_ball(rare(), this->lattice_, N[0], N[1]);
       const M close_no = And(close, closer.is_missed), close_met = And(close, closer.is_met),
               close_behind = And(close_met, closer.is_behind), close_ahead = And(close_met, closer.is_ahead);
       s = select(close, closer.s, s), s_error = select(close, closer.s_error, s_error);

@@ -27,22 +27,10 @@ struct LaneDirection {
 
 /// A ball in double-double: what is rare gets copies.
 template <int D>
-struct LaneMeeting {
-  V s, s_error, slack, slack_error;
-  M hit, passed;
-
-  static HWY_NOINLINE LaneMeeting look(LaneDirection<D> to, const Bravais& ball, Offset<LaneFma, D> start) {
-    const StableMeeting<LaneFma, D, true> meeting(to.v, start.d, start.error, ball);
-    LaneMeeting close;
-    close.s = meeting.s.hi, close.slack = meeting.slack.hi;
-    close.s_error = meeting.s_error + kRoundoff * close.s;
-    close.slack_error = meeting.slack_error + kRoundoff * close.slack;
-    const M missed = close.slack<Neg(meeting.slack_error), met = close.slack> meeting.slack_error;
-    close.hit = And(met, close.s > meeting.s_error);
-    close.passed = Or(missed, And(met, close.s < Neg(meeting.s_error)));
-    return close;
-  }
-};
+HWY_NOINLINE CloseLook<LaneFma> look_at_close(LaneDirection<D> to, const Bravais& ball,
+                                              Offset<LaneFma, D> at) {
+  return CloseLook<LaneFma>(StableMeeting<LaneFma, D, true>(to.v, at.d, at.error, ball));
+}
 
 /// As Search2 and Search3: in binary64, and in double-double where that is not certain. kSingle: no lattice has
 /// a vector.
@@ -177,10 +165,12 @@ class SparseSearch {
     Offset<LaneFma, D> there;
     for (int k = 0; k < D; ++k) there.d[k] = d[k], there.home[k] = none();
     there.error = error;
-    const LaneMeeting<D> close = LaneMeeting<D>::look(to_, balls_, there);
+    const CloseLook<LaneFma> close = look_at_close(to_, balls_, there);
     stage2 = Or(stage2, asked);
-    lanes.give_up(AndNot(Or(close.hit, close.passed), asked));
-    const M here = And(close.hit, asked);
+    const M met = And(close.is_met, close.is_ahead),
+            passed = Or(close.is_missed, And(close.is_met, close.is_behind));
+    lanes.give_up(AndNot(Or(met, passed), asked));
+    const M here = And(met, asked);
     hit = Or(hit, here);
     one.s = select(here, close.s, one.s), one.s_error = select(here, close.s_error, one.s_error);
     one.slack = select(here, close.slack, one.slack);

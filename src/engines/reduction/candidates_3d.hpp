@@ -67,15 +67,10 @@ class Candidates3 {
   // The same decisions in double-double.
   [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
     found.needs(Stage::double_double);
-    const auto meeting = meeting_at(N);
-    const Decision meets = lorentz::meets(meeting);
-    if (meets == Decision::doubtful) return Look::doubtful;
-    if (meets == Decision::no) return Look::missed;
-    const Decision ahead = is_ahead(meeting);
-    if (ahead == Decision::doubtful) return Look::doubtful;
-    if (ahead == Decision::no) return Look::missed;
-    return offer(N, meeting.s.hi, meeting.s_error + kRoundoff * meeting.s.hi, meeting.slack.hi,
-                 meeting.slack_error + kRoundoff * meeting.slack.hi);
+    const CloseLook<SplitProduct> close(meeting_at(N));
+    if (close.is_missed || (close.is_met && close.is_behind)) return Look::missed;
+    if (!(close.is_met && close.is_ahead)) return Look::doubtful;
+    return offer(N, close.s, close.s_error, close.slack, close.slack_error);
   }
 
   const Window& window_;

@@ -21,14 +21,13 @@ template <int D>
                                        bool is_ball, const Vec& v, Found<D>& found) {
   found.needs(Stage::double_double);
   const auto decide = [&](const auto& meeting) {
-    const Decision met = meets(meeting), ahead = is_ahead(meeting);
-    if (met == Decision::no) return Look::missed;
-    if (met == Decision::yes && ahead == Decision::no) return Look::behind;
-    found.s = meeting.s.hi, found.slack = meeting.slack.hi;
-    found.s_error = meeting.s_error + kRoundoff * found.s;
-    found.slack_error = meeting.slack_error + kRoundoff * found.slack;
+    const CloseLook<SplitProduct> close(meeting);
+    if (close.is_missed) return Look::missed;
+    if (close.is_met && close.is_behind) return Look::behind;
+    found.s = close.s, found.s_error = close.s_error;
+    found.slack = close.slack, found.slack_error = close.slack_error;
     if constexpr (D == 2) found.h = difference_of_products(d[1], v[0], d[0], v[1]).hi;
-    return met == Decision::yes && ahead == Decision::yes ? Look::met : Look::doubtful;
+    return close.is_met && close.is_ahead ? Look::met : Look::doubtful;
   };
   if (is_ball) return decide(StableMeeting<SplitProduct, D, true>(v, d, error, obstacle));
   return decide(StableMeeting<SplitProduct, D, false>(v, d, error, obstacle));

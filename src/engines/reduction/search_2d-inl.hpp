@@ -145,25 +145,12 @@ class RowsOf2 {
     return scaled(4 * to_.rho * (ball.error + to_.rho_error() * to_.rho));
   }
 
-  /// The ball of this cell in double-double: s and the slack with their errors, and what these leave certain.
-  struct CloseBall {
-    Number s, s_error, slack, slack_error;
-    Mask is_missed, is_met, is_behind, is_ahead;
-  };
-  LORENTZ_INLINE CloseBall look_closely(const Number (&N)[2]) const {
+  /// The ball of this cell in double-double.
+  LORENTZ_INLINE CloseLook<typename Arch::Apart> look_closely(const Number (&N)[2]) const {
     using Apart = typename Arch::Apart;
     DoubleDouble<Apart> d[2];
     const Number error = place_of<kUnit>(lattice_, offset_, N, d);
-    const StableMeeting<Apart, 2, kBall> meeting(to_.v, d, error, lattice_);
-    CloseBall ball;
-    ball.s = meeting.s.hi, ball.slack = meeting.slack.hi;
-    ball.s_error = meeting.s_error + kRoundoff * ball.s;
-    ball.slack_error = meeting.slack_error + kRoundoff * ball.slack;
-    ball.is_missed = ball.slack < Neg(meeting.slack_error);
-    ball.is_met = ball.slack > meeting.slack_error;
-    ball.is_behind = ball.s < Neg(meeting.s_error);
-    ball.is_ahead = ball.s > meeting.s_error;
-    return ball;
+    return CloseLook<Apart>(StableMeeting<Apart, 2, kBall>(to_.v, d, error, lattice_));
   }
 
   /// Its coefficients in the short basis, from the home cell; true where they were not rounded.

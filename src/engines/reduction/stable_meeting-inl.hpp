@@ -177,3 +177,21 @@ struct StableMeeting {
               (shape.cofactor_error + kStable * shape.cofactor_size) * sqrt(size2);
   }
 };
+
+/// What a meeting leaves certain; s and the slack in binary64, with all that they err by.
+template <class Arch>
+struct CloseLook {
+  typename Arch::Number s, s_error, slack, slack_error;
+  typename Arch::Mask is_missed, is_met, is_behind, is_ahead;
+
+  template <class Meeting>
+  LORENTZ_INLINE explicit CloseLook(const Meeting& meeting)
+      : s(meeting.s.hi),
+        s_error(meeting.s_error + kRoundoff * s),
+        slack(meeting.slack.hi),
+        slack_error(meeting.slack_error + kRoundoff * slack),
+        is_missed(slack < Neg(meeting.slack_error)),
+        is_met(slack > meeting.slack_error),
+        is_behind(s < Neg(meeting.s_error)),
+        is_ahead(s > meeting.s_error) {}
+};
