@@ -252,7 +252,7 @@ inline constexpr double kSoonRadius = 0x1p-5;
 /// ellipsoids of condition c: kGrazing + kGrazingOfShape c), or a shape more slender than kSlender, takes
 /// double-double. In double-double: nearer than kNearWide q likewise, and beyond kFarSlack q one roundoff of
 /// q does not count.
-inline constexpr double kNear = 4, kGrazing = 64, kGrazingOfShape = 32, kSlender = 12, kNearWide = 2,
+inline constexpr double kNear = 4, kGrazing = 64, kGrazingOfShape = 32, kSlender = 6, kNearWide = 2,
                         kFarSlack = 0x1p14;
 
 }  // namespace lorentz
