@@ -42,8 +42,8 @@ void add_tally(json::Members& object, const Tally& t, bool judged) {
              "error", count(t.error), "missing", count(t.missing));
   object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
              if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "wrong_time",
-             count(t.wrong_time), "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
-             spread_of(t.wrong_conditions));
+             count(t.wrong_time), "other_quantity", count(t.other_quantity), "wrong_time_ulps",
+             spread_of(t.wrong_ulps), "wrong_time_conditions", spread_of(t.wrong_conditions));
 }
 
 std::string json_of(const std::string& scene, std::uint64_t seed, const std::vector<Tally>& tallies,

@@ -19,9 +19,10 @@ using question::Tally;
 
 namespace {
 
-constexpr std::size_t Tally::*kCounts[] = {
-    &Tally::queries,     &Tally::agree, &Tally::ill_posed, &Tally::wrong,      &Tally::undecided,
-    &Tally::unsupported, &Tally::error, &Tally::missing,   &Tally::wrong_time, &Tally::timed_hits};
+constexpr std::size_t Tally::*kCounts[] = {&Tally::queries,        &Tally::agree,     &Tally::ill_posed,
+                                           &Tally::wrong,          &Tally::undecided, &Tally::unsupported,
+                                           &Tally::error,          &Tally::missing,   &Tally::wrong_time,
+                                           &Tally::other_quantity, &Tally::timed_hits};
 
 std::string text_of(const ComparedPart& part) {
   std::size_t next = 0;
@@ -59,7 +60,8 @@ Tally tally_in(json::Object object) {
   const std::size_t sum = tally.agree + tally.ill_posed + tally.wrong + tally.undecided + tally.unsupported +
                           tally.error + tally.missing;
   if (next != std::size(kCounts) || sum != tally.queries || tally.timed_hits != tally.ulps.size() ||
-      tally.wrong_time != tally.wrong_ulps.size() || tally.wrong_time != tally.wrong_conditions.size())
+      tally.other_quantity > tally.wrong_time || tally.wrong_time != tally.wrong_ulps.size() ||
+      tally.wrong_time != tally.wrong_conditions.size())
     throw InputError("has counts that do not fit together");
   return tally;
 }

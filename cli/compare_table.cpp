@@ -66,6 +66,7 @@ std::string verdict_of(const Tally& t) {
                          : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)",
                                        t.name, answers, 100 * report::bound_of_none(answers));
   text += others;
+  if (t.other_quantity > 0) text += fmt::format("; in {} the time is another quantity", t.other_quantity);
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
   return text + fmt::format(

@@ -168,8 +168,8 @@ std::string describe(const Failure& failure) {
                        failure.given.obstacle == failure.expect.obstacle;
   if (of_time)
     text += fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time\n",
-                        failure.judgement.wrong_time ? "a wrong time of the right obstacle"
-                                                     : "no time of that collision at all",
+                        failure.judgement.is_other_quantity() ? "no time of that collision at all"
+                                                              : "a wrong time of the right obstacle",
                         failure.judgement.departs);
   else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
     text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
@@ -184,7 +184,8 @@ std::string describe(const Failure& failure) {
 
 void add_counts(json::Members& object, const Tally& t) {
   object.add("records", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
-             t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error);
+             t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
+             t.unsupported, "error", t.error);
 }
 
 void add_set(json::Members& object, const SetTally& set) {
@@ -237,6 +238,7 @@ std::string troubles(const Tally& t) {
   if (t.wrong > 0) all.push_back(fmt::format("{} wrong", t.wrong));
   if (t.wrong_time > 0)
     all.push_back(fmt::format("{} {}", t.wrong_time, t.wrong_time == 1 ? "wrong time" : "wrong times"));
+  if (t.other_quantity > 0) all.push_back(fmt::format("{} of another quantity", t.other_quantity));
   if (const std::string others = others_of(t); !others.empty()) all.push_back(others);
   return fmt::format("{}", fmt::join(all, ", "));
 }

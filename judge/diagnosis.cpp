@@ -61,8 +61,6 @@ Fault of_another_answer(const Question& question, const Answer& given,
   const Answer& exact = question.exact;
   if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_such_obstacle};
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
-  if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
-    return {Cause::other_quantity};
   // A judgement that rests on no obstacle is one of margin 0: of a tie, or of an obstacle that is touched.
   const ObstacleId& decisive = needed                        ? *needed
                                : is_touched(question, given) ? given.obstacle
@@ -99,7 +97,9 @@ constexpr std::array<std::string_view, kCauses> kCauseNames{"passed-over-grazing
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement) {
   using oracle::Verdict;
-  if (judgement.wrong_time) return Diagnosis{Cause::wrong_time, Severity::wrong_time};
+  if (judgement.wrong_time)
+    return Diagnosis{judgement.is_other_quantity() ? Cause::other_quantity : Cause::wrong_time,
+                     Severity::wrong_time};
   if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
   const bool wrong = judgement.verdict == Verdict::wrong;

@@ -102,7 +102,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
     lines = {"the question is invalid: the right answer is an error"};
   else if (finding.severity() == Severity::error)
     lines = {"the question is a valid one"};
-  else if (example.judgement.wrong_time || finding.cause() == Cause::other_quantity)
+  else if (example.judgement.wrong_time)
     lines = {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
                          example.judgement.departs)};
   else
@@ -219,7 +219,10 @@ std::string times_text(const std::vector<ExaminedRow>& rows) {
                : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp());
   drawn.add(hard);
   return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
-                     question::quantile(drawn.wrong_ulps, 1));
+                     question::quantile(drawn.wrong_ulps, 1)) +
+         (drawn.other_quantity > 0
+              ? fmt::format(", {} of another quantity", percent(drawn.other_quantity, answers(drawn)))
+              : "");
 }
 
 std::string paths_text(const std::vector<FlownScene>& flown) {
@@ -363,8 +366,8 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
              kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
              "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
   object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
-             t.wrong_time, "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error,
-             "missing", t.missing, "nonsense", row.nonsense);
+             t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
+             t.unsupported, "error", t.error, "missing", t.missing, "nonsense", row.nonsense);
   object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
@@ -429,9 +432,10 @@ std::string JudgeReport::json() const {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
              report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
     page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
-             "undecided", t.undecided, "unsupported", t.unsupported, "error", t.error, "missing", t.missing,
-             "nonsense", nonsense(), "ns_per_query", json::finite(ns_per_query), "ns_of_reduction",
-             json::finite(ns_of_reduction), "start_up_seconds", json::finite(start_up));
+             "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported", t.unsupported,
+             "error", t.error, "missing", t.missing, "nonsense", nonsense(), "ns_per_query",
+             json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction), "start_up_seconds",
+             json::finite(start_up));
     page.add("difficulties", json::objects(rows, [&](json::Members& one, const ExaminedRow& row) {
                add_row(one, row, *this);
              }));

@@ -81,6 +81,7 @@ class PyOracle {
     py::dict dict;
     dict["verdict"] = name_of(judgement.verdict);
     dict["wrong_time"] = judgement.wrong_time;
+    dict["other_quantity"] = judgement.is_other_quantity();
     dict["ulps"] = judgement.ulps;
     dict["departs"] = judgement.departs;
     dict["cause"] = py::none();

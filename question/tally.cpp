@@ -34,6 +34,7 @@ void Tally::count(const oracle::Judgement& judgement) {
   }
   if (judgement.wrong_time) {
     ++wrong_time;
+    other_quantity += judgement.is_other_quantity();
     wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
     wrong_conditions.push_back(judgement.departs);
   }
@@ -51,9 +52,9 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count :
-       {&Tally::queries, &Tally::agree, &Tally::ill_posed, &Tally::wrong, &Tally::undecided,
-        &Tally::unsupported, &Tally::error, &Tally::missing, &Tally::wrong_time, &Tally::timed_hits})
+  for (const auto count : {&Tally::queries, &Tally::agree, &Tally::ill_posed, &Tally::wrong,
+                           &Tally::undecided, &Tally::unsupported, &Tally::error, &Tally::missing,
+                           &Tally::wrong_time, &Tally::other_quantity, &Tally::timed_hits})
     this->*count += other.*count;
   failed |= other.failed;
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})

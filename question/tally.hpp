@@ -29,10 +29,11 @@ struct Tally {
   std::string name;
   std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
               missing = 0;
-  std::size_t wrong_time = 0;  ///< of those that agree: their time is beyond its tolerance
-  bool failed = false;         ///< another program that broke on the way
-  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
-  std::vector<double> ulps;    ///< errors of these times
+  std::size_t wrong_time = 0;      ///< of those that agree: their time is beyond its tolerance
+  std::size_t other_quantity = 0;  ///< of wrong times: no rounding explains them
+  bool failed = false;             ///< another program that broke on the way
+  std::size_t timed_hits = 0;      ///< hits of the right obstacle with a time that could be measured
+  std::vector<double> ulps;        ///< errors of these times
   std::vector<double> wrong_ulps, wrong_conditions;  ///< of wrong times: in ulps, in units of the condition
   Speed speed;
 

@@ -11,9 +11,9 @@
 namespace lorentz::oracle {
 
 enum class Verdict {
-  agree,        ///< the same outcome and the same obstacle; `wrong_time` says if not its time
+  agree,        ///< the same outcome and the same obstacle; `wrong_time` says whether its time is off
   ill_posed,    ///< another one, but the inputs need to move by no more than k ulps each for it to be right
-  wrong,        ///< another one, and not so; or no time of that obstacle at all (kOtherQuantity)
+  wrong,        ///< another one, and not so
   undecided,    ///< it said that it does not know, or `later`
   unsupported,  ///< it said that it does not do this kind of query
   error,        ///< it said that the query is invalid, or it broke
@@ -23,10 +23,9 @@ enum class Verdict {
 /// The tolerance k, in ulps of the inputs, unless told otherwise.
 inline constexpr double kDefaultUlps = 4;
 
-/// A time that is off by more than this part of itself times its condition (and by more than kDefaultUlps of
-/// its own ulps, which are that much among the subnormal numbers) is no rounded time of the collision but
-/// another quantity, and `wrong`.
-inline constexpr double kOtherQuantity = 0x1p-22;
+/// A time that is off by more than this many times what an ulp in each input makes of it is not rounded: it is
+/// another quantity, such as the time at which the line leaves the obstacle.
+inline constexpr double kOtherQuantity = 0x1p30;
 
 /// What an answer is worth beside the exact one.
 struct Judgement {
@@ -36,14 +35,16 @@ struct Judgement {
   std::optional<double> ulps = {};
   /// Of ill_posed and wrong: by how many ulps the inputs must move at least for the answer to be right. Of
   /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong
-  /// time, and one that is another quantity: the tolerance that it would have needed, in units of its
-  /// condition.
+  /// time: the tolerance that it would have needed, in units of its condition; infinite if it is not finite.
   double departs = 0;
   bool wrong_time = false;  ///< of `agree`: the obstacle is right, the time is beyond its tolerance
   /// Of ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
   /// is passed over, or that contains x). Nothing if the scene does not have the obstacle that was named, and
   /// where nothing needs to move (a tie that was decided the other way).
   std::optional<ObstacleId> obstacle = {};
+
+  /// A wrong time that no rounding explains (kOtherQuantity).
+  bool is_other_quantity() const { return wrong_time && departs > kOtherQuantity; }
 };
 
 /// Judges answers to the queries of one scene.
@@ -53,10 +54,9 @@ struct Judgement {
 ///     held by "Each answer gets its verdict",
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
 ///  2. The time of the right obstacle is a wrong time if it errs, in its ulps, by more than `ulps` and by
-///     more than `ulps` times its condition. That is no `wrong` answer, unless it errs by more than
-///     kOtherQuantity.
+///     more than `ulps` times its condition. The answer agrees nevertheless, by however much the time is off.
 ///     held by "Errors of the time are counted in ulps, and judged by the condition",
-///             "A time that is off by a good part of itself is no rounding, and wrong"
+///             "A time that is off by a good part of itself is another quantity"
 ///  3. With `ulps` = 0 an answer is the exact one or `wrong`, and a time the correctly rounded one or a wrong
 ///     time: not even a tie is forgiven that was decided the other way.
 ///     held by "Where no ulp is forgiven an answer is the exact one or wrong"

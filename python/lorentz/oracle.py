@@ -134,13 +134,15 @@ class Verdict:
     """What an answer is worth beside the exact one (docs/verdicts.md).
 
     ``verdict``: "agree", "ill-posed", "wrong", "undecided", "unsupported" or "error". ``wrong_time``: the
-    obstacle is right, its time is off by more than rounding explains. ``ulps``: the error of the time, in its
-    ulps. ``departs``: how far the inputs must move for the answer to be right. ``cause`` and ``sentence``:
-    what went wrong, as `lorentz.judge` tells it (docs/judge.md).
+    obstacle is right, its time is off by more than rounding of the inputs explains; ``other_quantity``: by so
+    much that it is no time of that collision. ``ulps``: the error of the time, in its ulps. ``departs``: how
+    far the inputs must move for the answer to be right. ``cause`` and ``sentence``: what went wrong, as
+    `lorentz.judge` tells it (docs/judge.md).
     """
 
     verdict: str
     wrong_time: bool
+    other_quantity: bool
     ulps: float | None
     departs: float
     cause: str | None

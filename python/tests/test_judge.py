@@ -48,14 +48,16 @@ def test_a_wrong_function_is_found_out():
         answer = one_by_one(scene, x, v, start_from)
         return replace(answer, time=answer.time + 1) if answer.outcome == "hit" else answer
 
-    report = lorentz.judge(late, time=SHORT, name="too late")
+    assert lorentz.judge(late, time=SHORT)["verdict"] == "right"  # it names the right obstacles
+    report = lorentz.judge(late, time=SHORT, name="too late", times=True)
     assert report["verdict"] == "wrong" and report["engine"] == "too late"
+    assert report["wrong"] == 0 and report["wrong_time"] >= report["other_quantity"] > 0
     assert {finding["cause"] for finding in report["findings"]} <= {"not-the-time", "wrong-time"}
     assert report["findings"][0]["commands"] == []  # no shell knows the function
     finding = next(one for one in report["findings"] if one["cause"] == "not-the-time")
     given = lorentz.Answer.from_line(json.dumps(finding["given"]))
     verdict = lorentz.judge_answer(finding["scene"], finding["query"]["x"], finding["query"]["v"], given)
-    assert (verdict.verdict, verdict.cause) == ("wrong", "not-the-time")
+    assert (verdict.verdict, verdict.other_quantity, verdict.cause) == ("agree", True, "not-the-time")
 
 
 def test_wrong_times_count_when_that_is_asked():

@@ -54,14 +54,18 @@ TEST_CASE("compare: a wrong time has its own column, and counts with --times onl
   CHECK(logged(late, "--times").status == 1);
   const Run json = logged(late, "--json");
   CHECK(contains(json.out, R"("agree":1,"ill_posed":0,"wrong":0,)"));
-  CHECK(
-      contains(json.out, R"("wrong_time":1,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
+  CHECK(contains(
+      json.out,
+      R"("wrong_time":1,"other_quantity":0,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
   CHECK(contains(logged(late, "").out, "mine: no wrong answer in 1 "));
   CHECK(contains(logged(late, "").out, "  1 wrong time of right obstacles: off by "));
-  // Another quantity, such as the time to the obstacle's far side, is no time of that collision.
+  // Another quantity, such as the time to the obstacle's far side, is no time of that collision: that is told first.
   const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
-  CHECK(logged(through, "").status == 1);
-  CHECK(contains(logged(through, "--json").out, R"("agree":0,"ill_posed":0,"wrong":1,)"));
+  CHECK((logged(through, "").status == 0 && logged(through, "--times").status == 1));
+  CHECK(contains(logged(through, "").out, "mine: no wrong answer in 1 "));
+  CHECK(contains(logged(through, "").out, " of all); in 1 the time is another quantity\n"));
+  CHECK(contains(logged(through, "--json").out, R"("agree":1,"ill_posed":0,"wrong":0,)"));
+  CHECK(contains(logged(through, "--json").out, R"("wrong_time":1,"other_quantity":1,)"));
   // Zero is a tolerance, here as elsewhere.
   CHECK(logged(late, "--times --ulps 0").status == 1);
   CHECK(logged(late, "--ulps -1").status == 2);

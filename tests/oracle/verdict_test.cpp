@@ -434,29 +434,34 @@ TEST_CASE("Errors of the time are counted in ulps, and judged by the condition",
   logged.time.reset();
   CHECK_FALSE(judged(kScene, level(0.125), logged).ulps.has_value());
   CHECK(judged(kScene, level(0.125), logged).verdict == Verdict::agree);
-  CHECK(judgement(INFINITY).verdict == Verdict::wrong);
+  CHECK(judgement(INFINITY).is_other_quantity());
   CHECK_FALSE(judged(kScene, level(0.125), Answer::hit(at(2, 0), 1)).ulps.has_value());
 }
 
-TEST_CASE("A time that is off by a good part of itself is no rounding, and wrong", "[oracle][verdict]") {
+TEST_CASE("A time that is off by a good part of itself is another quantity", "[oracle][verdict]") {
   const Answer hit = oracle::Oracle(kScene).first_hit(level(0.125));
   const double condition = oracle::Margins(kScene).condition(level(0.125), hit);
-  const auto judgement = [&](double part) {
-    return judged(kScene, level(0.125), Answer::hit(at(1, 0), *hit.time * (1 + part)));
+  const auto judgement = [&](double off, double ulps = oracle::kDefaultUlps) {
+    return judged(kScene, level(0.125), Answer::hit(at(1, 0), *hit.time + off), ulps);
   };
   REQUIRE(condition == Approx(8.6).epsilon(0.01));
-  for (const double sign : {1.0, -1.0}) {
-    const auto off = judgement(sign * 0.99 * 0x1p-22 * condition),
-               other = judgement(sign * 1.01 * 0x1p-22 * condition);
-    CHECK((off.verdict == Verdict::agree && off.wrong_time));
-    CHECK((other.verdict == Verdict::wrong && !other.wrong_time));
-    CHECK(other.departs > 1e6);
+  const double most = 0x1p30 * condition * (std::nextafter(*hit.time, 1) - *hit.time);
+  for (const double sign : {1.0, -1.0})
+    for (const double ulps : {0.0, 4.0}) {
+      const auto off = judgement(sign * 0.99 * most, ulps), other = judgement(sign * 1.01 * most, ulps);
+      CHECK((off.verdict == Verdict::agree && off.wrong_time && !off.is_other_quantity()));
+      CHECK((other.verdict == Verdict::agree && other.wrong_time && other.is_other_quantity()));
+    }
+  for (const double time : {-1.0, HUGE_VAL}) {
+    const auto other = judged(kScene, level(0.125), Answer::hit(at(1, 0), time));
+    CHECK((other.verdict == Verdict::agree && other.is_other_quantity()));
   }
-  CHECK(judgement(-2).verdict == Verdict::wrong);  // a negative time
-  // Of a hit at t = 0 nothing is left that a wrong time could be a part of.
+  // At t = 0 an ulp is that of 0, but what the inputs' ulps make of the time is not.
   const Query at_once{{0.75, 0}, {1, 0}, {}};
-  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).verdict == Verdict::agree);
-  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).verdict == Verdict::wrong);
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).wrong_time == false);
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).wrong_time);
+  CHECK_FALSE(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).is_other_quantity());
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-20)).is_other_quantity());
 }
 
 TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and still a rounding",
@@ -468,8 +473,8 @@ TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and s
   const auto judgement = [&](double time) { return judged(scene, query, Answer::hit(at(0, 0), time), 0); };
   CHECK((judgement(0).verdict == Verdict::agree && judgement(0).wrong_time));
   CHECK((judgement(5 * 0x1p-1074).verdict == Verdict::agree && judgement(5 * 0x1p-1074).wrong_time));
-  CHECK(judgement(6 * 0x1p-1074).verdict == Verdict::wrong);
-  CHECK(judgement(0x1p-1000).verdict == Verdict::wrong);
+  CHECK_FALSE(judgement(6 * 0x1p-1074).is_other_quantity());
+  CHECK(judgement(0x1p-1000).is_other_quantity());
 }
 
 TEST_CASE("Verdicts, and by how many radii a line misses, are the same in other units and axes",
