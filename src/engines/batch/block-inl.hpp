@@ -31,7 +31,7 @@ class Block {
   using Search = std::conditional_t<kFewer, SparseSearch<D, kSingle>, SearchInCrystal>;
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
-  static constexpr std::size_t kKept = kUnit ? 1 : 6;
+  static constexpr std::size_t kKept = kUnit || kSingle ? 1 : 6;
 
  public:
   HWY_INLINE Block(const PreparedScene& scene, Stretch& stretch, LateTimes<D, kUnit, kBall>& late,
