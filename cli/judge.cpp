@@ -23,6 +23,7 @@ namespace {
 struct JudgeOptions {
   std::string engine;
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
+  std::optional<std::uint64_t> questions;
   std::optional<double> ulps, timeout, seconds;
   std::optional<std::string> html;
   bool quick = false, json = false, times = false, strict = false;
@@ -49,11 +50,25 @@ std::function<void(const std::string&)> clock_of(double seconds) {
   };
 }
 
+// Tells at which row it is.
+std::function<void(const std::string&)> rows_shown() {
+  struct Rows {
+    Progress bar{"judging (rows)", judge::number_of_rows(), 1};
+    std::string last = {};
+    std::size_t begun = 0;
+  };
+  return [rows = std::make_shared<Rows>()](const std::string& row) {
+    if (row != rows->last) ++rows->begun, rows->last = row;
+    rows->bar.at(rows->begun - 1, [&] { return row; });
+  };
+}
+
 // The options as a shell takes them; not where the report goes.
 std::string command_of(const JudgeOptions& o) {
   std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
   if (o.quick) command += " --quick";
   if (o.seconds) command += fmt::format(" --time {}", *o.seconds);
+  if (o.questions) command += fmt::format(" --questions {}", *o.questions);
   if (o.seed != JudgeOptions{}.seed) command += fmt::format(" --seed {}", o.seed);
   if (o.jobs != JudgeOptions{}.jobs) command += fmt::format(" --jobs {}", o.jobs);
   if (o.ulps) command += fmt::format(" --ulps {}", *o.ulps);
@@ -69,6 +84,7 @@ JudgeOrder order_of(const JudgeOptions& options) {
   order.command = command_of(options);
   order.quick = options.quick;
   order.time = options.seconds;
+  order.questions = options.questions;
   order.seed = options.seed;
   order.jobs = static_cast<unsigned>(options.jobs);
   order.ulps = options.ulps.value_or(oracle::kDefaultUlps);
@@ -84,7 +100,7 @@ int act(const JudgeOptions& options) {
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
   const Interrupt interrupt;
-  order.on_progress = clock_of(order.seconds());
+  order.on_progress = order.questions ? rows_shown() : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
@@ -106,6 +122,8 @@ Command judge_command() {
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights"},
           {"--time", Positive{&options->seconds}, "SECONDS",
            "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)"},
+          {"--questions", Whole{&options->questions, 1, 1'000'000'000}, "N",
+           "so many of each row, however long they take: the same on every machine", kToldDefault, "--time"},
           {"--seed", Whole{&options->seed}, "N", "of all that is drawn"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
            "threads of the campaign; all else is asked on one"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "question/engines.hpp"
 
@@ -81,21 +82,22 @@ void Examination::run(ExaminedRow row, const Source& source, double seconds, con
   row.tally.name = row.name;
   answerer_->try_again();
   double asking = 0;
-  std::size_t at_once = kFewestAtOnce;
+  std::size_t at_once = kFewestAtOnce, left = most_.value_or(std::numeric_limits<std::size_t>::max());
   std::vector<Question> questions;
-  while (!row.is_exhausted && !is_over() && seconds_since(start) < seconds) {
+  while (!row.is_exhausted && left > 0 && !is_over() && seconds_since(start) < seconds) {
     questions.clear();
-    while (questions.size() < at_once && !stop_ && seconds_since(start) < seconds) {
+    while (questions.size() < std::min(at_once, left) && !stop_ && seconds_since(start) < seconds) {
       std::optional<Question> next = source();
       if ((row.is_exhausted = !next)) break;
       questions.push_back(std::move(*next));
     }
+    left -= questions.size();
     if (tell_) tell_(row.name);
     const double took = ask(questions);
     asking += took;
     at_once = next_number(questions.size(), took);
     for (std::size_t i = 0; i < replies_.size(); ++i) {
-      questions[i].place->note_time(took / static_cast<double>(replies_.size()));
+      if (!most_) questions[i].place->note_time(took / static_cast<double>(replies_.size()));
       take(questions[i], replies_[i], row);
       if (look && replies_[i].was_asked()) look(questions[i], replies_[i].answer);
     }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ class Examination {
 
   /// From now on for so many seconds: then all is over, and no answer is waited for.
   void limit(double seconds);
+
+  /// From now on each row asks so many questions, and no scene is left for being slow.
+  void ask_exactly(std::size_t questions) { most_ = questions; }
 
   /// Is called often while rows run, with the name of the row.
   void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
@@ -101,6 +105,7 @@ class Examination {
 
   const double ulps_;
   const std::atomic<bool>& stop_;
+  std::optional<std::size_t> most_;  // questions of a row
   std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
   bool failed_ = false;  // of those that were taken over

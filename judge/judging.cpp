@@ -27,11 +27,17 @@ namespace {
 struct TimePlan {
   double drawn, hard, paths, golden, campaign, speed, simplest;
   std::size_t count;
+  std::optional<std::size_t> questions = {};  // of each row, instead of a time
   double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
   /// The same in another time.
   TimePlan lasting(double other) const {
     const double k = other / seconds();
     return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
+  }
+  /// So many questions a row, however long they take. Only what measures a speed keeps its time.
+  TimePlan asking(std::size_t number) const {
+    constexpr double kEver = 1e7;  // seconds
+    return {kEver, kEver, kEver, kEver, kEver, speed, kEver, number, number};
   }
 };
 constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
@@ -126,11 +132,13 @@ void check_golden_sets(Examination& examination, double seconds) {
 
 // In a thread for each examination, each with scenes of its own.
 void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
-                  const fuzz::Scope& scope, std::uint64_t seed, double seconds) {
+                  const fuzz::Scope& scope, std::uint64_t seed, const TimePlan& plan) {
   const auto parts = static_cast<unsigned>(1 + others.size());
+  const Fairness fairness = plan.questions ? Fairness::of_scenes : Fairness::of_time;
   const auto run = [&](Examination& one, unsigned part) {
+    if (plan.questions) one.ask_exactly((*plan.questions + parts - 1 - part) / parts);
     one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
-            campaign(seed, scope, part, parts), seconds);
+            campaign(seed, scope, fairness, part, parts), plan.campaign);
   };
   std::vector<std::future<void>> threads;
   for (unsigned part = 1; part < parts; ++part)
@@ -270,7 +278,7 @@ std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, co
     others.push_back(terms.examination());
     others.back()->limit(all.left());
   }
-  run_campaign(examination, others, scope_of(places), report.seed, plan.campaign);
+  run_campaign(examination, others, scope_of(places), report.seed, plan);
   report.rows = examination.rows();
   report.findings = examination.findings();
   report.calls = examination.calls();
@@ -280,6 +288,7 @@ std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, co
 
 TimePlan plan_of(const JudgeOrder& order) {
   const TimePlan& plan = order.quick ? kQuick : kWhole;
+  if (order.questions) return plan.asking(*order.questions);
   return order.time ? plan.lasting(*order.time) : plan;
 }
 
@@ -287,6 +296,11 @@ TimePlan plan_of(const JudgeOrder& order) {
 
 double JudgeOrder::seconds() const {
   return plan_of(*this).seconds();
+}
+
+std::size_t number_of_rows() {
+  constexpr std::size_t kOthers = 4;  // near-rational, grazing, free paths, campaign
+  return kSceneries.size() + golden::committed_sets().size() + kOthers;
 }
 
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
@@ -300,6 +314,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.seed = order.seed;
   report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
+  if (plan.questions) examination->ask_exactly(*plan.questions);
   examination->on_progress(order.on_progress);
   examination->limit(plan.seconds());
   const Examination::Start start = examination->warm_up();

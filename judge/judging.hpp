@@ -18,6 +18,8 @@ struct JudgeOrder {
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
+  /// So many of each row instead, however long they take: the same on every machine.
+  std::optional<std::size_t> questions = {};
   std::uint64_t seed = starts::kDefaultSeed;
   unsigned jobs = 1;  ///< threads of the campaign
   double ulps = oracle::kDefaultUlps;
@@ -27,9 +29,12 @@ struct JudgeOrder {
   question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with what is asked
 
-  /// How long it will take, about.
+  /// How long it will take, about; not where questions are counted.
   double seconds() const;
 };
+
+/// Of a report.
+std::size_t number_of_rows();
 
 /// All that can be said of the engine; when `stop` is set, what was found until then. Throws
 /// FileError without the catalogue or the golden sets.

@@ -74,8 +74,9 @@ class Golden {
 
 class CampaignQuestions {
  public:
-  CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts)
-      : seed_(seed), scope_(scope), stride_(parts * cases::kCasesPerScene) {
+  CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
+                    unsigned parts)
+      : seed_(seed), scope_(scope), fairness_(fairness), stride_(parts * cases::kCasesPerScene) {
     for (const cases::Target& target : cases::targets())
       if (scope_.meets(target, seed_)) tracks_.push_back({&target, part * cases::kCasesPerScene});
   }
@@ -91,7 +92,7 @@ class CampaignQuestions {
  private:
   static constexpr std::size_t kTries = 10'000;  // scenes in a row that the scope leaves out
 
-  // A target, how far it is, and what it took: all get equal times, for some take a hundred times as long.
+  // A target, how far it is, and what it took.
   struct TargetTrack {
     const cases::Target* target;
     std::uint64_t next = 0;
@@ -107,6 +108,7 @@ class CampaignQuestions {
     const auto start = std::chrono::steady_clock::now();
     make(*track.target, track.next);
     track.next += stride_;
+    if (fairness_ == Fairness::of_scenes) return;
     track.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
@@ -136,6 +138,7 @@ class CampaignQuestions {
 
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
+  const Fairness fairness_;
   const std::uint64_t stride_;  // from one scene to the next
   std::vector<TargetTrack> tracks_;
   std::deque<Question> questions_;
@@ -159,8 +162,9 @@ Source golden_set(const std::string& path) {
   return source_of<Golden>(path);
 }
 
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part, unsigned parts) {
-  return source_of<CampaignQuestions>(seed, scope, part, parts);
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
+                unsigned parts) {
+  return source_of<CampaignQuestions>(seed, scope, fairness, part, parts);
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

@@ -25,10 +25,15 @@ Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint
 /// does.
 Source golden_set(const std::string& path);
 
+/// What the targets of a campaign get in equal parts: time (some take a hundred times as long as others), or
+/// scenes.
+enum class Fairness { of_time, of_scenes };
+
 /// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
 /// smallest margin, without end; of scenes that the scope admits, and of these the ones that are `part`
 /// modulo `parts`.
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope, unsigned part = 0, unsigned parts = 1);
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness = Fairness::of_time,
+                unsigned part = 0, unsigned parts = 1);
 
 /// The narrowest scope with all scenes of these in which the engine answered (a ball and a disc alone are of
 /// one scope); all scenes if it answered nowhere.

@@ -142,14 +142,15 @@ void write_page(const std::string& path, const std::string& json) {
 }
 
 py::tuple judge(const py::object& function, const std::string& engine, const std::string& command, bool quick,
-                std::optional<double> time, std::uint64_t seed, unsigned threads, double ulps, bool times,
-                const std::optional<std::string>& html) {
+                std::optional<double> time, std::optional<std::size_t> questions, std::uint64_t seed,
+                unsigned threads, double ulps, bool times, const std::optional<std::string>& html) {
   lorentz::judge::JudgeOrder order;
-  order.command = command, order.quick = quick, order.time = time;
+  order.command = command, order.quick = quick, order.time = time, order.questions = questions;
   order.seed = seed, order.jobs = threads, order.ulps = ulps, order.times = times;
   if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
   if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
+  if (time && questions) throw InputError("questions: not together with time");
   if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
   JudgeRun run;
   py::function ask;
@@ -170,8 +171,8 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
 
 void bind_judge(py::module_& module) {
   module.def("judge", judge, py::arg("function"), py::arg("engine"), py::arg("command"), py::arg("quick"),
-             py::arg("time"), py::arg("seed"), py::arg("threads"), py::arg("ulps"), py::arg("times"),
-             py::arg("html"));
+             py::arg("time"), py::arg("questions"), py::arg("seed"), py::arg("threads"), py::arg("ulps"),
+             py::arg("times"), py::arg("html"));
   module.attr("HAS_PAGE") = report::has_page();
 }
 

@@ -20,7 +20,7 @@ FirstHitFunction = Callable[..., Any]
 
 
 def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
-          quick: bool = True, time: float | None = None, seed: int = 20161115, threads: int = 1, ulps: float = 4,
+          quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115, threads: int = 1, ulps: float = 4,
           times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
 
@@ -37,6 +37,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         name: what the report calls it; else the function's own name.
         quick: 20 seconds instead of two minutes.
         time: about so many seconds instead.
+        questions: so many of each row instead, however long they take: the same on every machine.
         seed: of all that is drawn.
         threads: of the campaign; a function of Python runs one at a time all the same.
         ulps: the tolerance of the verdicts; 0 forgives nothing.
@@ -62,7 +63,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     page = None if html is None else os.fspath(html)
     seconds = None if time is None else finite(time, "time")
     report, text = _lorentz.judge(
-        function, called, command, quick, seconds, whole(seed, "seed", 0, 2**64 - 1),
+        function, called, command, quick, seconds,
+        None if questions is None else whole(questions, "questions", 1, 10**9), whole(seed, "seed", 0, 2**64 - 1),
         whole(threads, "threads", 1, 1024), finite(ulps, "ulps"), times, page)
     result: dict[str, Any] = json.loads(report)
     if function is not None and function.failed:

@@ -155,6 +155,7 @@ def judge(
     command: str,
     quick: bool,
     time: float | None,
+    questions: int | None,
     seed: int,
     threads: int,
     ulps: float,

@@ -120,6 +120,24 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
   CHECK((given_up.is_beyond_engine() && !given_up.was_answered()));
 }
 
+TEST_CASE("Where questions are counted, each row has so many, and no scene is left for being slow",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  const std::string slow =
+      "cmd:while read line; do case $line in *'\"x\"'*) sleep 0.12;; esac; "
+      "printf '%s\\n' \"$line\"; done | exec " LORENTZ_TOLERANT_ENGINE;
+  Examination timed(question::engine_named(slow), {}, 4, stop),
+      counted(question::engine_named(slow), {}, 4, stop);
+  timed.run({"row", ""}, questions({2, 3}, 8), kForEver);
+  counted.ask_exactly(12);
+  counted.run({"row", ""}, questions({2, 3}, 8), kForEver);
+  counted.run({"few", ""}, questions({2}, 8), kForEver);
+  timed.finish(), counted.finish();
+  CHECK(timed.rows()[0].tally.queries < 16);  // both scenes are left
+  CHECK(counted.rows()[0].tally.queries == 12);
+  CHECK(counted.rows()[1].tally.queries == 8);
+}
+
 TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;

@@ -1,6 +1,8 @@
 // lorentz judge as its users call it: the fault is named and can be made again from what is printed.
 #include <catch2/catch.hpp>
 
+#include <regex>
+
 #include "report/page.hpp"
 #include "tests/support/command_line.hpp"
 
@@ -48,6 +50,28 @@ TEST_CASE("judge names the one fault of an engine, and each command that it prin
   CHECK(contains(again.out, "wrong in 1 of 1 answers"));
   const Run alone = run_printed(folder, line_after(run.out, compare + "\n   $ "));
   CHECK(contains(alone.out, line_after(run.out, "\n   says  {")));
+}
+
+TEST_CASE("judge --questions: the same is asked and found, however long the engine takes",
+          "[judge][judge_command]") {
+  const Folder folder;
+  const auto found = [&](const std::string& pause) {
+    const std::string engine =
+        folder.write("engine.sh", LORENTZ_TOLERANT_ENGINE " | while IFS= read -r line; do " + pause +
+                                      "printf '%s\\n' \"$line\"; done\n");
+    const Run run = folder.lorentz("judge --questions 8 --json --engine 'cmd:sh " + engine + "'");
+    INFO(run.out << run.err);
+    CHECK(run.status == 1);
+    const std::size_t rows = run.out.find("\"difficulties\""), calls = run.out.find("\"calls\"");
+    REQUIRE((rows < calls && calls < run.out.size()));
+    return std::regex_replace(run.out.substr(rows, calls - rows), std::regex("\"ns_per_query\":[^}]*"), "");
+  };
+  const std::string fast = found(""), slow = found("sleep 0.01; ");
+  CHECK(contains(fast, R"({"name":"campaign","explanation":)"));
+  CHECK_FALSE(contains(fast, R"("queries":9,)"));
+  CHECK(fast == slow);
+  CHECK(folder.lorentz("judge --questions 8 --time 3 --engine classical").status == 2);
+  CHECK(folder.lorentz("judge --questions 0 --engine classical").status == 2);
 }
 
 TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_command]") {

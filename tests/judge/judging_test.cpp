@@ -118,7 +118,7 @@ std::string text_of(const Calls& calls) {
 
 TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judge][questions]") {
   const auto first_of = [](unsigned part, unsigned parts, std::size_t number) {
-    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, part, parts);
+    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, Fairness::of_time, part, parts);
     std::set<std::string> where;
     for (std::size_t i = 0; i < number; ++i)
       if (const auto question = source()) where.insert(question->where);
