@@ -221,7 +221,7 @@ int act(const SurvivalOptions& options) {
   if (!engine.is_own())
     throw InputError(
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
-  const Scene scene = load_scene(options.scene, options.radius);
+  const Scene scene = load_crystal(options.scene, options.radius, "right collisions are counted");
   Survival survival;
   survival.scene = options.scene;
   survival.radius = options.radius;
