@@ -218,11 +218,11 @@ std::string times_text(const std::vector<ExaminedRow>& rows) {
                ? std::string()
                : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp());
   drawn.add(hard);
-  return fmt::format("; wrong times {}, by up to {:.2g} ulps", percent(wrong, answers(drawn)),
-                     question::quantile(drawn.wrong_ulps, 1)) +
-         (drawn.other_quantity > 0
-              ? fmt::format(", {} of another quantity", percent(drawn.other_quantity, answers(drawn)))
-              : "");
+  std::string text = fmt::format("; wrong times {}", percent(wrong, answers(drawn)));
+  if (drawn.other_quantity > 0)
+    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, answers(drawn)));
+  const double largest = question::quantile(drawn.wrong_ulps, 1);
+  return std::isfinite(largest) ? text + fmt::format(", by up to {:.2g} ulps", largest) : text;
 }
 
 std::string paths_text(const std::vector<FlownScene>& flown) {
@@ -405,7 +405,8 @@ std::string JudgeReport::verdict() const {
 }
 
 std::string JudgeReport::line() const {
-  return heading(*this) + missing_text(*this) + shares_text("ill-posed", rows, &question::Tally::ill_posed) +
+  return heading(*this) + (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
+         shares_text("ill-posed", rows, &question::Tally::ill_posed) +
          shares_text("undecided", rows, &question::Tally::undecided) + times_text(rows) + paths_text(flown) +
          speed_text(*this) + nonsense_text(*this);
 }

@@ -24,9 +24,10 @@ struct JudgeReport {
   double first_answer = 0;  ///< seconds until its first answer
   std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
   std::string speed_of;                                 ///< which flights these were
-  bool misbehaved = false;  ///< another program broke, or did what it should not, at least once
-  bool times = false;       ///< wrong times count
-  bool strict = false;      ///< answers to invalid questions count
+  bool misbehaved = false;   ///< another program broke, or did what it should not, at least once
+  bool was_stopped = false;  ///< before all was asked
+  bool times = false;        ///< wrong times count
+  bool strict = false;       ///< answers to invalid questions count
 
   question::Tally total() const;
   /// Answers to invalid questions, which are not in the total.

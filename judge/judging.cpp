@@ -324,6 +324,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();
+  report.was_stopped = stop;
   if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
   return report;
 }

@@ -209,19 +209,22 @@ struct Judge::Impl {
       judgement.ulps = off / ulp(*exact.time);
       if (*judgement.ulps <= ulps) return judgement;
     }
-    judgement.departs = std::isfinite(*given.time) ? in_conditions(query, exact, *given.time) : kInfinity;
-    judgement.wrong_time = judgement.departs > ulps;
+    judgement.departs = in_conditions(query, exact, *given.time);
+    judgement.wrong_time = ulps == 0 || judgement.departs > ulps;
     return judgement;
   }
 
-  // How far it is off, in what an ulp in each input makes of the time (at least an ulp of it). The exact time may lie
-  // beyond binary64.
+  // How far it is off, in what an ulp in each input makes of the time (at least an ulp of it). The exact time may
+  // lie beyond binary64; one that is said to be infinite is the first power of two there.
   double in_conditions(const Query& query, const Answer& exact, double given) const {
+    if (std::isnan(given)) return kInfinity;
+    const Real told =
+        std::isinf(given) ? times_power_of_two(Real(std::copysign(1, given)), 1024) : Real(given);
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       const Real time =
           std::isfinite(*exact.time) ? Real(*exact.time) : time_in_own_units(perturbed, exact.obstacle);
       const Real change = std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time)));
-      return to_double(abs(time - Real(given)) / change, kHuge);
+      return to_double(abs(time - told) / change, kHuge);
     });
   }
 };

@@ -62,6 +62,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination examination(question::engine_named(tolerant("dies-in 3")), {}, 4, stop);
+  examination.ask_exactly(1000);  // no scene is left because starting takes long here
   examination.run({"plane", ""}, questions({2}, 20), kForEver);
   examination.run({"space", ""}, questions({3}, 20), kForEver);
   examination.run({"plane again", ""}, questions({2}, 20), kForEver);
@@ -91,6 +92,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
 TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination examination(question::engine_named("cmd:exit 3"), {}, 4, stop);
+  examination.ask_exactly(1000);  // no scene is left because starting takes long here
   examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
   examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
   examination.finish();

@@ -71,6 +71,7 @@ TEST_CASE("judge --questions: the same is asked and found, however long the engi
   CHECK_FALSE(contains(fast, R"("queries":9,)"));
   CHECK(fast == slow);
   CHECK(folder.lorentz("judge --questions 8 --time 3 --engine classical").status == 2);
+  CHECK(folder.lorentz("judge --questions 8 --jobs 2 --engine classical").status == 2);
   CHECK(folder.lorentz("judge --questions 0 --engine classical").status == 2);
 }
 
@@ -151,6 +152,7 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
     const Run run = folder.run("sh " + script);
     INFO(signal << run.out << run.err);
     CHECK(contains(run.out, "broken: "));
+    CHECK(contains(run.out, "; interrupted before all was asked"));
     CHECK(run.status == 3);
     CHECK_FALSE(goes_on_running(pid));
     CHECK(fs::remove(folder.file("page.html")) == lorentz::report::has_page());

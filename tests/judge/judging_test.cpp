@@ -260,6 +260,7 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   const std::atomic<bool> stop = false;
   const auto examined = [&](const question::EngineInfo& engine, const Source& source) {
     auto one = std::make_unique<Examination>(engine, question::AnswererOptions{}, 4, stop);
+    one->ask_exactly(1000);  // no scene is left because starting takes long here
     one->run({"row", ""}, source, kForEver);
     one->finish();
     return one;

@@ -456,6 +456,16 @@ TEST_CASE("A time that is off by a good part of itself is another quantity", "[o
     const auto other = judged(kScene, level(0.125), Answer::hit(at(1, 0), time));
     CHECK((other.verdict == Verdict::agree && other.is_other_quantity()));
   }
+  // Where nothing is forgiven, a time is wrong however little it is off: here by 2^-1074 where an ulp of x is 512.
+  Scene huge = unit_scene(2, 0x5p60);
+  huge.lattices[0].vectors = {}, huge.lattices[0].missing = 2;
+  const Query touching{{-3458764513820540928, 4611686018427387904}, {1, -1}, {}};
+  const auto judged_at_once = [&](double ulps) {
+    const Answer exact = oracle::Oracle(huge).first_hit(touching);
+    REQUIRE(exact.time == 0.0);
+    return oracle::Judge(huge).judge(touching, exact, Answer::hit(exact.obstacle, 0x1p-1074), ulps);
+  };
+  CHECK((judged_at_once(0).wrong_time && !judged_at_once(1).wrong_time));
   // At t = 0 an ulp is that of 0, but what the inputs' ulps make of the time is not.
   const Query at_once{{0.75, 0}, {1, 0}, {}};
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).wrong_time == false);
