@@ -136,7 +136,6 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
   const auto parts = static_cast<unsigned>(1 + others.size());
   const Fairness fairness = plan.questions ? Fairness::of_scenes : Fairness::of_time;
   const auto run = [&](Examination& one, unsigned part) {
-    if (plan.questions) one.ask_exactly((*plan.questions + parts - 1 - part) / parts);
     one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
             campaign(seed, scope, fairness, part, parts), plan.campaign);
   };
@@ -320,7 +319,8 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   const Examination::Start start = examination->warm_up();
   report.start_up = start.start_up, report.first_answer = start.first_answer;
   if (!examination->is_over()) examination->limit(plan.seconds());
-  const std::vector<NamedPlace> places = examine(*examination, terms, plan, order.jobs, report);
+  const std::vector<NamedPlace> places =
+      examine(*examination, terms, plan, plan.questions ? 1 : order.jobs, report);
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();

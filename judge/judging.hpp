@@ -21,7 +21,7 @@ struct JudgeOrder {
   /// So many of each row instead, however long they take: the same on every machine.
   std::optional<std::size_t> questions = {};
   std::uint64_t seed = starts::kDefaultSeed;
-  unsigned jobs = 1;  ///< threads of the campaign
+  unsigned jobs = 1;  ///< threads of the campaign; one where questions are counted
   double ulps = oracle::kDefaultUlps;
   std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time
   bool times = false;             ///< wrong times count

@@ -39,7 +39,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         time: about so many seconds instead.
         questions: so many of each row instead, however long they take: the same on every machine.
         seed: of all that is drawn.
-        threads: of the campaign; a function of Python runs one at a time all the same.
+        threads: of the campaign, if not `questions`; a function of Python runs one at a time all the same.
         ulps: the tolerance of the verdicts; 0 forgives nothing.
         times: wrong times count in the verdict.
         html: a file to write the report to as a page, whole or not at all.
