@@ -52,12 +52,12 @@ std::function<void(const std::string&)> clock_of(double seconds) {
 
 // Tells at which row it is.
 std::function<void(const std::string&)> rows_shown() {
-  struct Rows {
+  struct RowBar {
     Progress bar{"judging (rows)", judge::number_of_rows(), 1};
     std::string last = {};
     std::size_t begun = 0;
   };
-  return [rows = std::make_shared<Rows>()](const std::string& row) {
+  return [rows = std::make_shared<RowBar>()](const std::string& row) {
     if (row != rows->last) ++rows->begun, rows->last = row;
     rows->bar.at(rows->begun - 1, [&] { return row; });
   };
