@@ -3,6 +3,7 @@
 import json
 import signal
 import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -148,6 +149,18 @@ def test_engines_by_name_and_threads():
     assert lorentz.judge(one_by_one, time=SHORT, threads=2)["verdict"] == "right"
 
 
+def test_counted_questions_are_the_same_whatever_they_take():
+    def slow(scene, x, v, start_from):
+        time.sleep(0.002)
+        return one_by_one(scene, x, v, start_from)
+
+    counts = [[(row["name"], row["queries"], row["agree"], row["nonsense"]) for row in report["difficulties"]]
+              for report in (lorentz.judge(one, questions=3, name="one") for one in (one_by_one, slow))]
+    assert counts[0] == counts[1] and {queries for _, queries, _, _ in counts[0]} == {3}
+    with pytest.raises(lorentz.Error, match="questions: not together with time"):
+        lorentz.judge("reduction", questions=3, time=SHORT)
+
+
 def test_an_interrupt_comes_through():
     timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
     timer.start()
@@ -193,4 +206,4 @@ def test_the_example_is_short_and_runs():
     answer, exact = space["engine"](square, x, v, None), lorentz.oracle.first_hit(square, x, v)
     assert answer.cell == exact.cell and abs(answer.time - exact.time) < 2e-3
     assert space["engine"](cubic, np.append(x, 0), np.append(v, 0), None).unsupported
-    assert lorentz.judge_answer(square, x, v, answer).verdict == "wrong"  # its time is a step
+    assert lorentz.judge_answer(square, x, v, answer).other_quantity  # its time is a step
