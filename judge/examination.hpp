@@ -49,7 +49,7 @@ class Examination {
   /// From now on for so many seconds: then all is over, and no answer is waited for.
   void limit(double seconds);
 
-  /// From now on each row asks so many questions, and no scene is left for being slow.
+  /// From now on each row asks this number of questions, and slow scenes are asked, too.
   void ask_exactly(std::size_t questions) { most_ = questions; }
 
   /// Is called often while rows run, with the name of the row.

@@ -18,7 +18,7 @@ struct JudgeOrder {
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time
-  /// So many of each row instead, however long they take: the same on every machine.
+  /// The number of questions of each row, instead of a time: every machine asks the same.
   std::optional<std::size_t> questions = {};
   std::uint64_t seed = starts::kDefaultSeed;
   unsigned jobs = 1;  ///< threads of the campaign; one where questions are counted

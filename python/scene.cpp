@@ -136,12 +136,13 @@ void bind_scene(py::module_& module) {
       .def_static("load", &PyScene::load)
       .def_property_readonly("dimension", &PyScene::dimension)
       .def_property_readonly("is_binary64", &PyScene::is_binary64)
-      .def("rank",  // of a lattice; the dimension if there is none of this number, which is refused elsewhere
-           [](const PyScene& scene, std::int64_t lattice) {
-             const auto& lattices = scene.exact().lattices;
-             const auto l = static_cast<std::size_t>(lattice);
-             return scene.dimension() - (l < lattices.size() ? lattices[l].missing : 0);
-           })
+      .def(
+          "rank",  // of a lattice; the dimension if the scene has no lattice of this number (an error elsewhere)
+          [](const PyScene& scene, std::int64_t lattice) {
+            const auto& lattices = scene.exact().lattices;
+            const auto l = static_cast<std::size_t>(lattice);
+            return scene.dimension() - (l < lattices.size() ? lattices[l].missing : 0);
+          })
       .def("nearest", [](const PyScene& scene) { return PyScene(scene.nearest()); })
       .def("to_dict", scene_dict);
   module.def("catalogue", catalogue_names);

@@ -41,7 +41,7 @@ Polynomial primitive(const Polynomial& p);
 Polynomial exact_quotient(const Polynomial& a, const Polynomial& b);
 
 /// a, b, and Euclid's remainders with alternating signs, each times a positive number; the last is the greatest
-/// common divisor. Of p and its derivative it is Sturm's chain: p has as many different roots between two points
+/// common divisor. For p and its derivative it is Sturm's chain: p has as many different roots between two points
 /// as the chain has changes of sign at the first more than at the second.
 std::vector<Polynomial> remainders(const Polynomial& a, const Polynomial& b);
 

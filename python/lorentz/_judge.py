@@ -37,7 +37,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         name: what the report calls it; else the function's own name.
         quick: 20 seconds instead of two minutes.
         time: about so many seconds instead.
-        questions: so many of each row instead, however long they take: the same on every machine.
+        questions: the number of questions of each row, instead of a time: every machine asks the same.
         seed: of all that is drawn.
         threads: of the campaign, if not `questions`; a function of Python runs one at a time all the same.
         ulps: the tolerance of the verdicts; 0 forgives nothing.

@@ -122,8 +122,7 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
   CHECK((given_up.is_beyond_engine() && !given_up.was_answered()));
 }
 
-TEST_CASE("Where questions are counted, each row has so many, and no scene is left for being slow",
-          "[judge][examination]") {
+TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const std::string slow =
       "cmd:while read line; do case $line in *'\"x\"'*) sleep 0.12;; esac; "
