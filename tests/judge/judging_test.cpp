@@ -141,6 +141,23 @@ TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judg
   CHECK(met.size() == 3 * kNumber);
 }
 
+TEST_CASE("Where scenes are counted, families take turns in one order, whatever each takes",
+          "[judge][questions]") {
+  const Source source = campaign(kSeed, {}, Fairness::of_scenes);
+  std::vector<std::string> turns;  // the family of each scene, in the order in which they come
+  std::map<std::string, int> met;
+  std::size_t again = 0;
+  while (again < 10) {
+    const std::string where = source()->where, family = where.substr(0, where.find('/'));
+    if (!turns.empty() && turns.back() == family) continue;
+    turns.push_back(family);
+    again += ++met[family] == 2;
+  }
+  const auto second = std::find(turns.begin() + 1, turns.end(), turns[0]);
+  REQUIRE(turns.end() - second >= 10);
+  CHECK(std::equal(second, turns.end(), turns.begin()));
+}
+
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",
           "[judge][judging]") {
   Log asked;
