@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
@@ -57,6 +58,15 @@ std::optional<double> positive_number(const std::optional<std::string>& text, co
   const double value = number(*text, option);
   if (!(value > 0)) throw InputError(fmt::format("{}: must be above zero", option));
   return value;
+}
+
+Vec vector_in(const std::string& text, const char* option) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) numbers.push_back(number(part, option));
+  if (numbers.size() != 3 || text.ends_with(','))
+    throw InputError(fmt::format("{}: {} is not three numbers, like 1,0,2", option, json_quoted(text)));
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 namespace {

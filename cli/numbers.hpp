@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <lorentz/obstacle.hpp>
 #include "cli/command.hpp"
 
 namespace lorentz::cli {
@@ -20,6 +21,9 @@ std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text);
 /// A finite number above zero, decimal or hexadecimal, or nothing if the option was not given. Throws
 /// InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
+
+/// Three numbers with commas between them. Throws InputError, naming the option.
+Vec vector_in(const std::string& text, const char* option);
 
 /// The number that was given goes to where the option says. Throws InputError, naming the option.
 void take_number(const Option& option, const std::string& text);

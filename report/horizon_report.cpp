@@ -167,6 +167,16 @@ std::string text_of(const oracle::Horizon& h, std::size_t limit, bool limited) {
   return out;
 }
 
+std::string text_of(const oracle::OpenDirection& found) {
+  if (!found.open)
+    return "closed: each way in this direction meets an obstacle, or is no wider than a line\n";
+  if (!found.way) return "open: this direction is along the layer, and nothing stands beside it\n";
+  const oracle::Cylinder& way = *found.way;
+  return fmt::format("open: a cylinder of radius {:.6g} through {}\n{}", way.radius,
+                     point_text(way.point, way.inside, 3),
+                     way.inside ? "" : "* too narrow there: the rounded point is not inside\n");
+}
+
 namespace {
 
 // Each item on a line of its own.
@@ -232,6 +242,14 @@ std::string json_of(const oracle::Horizon& h, const std::string& scene, bool lim
       object.add("tail_constant", *h.tail_constant);
     else
       object.add("no_tail_constant", h.no_tail_constant);
+  });
+}
+
+std::string json_of(const oracle::OpenDirection& found, const std::string& scene, const Vec& direction) {
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", scene, "dimension", 3, "direction", direction, "open", found.open);
+    if (const auto& way = found.way)
+      object.add("point", way->point, "point_inside", way->inside, "radius", way->radius);
   });
 }
 

@@ -17,4 +17,8 @@ std::string text_of(const oracle::Horizon& horizon, std::size_t limit, bool limi
 /// All of it as one JSON object, of a scene of this name.
 std::string json_of(const oracle::Horizon& horizon, const std::string& scene, bool limited);
 
+/// Of one direction through a layer.
+std::string text_of(const oracle::OpenDirection& found);
+std::string json_of(const oracle::OpenDirection& found, const std::string& scene, const Vec& direction);
+
 }  // namespace lorentz::report

@@ -119,4 +119,22 @@ using SearchProgress = std::function<void(const std::string& what, std::size_t d
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
                    const SearchProgress& progress = {});
 
+/// Does a layer leave a way open along one direction? The directions that it closes are regions of the sphere
+/// with, often, infinitely many edges: docs/horizon.md.
+struct OpenDirection {
+  bool open = false;
+  /// A way along it, with no names in lattice vectors. Nothing if it is closed, or along the layer, where all is
+  /// open beside the obstacles.
+  std::optional<Cylinder> way;
+};
+
+/// Decided exactly.
+/// held by "Horizon: directions through layers, by closed forms",
+///         "Horizon: directions through layers, by the oracle and in other words"
+///
+/// `scene` has no flaws; its lattices are layers with the same vectors. Throws InputError for other scenes, for
+/// ellipsoids of different shapes, for a direction that is 0 or not finite, and for one so nearly along a layer of
+/// several obstacles a cell that very many of them lie beside each other in the shadow.
+OpenDirection look_along(const Scene& scene, const Vec& direction);
+
 }  // namespace lorentz::oracle

@@ -259,7 +259,9 @@ std::vector<ClosedArc> closed_directions(const Scene& scene) {
     throw InputError("horizon: unsupported for single obstacles, which leave all directions open");
   if (most == 2)
     throw InputError(
-        "horizon: unsupported for layers: the directions that they close are regions with curved boundaries");
+        "horizon: unsupported for layers: the directions that they close are regions with very many edges; "
+        "name "
+        "one direction");
   // In space a row's shadow is a row of discs, or one disc, and finitely many leave a plane open.
   if (scene.dimension == 3) return {};
   const auto row = std::find_if(scene.lattices.begin(), scene.lattices.end(),

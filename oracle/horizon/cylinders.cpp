@@ -5,10 +5,8 @@
 #include <set>
 
 #include "oracle/exact/quadratic.hpp"
-#include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
-#include "oracle/horizon/hole_centre.hpp"
-#include "oracle/horizon/shadow.hpp"
+#include "oracle/horizon/shadow_hole.hpp"
 #include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::oracle {
@@ -91,61 +89,6 @@ PlaneBasis plane_basis(const ObstacleLattice<3>& lattice, const ZVec<3>& k) {
     result.out = vector(u * s, u * t, w);
   }
   reduce(result.in_plane, EuclideanForm<3>{});
-  return result;
-}
-
-// The obstacles as balls: as they are, or, if they are ellipsoids of one shape A, with all points mapped by
-// |det A| A^-1.
-struct BallScene {
-  ObstacleLattice<3> lattice;
-  std::array<ZVec<3>, 3> rows;     ///< of the map; the identity for balls
-  std::array<ZVec<3>, 3> axes;     ///< of the largest ball, or of the ellipsoids, before
-  std::vector<ZVec<3>> positions;  ///< of the obstacles before
-  bool mapped = false;
-  std::string unsupported;
-
-  ZVec<3> map(const ZVec<3>& a) const { return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)}; }
-};
-
-BallScene balls_of(const ChannelScene<3>& scene) {
-  BallScene result;
-  result.lattice = scene.lattices[0];
-  ObstacleLattice<3>& lattice = result.lattice;
-  for (std::size_t l = 1; l < scene.lattices.size(); ++l) {
-    const auto& other = scene.lattices[l];
-    if (other.vectors != lattice.vectors) result.unsupported = "done for one lattice only, or equal ones";
-    lattice.obstacles.insert(lattice.obstacles.end(), other.obstacles.begin(), other.obstacles.end());
-  }
-  bool balls = true, same = true;
-  const ZMatrix<3> shape = shape_of<3>(lattice.obstacles[0].axes);
-  for (const auto& obstacle : lattice.obstacles) {
-    balls &= obstacle.ball;
-    same &= shape_of<3>(obstacle.axes) == shape;
-  }
-  if (balls)
-    std::stable_sort(lattice.obstacles.begin(), lattice.obstacles.end(),
-                     [](const auto& a, const auto& b) { return a.axes[0][0] > b.axes[0][0]; });
-  for (std::size_t i = 0; i < 3; ++i) result.rows[i][i] = 1;
-  for (const auto& obstacle : lattice.obstacles) result.positions.push_back(obstacle.position);
-  result.axes = lattice.obstacles[0].axes;
-  if (!balls && !same) result.unsupported = "done for balls only, or ellipsoids of one shape and orientation";
-  if (balls || !same) return result;
-  result.mapped = true;
-  const auto& a = result.axes;
-  const Z det = dot(cross(a[0], a[1]), a[2]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.rows[i] = cross(a[(i + 1) % 3], a[(i + 2) % 3]);
-    if (det < 0)
-      for (Z& component : result.rows[i]) component = -component;
-  }
-  for (auto& u : lattice.vectors) u = result.map(u);
-  for (auto& obstacle : lattice.obstacles) {
-    obstacle.position = result.map(obstacle.position);
-    for (auto& axis : obstacle.axes) axis = {};
-    for (std::size_t i = 0; i < 3; ++i) obstacle.axes[i][i] = abs(det);
-    obstacle.ball = true;
-  }
-  set_cofactors<3>(lattice);
   return result;
 }
 
@@ -236,87 +179,22 @@ class CylinderSearch {
     next.add_multiple(-t, basis.in_plane[0]);
     next.add_multiple(s, basis.in_plane[1]);
     Shadow shadow(lattice_, g.p, next.p, basis.out.p);
-    std::optional<HolePoint> hole = hole_of_largest(shadow);
-    if (!hole) return;
+    if (!hole_of_largest(shadow)) return;
     for (const ZVec<3>& taken : taken_)
       if (dot(taken, g.n) == 0) return;
     if (name_of(g.n) < ZVec<3>{}) g.negate();
     if (!seen_.insert(g.n).second) return;
-    if (lattice_.obstacles.size() > 1) hole = hole_among_all(shadow);
-    if (hole) add(g, shadow, *hole);
-  }
-
-  // Of many balls the first few mostly cover everything already.
-  std::optional<HolePoint> hole_among_all(Shadow& shadow) {
-    for (std::size_t count = 4;; count *= 4) {
-      count = std::min(count, lattice_.obstacles.size());
-      shadow.see(lattice_, count);
-      const std::optional<HolePoint> hole = hole_of_all(shadow, work_);
-      if (!hole || count == lattice_.obstacles.size()) return hole;
-    }
+    if (const std::optional<HolePoint> hole = hole_of(shadow, lattice_, work_)) add(g, shadow, *hole);
   }
 
   void add(const LatticePoint<3>& g, const Shadow& shadow, const HolePoint& hole) {
     work_ += shadow.discs.size() > 1 ? 200 : 10;
-    const HoleCentre centre = room_in(shadow, hole);
-    Cylinder cylinder;
+    Cylinder cylinder = cylinder_in(hole, shadow, balls_, scene_.exponent, work_);
     cylinder.direction = integers(name_of(g.n));
     const LatticePoint<3> vector = lattice_vector(scene_.lattices[0], g.n);
     for (std::size_t k = 0; k < 3; ++k)
       cylinder.vector[k] = round_to_binary64({vector.p[k], 1, 0, 1, scene_.exponent});
-    place(cylinder, balls_.positions[hole.disc], centre);
-    cylinder.inside = is_inside(shadow, cylinder.point);
     horizon_.cylinders.push_back(cylinder);
-  }
-
-  // A hole that is there has room, though not always within the bits of its point.
-  HoleCentre room_in(const Shadow& shadow, const HolePoint& hole) {
-    constexpr unsigned long kMostBits = 1 << 14;
-    HoleCentre centre = centre_of(shadow, hole);
-    const auto none = [&] {
-      return sign_of(centre.clearance.a, centre.clearance.sign, centre.clearance.d) <= 0;
-    };
-    for (unsigned long bits = 4 * hole.bits; none() && bits <= kMostBits; bits *= 4) {
-      work_ += 100;
-      const bool one = shadow.discs.size() == 1;
-      centre = centre_of(shadow, *(one ? hole_of_largest(shadow, bits) : hole_of_all(shadow, work_, bits)));
-    }
-    return centre;
-  }
-
-  // From the scene of balls back to the scene, rounded: offsets are in units of the largest ball's radius,
-  // or, if the balls were ellipsoids, mapped by A; A^-1 makes nothing longer than its norm does.
-  void place(Cylinder& cylinder, const ZVec<3>& position, const HoleCentre& centre) const {
-    const auto real = [&](const Z& a) { return round_to_binary64({a, 1, 0, 1, scene_.exponent}); };
-    for (std::size_t k = 0; k < 3; ++k) {
-      cylinder.point[k] = real(position[k]);
-      for (std::size_t i = 0; i < 3; ++i) cylinder.point[k] += centre.offset[i] * real(balls_.axes[i][k]);
-    }
-    Quadratic radius = centre.clearance;
-    if (balls_.mapped) {
-      Z norm2 = 0;  // of the map, |det A| A^-1, squared
-      for (const ZVec<3>& row : balls_.rows) norm2 += dot(row, row);
-      radius.q *= ceil_sqrt(norm2);
-    }
-    radius.exponent = scene_.exponent;
-    cylinder.radius = round_to_binary64(radius);
-  }
-
-  bool is_inside(Shadow shadow, const Vec& point) const {
-    CommonExponent common;
-    for (double component : point) {
-      if (!std::isfinite(component)) return false;
-      common.see(component);
-    }
-    const long fine = std::min(scene_.exponent, common.get()), shift = scene_.exponent - fine;
-    for (auto& b : shadow.basis)
-      for (Z& component : b.p) component = shifted_left(component, shift);
-    for (Disc& disc : shadow.discs) {
-      disc.radius = shifted_left(disc.radius, shift);
-      for (Z& component : disc.centre) component = shifted_left(component, shift);
-    }
-    const ZVec<3> exact{scaled(point[0], fine), scaled(point[1], fine), scaled(point[2], fine)};
-    return shadow.discs_around(cross(balls_.map(exact), shadow.along), 0, true).empty();
   }
 
   static std::array<Integer, 3> integers(const ZVec<3>& n) {

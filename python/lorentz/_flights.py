@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _lorentz
 from ._first_hit import Floats
 from ._lorentz import Error
-from ._numbers import finite, whole
+from ._numbers import Vector, finite, vector, whole
 from ._scene import Scene, SceneLike, native
 
 
@@ -98,7 +98,7 @@ def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | Non
 
 
 def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float = 0.0,
-            cylinders: bool = True) -> dict[str, Any]:
+            cylinders: bool = True, direction: Vector | None = None) -> dict[str, Any]:
     """The infinite channels that a scene leaves open, decided exactly (docs/horizon.md).
 
     Returns what `lorentz horizon --json` says: ``horizon`` ("finite", "infinite" or "undecided"), ``channels``
@@ -108,14 +108,20 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
     Args:
         min_width: only corridors and planar channels at least that wide.
         cylinders: search for cylindrical channels, too (3D; among small obstacles the longer search).
+        direction: of a layer, three floats: whether a way is ``open`` in this direction; if so ``point`` and ``radius``
+            are those of a cylinder in it, but in directions along the layer.
 
     Raises:
         Error: the obstacles are so small that there are too many channels to list, or the scene is unsupported
-            (single obstacles, layers, crystals beside other lattices, rows in different directions).
+            (single obstacles, layers without a direction, crystals beside other lattices, rows in different directions).
     """
     if not finite(min_width, "min_width") >= 0:
         raise Error(f"min_width: {min_width} is below 0")
     place = Scene(scene, radius)
+    if direction is not None:
+        numbers = [finite(number, "direction") for number in vector(direction, "direction")]
+        along: dict[str, Any] = json.loads(_lorentz.open_direction(native(place), numbers))
+        return {key: value for key, value in along.items() if key != "scene"}
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
     found: dict[str, Any] = json.loads(text)
     return {key: value for key, value in found.items() if key != "scene"} | {"verdict": verdict}

@@ -111,3 +111,7 @@ def test_scenes_that_repeat_in_fewer_directions():
     assert [obstacle["cell"] for obstacle in arcs[0]["to"]["between"]] == [[0], [1]]
     with pytest.raises(lorentz.Error, match="unsupported for single obstacles"):
         lorentz.horizon(ball)
+    assert lorentz.horizon("layer", direction=(1, 2, 3))["radius"] == pytest.approx(0.225846, abs=1e-6)
+    assert lorentz.horizon("layer", direction=[10, 3, 0.1]) == {"dimension": 3, "direction": [10, 3, 0.1], "open": False}
+    with pytest.raises(lorentz.Error, match="direction"):
+        lorentz.horizon("layer", direction=[1, 2])

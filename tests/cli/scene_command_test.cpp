@@ -432,6 +432,10 @@ TEST_CASE("horizon: the closed directions of rows", "[cli][scene_command]") {
   CHECK(contains(folder.lorentz("horizon row --json").out, R"("closed":[]})"));
   for (const auto& [bad, why] : {std::pair("horizon ball", "unsupported for single obstacles"),
                                  {"horizon layer", "for layers"},
+                                 {"horizon layer --direction 1,2", "--direction"},
+                                 {"horizon layer --direction 1,2,x", "--direction"},
+                                 {"horizon layer --direction 0,0,1 --min-width 1", "--min-width"},
+                                 {"horizon cubic --direction 0,0,1", "layers only"},
                                  {"horizon impurity", "for crystals among"},
                                  {"horizon grating --min-width 0.1", "min_width"},
                                  {"scene draw grating --channels 3", "crystals only"}}) {
@@ -440,6 +444,12 @@ TEST_CASE("horizon: the closed directions of rows", "[cli][scene_command]") {
     CHECK(run.out.empty());
     CHECK(contains(run.err, why));
   }
+  CHECK(contains(folder.lorentz("horizon layer --direction 1,2,3").out,
+                 "open: a cylinder of radius 0.225846 thr"));
+  CHECK(contains(folder.lorentz("horizon layer --direction -1,0.3,0.01 --json").out,
+                 R"("direction":[-1,0.3,0.01],"open":false})"));
+  CHECK(contains(folder.lorentz("horizon layer --direction 1,0,0").out,
+                 "open: this direction is along the layer"));
   CHECK(contains(folder.lorentz("scene show grating").out,
                  "infinite: all directions are open, but for 2 arcs"));
   CHECK(contains(folder.lorentz("scene show ball").out, "not searched: unsupported for single obstacles"));
