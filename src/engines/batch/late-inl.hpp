@@ -54,7 +54,7 @@ class LateTimes {
     const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
     M is_rounded = no_lane();
     const V found = stretch.rounded ? times.rounded(is_rounded) : times.rare_time();
-    store(scaled.time_of(found, scene.exponent), time);
+    store(scaled.template time_of<kUnit>(found, scene), time);
     const unsigned rounded = bits_of(is_rounded);
     for (std::size_t lane = 0; lane < length; ++lane) {
       stretch.time[index_[at + lane]] = time[lane];

@@ -32,7 +32,7 @@ struct Start : Offset<LaneFma, D> {
   HWY_INLINE void set(const PreparedScene& scene, const Bravais& of_lattice, const V (&x)[D], Lanes& lanes) {
     lattice = &of_lattice;
     V scaled[D];
-    for (int k = 0; k < D; ++k) scaled[k] = kUnit ? x[k] : x[k] * all(std::ldexp(1.0, -scene.exponent));
+    for (int k = 0; k < D; ++k) scaled[k] = kUnit ? x[k] : x[k] * all(scene.inverse_unit);
     lanes.active = set_offset<LaneFma, kUnit>(of_lattice, scaled, lanes.active, offset());
   }
 

@@ -32,18 +32,20 @@ struct Velocity {
     }
   }
 
-  /// A time in the scaled units, in those of the query; `exponent` is the scene's. Without rounding: lanes
+  /// A time in the scaled units, in those of the query. Without rounding: lanes
   /// know no times but 0 and those from 2^-100 (they tell a start from its obstacle's surface to 2^-52 of a
   /// radius of 2^-40 or more) to 2^63, exponents are at most 400, and the factor is within 2^-490 and 2^490.
-  HWY_INLINE V time_of(V time, int exponent) const {
-    if (exponent != 0) time = time * all(std::ldexp(1.0, exponent));
+  template <bool kUnit>
+  HWY_INLINE V time_of(V time, const PreparedScene& scene) const {
+    if constexpr (!kUnit) time = time * all(scene.unit);
     return time * factor;
   }
 
   /// A limit of the query, in the scaled units.
-  HWY_INLINE V limit_of(V limit, int exponent) const {
+  template <bool kUnit>
+  HWY_INLINE V limit_of(V limit, const PreparedScene& scene) const {
     limit = limit * inverse_power_of(factor);
-    return exponent != 0 ? limit * all(std::ldexp(1.0, -exponent)) : limit;
+    return kUnit ? limit : limit * all(scene.inverse_unit);
   }
 };
 

@@ -367,9 +367,10 @@ PreparedScene prepare(const Scene& scene) {
     return prepared;
   }
   prepared.exponent = std::ilogb(first);
-  const double scale = std::ldexp(1, -prepared.exponent);
+  prepared.unit = std::ldexp(1, prepared.exponent);
+  prepared.inverse_unit = 1 / prepared.unit;
   for (int l = 0; l < static_cast<int>(scene.lattices.size()) && prepared.beyond.empty(); ++l)
-    prepared.beyond = LatticePreparation(scene, l, scale).add_to(prepared);
+    prepared.beyond = LatticePreparation(scene, l, prepared.inverse_unit).add_to(prepared);
   for (const Bravais& atom : prepared.atoms) {
     prepared.least_rank = std::min<int>(prepared.least_rank, atom.rank);
     prepared.most_rank = std::max<int>(prepared.most_rank, atom.rank);

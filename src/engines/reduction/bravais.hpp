@@ -40,6 +40,7 @@ struct Bravais {
 /// [1, 2), or the radius of a single obstacle if the first is that; the unit lattices keep their own.
 struct PreparedScene {
   int exponent = 0;
+  double unit = 1, inverse_unit = 1;  ///< 2^exponent, 2^-exponent
   std::vector<Bravais> atoms;         ///< in the order of (lattice, atom)
   bool ellipsoids = false;            ///< there are some
   int least_rank = 3, most_rank = 0;  ///< of the lattices
