@@ -32,8 +32,10 @@ class Block {
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
   static constexpr std::size_t kKept = kUnit || kSingle ? 1 : 6;
-  // Of unit balls a copy, which stays in registers; a reference costs 4 %. Elsewhere copies cost a third.
-  using StartOrReference = std::conditional_t<kUnit, AtomStart, const AtomStart&>;
+  // Of discs on the unit lattice a copy, which stays in registers: a reference costs 4 %. Elsewhere copies cost
+  // more, up to a third.
+  static constexpr bool kCopied = kUnit && D == 2;
+  using StartOrReference = std::conditional_t<kCopied, AtomStart, const AtomStart&>;
 
  public:
   HWY_INLINE Block(const PreparedScene& scene, Stretch& stretch, LateTimes<D, kUnit, kBall>& late,
@@ -63,9 +65,9 @@ class Block {
   HWY_INLINE void look_inside() {
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
       AtomStart made;
-      AtomStart& start = !kUnit && a < kKept ? starts_[a] : made;
+      AtomStart& start = !kCopied && a < kKept ? starts_[a] : made;
       start.set(scene_, scene_.atoms[a], x_, lanes_);
-      if (kUnit) starts_[0] = start;
+      if (kCopied) starts_[0] = start;
       Leaving<D> leaving;
       const M here = start.inside(find_leaving(start, leaving), lanes_, stage2_);
       if (nowhere(here)) continue;
