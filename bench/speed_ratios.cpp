@@ -276,8 +276,10 @@ void measure_engines(Measurement& measurement) {
     Scene ball = unit_scene(dimension, 1);
     ball.lattices[0].vectors = {}, ball.lattices[0].missing = dimension;
     Ground ground(ball, Kind::uniform);
-    measurement.measure(fmt::format("batch / plain loop: a ball, {}D", dimension), ground, ground.batch(""),
-                        ground.plain_ball(1));
+    for (const std::string& instructions : Batch::instruction_sets())
+      if (instructions != "none")
+        measurement.measure(fmt::format("batch {} / plain loop: a ball, {}D", instructions, dimension),
+                            ground, ground.batch(instructions), ground.plain_ball(1));
     measurement.measure(fmt::format("certified-batch / plain loop: a ball, {}D", dimension), ground,
                         ground.certified_batch(), ground.plain_ball(1));
   }
