@@ -14,6 +14,7 @@
 #include "files/signals.hpp"
 #include "question/examine.hpp"
 #include "question/race.hpp"
+#include "report/claim_words.hpp"
 #include "report/reason.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
@@ -46,10 +47,14 @@ void add_tally(json::Members& object, const Tally& t, bool judged) {
              spread_of(t.wrong_ulps), "wrong_time_conditions", spread_of(t.wrong_conditions));
 }
 
-std::string json_of(const std::string& scene, std::uint64_t seed, const std::vector<Tally>& tallies,
-                    const std::optional<std::string>& judge) {
+std::string json_of(const std::string& scene, const CompareOptions& options, std::size_t not_asked,
+                    const std::vector<Tally>& tallies) {
+  const Claim claim = options.claim.claim();
+  const auto judge = options.no_oracle ? std::nullopt : std::optional(options.judge);
   return json::line_of([&](json::Members& object) {
-    object.add("scene", scene, "seed", seed, "judge", judge, "engines",
+    object.add("scene", scene, "seed", options.seed, "judge", judge);
+    report::add_claim(object, claim);
+    object.add("not_asked", not_asked, "engines",
                json::objects(tallies, [&](json::Members& one, const Tally& tally) {
                  add_tally(one, tally, judge.has_value());
                }));
@@ -151,19 +156,26 @@ std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t m
   return text;
 }
 
+// A line, or nothing.
+std::string not_asked_of(const ComparedQuestions& questions) {
+  const std::size_t count = questions.not_asked();
+  return count == 0 ? ""
+                    : fmt::format("{} more were not asked: their numbers are of another precision\n", count);
+}
+
 void show(const CompareOptions& options, const ComparedQuestions& questions,
           const std::vector<Tally>& tallies, const ComparedParts& parts) {
   if (options.json) {
-    print(json_of(title(options, questions), options.seed, tallies,
-                  options.no_oracle ? std::nullopt : std::optional(options.judge)));
+    print(json_of(title(options, questions), options, questions.not_asked(), tallies));
     return;
   }
   const bool drawn = !options.queries;
   const bool is_whole = options.no_oracle || tallies[0].queries == questions.count();
-  print(fmt::format("{}: {}{} {} queries{}{}\n\n{}", title(options, questions),
+  print(fmt::format("{}: {}{} {} queries{}{}{}\n{}\n{}", title(options, questions),
                     is_whole ? "" : fmt::format("{} of ", tallies[0].queries), questions.count(),
                     drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
                     options.judge == "oracle" ? "" : ", judged by " + options.judge,
+                    report::words_of(options.claim.claim()), not_asked_of(questions),
                     table_of(tallies, !options.no_oracle)));
   if (options.no_oracle) return;
   for (std::size_t i = 0; i < tallies.size(); ++i) {
@@ -236,6 +248,7 @@ std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestio
   std::vector<Question> first;
   std::vector<Question> some;
   for (std::uint64_t number = 0; !(some = questions.next(kTogether)).empty(); ++number) {
+    pass_over(questions.passed_over(), compared);
     if (!options.no_oracle && !parts.is_to_do(number, check_of(some))) {
       pass_over(some, compared);
     } else if (!options.no_oracle) {
@@ -247,6 +260,7 @@ std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestio
     if (first.empty() || options.no_oracle)
       first.insert(first.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
   }
+  pass_over(questions.passed_over(), compared);
   for (const auto& [number, part] : parts.all()) {
     for (std::size_t i = 0; i < compared.size(); ++i) compared[i].tally.add(part.tallies[i]);
     file.put(part.disagreements);
@@ -338,6 +352,8 @@ Command compare_command() {
           {"--ulps", Tolerance{&options->ulps}, "K",
            "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong "
            "(default: 4)"},
+          options->claim.precision_row(),
+          options->claim.time_tolerance_row(),
           {"--judge", &options->judge, "oracle|certified", kJudgeHelp},
           {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
           {"--json", &options->json, "", "one JSON object instead of a table"},

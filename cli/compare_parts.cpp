@@ -9,6 +9,7 @@
 #include "cli/numbers.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
+#include "report/claim_words.hpp"
 #include "runs/check.hpp"
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -87,19 +88,26 @@ ComparedPart part_in(const std::string& text) {
   }
 }
 
+Scene plan_scene(const CompareOptions& options) {
+  const Scene scene = read_scene(options.scene.value_or("square"), options.radius);
+  return options.queries ? scene : rounded(scene, options.claim.claim().precision);
+}
+
 runs::Plan plan_of(const CompareOptions& options, const std::vector<std::string>& names) {
   std::string scene;
-  if (options.scene || !options.queries)
-    append_scene_line(scene, read_scene(options.scene.value_or("square"), options.radius));
-  return {{"compared", fmt::format("{}", fmt::join(names, ", "))},
-          {"queries", options.queries ? "given" : "drawn"},
-          {"count", options.queries ? "" : std::to_string(options.count)},
-          {"seed", options.queries ? "" : std::to_string(options.seed)},
-          {"scene", scene},
-          {"judge", options.judge},
-          {"ulps", options.ulps ? fmt::format("{}", *options.ulps) : "4"},
-          {"kept", fmt::format("{}{}{} wrong answers", options.disagreements ? "disagreements, " : "",
-                               options.times ? "times, " : "", options.json ? 0 : options.failures)}};
+  if (options.scene || !options.queries) append_scene_line(scene, plan_scene(options));
+  runs::Plan plan{{"compared", fmt::format("{}", fmt::join(names, ", "))},
+                  {"queries", options.queries ? "given" : "drawn"},
+                  {"count", options.queries ? "" : std::to_string(options.count)},
+                  {"seed", options.queries ? "" : std::to_string(options.seed)},
+                  {"scene", scene},
+                  {"judge", options.judge},
+                  {"ulps", options.ulps ? fmt::format("{}", *options.ulps) : "4"},
+                  {"kept", fmt::format("{}{}{} wrong answers", options.disagreements ? "disagreements, " : "",
+                                       options.times ? "times, " : "", options.json ? 0 : options.failures)}};
+  if (const Claim claim = options.claim.claim(); !(claim == Claim()))
+    plan.push_back({"claim", name_of(claim.precision) + report::words_of(claim)});
+  return plan;
 }
 
 }  // namespace

@@ -12,12 +12,14 @@ namespace lorentz::cli {
 using question::Place, question::Question;
 
 ComparedQuestions::ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements)
-    : options_(options), disagreements_(disagreements) {
+    : options_(options), claim_(options.claim.claim()), disagreements_(disagreements) {
   std::optional<Scene> scene;
   if (options.scene || !options.queries)
     scene = load_scene(options.scene.value_or("square"), options.radius, options.unknown_keys());
   else if (options.radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  // What is drawn is drawn in what the engine can take; what is given is asked as it is.
+  if (scene && !options.queries) scene = rounded(*scene, claim_.precision);
   if (scene) enter(*scene);
   if (!options.queries) return;
   if (is_columns(*options.queries))
@@ -27,7 +29,8 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
 }
 
 void ComparedQuestions::enter(const Scene& scene) {
-  place_ = std::make_shared<Place>(scene);
+  place_ = std::make_shared<Place>(scene, question::Truth::oracle, claim_);
+  fits_ = consists_of(scene, claim_.precision);
   disagreements_.begin(place_);
   is_new_ = true;
 }
@@ -53,6 +56,11 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
     bad_ids_ = true;
     say("the query id {} comes twice: answers cannot be matched to its queries", id);
   }
+  if (!fits_ || !consists_of(query, claim_.precision)) {
+    ++not_asked_;
+    if (!options_.answers.empty()) passed_over_.push_back({.place = place_, .query = query, .id = id});
+    return;
+  }
   scenes_ += std::exchange(is_new_, false);
   ++count_;
   questions.push_back({.place = place_, .query = query, .id = id});
@@ -61,7 +69,7 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
 std::vector<Question> ComparedQuestions::draw(std::size_t most) {
   Questions questions;
   const std::size_t left = options_.count - count_;
-  if (!starts_) starts_.emplace(place_->scene(), starts::Kind::uniform, options_.seed);
+  if (!starts_) starts_.emplace(place_->scene(), starts::Kind::uniform, options_.seed, claim_.precision);
   for (const Query& query : starts_->some(count_, std::min(most, left)))
     add(questions, query, std::to_string(count_));
   return questions;

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "cli/claim_options.hpp"
 #include "cli/disagreement_file.hpp"
 #include "cli/query_stream.hpp"
 #include "question/question.hpp"
@@ -22,6 +23,7 @@ struct CompareOptions {
   std::optional<double> radius, ulps, timeout;
   std::uint64_t jobs = 1, count = 10'000, seed = starts::kDefaultSeed, failures = 3;
   std::string judge = "oracle", shard = "0/1";
+  ClaimOptions claim;
   bool json = false, strict = false, times = false, no_oracle = false;
 
   UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
@@ -43,7 +45,11 @@ class ComparedQuestions {
 
   bool had_bad_input() const { return bad_rows_ > 0 || bad_ids_ || (stream_ && stream_->had_bad_input()); }
   std::size_t count() const { return count_; }
-  std::size_t scenes() const { return scenes_; }  ///< with questions
+  std::size_t not_asked() const { return not_asked_; }  ///< that have numbers of another precision
+  std::size_t scenes() const { return scenes_; }        ///< with questions
+
+  /// Those of them since the last call: their answers, if logged, are to be passed over.
+  std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
 
   /// Are the queries columns? Then rows of answers are matched to them by number.
   bool are_columns() const { return columns_ != nullptr; }
@@ -63,13 +69,15 @@ class ComparedQuestions {
   void complain(const Id& id, const std::string& why);
 
   const CompareOptions& options_;
+  const Claim claim_;
   DisagreementFile& disagreements_;
   std::optional<QueryStream> stream_;      // or
   std::unique_ptr<ColumnReader> columns_;  // or drawn
   std::shared_ptr<question::Place> place_;
   std::optional<starts::FreeStarts> starts_;  // of drawn queries
-  bool is_new_ = false, bad_ids_ = false;
-  std::size_t rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
+  bool is_new_ = false, bad_ids_ = false, fits_ = true;
+  std::vector<question::Question> passed_over_;
+  std::size_t not_asked_ = 0, rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
   std::unordered_set<Id> ids_;
 };
 

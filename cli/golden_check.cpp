@@ -5,6 +5,7 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/verdict.hpp>
+#include "cli/claim_options.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
@@ -16,6 +17,7 @@
 #include "question/engines.hpp"
 #include "question/examine.hpp"
 #include "question/tally.hpp"
+#include "report/claim_words.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -33,6 +35,7 @@ struct CheckOptions {
   std::optional<double> ulps, timeout;
   std::optional<std::uint64_t> first;
   std::uint64_t failures = 10, jobs = 1;
+  ClaimOptions claim;
   bool strict = false, times = false, json = false, markdown = false;
 };
 
@@ -43,6 +46,7 @@ struct Failure {
   Answer expect, given;
   Components components;
   std::string reason;  // why, in words
+  std::string claim;   // as arguments
 };
 
 // One engine's tally of a set, and of each of its tags.
@@ -51,15 +55,17 @@ struct SetTally {
   std::vector<std::pair<std::string, std::string>> notes;  // on the tags
   Tally all;
   std::map<std::string, Tally> by_tag;
-  bool failed = false;        // the program broke
-  std::size_t not_asked = 0;  // records, for it was given up
+  bool failed = false;               // the program broke
+  std::size_t given_up_before = 0;   // records that were not asked therefore
+  std::size_t of_other_numbers = 0;  // records that were not asked, since they do not consist of its numbers
+
+  std::size_t not_asked() const { return given_up_before + of_other_numbers; }
 };
 
 // The first records of a set, and of these the ones with an id that begins so.
-Source records_of(golden::Reader& reader, const std::optional<std::string>& id, std::uint64_t first,
+Source records_of(const Source& records, const std::optional<std::string>& id, std::uint64_t first,
                   Progress& progress) {
-  return [records = golden::questions_of(reader), id, first, &progress,
-          read = std::uint64_t{0}]() mutable -> std::optional<Question> {
+  return [records, id, first, &progress, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
     while (read < first) {
       std::optional<Question> question = records();
       progress.at(++read);
@@ -69,14 +75,30 @@ Source records_of(golden::Reader& reader, const std::optional<std::string>& id, 
   };
 }
 
+// Those that consist of numbers of that format; the others are counted.
+Source consisting_of(NumberFormat format, Source records, std::size_t& others) {
+  return [format, records = std::move(records), &others]() -> std::optional<Question> {
+    for (;;) {
+      std::optional<Question> question = records();
+      if (!question || !question->is_query() ||
+          (consists_of(question->place->scene(), format) && consists_of(question->query, format)))
+        return question;
+      ++others;
+    }
+  };
+}
+
 // Asks an engine the questions of sets, and keeps what came of each.
 class EngineCheck {
  public:
-  EngineCheck(const EngineInfo& engine, double ulps, bool times, const AnswererOptions& options,
-              std::uint64_t jobs, std::size_t most_failures)
-      : engine_(engine.name), ulps_(ulps), times_(times), most_failures_(most_failures) {
-    for (std::uint64_t job = 0; job < (engine.is_own() ? jobs : 1); ++job)
-      answerers_.push_back(engine.answerer(options));
+  EngineCheck(const EngineInfo& engine, const CheckOptions& options, const AnswererOptions& asking)
+      : engine_(engine.name),
+        ulps_(options.ulps.value_or(oracle::kDefaultUlps)),
+        claim_(options.claim.claim()),
+        times_(options.times),
+        most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)) {
+    for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
+      answerers_.push_back(engine.answerer(asking));
   }
 
   /// A program that was given up may do another set; not if it never answered anything.
@@ -92,7 +114,9 @@ class EngineCheck {
     tally.description = reader.header().description;
     tally.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
-    const Source records = records_of(reader, id, first, progress);
+    const Source records =
+        consisting_of(claim_.precision, records_of(golden::questions_of(reader, claim_), id, first, progress),
+                      tally.of_other_numbers);
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
       examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
     tally.failed = answerers_[0]->failed();
@@ -110,7 +134,7 @@ class EngineCheck {
   void take(const Judged& judged, const std::string& set, SetTally& tally) {
     const auto& [question, reply, judgement] = judged;
     if (!reply.was_asked()) {
-      ++tally.not_asked;
+      ++tally.given_up_before;
       return;
     }
     tally.all.count(judgement);
@@ -120,7 +144,8 @@ class EngineCheck {
     if (!failed || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, question.margin, question.exact, reply.answer, place.scene(), ""});
+                         judgement, question.margin, question.exact, reply.answer, place.scene(), "",
+                         report::arguments_of(claim_)});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
@@ -128,6 +153,7 @@ class EngineCheck {
 
   const std::string engine_;
   const double ulps_;
+  const Claim claim_;
   const bool times_;
   const std::size_t most_failures_;
   std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
@@ -168,8 +194,8 @@ std::string describe(const Failure& failure) {
                        failure.given.obstacle == failure.expect.obstacle;
   if (of_time)
     text += fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time\n",
-                        failure.judgement.is_other_quantity() ? "no time of that collision at all"
-                                                              : "a wrong time of the right obstacle",
+                        failure.judgement.other_quantity ? "no time of that collision at all"
+                                                         : "a wrong time of the right obstacle",
                         failure.judgement.departs);
   else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
     text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
@@ -178,8 +204,9 @@ std::string describe(const Failure& failure) {
   else
     text += "no error in the inputs explains it\n";
   return text + failure.reason +
-         fmt::format("    again: lorentz golden check --engine {} --id {} {}\n", shell_quoted(failure.engine),
-                     shell_quoted(failure.id), shell_quoted(failure.set));
+         fmt::format("    again: lorentz golden check --engine {}{} --id {} {}\n",
+                     shell_quoted(failure.engine), failure.claim, shell_quoted(failure.id),
+                     shell_quoted(failure.set));
 }
 
 void add_counts(json::Members& object, const Tally& t) {
@@ -191,15 +218,18 @@ void add_counts(json::Members& object, const Tally& t) {
 void add_set(json::Members& object, const SetTally& set) {
   object.add("set", set.all.name);
   add_counts(object, set.all);
-  object.add("not_asked", set.not_asked, "tags", [&](json::Members& tags) {
+  object.add("not_asked", set.not_asked(), "tags", [&](json::Members& tags) {
     for (const auto& [tag, tally] : set.by_tag)
       tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
   });
 }
 
-std::string json_of(const std::string& engine, const std::vector<SetTally>& tallies, std::size_t not_asked) {
+std::string json_of(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
+                    std::size_t not_asked) {
   return json::line_of([&](json::Members& object) {
-    object.add("engine", engine, "sets", json::objects(tallies, add_set), "not_asked", not_asked);
+    object.add("engine", engine, "sets", json::objects(tallies, add_set));
+    report::add_claim(object, claim);
+    object.add("not_asked", not_asked);
   });
 }
 
@@ -210,7 +240,7 @@ Tally total_of(const std::vector<SetTally>& tallies) {
   return total;
 }
 
-void show(const std::string& engine, const std::vector<SetTally>& tallies,
+void show(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
           const std::vector<Failure>& failures, std::size_t not_asked) {
   report::Table table(kColumns);
   for (const SetTally& set : tallies) {
@@ -220,7 +250,12 @@ void show(const std::string& engine, const std::vector<SetTally>& tallies,
   if (not_asked > 0) table.add(cells_of(fmt::format("{} sets not asked", not_asked), "", {}));
   Tally total = total_of(tallies);
   table.add(cells_of("total", "", total));
-  print(fmt::format("{}\n\n{}\n", engine, table.text()));
+  std::size_t of_other_numbers = 0;
+  for (const SetTally& set : tallies) of_other_numbers += set.of_other_numbers;
+  print(fmt::format("{}{}\n\n{}\n", engine, report::words_of(claim), table.text()));
+  if (of_other_numbers > 0)
+    print(fmt::format("{} records were not asked: their numbers are of another precision\n\n",
+                      of_other_numbers));
   if (!failures.empty()) {
     print("The first failures:\n");
     for (const Failure& failure : failures) print(describe(failure));
@@ -303,10 +338,8 @@ int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
 int act(const CheckOptions& options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
-  const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  const Claim claim = options.claim.claim();
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  auto most = static_cast<std::size_t>(options.failures);
-  if (options.json) most = 0;  // which counts only
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
   const std::vector<std::string> files = golden::find_sets(options.sets);
   int status = kDone;
@@ -315,8 +348,7 @@ int act(const CheckOptions& options) {
   std::string pages;
   for (const EngineInfo& info : engines) {
     const std::string& engine = info.name;
-    EngineCheck examination(info, ulps, options.times, {{}, timeout, terminal(), options.strict},
-                            options.jobs, most);
+    EngineCheck examination(info, options, {{}, timeout, terminal(), options.strict});
     std::vector<SetTally> tallies;
     for (const std::string& file : files) {
       if (!examination.is_worth_asking()) {
@@ -325,16 +357,16 @@ int act(const CheckOptions& options) {
       }
       tallies.push_back(examination.run(file, options.id, first));
       const SetTally& its = tallies.back();
-      records += its.all.queries + its.not_asked;
-      if (its.not_asked > 0)
-        say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.not_asked);
+      records += its.all.queries + its.not_asked();
+      if (its.given_up_before > 0)
+        say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.given_up_before);
     }
     examination.finish();
     status = std::max(status, status_of(tallies, options.strict, options.times));
     if (options.json)
-      print(json_of(engine, tallies, files.size() - tallies.size()));
+      print(json_of(engine, claim, tallies, files.size() - tallies.size()));
     else if (!options.markdown)
-      show(engine, tallies, examination.failures(), files.size() - tallies.size());
+      show(engine, claim, tallies, examination.failures(), files.size() - tallies.size());
     else
       pages += faults_page(engine, tallies, examination.failures());
     all_tallies.push_back(std::move(tallies));
@@ -358,6 +390,8 @@ Command golden_check_command() {
                "files, folders, or names of committed sets (default: all of these)"},
               {"--ulps", Tolerance{&options->ulps}, "K",
                "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
+              options->claim.precision_row(),
+              options->claim.time_tolerance_row(),
               {"--first", Whole{&options->first, 1, 1'000'000'000'000}, "N",
                "only the first N records of each set"},
               {"--id", &options->id, "ID", "only this record; the beginning of its id will do"},

@@ -4,6 +4,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
@@ -11,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "files/whole_file.hpp"
 #include "judge/judging.hpp"
+#include "report/claim_words.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::cli {
@@ -26,6 +28,7 @@ struct JudgeOptions {
   std::optional<std::uint64_t> questions;
   std::optional<double> ulps, timeout, seconds;
   std::optional<std::string> html;
+  ClaimOptions claim;
   bool quick = false, json = false, times = false, strict = false;
 };
 
@@ -72,6 +75,7 @@ std::string command_of(const JudgeOptions& o) {
   if (o.seed != JudgeOptions{}.seed) command += fmt::format(" --seed {}", o.seed);
   if (o.jobs != JudgeOptions{}.jobs) command += fmt::format(" --jobs {}", o.jobs);
   if (o.ulps) command += fmt::format(" --ulps {}", *o.ulps);
+  command += report::arguments_of(o.claim.claim());
   if (o.timeout) command += fmt::format(" --timeout {}", *o.timeout);
   if (o.times) command += " --times";
   if (o.strict) command += " --strict";
@@ -88,6 +92,7 @@ JudgeOrder order_of(const JudgeOptions& options) {
   order.seed = options.seed;
   order.jobs = static_cast<unsigned>(options.jobs);
   order.ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  order.claim = options.claim.claim();
   order.timeout = options.timeout;
   order.times = options.times;
   order.strict = options.strict;
@@ -131,6 +136,8 @@ Command judge_command() {
            kPlain, "--questions"},
           {"--ulps", Tolerance{&options->ulps}, "K",
            "the tolerance k of the verdicts, as in `compare`; 0 forgives nothing (default: 4)"},
+          options->claim.precision_row(),
+          options->claim.time_tolerance_row(),
           {"--timeout", Positive{&options->timeout}, "SECONDS",
            "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
            "in all, from 2 to 60; for its first answer 60)"},

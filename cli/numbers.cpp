@@ -60,6 +60,12 @@ std::optional<double> positive_number(const std::optional<std::string>& text, co
   return value;
 }
 
+double number_from_zero(const std::string& text, const char* option) {
+  const double value = number(text, option);
+  if (!(value >= 0)) throw InputError(fmt::format("{}: must not be below zero", option));
+  return value;
+}
+
 Vec vector_in(const std::string& text, const char* option) {
   std::vector<double> numbers;
   std::istringstream parts(text);
@@ -72,8 +78,7 @@ Vec vector_in(const std::string& text, const char* option) {
 namespace {
 
 double tolerance(const std::string& text, const char* option) {
-  const double ulps = number(text, option);
-  if (!(ulps >= 0)) throw InputError(fmt::format("{}: must not be below zero", option));
+  const double ulps = number_from_zero(text, option);
   if (ulps > oracle::kLargestMargin)
     throw InputError(fmt::format("{}: {} is above {}, up to which margins are known", option, ulps,
                                  oracle::kLargestMargin));

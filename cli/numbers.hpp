@@ -22,6 +22,9 @@ std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text);
 /// InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
 
+/// A finite number, 0 or above. Throws InputError, naming the option.
+double number_from_zero(const std::string& text, const char* option);
+
 /// Three numbers with commas between them. Throws InputError, naming the option.
 Vec vector_in(const std::string& text, const char* option);
 

@@ -2,22 +2,24 @@
 
 namespace lorentz::golden {
 
-question::Source questions_of(Reader& reader) {
-  return [&reader, scene = std::size_t{0},
+question::Source questions_of(Reader& reader, const Claim& claim) {
+  return [&reader, claim, scene = std::size_t{0},
           place = std::shared_ptr<question::Place>()]() mutable -> std::optional<question::Question> {
     ReadRecord read;
     if (!reader.next(read)) return std::nullopt;
-    if (scene != reader.scene_number()) place = std::make_shared<question::Place>(reader.scene());
+    if (scene != reader.scene_number())
+      place = std::make_shared<question::Place>(reader.scene(), question::Truth::oracle, claim);
     scene = reader.scene_number();
     Record& record = read.record;
-    return question::Question{.place = place,
-                              .query = read.query.value_or(Query()),
-                              .exact = std::move(record.expect),
-                              .where = record.id,
-                              .text = read.query ? "" : std::move(record.question),
-                              .id = json_quoted(record.id),
-                              .tags = std::move(record.tags),
-                              .margin = record.margin};
+    return question::Question{
+        .place = place,
+        .query = read.query.value_or(Query()),
+        .exact = std::move(record.expect),
+        .where = record.id,
+        .text = read.query ? "" : std::move(record.question),
+        .id = json_quoted(record.id),
+        .tags = std::move(record.tags),
+        .margin = claim.precision == NumberFormat::binary64 ? record.margin : std::nullopt};
   };
 }
 

@@ -7,6 +7,7 @@
 namespace lorentz::golden {
 
 /// The next records; `where` is the record's id. Throws as the reader does. The reader must outlast the source.
-question::Source questions_of(Reader& reader);
+/// Judged by the claim; margins are those of the records, of binary64 only.
+question::Source questions_of(Reader& reader, const Claim& claim = {});
 
 }  // namespace lorentz::golden

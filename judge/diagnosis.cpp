@@ -98,7 +98,7 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
                                       const oracle::Judgement& judgement) {
   using oracle::Verdict;
   if (judgement.wrong_time)
-    return Diagnosis{judgement.is_other_quantity() ? Cause::other_quantity : Cause::wrong_time,
+    return Diagnosis{judgement.other_quantity ? Cause::other_quantity : Cause::wrong_time,
                      Severity::wrong_time};
   if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};

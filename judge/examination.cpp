@@ -36,8 +36,8 @@ constexpr std::size_t kCompared = 500;
 }  // namespace
 
 Examination::Examination(const question::EngineInfo& engine, question::AnswererOptions options, double ulps,
-                         const std::atomic<bool>& stop)
-    : ulps_(ulps), stop_(stop), is_command_(engine.is_command()) {
+                         const std::atomic<bool>& stop, const Claim& claim)
+    : ulps_(ulps), claim_(claim), stop_(stop), is_command_(engine.is_command()) {
   options.enough = [this] { return is_enough(); };
   answerer_ = engine.answerer(options);
 }
@@ -50,7 +50,7 @@ Examination::Start Examination::warm_up() {
   constexpr int kTries = 3;
   constexpr double kFast = 0.05;  // seconds
   if (!is_command_) return {};
-  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25), question::Truth::oracle, claim_);
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
   const Question question{
       .place = place, .query = along, .exact = place->exact(along), .where = "the first question"};

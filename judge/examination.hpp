@@ -42,7 +42,7 @@ class Examination {
  public:
   /// If another thread sets `stop`, everything ends soon.
   Examination(const question::EngineInfo& engine, question::AnswererOptions options, double ulps,
-              const std::atomic<bool>& stop);
+              const std::atomic<bool>& stop, const Claim& claim = {});
   Examination(const Examination&) = delete;
   Examination& operator=(const Examination&) = delete;
 
@@ -82,6 +82,9 @@ class Examination {
   };
   Repeated repeat(const Question& question, std::size_t copies, Diagnosis like);
 
+  /// What the engine is judged by, in all places.
+  const Claim& claim() const { return claim_; }
+
   const std::vector<ExaminedRow>& rows() const { return rows_; }
   /// As Findings::all; what was unsupported was not asked.
   std::vector<Finding> findings() const;
@@ -104,6 +107,7 @@ class Examination {
   std::optional<Example> departing(const Question& question, const Reply& reply) const;
 
   const double ulps_;
+  const Claim claim_;
   const std::atomic<bool>& stop_;
   std::optional<std::size_t> most_;  // questions of a row
   std::optional<Clock::time_point> end_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "files/scene_file.hpp"
+#include "judge/questions.hpp"
 #include "statistics/theory/laws.hpp"
 
 namespace lorentz::judge {
@@ -58,7 +59,7 @@ std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t s
   std::vector<FlownScene> flown;
   for (const auto& [scene, radius] : kWhere) {
     flown.push_back({scene, radius, {}});
-    places.push_back({flown.back().name(), std::make_shared<question::Place>(read_scene(scene, radius))});
+    places.push_back({flown.back().name(), place_for(read_scene(scene, radius), examination.claim())});
   }
   const auto look = [&](const Question& question, const Answer& given) {
     for (std::size_t i = 0; i < places.size(); ++i)

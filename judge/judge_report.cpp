@@ -10,6 +10,7 @@
 #include "files/messages.hpp"
 #include "judge/repetition.hpp"
 #include "pictures/finding_drawing.hpp"
+#include "report/claim_words.hpp"
 #include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/reason.hpp"
@@ -63,9 +64,10 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine.name);
+  const std::string claim = report::arguments_of(report.claim);
   if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.timeout);
   if (finding.simplest.question.is_query())
-    return {fmt::format("{} | lorentz compare --queries - --engine {}{}", lines, engine,
+    return {fmt::format("{} | lorentz compare --queries - --engine {}{}{}", lines, engine, claim,
                         option_for(finding.severity())),
             fmt::format("{} | lorentz first-hit --engine {}", lines, engine)};
   // Invalid questions only golden sets hand on; a program reads them by itself.
@@ -319,15 +321,17 @@ std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense
           t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"};
 }
 
-enum class RowState { asked, unsupported, no_time, given_up };
-constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up"};
+enum class RowState { asked, unsupported, no_time, given_up, other_numbers };
+constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up", "other numbers"};
 
 RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
   if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
   const question::Tally all = report.total();
-  return row.is_exhausted && all.queries == all.unsupported ? RowState::unsupported : RowState::no_time;
+  if (!row.is_exhausted) return RowState::no_time;
+  if (all.queries == all.unsupported) return RowState::unsupported;
+  return report.claim.precision == NumberFormat::binary64 ? RowState::no_time : RowState::other_numbers;
 }
 
 // A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
@@ -344,11 +348,12 @@ std::string given_up_lines(const JudgeReport& report) {
 
 std::string table_of(const JudgeReport& report) {
   report::Table table(kColumns);
-  std::vector<std::string> unsupported, no_time;
+  std::vector<std::string> unsupported, no_time, other_numbers;
   for (const ExaminedRow& row : report.rows) {
     const RowState state = state_of(row, report);
     if (state == RowState::unsupported) unsupported.push_back(row.name);
     if (state == RowState::no_time) no_time.push_back(row.name);
+    if (state == RowState::other_numbers) other_numbers.push_back(row.name);
     if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense));
   }
   question::Tally total = report.total();
@@ -357,6 +362,8 @@ std::string table_of(const JudgeReport& report) {
   std::string text = table.text();
   if (!unsupported.empty()) text += fmt::format("unsupported: {}\n", fmt::join(unsupported, ", "));
   if (!no_time.empty()) text += fmt::format("not asked, no time: {}\n", fmt::join(no_time, ", "));
+  if (!other_numbers.empty())
+    text += fmt::format("not asked, numbers of another precision: {}\n", fmt::join(other_numbers, ", "));
   return text + given_up_lines(report);
 }
 
@@ -405,15 +412,17 @@ std::string JudgeReport::verdict() const {
 }
 
 std::string JudgeReport::line() const {
-  return heading(*this) + (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
+  const std::string words = report::words_of(claim);
+  return heading(*this) + (words.empty() ? "" : "; judged" + words.substr(1)) +
+         (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
          shares_text("ill-posed", rows, &question::Tally::ill_posed) +
          shares_text("undecided", rows, &question::Tally::undecided) + times_text(rows) + paths_text(flown) +
          speed_text(*this) + nonsense_text(*this);
 }
 
 std::string JudgeReport::text() const {
-  std::string text =
-      fmt::format("{}, seed {}, judged by the oracle\n\n{}", engine.name, seed, table_of(*this));
+  std::string text = fmt::format("{}, seed {}, judged by the oracle{}\n\n{}", engine.name, seed,
+                                 report::words_of(claim), table_of(*this));
   for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)
@@ -432,6 +441,7 @@ std::string JudgeReport::json() const {
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
              report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
+    report::add_claim(page, claim);
     page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
              "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported", t.unsupported,
              "error", t.error, "missing", t.missing, "nonsense", nonsense(), "ns_per_query",

@@ -27,6 +27,7 @@ struct JudgeReport {
   bool misbehaved = false;   ///< another program broke, or did what it should not, at least once
   bool was_stopped = false;  ///< before all was asked
   bool times = false;        ///< wrong times count
+  Claim claim = {};          ///< that it was judged by
   bool strict = false;       ///< answers to invalid questions count
 
   question::Tally total() const;

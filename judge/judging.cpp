@@ -61,13 +61,13 @@ const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001",
                                       {"ellipsoid", {}},
                                       {"ball", {}}};
 
-std::vector<NamedPlace> places_of(const Scenery& scenery) {
+std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
   const auto place = [&](const std::optional<std::string>& radius) {
     const std::string name =
         radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
-    return NamedPlace{
-        name, std::make_shared<question::Place>(
-                  read_scene(scenery.scene, radius ? std::optional(parse_number(*radius)) : std::nullopt))};
+    return NamedPlace{name, place_for(read_scene(scenery.scene, radius ? std::optional(parse_number(*radius))
+                                                                       : std::nullopt),
+                                      claim)};
   };
   std::vector<NamedPlace> places;
   for (const char* radius : scenery.radii) places.push_back(place(radius));
@@ -107,7 +107,7 @@ std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan
   std::vector<NamedPlace> all;
   Shares shares(plan.drawn, kSceneries.size());
   for (const Scenery& scenery : kSceneries) {
-    const std::vector<NamedPlace> places = places_of(scenery);
+    const std::vector<NamedPlace> places = places_of(scenery, examination.claim());
     examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
                     drawn(places, Kind::uniform, seed, plan.count), shares.next());
     all.insert(all.end(), places.begin(), places.end());
@@ -127,7 +127,7 @@ void check_golden_sets(Examination& examination, double seconds) {
   for (const std::string& file : files)
     examination.run(
         {"golden " + std::filesystem::path(file).stem().string(), "a committed set of hard cases"},
-        golden_set(file), shares.next());
+        golden_set(file, examination.claim()), shares.next());
 }
 
 // In a thread for each examination, each with scenes of its own.
@@ -137,7 +137,7 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
   const Fairness fairness = plan.questions ? Fairness::of_scenes : Fairness::of_time;
   const auto run = [&](Examination& one, unsigned part) {
     one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
-            campaign(seed, scope, fairness, part, parts), plan.campaign);
+            campaign(seed, scope, fairness, part, parts, one.claim()), plan.campaign);
   };
   std::vector<std::future<void>> threads;
   for (unsigned part = 1; part < parts; ++part)
@@ -154,11 +154,12 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
 struct Terms {
   question::EngineInfo engine;
   double ulps;
+  Claim claim;
   question::AnswererOptions answerer;
   const std::atomic<bool>& stop;
 
   std::unique_ptr<Examination> examination() const {
-    return std::make_unique<Examination>(engine, answerer, ulps, stop);
+    return std::make_unique<Examination>(engine, answerer, ulps, stop, claim);
   }
   /// That tells nobody what it meets.
   std::unique_ptr<Examination> silent_examination() const {
@@ -216,8 +217,9 @@ std::vector<question::Question> questions_to_race_in(const std::vector<const Nam
                                                      std::uint64_t seed, std::size_t count) {
   std::vector<question::Question> all;
   for (const NamedPlace* named : places)
-    for (question::Question& question : question::questions_of(
-             named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed, count)))
+    for (question::Question& question :
+         question::questions_of(named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed,
+                                                                  count, named->place->claim().precision)))
       all.push_back(std::move(question));
   return all;
 }
@@ -257,7 +259,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
 // first answer may take as long as elsewhere.
 Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
   constexpr double kShortest = 2, kPart = 0.1;
-  Terms terms{order.engine, order.ulps, {}, stop};
+  Terms terms{order.engine, order.ulps, order.claim, {}, stop};
   const double most = question::AnswererOptions::kDefaultTimeout;
   terms.answerer.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
   terms.answerer.start_timeout = most;
@@ -308,6 +310,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   JudgeReport report;
   report.engine = order.engine;
   report.command = order.command;
+  report.claim = order.claim;
   report.times = order.times;
   report.strict = order.strict;
   report.seed = order.seed;

@@ -23,6 +23,7 @@ struct JudgeOrder {
   std::uint64_t seed = starts::kDefaultSeed;
   unsigned jobs = 1;  ///< threads of the campaign; one where questions are counted
   double ulps = oracle::kDefaultUlps;
+  Claim claim = {};
   std::optional<double> timeout;  ///< of another program; nothing: a tenth of the time
   bool times = false;             ///< wrong times count
   bool strict = false;            ///< answers to invalid questions count

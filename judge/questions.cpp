@@ -22,7 +22,8 @@ class Drawn {
  public:
   Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count)
       : places_(places), count_(count), what_(words_of(kind)) {
-    for (const NamedPlace& place : places) starts_.emplace_back(place.place->scene(), kind, seed);
+    for (const NamedPlace& place : places)
+      starts_.emplace_back(place.place->scene(), kind, seed, place.place->claim().precision);
   }
 
   std::optional<Question> next() {
@@ -57,26 +58,36 @@ class Drawn {
 
 class Golden {
  public:
-  explicit Golden(const std::string& path) : reader_(path), records_(golden::questions_of(reader_)) {}
+  Golden(const std::string& path, const Claim& claim)
+      : reader_(path), format_(claim.precision), records_(golden::questions_of(reader_, claim)) {}
 
   std::optional<Question> next() {
     std::optional<Question> question;
     do question = records_();
-    while (question && question->place->is_beyond_engine());
+    while (question && (question->place->is_beyond_engine() || !is_of_format(*question)));
     if (question) question->where = fmt::format("golden {}, {}", reader_.header().name, question->where);
     return question;
   }
 
  private:
+  bool is_of_format(const Question& question) const {
+    return consists_of(question.place->scene(), format_) && consists_of(question.query, format_);
+  }
+
   golden::Reader reader_;
+  const NumberFormat format_;
   const question::Source records_;
 };
 
 class CampaignQuestions {
  public:
   CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
-                    unsigned parts)
-      : seed_(seed), scope_(scope), fairness_(fairness), stride_(parts * cases::kCasesPerScene) {
+                    unsigned parts, const Claim& claim)
+      : seed_(seed),
+        scope_(scope),
+        claim_(claim),
+        fairness_(fairness),
+        stride_(parts * cases::kCasesPerScene) {
     for (const cases::Target& target : cases::targets())
       if (scope_.meets(target, seed_)) tracks_.push_back({&target, part * cases::kCasesPerScene});
   }
@@ -116,8 +127,14 @@ class CampaignQuestions {
   void make(const cases::Target& target, std::uint64_t begin) {
     const cases::Case base = target.make(seed_, begin);
     if (!scope_.admits(base.scene)) return;
-    auto place = std::make_shared<Place>(base.scene);
-    const auto add = [&](const Query& query, const Answer& exact, std::uint64_t index, int step) {
+    const auto place = place_for(base.scene, claim_);
+    if (flaw_of(place->scene()) || !fuzz::is_sound(place->scene())) return;  // what rounding made of it
+    const auto add = [&](Query query, Answer exact, std::uint64_t index, int step) {
+      if (!consists_of(query, claim_.precision)) {
+        query = rounded(query, claim_.precision);
+        if (flaw_of(query, place->scene())) return;
+        exact = place->exact(query);
+      }
       questions_.push_back({.place = place,
                             .query = query,
                             .exact = exact,
@@ -138,6 +155,7 @@ class CampaignQuestions {
 
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
+  const Claim claim_;
   const Fairness fairness_;
   const std::uint64_t stride_;  // from one scene to the next
   std::vector<TargetTrack> tracks_;
@@ -153,18 +171,22 @@ Source source_of(Arguments&&... arguments) {
 
 }  // namespace
 
+std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim) {
+  return std::make_shared<Place>(rounded(scene, claim.precision), question::Truth::oracle, claim);
+}
+
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed,
              std::size_t count) {
   return source_of<Drawn>(places, kind, seed, count);
 }
 
-Source golden_set(const std::string& path) {
-  return source_of<Golden>(path);
+Source golden_set(const std::string& path, const Claim& claim) {
+  return source_of<Golden>(path, claim);
 }
 
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
-                unsigned parts) {
-  return source_of<CampaignQuestions>(seed, scope, fairness, part, parts);
+                unsigned parts, const Claim& claim) {
+  return source_of<CampaignQuestions>(seed, scope, fairness, part, parts, claim);
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

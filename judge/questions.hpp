@@ -17,13 +17,16 @@ struct NamedPlace {
   std::shared_ptr<Place> place;
 };
 
+/// Where an engine of this claim is asked: the scene's numbers are rounded to its precision.
+std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
+
 /// `count` starts of a kind, a few of each place in turn; those of places that are beyond the engine are left
 /// out. The places must outlast the source.
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count);
 
-/// The records of a golden set; of a scene that is beyond the engine the first. Throws as golden::Reader
+/// The records of a golden set that consist of numbers of the claim's precision; of a scene that is beyond the engine the first. Throws as golden::Reader
 /// does.
-Source golden_set(const std::string& path);
+Source golden_set(const std::string& path, const Claim& claim = {});
 
 /// What the targets of a campaign get in equal parts: time (some take a hundred times as long as others), or
 /// scenes.
@@ -31,9 +34,9 @@ enum class Fairness { of_time, of_scenes };
 
 /// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
 /// smallest margin, without end; of scenes that the scope admits, and of these the ones that are `part`
-/// modulo `parts`.
+/// modulo `parts`. In binary32 all is rounded to it.
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness = Fairness::of_time,
-                unsigned part = 0, unsigned parts = 1);
+                unsigned part = 0, unsigned parts = 1, const Claim& claim = {});
 
 /// The narrowest scope with all scenes of these in which the engine answered (a ball and a disc alone are of
 /// one scope); all scenes if it answered nowhere.

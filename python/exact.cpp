@@ -73,15 +73,19 @@ class PyOracle {
     return list;
   }
 
-  py::dict judge(const std::string& text, const std::string& given_text, double ulps) const {
+  py::dict judge(const std::string& text, const std::string& given_text, double ulps,
+                 const std::string& precision, std::optional<double> time_tolerance) const {
+    const Claim claim = claim_of(precision, time_tolerance);
     const auto [query, exact] = question(text);
     const Answer given = read_answer(given_text, scene_);
-    const oracle::Judgement judgement = place_->judge().judge(query, exact, given, ulps);
-    const auto diagnosis = judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
+    const question::Place place(scene_, question::Truth::oracle, claim);
+    const oracle::Judge& judge = claim == Claim() ? place_->judge() : place.judge();
+    const oracle::Judgement judgement = judge.judge(query, exact, given, ulps);
+    const auto diagnosis = lorentz::judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
     py::dict dict;
     dict["verdict"] = name_of(judgement.verdict);
     dict["wrong_time"] = judgement.wrong_time;
-    dict["other_quantity"] = judgement.is_other_quantity();
+    dict["other_quantity"] = judgement.other_quantity;
     dict["ulps"] = judgement.ulps;
     dict["departs"] = judgement.departs;
     dict["cause"] = py::none();
@@ -153,7 +157,8 @@ void bind_exact(py::module_& module) {
       .def("is_free", &PyOracle::is_free, py::arg("query"))
       .def("margin", &PyOracle::margin, py::arg("query"))
       .def("passed", &PyOracle::passed, py::arg("query"), py::arg("most"))
-      .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"))
+      .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"),
+           py::arg("precision"), py::arg("time_tolerance"))
       .def("prove", &PyOracle::prove, py::arg("query"))
       .def("refutation", &PyOracle::refutation, py::arg("query"), py::arg("answer"), py::arg("time_decimal"),
            py::arg("certificate"));

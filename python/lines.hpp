@@ -2,8 +2,10 @@
 // of JSON, read and checked by the one reader that knows the format. Private to python/.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
 
 namespace lorentz::python {
@@ -24,5 +26,10 @@ std::string answer_text(const Answer& answer, const Components& count);
 
 /// Throws InputError: what readers are to do with keys that they do not know.
 void refuse_key(const std::string& key);
+
+/// What an engine claims, "binary64" or "binary32".
+inline Claim claim_of(const std::string& precision, std::optional<double> time_tolerance) {
+  return {precision == "binary32" ? NumberFormat::binary32 : NumberFormat::binary64, time_tolerance};
+}
 
 }  // namespace lorentz::python

@@ -24,12 +24,15 @@ namespace lorentz::question {
 /// may use it.
 class Place {
  public:
-  explicit Place(Scene scene, Truth truth = Truth::oracle) : scene_(std::move(scene)), truth_(truth) {}
+  /// Judge and margins count in ulps of the claim's precision.
+  explicit Place(Scene scene, Truth truth = Truth::oracle, const Claim& claim = {})
+      : scene_(std::move(scene)), truth_(truth), claim_(claim) {}
 
   const Scene& scene() const { return scene_; }
+  const Claim& claim() const { return claim_; }
   const oracle::Oracle& oracle() const { return made(oracle_); }
-  const oracle::Judge& judge() const { return made(judge_); }
-  const oracle::Margins& margins() const { return made(margins_); }
+  const oracle::Judge& judge() const { return made(judge_, claim_); }
+  const oracle::Margins& margins() const { return made(margins_, claim_.precision); }
 
   /// The true answer to a query without flaws.
   Answer exact(const Query& query, const oracle::Request& request = {}) const {
@@ -57,14 +60,15 @@ class Place {
   static constexpr std::size_t kEnough = 4;
   static constexpr double kSlowSeconds = 0.1;
 
-  template <class T>
-  const T& made(std::unique_ptr<T>& one) const {
-    if (!one) one = std::make_unique<T>(scene_);
+  template <class T, class... Rest>
+  const T& made(std::unique_ptr<T>& one, const Rest&... rest) const {
+    if (!one) one = std::make_unique<T>(scene_, rest...);
     return *one;
   }
 
   const Scene scene_;
   const Truth truth_;
+  const Claim claim_;
   mutable std::unique_ptr<oracle::Oracle> oracle_;
   mutable std::unique_ptr<oracle::Certified> certified_;
   mutable std::unique_ptr<oracle::Judge> judge_;

@@ -34,7 +34,7 @@ void Tally::count(const oracle::Judgement& judgement) {
   }
   if (judgement.wrong_time) {
     ++wrong_time;
-    other_quantity += judgement.is_other_quantity();
+    other_quantity += judgement.other_quantity;
     wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
     wrong_conditions.push_back(judgement.departs);
   }

@@ -31,28 +31,33 @@ flights::Ensemble ensemble_named(const std::string& name, const std::string& wha
 namespace {
 
 // A primitive vector of one of the lattices, components up to 9, or beside it: up to 3 ulps in each nonzero
-// component, or 2^-40 to 2^-52 of its size towards another lattice vector.
-Vec near_rational_direction(Random& random, const Scene& scene) {
+// component, or 2^-40 to 2^-52 of its size towards another lattice vector (in binary32 2^-11 to 2^-23).
+Vec near_rational_direction(Random& random, const Scene& scene, NumberFormat format) {
   constexpr std::int64_t kRange = 9, kUlps = 3;
   const int d = scene.dimension;
   Lattice lattice = scene.lattices[random.below(scene.lattices.size())];
   if (lattice.missing > 0) lattice.vectors = cases::Box::of(scene).vectors;
   Vec v = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
   if (random.one_in(2)) {
-    cases::jitter(random, v, d, kUlps);
+    if (format == NumberFormat::binary64) cases::jitter(random, v, d, kUlps);
+    for (double& component : v)
+      if (format != NumberFormat::binary64)
+        component += static_cast<double>(random.integer(-kUlps, kUlps)) *
+                     (component == 0 ? 0 : ulp(component, format));
     return v;
   }
   const Vec aside = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
-  return sum(v, scaled(aside, random.sign() * random.octave(-52, -40)));
+  return sum(v, scaled(aside, random.sign() * random.octave(1 - bits_of(format), 13 - bits_of(format))));
 }
 
 }  // namespace
 
 struct FreeStarts::Inside {
-  Inside(const Scene& of, Kind what, std::uint64_t number)
+  Inside(const Scene& of, Kind what, std::uint64_t number, NumberFormat its_format)
       : scene(of),
         kind(what),
         seed(number),
+        format(its_format),
         candidates(of, what == Kind::surface ? flights::Ensemble::surface : flights::Ensemble::uniform,
                    number),
         oracle(of),
@@ -68,10 +73,18 @@ struct FreeStarts::Inside {
   bool make(Random& random, Query& start) const {
     if (kind == Kind::grazing && !is_crystal(scene)) aim(random, start);
     if (kind == Kind::grazing)
-      return cases::move_to_edge(random.sign() * random.octave(-52, -10), scene, oracle, start);
+      return cases::move_to_edge(random.sign() * random.octave(1 - bits_of(format), -10), scene, oracle,
+                                 start);
     if (!is_free(start)) return false;
-    if (kind == Kind::near_rational) start.v = near_rational_direction(random, scene);
+    if (kind == Kind::near_rational) start.v = near_rational_direction(random, scene, format);
     return true;
+  }
+
+  // True if the start is one after rounding, too.
+  bool round(Query& start) const {
+    if (format == NumberFormat::binary64) return true;
+    start = rounded(start, format);
+    return !flaw_of(start, scene) && is_free(start);
   }
 
   // At an obstacle of the cell 0: few lines meet any where most of space is empty.
@@ -86,13 +99,14 @@ struct FreeStarts::Inside {
   Scene scene;
   Kind kind;
   std::uint64_t seed;
+  NumberFormat format;
   Candidates candidates;
   oracle::Oracle oracle;
   oracle::Certified certified;
 };
 
-FreeStarts::FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed)
-    : inside_(std::make_unique<const Inside>(scene, kind, seed)) {}
+FreeStarts::FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed, NumberFormat format)
+    : inside_(std::make_unique<const Inside>(scene, kind, seed, format)) {}
 FreeStarts::~FreeStarts() = default;
 FreeStarts::FreeStarts(FreeStarts&&) noexcept = default;
 
@@ -101,7 +115,7 @@ void FreeStarts::draw(std::uint64_t index, Query& start) const {
   for (std::uint64_t attempt = 0; attempt < Candidates::kMostAttempts; ++attempt) {
     Random random(inside_->seed, kHard, index, cases::Use::cases, attempt);
     inside_->candidates.draw(index, attempt, start);
-    if (inside_->make(random, start)) return;
+    if (inside_->make(random, start) && inside_->round(start)) return;
   }
   throw InputError(nowhere_to_start(Candidates::kMostAttempts));
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "statistics/theory/ensemble.hpp"
@@ -42,8 +43,8 @@ constexpr Kind kind_of(flights::Ensemble ensemble) {
 class FreeStarts {
  public:
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
-  /// InputError as Candidates does.
-  FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed);
+  /// InputError as Candidates does. Starts consist of numbers of the format, as the scene must.
+  FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed, NumberFormat format = NumberFormat::binary64);
   ~FreeStarts();
   FreeStarts(FreeStarts&&) noexcept;
 
@@ -65,8 +66,9 @@ class FreeStarts {
 };
 
 /// The first `count` starts of a scene.
-inline std::vector<Query> free_starts(const Scene& scene, Kind kind, std::uint64_t seed, std::size_t count) {
-  return FreeStarts(scene, kind, seed).some(0, count);
+inline std::vector<Query> free_starts(const Scene& scene, Kind kind, std::uint64_t seed, std::size_t count,
+                                      NumberFormat format = NumberFormat::binary64) {
+  return FreeStarts(scene, kind, seed, format).some(0, count);
 }
 
 }  // namespace lorentz::starts

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -67,8 +68,8 @@ struct Approach {
 /// may ask one.
 class Margins {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
-  explicit Margins(const Scene& scene);
+  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in). Ulps are those of `precision`.
+  explicit Margins(const Scene& scene, NumberFormat precision = NumberFormat::binary64);
   Margins(Margins&&) noexcept;
   Margins& operator=(Margins&&) noexcept;
   ~Margins();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -25,7 +26,9 @@ inline constexpr double kDefaultUlps = 4;
 
 /// A time that is off by more than this many times what an ulp in each input makes of it is not rounded: it is
 /// another quantity, such as the time at which the line leaves the obstacle.
-inline constexpr double kOtherQuantity = 0x1p30;
+constexpr double other_quantity_from(NumberFormat precision) {
+  return precision == NumberFormat::binary64 ? 0x1p30 : 0x1p14;
+}
 
 /// What an answer is worth beside the exact one.
 struct Judgement {
@@ -37,14 +40,12 @@ struct Judgement {
   /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong
   /// time: the tolerance that it would have needed, in units of its condition; infinite if it is not finite.
   double departs = 0;
-  bool wrong_time = false;  ///< of `agree`: the obstacle is right, the time is beyond its tolerance
+  bool wrong_time = false;      ///< of `agree`: the obstacle is right, the time is beyond its tolerance
+  bool other_quantity = false;  ///< a wrong time that no rounding explains (other_quantity_from)
   /// Of ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
   /// is passed over, or that contains x). Nothing if the scene does not have the obstacle that was named, and
   /// where nothing needs to move (a tie that was decided the other way).
   std::optional<ObstacleId> obstacle = {};
-
-  /// A wrong time that no rounding explains (kOtherQuantity).
-  bool is_other_quantity() const { return wrong_time && departs > kOtherQuantity; }
 };
 
 /// Judges answers to the queries of one scene.
@@ -60,14 +61,19 @@ struct Judgement {
 ///  3. With `ulps` = 0 an answer is the exact one or `wrong`, and a time the correctly rounded one or a wrong
 ///     time: not even a tie is forgiven that was decided the other way.
 ///     held by "Where no ulp is forgiven an answer is the exact one or wrong"
-///  4. Any number of threads may ask one judge.
+///  4. An ulp is one of the claim's precision. With a time tolerance T a time t is wrong if it is off by more
+///     than T t, and only then; a later obstacle is forgiven where each one entered earlier is entered at most T
+///     times its time before, and not yet left.
+///     held by "In binary32 an ulp is one of 24 bits",
+///             "A tolerance of times, and what it forgives of the order"
+///  5. Any number of threads may ask one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Cost: nothing to speak of where the two agree, else 100 us and more.
 class Judge {
  public:
   /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
-  explicit Judge(const Scene& scene);
+  explicit Judge(const Scene& scene, const Claim& claim = {});
   Judge(Judge&&) noexcept;
   Judge& operator=(Judge&&) noexcept;
   ~Judge();

@@ -144,7 +144,7 @@ class CorridorSearch {
   bool leave_gaps(const View<D>& view, const ZVec<D>& normal) const {
     Z spacing = 0;  // of the planes, times |normal|
     for (const LatticePoint<D>& vector : view.basis) spacing = gcd(spacing, Z(dot(normal, vector.p)));
-    const Real width = 2 * real(view.radius) * (1 - ulps_ * 0x1p-52);
+    const Real width = 2 * real(view.radius) * (1 - ulps_ * std::ldexp(1.0, 1 - precision_bits()));
     return width <= 0 || width * width * real(dot(normal, normal)) < real(spacing) * real(spacing);
   }
 
@@ -155,7 +155,7 @@ class CorridorSearch {
     for (std::size_t i = 0; i < D; ++i) dual[i] = {vectors[i], dot(vectors[i], box_.v)};
     const Z v2 = dot(box_.v, box_.v);
     reduce(dual, [&](const DualVector<D>& a, const DualVector<D>& b) -> Z {
-      return shifted_left(a.along * b.along, 2 * kSharp) + v2 * dot(a.G, b.G);
+      return shifted_left(a.along * b.along, 2 * sharp()) + v2 * dot(a.G, b.G);
     });
     return any_combination(dual, [&](const DualVector<D>& one) {
       const auto direction = box_.normal_to(one.G);
@@ -167,7 +167,7 @@ class CorridorSearch {
     const Z v2 = dot(box_.v, box_.v);
     reduce(basis, [&](const LatticePoint<D>& a, const LatticePoint<D>& b) -> Z {
       const Z along = dot(box_.v, a.p) * dot(box_.v, b.p);
-      return shifted_left(v2 * dot(a.p, b.p) - along, 2 * kSharp) + along;
+      return shifted_left(v2 * dot(a.p, b.p) - along, 2 * sharp()) + along;
     });
     return any_combination(basis, [&](const LatticePoint<D>& one) {
       ZVec<D> g = one.p;
@@ -177,7 +177,9 @@ class CorridorSearch {
     });
   }
 
-  static constexpr long kSharp = 50;  // an angle of 2^-50 counts as much as the length
+  int precision_bits() const { return bits_of(query_.ulps().precision); }
+  // An angle of 2^-50, in binary32 2^-21, counts as much as the length.
+  long sharp() const { return precision_bits() - 3; }
 
   const PerturbedQuery<D>& query_;
   const CorridorBox<D> box_;

@@ -206,7 +206,8 @@ struct Margins::Impl {
   PerturbedScene scene;
 };
 
-Margins::Margins(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{PerturbedScene(scene)})) {}
+Margins::Margins(const Scene& scene, NumberFormat precision)
+    : impl_(std::make_unique<const Impl>(Impl{PerturbedScene(scene, precision)})) {}
 Margins::Margins(Margins&&) noexcept = default;
 Margins& Margins::operator=(Margins&&) noexcept = default;
 Margins::~Margins() = default;
@@ -242,8 +243,9 @@ Approach Margins::approach(const Query& query, const ObstacleId& obstacle) const
 
 double Margins::condition(const Query& query, const Answer& exact) const {
   return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-    return to_double(change_of_time(perturbed, exact.obstacle) / Real(ulp(*exact.time)),
-                     std::numeric_limits<double>::max());
+    return to_double(
+        change_of_time(perturbed, exact.obstacle) / Real(ulp(*exact.time, impl_->scene.precision())),
+        std::numeric_limits<double>::max());
   });
 }
 

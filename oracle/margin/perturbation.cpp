@@ -7,14 +7,10 @@
 
 namespace lorentz::oracle {
 
-double ulp(double value) {
-  const double size = std::min(std::fabs(value), std::numeric_limits<double>::max());
-  const double next = std::nextafter(size, std::numeric_limits<double>::infinity());
-  return std::isfinite(next) ? next - size : size - std::nextafter(size, 0.0);
-}
-
 template <std::size_t D>
-InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact) {
+InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact,
+                        NumberFormat of_numbers)
+    : precision(of_numbers) {
   double size = 0;
   const auto see = [&](const Vec& a) {
     for (const double component : a) size = std::max(size, std::fabs(component));
@@ -28,8 +24,10 @@ InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery
     }
   }
   for (std::size_t i = 0; i < D; ++i) {
-    x[i] = times_power_of_two(Real(std::max(ulp(query.x[i]), ulp(size))), -exact.length_exponent);
-    v[i] = query.v[i] == 0 ? Real(0) : times_power_of_two(Real(ulp(query.v[i])), -exact.velocity_exponent);
+    x[i] = times_power_of_two(Real(std::max(ulp(query.x[i], precision), ulp(size, precision))),
+                              -exact.length_exponent);
+    v[i] = query.v[i] == 0 ? Real(0)
+                           : times_power_of_two(Real(ulp(query.v[i], precision)), -exact.velocity_exponent);
   }
 }
 
@@ -43,12 +41,12 @@ Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, co
       rho2_(view_.radius2 * view_.velocity.v2) {
   if (const auto& frame = exact_scene.lattices[lattice].atoms[atom].frame) {
     to_ball_transposed_ = transposed(frame->to_ball);
-    radius_ulp_ = times_power_of_two(real(view_.radius), -52);
+    radius_ulp_ = times_power_of_two(real(view_.radius), 1 - bits_of(ulps.precision));
   } else {
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) to_ball_transposed_[i][k] = i == k ? 1 : 0;
     const double radius = scene.lattices[lattice].atoms[atom].radius;
-    radius_ulp_ = times_power_of_two(Real(ulp(radius)), -exact.length_exponent);
+    radius_ulp_ = times_power_of_two(Real(ulp(radius, ulps.precision)), -exact.length_exponent);
   }
 }
 

@@ -2,7 +2,8 @@
 //
 // The inputs: the components of x, each by max(ulp(x_i), ulp(size)), the size that of the primitive vectors,
 // and of what lattices that repeat in fewer directions hold; those of v, each by
-// ulp(v_i), a zero not at all; the radius of each atom by an ulp, an ellipsoid by a factor 1 +- 2^-52.
+// ulp(v_i), a zero not at all; the radius of each atom by an ulp, an ellipsoid by a factor 1 +- 2^(1-p), where
+// the engine's numbers have p bits.
 // Everything is in the coordinates of one atom's View, in which its obstacles are balls: a change dx of x is
 // B dx there, B = to_ball. With T = s / v^2 the time at which the line is nearest to the centre c, and t the
 // time of entry:
@@ -15,6 +16,7 @@
 // and the largest change is the sum of the absolute values, each times its input's ulp.
 #pragma once
 
+#include <lorentz/claim.hpp>
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/real.hpp"
 #include "oracle/exact/stretches.hpp"
@@ -57,7 +59,9 @@ template <std::size_t D>
 struct InputUlps {
   std::array<Real, D> x, v;
 
-  InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact);
+  NumberFormat precision;
+
+  InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact, NumberFormat of_numbers);
 };
 
 /// A time of entry with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
@@ -122,8 +126,5 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
 /// The largest change of a time of entry.
 template <std::size_t D>
 Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const PerturbedArrival<D>& arrival);
-
-/// Distance to the next binary64 away from zero; of an infinity that of the largest finite one.
-double ulp(double value);
 
 }  // namespace lorentz::oracle

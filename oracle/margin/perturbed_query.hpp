@@ -12,8 +12,11 @@ namespace lorentz::oracle {
 template <std::size_t D>
 class PerturbedQuery {
  public:
-  PerturbedQuery(const Scene& scene, const ExactScene<D>& exact_scene, const Query& query)
-      : exact_scene_(exact_scene), exact_(exact_scene, query, kFiner), ulps_(scene, query, exact_) {
+  PerturbedQuery(const Scene& scene, const ExactScene<D>& exact_scene, const Query& query,
+                 NumberFormat precision)
+      : exact_scene_(exact_scene),
+        exact_(exact_scene, query, kFiner),
+        ulps_(scene, query, exact_, precision) {
     for_each_atom(exact_scene,
                   [&](int l, int a) { atoms_.emplace_back(scene, exact_scene, exact_, ulps_, l, a); });
   }
@@ -80,18 +83,20 @@ Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id)
 /// A scene whose queries are looked at closely.
 class PerturbedScene {
  public:
-  explicit PerturbedScene(const Scene& scene)
+  PerturbedScene(const Scene& scene, NumberFormat precision)
       : scene_(scene),
+        precision_(precision),
         exact_scene_(scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))) {}
 
   const Scene& scene() const { return scene_; }
+  NumberFormat precision() const { return precision_; }
 
   /// What `work` makes of the query's PerturbedQuery<2> or PerturbedQuery<3>.
   template <class Work>
   auto with(const Query& query, const Work& work) const {
     return std::visit(
         [&]<std::size_t D>(const ExactScene<D>& exact) {
-          return work(PerturbedQuery<D>(scene_, exact, query));
+          return work(PerturbedQuery<D>(scene_, exact, query, precision_));
         },
         exact_scene_);
   }
@@ -99,6 +104,7 @@ class PerturbedScene {
  private:
   using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
   Scene scene_;
+  NumberFormat precision_;
   Exact exact_scene_;
 };
 

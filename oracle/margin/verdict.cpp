@@ -28,8 +28,13 @@ struct Departure {
 template <std::size_t D>
 class DepartureBound {
  public:
-  DepartureBound(const PerturbedQuery<D>& perturbed, const Answer& exact, double ulps)
-      : query_(perturbed), exact_(exact), ulps_(ulps) {}
+  DepartureBound(const PerturbedQuery<D>& perturbed, const Answer& exact, double ulps,
+                 std::optional<double> time_tolerance)
+      : query_(perturbed), exact_(exact), ulps_(ulps), time_tolerance_(time_tolerance) {
+    if (time_tolerance_ && std::isinf(*time_tolerance_)) time_tolerance_.reset();  // times are not judged
+  }
+
+  bool is_excused_by_time() const { return excused_by_time_; }  ///< an obstacle that was passed over
 
   Departure of(const Answer& given) {
     switch (given.outcome) {
@@ -174,6 +179,10 @@ class DepartureBound {
     if (compare_entries(centre.s, atom.rho2() - centre.h2, atom.view().velocity.v2, hit.s, grazing,
                         target.view().velocity.v2) > 0)
       return;
+    if (is_excused_by_time(target.time_of(hit), atom, centre)) {
+      excused_by_time_ = true;
+      return;
+    }
     Real spare = atom.margin_of_meeting(centre);
     if (to_double(spare, kHuge) <= needed_.ulps) return;
     if (chord2 > 0)
@@ -184,9 +193,19 @@ class DepartureBound {
     needs(spare, atom, centre);
   }
 
+  // Is it entered at most T times its time before that, and not yet left then?
+  bool is_excused_by_time(const Real& time, const Uncertain<D>& atom, const Centre<D>& centre) const {
+    if (!time_tolerance_) return false;
+    const Real entry = atom.time_of(centre), chord = sqrt(real(Z(atom.rho2() - centre.h2)));
+    return time - entry <= Real(*time_tolerance_) * entry &&
+           time * real(atom.view().velocity.v2) <= real(centre.s) + chord;
+  }
+
   const PerturbedQuery<D>& query_;
   const Answer& exact_;
   const double ulps_;
+  std::optional<double> time_tolerance_;
+  bool excused_by_time_ = false;
   Departure needed_;
   std::size_t passed_over_ = 0;
 };
@@ -195,41 +214,60 @@ class DepartureBound {
 
 struct Judge::Impl {
   PerturbedScene scene;
+  std::optional<double> time_tolerance;
 
   // The right obstacle. Is the time off by more than k times what an ulp in each input can make of it, and by
-  // more than k of its own ulps?
+  // more than k of its own ulps? Or, if there is a tolerance of times, by more than that?
   Judgement judge_time(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
-    if (!exact.time || !given.time || *given.time == *exact.time) {
-      if (exact.time && given.time && std::isfinite(*exact.time)) judgement.ulps = 0;
+    if (!exact.time || !given.time || *given.time == *exact.time ||
+        *given.time == rounded(*exact.time, scene.precision())) {
+      if (exact.time && given.time && std::isfinite(*given.time)) judgement.ulps = off(exact, given);
       return judgement;
     }
-    const double off = std::fabs(*given.time - *exact.time);
-    if (std::isfinite(off)) {
-      judgement.ulps = off / ulp(*exact.time);
-      if (*judgement.ulps <= ulps) return judgement;
-    }
+    if (time_tolerance && std::isinf(*time_tolerance)) return judgement;
+    if (const double its = off(exact, given); std::isfinite(its)) judgement.ulps = its;
+    const bool is_tolerated = time_tolerance ? is_within(*time_tolerance, *exact.time, *given.time)
+                                             : judgement.ulps && *judgement.ulps <= ulps;
+    if (is_tolerated) return judgement;
     judgement.departs = in_conditions(query, exact, *given.time);
-    judgement.wrong_time = ulps == 0 || judgement.departs > ulps;
+    judgement.wrong_time = time_tolerance || ulps == 0 || judgement.departs > ulps;
+    judgement.other_quantity =
+        judgement.wrong_time && judgement.departs > other_quantity_from(scene.precision());
     return judgement;
   }
 
+  // In ulps.
+  double off(const Answer& exact, const Answer& given) const {
+    return std::fabs(*given.time - *exact.time) / ulp(*exact.time, scene.precision());
+  }
+
+  static bool is_within(double tolerance, double exact, double given) {
+    if (!std::isfinite(exact) || !std::isfinite(given)) return false;
+    return abs(Real(given) - Real(exact)) <= Real(tolerance) * abs(Real(exact));
+  }
+
   // How far it is off, in what an ulp in each input makes of the time (at least an ulp of it). The exact time may
-  // lie beyond binary64; one that is said to be infinite is the first power of two there.
+  // lie beyond the precision's range; one that is said to be infinite is the first power of two there.
   double in_conditions(const Query& query, const Answer& exact, double given) const {
     if (std::isnan(given)) return kInfinity;
     const Real told =
-        std::isinf(given) ? times_power_of_two(Real(std::copysign(1, given)), 1024) : Real(given);
+        std::isinf(given) ? times_power_of_two(Real(std::copysign(1, given)), first_beyond()) : Real(given);
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       const Real time =
           std::isfinite(*exact.time) ? Real(*exact.time) : time_in_own_units(perturbed, exact.obstacle);
-      const Real change = std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time)));
+      const Real change =
+          std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time, scene.precision())));
       return to_double(abs(time - told) / change, kHuge);
     });
   }
+
+  long first_beyond() const { return scene.precision() == NumberFormat::binary64 ? 1024 : 128; }
 };
 
-Judge::Judge(const Scene& scene) : impl_(std::make_unique<const Impl>(Impl{PerturbedScene(scene)})) {}
+Judge::Judge(const Scene& scene, const Claim& claim)
+    : impl_(
+          std::make_unique<const Impl>(Impl{PerturbedScene(scene, claim.precision), claim.time_tolerance})) {}
 Judge::Judge(Judge&&) noexcept = default;
 Judge& Judge::operator=(Judge&&) noexcept = default;
 Judge::~Judge() = default;
@@ -251,12 +289,17 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
     return given.outcome == Outcome::hit ? impl_->judge_time(query, exact, given, ulps)
                                          : Judgement{Verdict::agree};
   Departure needed{kInfinity};
+  bool excused_by_time = false;
   if (!names_obstacle || !flaw_of(Query{query.x, query.v, given.obstacle}, impl_->scene.scene()))
     needed = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      return DepartureBound<D>(perturbed, exact, ulps).of(given);
+      DepartureBound<D> bound(perturbed, exact, ulps, impl_->time_tolerance);
+      const Departure departure = bound.of(given);
+      excused_by_time = bound.is_excused_by_time();
+      return departure;
     });
-  const bool forgiven = ulps > 0 && needed.ulps <= ulps;  // not a tie either, where nothing is forgiven
-  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, needed.obstacle};
+  // Not a tie either, where nothing is forgiven.
+  const bool forgiven = (ulps > 0 || excused_by_time) && needed.ulps <= ulps;
+  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, false, needed.obstacle};
 }
 
 }  // namespace lorentz::oracle

@@ -11,7 +11,7 @@ from . import _lorentz
 from ._answer import Answer
 from ._first_hit import Outcome
 from ._lorentz import Answers, Error
-from ._numbers import Obstacle, finite, integer, whole
+from ._numbers import Obstacle, claim, finite, integer, whole
 from ._scene import Scene, wrapped
 
 #: ``engine(scene, x, v, start_from)``, the last by its name where that is not the fourth parameter, as in
@@ -21,7 +21,7 @@ FirstHitFunction = Callable[..., Any]
 
 def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
           quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115, threads: int = 1, ulps: float = 4,
-          times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
+          precision: str = "binary64", time_tolerance: float | None = None, times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
 
     Args:
@@ -41,6 +41,10 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         seed: of all that is drawn.
         threads: of the campaign, if not `questions`; a function of Python runs one at a time all the same.
         ulps: the tolerance of the verdicts; 0 forgives nothing.
+        precision: of the engine's numbers, "binary64" or "binary32": it is asked what consists of such numbers, and an
+            ulp is one of them.
+        time_tolerance: T: a time is right if it is off by at most T times itself, not by ulps; infinite: times are not
+            judged.
         times: wrong times count in the verdict.
         html: a file to write the report to as a page, whole or not at all.
 
@@ -65,7 +69,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     report, text = _lorentz.judge(
         function, called, command, quick, seconds,
         None if questions is None else whole(questions, "questions", 1, 10**9), whole(seed, "seed", 0, 2**64 - 1),
-        whole(threads, "threads", 1, 1024), finite(ulps, "ulps"), times, page)
+        whole(threads, "threads", 1, 1024), finite(ulps, "ulps"), times, page,
+        *claim(precision, time_tolerance))
     result: dict[str, Any] = json.loads(report)
     if function is not None and function.failed:
         text += (f"\n{function.failed} calls with many queries failed and were repeated one by one: "

@@ -119,6 +119,19 @@ def finite(value: Any, name: str) -> float:
     return float(number)
 
 
+def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
+    """What an engine claims: "binary64" or "binary32", and a tolerance of times, 0 or above, perhaps infinite. Raises
+    Error."""
+    if precision not in ("binary64", "binary32"):
+        raise Error(f"precision: {precision!r} is neither 'binary64' nor 'binary32'")
+    if time_tolerance is None or time_tolerance == math.inf:
+        return precision, time_tolerance
+    tolerance = finite(time_tolerance, "time_tolerance")
+    if tolerance < 0:
+        raise Error(f"time_tolerance: {tolerance} is below 0")
+    return precision, tolerance
+
+
 def time_limit(value: Any, name: str) -> Any:
     """A limit of time: above 0, perhaps infinite; or None. Raises Error."""
     try:

@@ -16,7 +16,7 @@ from typing import Any, Sequence
 from . import _lorentz
 from ._answer import Answer, ExactTime
 from ._lorentz import Certificate, Error
-from ._numbers import (Number, Obstacle, Vector, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
+from ._numbers import (Number, Obstacle, Vector, claim, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
                        text, time_limit, vector, whole)
 from ._scene import Scene, SceneLike
 
@@ -150,12 +150,17 @@ class Verdict:
 
 
 def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, start_from: Obstacle | None = None,
-                 ulps: float = 4) -> Verdict:
-    """Is this answer right? An answer that inputs moved by up to `ulps` ulps would make right is "ill-posed"."""
+                 ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None) -> Verdict:
+    """Is this answer right? An answer that inputs moved by up to `ulps` ulps would make right is "ill-posed".
+
+    Ulps are those of `precision`, "binary64" or "binary32". With `time_tolerance` T a time is right if it is off by at
+    most T times itself; infinite: times are not judged.
+    """
     tolerance = finite(ulps, "ulps")
     if not 0 <= tolerance < 1e300:
         raise Error("ulps: needs a number, 0 or above")
-    return Verdict(**_oracle(scene).judge(_text(x, v, start_from), _checked(answer).to_line(), tolerance))
+    return Verdict(**_oracle(scene).judge(_text(x, v, start_from), _checked(answer).to_line(), tolerance,
+                                          *claim(precision, time_tolerance)))
 
 
 def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Certificate:

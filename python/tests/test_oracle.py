@@ -97,6 +97,14 @@ def test_verdicts():
     verdict = lorentz.judge_answer(scene, x, v, a_few_ulps)
     assert (verdict.verdict, verdict.ulps, verdict.wrong_time) == ("agree", 3, False)
     assert lorentz.judge_answer(scene, x, v, a_few_ulps, ulps=0).wrong_time
+    single = replace(exact, time=float(np.float32(exact.time)))
+    assert lorentz.judge_answer(scene, x, v, single).wrong_time
+    assert not lorentz.judge_answer(scene, x, v, single, precision="binary32").wrong_time
+    assert not lorentz.judge_answer(scene, x, v, single, time_tolerance=1e-6).wrong_time
+    assert not lorentz.judge_answer(scene, x, v, replace(exact, time=17), time_tolerance=math.inf).wrong_time
+    for claim in ({"precision": "float"}, {"time_tolerance": -1}, {"time_tolerance": math.nan}):
+        with pytest.raises(lorentz.Error):
+            lorentz.judge_answer(scene, x, v, exact, **claim)
     another = lorentz.judge_answer(scene, x, v, lorentz.hit(exact.time + 5, (exact.cell[0] + 5, 1)))
     assert another.verdict == "wrong" and another.departs > 4 and another.cause is not None
     assert lorentz.judge_answer(scene, x, v, lorentz.never()).cause == "never-for-hit"

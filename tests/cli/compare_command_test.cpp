@@ -183,6 +183,46 @@ TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_co
             .status == 0);
 }
 
+TEST_CASE("compare and golden check judge by what an engine claims", "[cli][compare_command]") {
+  const Folder folder;
+  // The time is right in binary32, and has an error of 2^25 ulps of binary64; the third query has other numbers.
+  const auto queries = folder.write("q", kScene + R"({"id":1,"x":[0.5,0.125],"v":[1,0]})"
+                                                  "\n"
+                                                  R"({"id":2,"x":[0.5,0.1],"v":[1,0]})"
+                                                  "\n");
+  const auto answers =
+      folder.write("a", R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.28349366})"
+                        "\n"
+                        R"({"id":2,"outcome":"hit","lattice":0,"atom":0,"cell":[7,0],"time":1})"
+                        "\n");
+  const auto said = [&](const std::string& claim) {
+    return folder.lorentz("compare --queries " + queries + " --answers mine=" + answers + claim);
+  };
+  CHECK(contains(said(" --json").out, R"("precision":"binary64","time_tolerance":null,"not_asked":0,)"));
+  const Run single = said(" --precision binary32 --json");
+  CHECK(single.err.empty());
+  CHECK(single.status == 0);
+  CHECK(contains(
+      single.out,
+      R"("precision":"binary32","time_tolerance":null,"not_asked":1,"engines":[{"engine":"mine","queries":1,"agree":1,)"));
+  CHECK(contains(single.out, R"("wrong_time":0,)"));
+  CHECK(contains(said(" --precision binary32").out, "1 given queries, in binary32\n1 more were not asked"));
+  CHECK(contains(said(" --time-tolerance 1e-6 --json").out, R"("time_tolerance":1e-06,)"));
+  CHECK(contains(said(" --time-tolerance 1e-6 --json").out, R"("wrong_time":0,)"));
+  CHECK(contains(said(" --time-tolerance 1e-9 --json").out, R"("wrong_time":1,)"));
+  CHECK(contains(said(" --time-tolerance inf --json").out, R"("time_tolerance":"inf",)"));
+  CHECK(contains(said(" --time-tolerance inf").out, ", times not judged\n"));
+  for (const char* bad : {" --precision float", " --time-tolerance -1", " --time-tolerance few"})
+    CHECK(said(bad).status == 2);
+
+  const Run check = folder.lorentz("golden check -e oracle --precision binary32 --json ball-3d");
+  CHECK(contains(check.out, R"("sets":[{"set":"ball-3d","records":17,"agree":17,)"));
+  CHECK(contains(check.out, R"("not_asked":623,)"));
+  CHECK(contains(check.out, R"("precision":"binary32","time_tolerance":null,"not_asked":0})"));
+  CHECK(contains(folder.lorentz("golden check -e oracle --precision binary32 ball-3d").out,
+                 "623 records were not asked: their numbers are of another precision"));
+}
+
 TEST_CASE("compare: single obstacles have cells without coordinates, which columns leave empty or zero",
           "[cli][compare_command]") {
   const Folder folder;
@@ -254,7 +294,7 @@ TEST_CASE("compare --judge certified: the same verdicts, and none of what rests 
   const auto judge_of = [&](const std::string& more) {
     const std::string json =
         folder.lorentz("compare --count 3 --engine published --json --seed 5" + more).out;
-    const auto from = json.find("\"judge\":"), to = json.find(",\"engines\"");
+    const auto from = json.find("\"judge\":"), to = json.find(",\"precision\"");
     return json.substr(from, to - from);
   };
   CHECK(judge_of("") == R"("judge":"oracle")");

@@ -1,6 +1,8 @@
 // Starts in no obstacle: exactly, of every kind, and as hard as they are said to be. Seeds are fixed.
 #include <catch2/catch.hpp>
 
+#include <map>
+
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
@@ -42,6 +44,37 @@ TEST_CASE("Sampled starts lie in no obstacle, among overlapping ones, too", "[fl
         REQUIRE(oracle.first_hit(start).outcome != Outcome::inside);
       }
     }
+  }
+}
+
+TEST_CASE("Starts in binary32 are free, and as hard in its ulps as others in theirs",
+          "[flights][starts][claim]") {
+  std::map<std::pair<Kind, NumberFormat>, int> hard;
+  for (const char* name : {"square", "cubic", "triangular", "ellipsoid", "two-balls", "layer"})
+    for (const NumberFormat format : {NumberFormat::binary64, NumberFormat::binary32}) {
+      const Scene scene = rounded(all_scenes().at(name), format);
+      const oracle::Oracle oracle(scene);
+      const oracle::Margins margins(scene, format);
+      for (const Kind kind : kKinds) {
+        CAPTURE(name, kind_names()[static_cast<std::size_t>(kind)]);
+        const FreeStarts starts(scene, kind, kSeed, format);
+        for (std::uint64_t i = 0; i < 60; ++i) {
+          const Query start = starts[i];
+          REQUIRE_FALSE(flaw_of(start, scene));
+          REQUIRE(consists_of(start, format));
+          const Answer exact = oracle.first_hit(start);
+          REQUIRE(exact.outcome != Outcome::inside);
+          const auto decision = margins.hardest_decision(start, exact);
+          hard[{kind, format}] += decision && decision->margin < 16;
+        }
+      }
+    }
+  for (const Kind kind : {Kind::near_rational, Kind::grazing}) {
+    const int in_double = hard[{kind, NumberFormat::binary64}],
+              in_single = hard[{kind, NumberFormat::binary32}];
+    CAPTURE(kind_names()[static_cast<std::size_t>(kind)], in_double, in_single);
+    CHECK(in_double > 20);
+    CHECK(in_single > in_double * 3 / 4);
   }
 }
 

@@ -200,6 +200,7 @@ const std::map<std::string, std::string> kPublic{
     {"obstacle", "src/problem"},
     {"query", "src/problem"},
     {"answer", "src/problem"},
+    {"claim", "src/problem"},
     {"errors", "src/problem"},
     {"rational", "src/problem"},
     {"geometry", "src/problem"},

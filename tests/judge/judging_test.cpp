@@ -13,6 +13,7 @@
 #include "cases/families/target.hpp"
 #include "files/scene_file.hpp"
 #include "fuzz/examine/shrink.hpp"
+#include "golden/find_sets.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
@@ -156,6 +157,30 @@ TEST_CASE("Where scenes are counted, families take turns in one order, whatever 
   const auto second = std::find(turns.begin() + 1, turns.end(), turns[0]);
   REQUIRE(turns.end() - second >= 10);
   CHECK(std::equal(second, turns.end(), turns.begin()));
+}
+
+TEST_CASE("An engine in binary32 is asked what consists of such numbers", "[judge][claim]") {
+  const Claim claim{NumberFormat::binary32, {}};
+  const NamedPlace place{"triangular", place_for(all_scenes().at("triangular"), claim)};
+  const std::vector<NamedPlace> places{place};
+  const auto asked = [&](const Source& source, std::size_t most) {
+    std::size_t count = 0;
+    for (std::optional<Question> one; count < most && (one = source()); ++count) {
+      INFO(one->where);
+      CHECK(consists_of(one->place->scene(), claim.precision));
+      CHECK(consists_of(one->query, claim.precision));
+      CHECK(one->place->claim() == claim);
+      if (!one->is_query()) continue;
+      const Answer exact = one->place->exact(one->query);
+      CHECK((exact.outcome == one->exact.outcome && exact.obstacle == one->exact.obstacle));
+    }
+    return count;
+  };
+  for (const starts::Kind kind : {starts::Kind::uniform, starts::Kind::near_rational, starts::Kind::grazing})
+    CHECK(asked(drawn(places, kind, kSeed, 50), 50) == 50);
+  for (const std::string& file : golden::committed_sets())
+    if (file.ends_with("ball-3d.ndjson")) CHECK(asked(golden_set(file, claim), 1000) == 17);
+  CHECK(asked(campaign(kSeed, {}, Fairness::of_scenes, 0, 1, claim), 500) == 500);
 }
 
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",

@@ -434,7 +434,7 @@ TEST_CASE("Errors of the time are counted in ulps, and judged by the condition",
   logged.time.reset();
   CHECK_FALSE(judged(kScene, level(0.125), logged).ulps.has_value());
   CHECK(judged(kScene, level(0.125), logged).verdict == Verdict::agree);
-  CHECK(judgement(INFINITY).is_other_quantity());
+  CHECK(judgement(INFINITY).other_quantity);
   CHECK_FALSE(judged(kScene, level(0.125), Answer::hit(at(2, 0), 1)).ulps.has_value());
 }
 
@@ -449,12 +449,12 @@ TEST_CASE("A time that is off by a good part of itself is another quantity", "[o
   for (const double sign : {1.0, -1.0})
     for (const double ulps : {0.0, 4.0}) {
       const auto off = judgement(sign * 0.99 * most, ulps), other = judgement(sign * 1.01 * most, ulps);
-      CHECK((off.verdict == Verdict::agree && off.wrong_time && !off.is_other_quantity()));
-      CHECK((other.verdict == Verdict::agree && other.wrong_time && other.is_other_quantity()));
+      CHECK((off.verdict == Verdict::agree && off.wrong_time && !off.other_quantity));
+      CHECK((other.verdict == Verdict::agree && other.wrong_time && other.other_quantity));
     }
   for (const double time : {-1.0, HUGE_VAL}) {
     const auto other = judged(kScene, level(0.125), Answer::hit(at(1, 0), time));
-    CHECK((other.verdict == Verdict::agree && other.is_other_quantity()));
+    CHECK((other.verdict == Verdict::agree && other.other_quantity));
   }
   // Where nothing is forgiven, a time is wrong however little it is off: here by 2^-1074 where an ulp of x is 512.
   Scene huge = unit_scene(2, 0x5p60);
@@ -470,8 +470,8 @@ TEST_CASE("A time that is off by a good part of itself is another quantity", "[o
   const Query at_once{{0.75, 0}, {1, 0}, {}};
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-53)).wrong_time == false);
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).wrong_time);
-  CHECK_FALSE(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).is_other_quantity());
-  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-20)).is_other_quantity());
+  CHECK_FALSE(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-30)).other_quantity);
+  CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-20)).other_quantity);
 }
 
 TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and still a rounding",
@@ -483,8 +483,8 @@ TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and s
   const auto judgement = [&](double time) { return judged(scene, query, Answer::hit(at(0, 0), time), 0); };
   CHECK((judgement(0).verdict == Verdict::agree && judgement(0).wrong_time));
   CHECK((judgement(5 * 0x1p-1074).verdict == Verdict::agree && judgement(5 * 0x1p-1074).wrong_time));
-  CHECK_FALSE(judgement(6 * 0x1p-1074).is_other_quantity());
-  CHECK(judgement(0x1p-1000).is_other_quantity());
+  CHECK_FALSE(judgement(6 * 0x1p-1074).other_quantity);
+  CHECK(judgement(0x1p-1000).other_quantity);
 }
 
 TEST_CASE("Verdicts, and by how many radii a line misses, are the same in other units and axes",

@@ -79,7 +79,7 @@ struct Obstacle {
 };
 
 /// What is claimed: `hit` at a time, `inside`, or `never`.
-struct Claim {
+struct Conclusion {
   Outcome outcome;
   Obstacle obstacle{};
   std::optional<Obstacle> from{};
@@ -332,7 +332,7 @@ class Check {
       refute("only hit, inside and never have proofs");
     if (!never && !certificate.rows.empty()) refute("rows prove `never` only");
     const Flight flight = flight_of(query);
-    const Claim claim = claim_of(query, answer, flight);
+    const Conclusion claim = claim_of(query, answer, flight);
     std::vector<std::vector<Coverage>> coverage;
     for (const auto& views : flight) coverage.emplace_back(views.size());
     Budget budget(most_steps_, certificate.windows.size() + certificate.rows.size());
@@ -361,7 +361,7 @@ class Check {
     return l < bodies_.size() && a < bodies_[l].size();
   }
   Obstacle read_obstacle(const ObstacleId& id) const;
-  Claim claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
+  Conclusion claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
 
   template <class Piece, class Look>
   void check_pieces(const char* kind, const Flight& flight, const std::vector<Piece>& pieces,
@@ -376,10 +376,10 @@ class Check {
       }
   }
 
-  static void check_window(const Claim& claim, const CertificateView& view, const Window& window,
+  static void check_window(const Conclusion& claim, const CertificateView& view, const Window& window,
                            Coverage& coverage, Budget& budget);
   static void check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget);
-  static bool covered(const Claim& claim, const CertificateView& view, const Coverage& coverage);
+  static bool covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage);
 
   long most_steps_, exponent_ = 0;
   int dimension_;
@@ -423,8 +423,8 @@ Obstacle Check::read_obstacle(const ObstacleId& id) const {
 }
 
 /// The claim about the answer's obstacle itself: it is no `from`, and is entered at this time, or contains x.
-Claim Check::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
-  Claim claim{answer.outcome};
+Conclusion Check::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
+  Conclusion claim{answer.outcome};
   if (query.from) claim.from = read_obstacle(*query.from);
   if (answer.outcome == Outcome::never) return claim;
   const auto& [lattice, atom, cell] = answer.obstacle;
@@ -449,7 +449,7 @@ Claim Check::claim_of(const Query& query, const Answer& answer, const Flight& fl
   return claim;
 }
 
-void Check::check_window(const Claim& claim, const CertificateView& view, const Window& window,
+void Check::check_window(const Conclusion& claim, const CertificateView& view, const Window& window,
                          Coverage& coverage, Budget& budget) {
   const End from(window.from);
   std::optional<End> to;
@@ -477,7 +477,7 @@ void Check::check_rows(const CertificateView& view, const Rows& rows, Coverage& 
 }
 
 /// All that could contradict the claim has been looked at.
-bool Check::covered(const Claim& claim, const CertificateView& view, const Coverage& coverage) {
+bool Check::covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage) {
   if (claim.outcome == Outcome::never) return coverage.endless();
   return coverage.reaches(view, claim.time) ||
          (claim.outcome == Outcome::inside &&

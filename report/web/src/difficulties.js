@@ -27,6 +27,7 @@ function leftOut(rows) {
   const items = [
     ...named("unsupported", "Unsupported"),
     ...named("no time", "Not asked, no time"),
+    ...named("other numbers", "Not asked, numbers of another precision"),
     ...named("given up", "Given up in scenes of"),
   ];
   return items.length ? h("ul", { class: "left-out" }, items) : null;
@@ -35,7 +36,7 @@ function leftOut(rows) {
 export function difficultiesSection(report) {
   const all = report.difficulties ?? [];
   if (!all.length) return null;
-  const rows = all.filter((r) => !["unsupported", "no time"].includes(r.state));
+  const rows = all.filter((r) => !["unsupported", "no time", "other numbers"].includes(r.state));
   const always = new Set(["queries", "agree", "wrong"]);
   const columns = [
     {

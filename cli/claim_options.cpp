@@ -1,0 +1,31 @@
+#include "cli/claim_options.hpp"
+
+#include <limits>
+
+#include "cli/numbers.hpp"
+#include "src/exchange/nearest_name.hpp"
+
+namespace lorentz::cli {
+
+Claim ClaimOptions::claim() const {
+  Claim claim;
+  if (index_of_name(precision, {"binary64", "binary32"}, "--precision") == 1)
+    claim.precision = NumberFormat::binary32;
+  if (!time_tolerance) return claim;
+  constexpr double kNotJudged = std::numeric_limits<double>::infinity();
+  claim.time_tolerance =
+      *time_tolerance == "inf" ? kNotJudged : number_from_zero(*time_tolerance, "--time-tolerance");
+  return claim;
+}
+
+Option ClaimOptions::precision_row() {
+  return {"--precision", &precision, "binary64|binary32",
+          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them"};
+}
+
+Option ClaimOptions::time_tolerance_row() {
+  return {"--time-tolerance", &time_tolerance, "T",
+          "a time is right if it is off by at most T times itself, not by ulps; inf: times are not judged"};
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,19 @@
+// By which claim an engine was judged, in words, as arguments and as JSON.
+#pragma once
+
+#include <string>
+
+#include <lorentz/claim.hpp>
+#include "src/exchange/json_writer.hpp"
+
+namespace lorentz::report {
+
+/// ", in binary32, times within 1e-4"; empty of binary64 and times judged by ulps.
+std::string words_of(const Claim& claim);
+
+/// As arguments, each with a space before it; empty of no claim.
+std::string arguments_of(const Claim& claim);
+
+void add_claim(json::Members& object, const Claim& claim);
+
+}  // namespace lorentz::report
