@@ -78,6 +78,19 @@ TEST_CASE("Starts in binary32 are free, and as hard in its ulps as others in the
   }
 }
 
+TEST_CASE("A start that rounding puts into an obstacle is drawn again", "[flights][starts][claim]") {
+  // The unit lattice in a basis in which starts lie so far out that binary32 has every other integer there.
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors = {Vec{1, 0, 0}, Vec{0x1p25, 1, 0}};
+  const oracle::Oracle oracle(scene);
+  const FreeStarts starts(scene, Kind::uniform, kSeed, NumberFormat::binary32);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const Query start = starts[i];
+    CHECK(consists_of(start, NumberFormat::binary32));
+    CHECK(oracle.first_hit(start).outcome != Outcome::inside);
+  }
+}
+
 TEST_CASE("Grazing starts are found where most of space is empty", "[flights][starts]") {
   for (const char* name : {"ball", "two-balls", "row", "layer"}) {
     Scene scene = all_scenes().at(name);
