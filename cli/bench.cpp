@@ -5,6 +5,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -14,6 +15,7 @@
 #include "question/cells/cell_store.hpp"
 #include "question/engines.hpp"
 #include "report/bench_report.hpp"
+#include "report/claim_words.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -34,6 +36,7 @@ struct BenchOptions {
   std::uint64_t count = 2000, seed = starts::kDefaultSeed;
   std::optional<double> timeout;
   std::optional<std::string> csv, html, store;
+  ClaimOptions claim;
   bool json = false;
 };
 
@@ -58,10 +61,12 @@ std::vector<BenchGroup> groups_of(const BenchOptions& options) {
 }
 
 // What figures depend on besides what was asked.
-runs::Plan words_of(const report::Manifest& manifest) {
-  return {
+runs::Plan words_of(const report::Manifest& manifest, const Claim& claim) {
+  runs::Plan words{
       {"commit", manifest.commit},   {"compiler", manifest.compiler},         {"flags", manifest.flags},
       {"machine", manifest.machine}, {"instructions", manifest.instructions}, {"system", manifest.system}};
+  if (!(claim == Claim())) words.push_back({"claim", report::arguments_of(claim)});
+  return words;
 }
 
 BenchPlan plan_of(const BenchOptions& options) {
@@ -70,6 +75,7 @@ BenchPlan plan_of(const BenchOptions& options) {
   plan.seed = options.seed;
   plan.count = options.count;
   plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  plan.claim = options.claim.claim();
   plan.listener = terminal();
   return plan;
 }
@@ -81,7 +87,7 @@ int act(const BenchOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // says why
   RequestedFile csv(options.csv), html(options.html);
   if (options.store) goes_on_when_repeated();
-  BenchStore store(options.store, plan, groups, words_of(manifest), json::text_of(manifest));
+  BenchStore store(options.store, plan, groups, words_of(manifest, plan.claim), json::text_of(manifest));
   std::vector<report::Cell> cells;
   bool failed = false;
   for (const BenchGroup& group : groups) {
@@ -94,10 +100,11 @@ int act(const BenchOptions& options) {
     }
     cells.insert(cells.end(), kept->begin(), kept->end());
   }
-  const std::string json = report::bench_json(cells, store.manifest());
-  print(options.json ? json
-                     : fmt::format("Speed against error, one thread (seed {}).\n\n{}", plan.seed,
-                                   report::bench_text(cells, names_of(plan.engines))));
+  const std::string json = report::bench_json(cells, store.manifest(), plan.claim);
+  print(options.json
+            ? json
+            : fmt::format("Speed against error, one thread (seed {}{}).\n\n{}", plan.seed,
+                          report::words_of(plan.claim), report::bench_text(cells, names_of(plan.engines))));
   csv.write([&] { return report::bench_csv(cells); });
   html.write([&] { return report::page(json); });
   return failed ? kFailed : kDone;
@@ -121,6 +128,8 @@ Command bench_command() {
               {"--count", Whole{&options->count, kFewestQueries, 10'000'000}, "N",
                "queries for each cell of the table"},
               {"--seed", Whole{&options->seed}, "N", "of the queries"},
+              options->claim.precision_row(),
+              options->claim.time_tolerance_row(),
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--store", &options->store, "FILE",
                "keep the cells that are done in this file, and go on from there when called again", kOutput},

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <lorentz/exchange.hpp>
+#include "report/claim_words.hpp"
 #include "report/table.hpp"
 #include "src/exchange/csv_table.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -182,7 +183,7 @@ std::string bench_csv(const std::vector<Cell>& cells) {
   return csv;
 }
 
-std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest) {
+std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest, const Claim& claim) {
   constexpr const char* kNewLine = "\n";
   const auto fits = bench_fits(cells);
   const auto fit = [](json::Members& one, const BenchFit& its) {
@@ -194,6 +195,7 @@ std::string bench_json(const std::vector<Cell>& cells, const std::string& manife
     page.add("format", 1, "kind", "bench", "title", "Speed against error", "manifest", json::Raw{manifest});
     page.add("cells", json::array(cells, json::append<Cell>, kNewLine), "fits",
              json::objects(fits, fit, kNewLine));
+    add_claim(page, claim);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/claim.hpp>
 #include "report/cell.hpp"
 #include "report/power_fit.hpp"
 
@@ -25,7 +26,7 @@ std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::st
 /// One line a cell that was measured, and a header.
 std::string bench_csv(const std::vector<Cell>& cells);
 
-/// One JSON object; `manifest` is one, too.
-std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest);
+/// One JSON object; `manifest` is one, too. All were judged by the claim.
+std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest, const Claim& claim = {});
 
 }  // namespace lorentz::report

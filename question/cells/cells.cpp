@@ -11,6 +11,7 @@
 #include "files/scene_file.hpp"
 #include "question/examine.hpp"
 #include "question/race.hpp"
+#include "report/claim_words.hpp"
 #include "report/query_text.hpp"
 #include "starts/free_starts.hpp"
 
@@ -29,11 +30,14 @@ constexpr std::size_t kPilot = 16;
 constexpr int kRounds = 5;
 
 std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
-  const auto place = std::make_shared<Place>(load_scene(group.scene, group.radius));
+  const NumberFormat format = plan.claim.precision;
+  const auto place = std::make_shared<Place>(rounded(load_scene(group.scene, group.radius), format),
+                                             Truth::oracle, plan.claim);
   const starts::Kind kind = group.difficulty == "drawn"
                                 ? starts::Kind::uniform
                                 : starts::kind_named(group.difficulty, "--difficulty");
-  return question::questions_of(place, starts::free_starts(place->scene(), kind, plan.seed, plan.count));
+  return question::questions_of(place,
+                                starts::free_starts(place->scene(), kind, plan.seed, plan.count, format));
 }
 
 // How many of the queries an engine does in the time of a round; by the first few, or the first two if these
@@ -104,14 +108,24 @@ class Errors {
                                         : "agree";
     worst.ulps = worst_.ulps;
     worst.query = report::hexadecimal_query(question_.query, question_.place->scene());
-    worst.command =
-        fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine {}", worst.query,
-                    shell_quoted(group.scene), group.radius ? " --radius " + text_of(*group.radius) : "",
-                    shell_quoted(engine));
+    worst.command = command_of(group, worst.query) + shell_quoted(engine);
     return worst;
   }
 
  private:
+  // Without the engine. A scene whose numbers were rounded is said in full.
+  std::string command_of(const BenchGroup& group, const std::string& query) const {
+    const Place& place = *question_.place;
+    if (place.claim() == Claim())
+      return fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine ", query,
+                         shell_quoted(group.scene),
+                         group.radius ? " --radius " + text_of(*group.radius) : "");
+    std::string scene;
+    append_scene_line(scene, place.scene());
+    return fmt::format("echo '{}{}' | lorentz compare --queries -{} --engine ", scene, query,
+                       report::arguments_of(place.claim()));
+  }
+
   std::vector<double> in_conditions_;
   int rank_ = 0;  // of the worst so far: 0 none, 1 right, 2 ill-posed, 3 wrong
   double size_ = -1;

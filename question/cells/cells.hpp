@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/claim.hpp>
 #include "question/engines.hpp"
 #include "report/cell.hpp"
 
@@ -22,6 +23,7 @@ struct BenchPlan {
   std::vector<EngineInfo> engines;
   std::uint64_t count = 0, seed = 0;
   double timeout = 0;  ///< of other programs
+  Claim claim = {};    ///< by which all are judged; scenes and queries are rounded to its precision
   Listener listener = {};
 };
 

@@ -6,6 +6,20 @@
 
 using namespace lorentz::test;
 
+TEST_CASE("bench --precision: rounded scenes and queries, and commands that say so", "[cli][bench_command]") {
+  const Folder folder;
+  const Run run = folder.lorentz(
+      "bench -e published --scene square --radius 0.1 --difficulty grazing --count 64 --precision binary32 "
+      "--json");
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, R"("precision":"binary32","time_tolerance":null})"));
+  CHECK(contains(run.out, R"(\"radius\":0.10000000149011612}]}]}}\u000a)"));
+  CHECK(contains(run.out, "lorentz compare --queries - --precision binary32 --engine published"));
+  CHECK(contains(
+      folder.lorentz("bench -e reduction --scene square --radius 0.1 --count 64 --time-tolerance inf").out,
+      ", times not judged)"));
+}
+
 TEST_CASE("bench measures, concludes, and writes its figures", "[cli][bench_command]") {
   const Folder folder;
   const Run run =
