@@ -13,8 +13,9 @@ Claim ClaimOptions::claim() const {
     claim.precision = NumberFormat::binary32;
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
-  claim.time_tolerance =
-      *time_tolerance == "inf" ? kNotJudged : number_from_zero(*time_tolerance, "--time-tolerance");
+  claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"
+                             ? kNotJudged
+                             : number_from_zero(*time_tolerance, "--time-tolerance");
   return claim;
 }
 

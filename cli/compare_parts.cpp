@@ -106,7 +106,7 @@ runs::Plan plan_of(const CompareOptions& options, const std::vector<std::string>
                   {"kept", fmt::format("{}{}{} wrong answers", options.disagreements ? "disagreements, " : "",
                                        options.times ? "times, " : "", options.json ? 0 : options.failures)}};
   if (const Claim claim = options.claim.claim(); !(claim == Claim()))
-    plan.push_back({"claim", name_of(claim.precision) + report::words_of(claim)});
+    plan.push_back({"claim", report::arguments_of(claim)});
   return plan;
 }
 

@@ -229,7 +229,9 @@ std::string json_of(const std::string& engine, const Claim& claim, const std::ve
   return json::line_of([&](json::Members& object) {
     object.add("engine", engine, "sets", json::objects(tallies, add_set));
     report::add_claim(object, claim);
-    object.add("not_asked", not_asked);
+    std::size_t records = 0;
+    for (const SetTally& set : tallies) records += set.not_asked();
+    object.add("records_not_asked", records, "not_asked", not_asked);
   });
 }
 

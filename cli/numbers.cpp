@@ -69,7 +69,7 @@ double number_from_zero(const std::string& text, const char* option) {
 Vec vector_in(const std::string& text, const char* option) {
   std::vector<double> numbers;
   std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) numbers.push_back(number(part, option));
+  for (std::string part; std::getline(parts >> std::ws, part, ',');) numbers.push_back(number(part, option));
   if (numbers.size() != 3 || text.ends_with(','))
     throw InputError(fmt::format("{}: {} is not three numbers, like 1,0,2", option, json_quoted(text)));
   return {numbers[0], numbers[1], numbers[2]};

@@ -99,6 +99,15 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius, 
   return scene;
 }
 
+Scene rounded_scene(const Scene& scene, NumberFormat format, const std::string& name_or_file) {
+  if (format == NumberFormat::binary64) return scene;
+  const Scene all = rounded(scene, format);
+  auto flaw = flaw_of(all);
+  if (!flaw) flaw = oracle::dependence_in(all);
+  if (flaw) throw InputError(name_or_file + ": rounded to " + name_of(format) + ": " + *flaw);
+  return all;
+}
+
 Scene load_crystal(const std::string& name_or_file, std::optional<double> radius, const std::string& what) {
   Scene scene = load_scene(name_or_file, radius);
   if (!is_crystal(scene))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/claim.hpp>
 #include <lorentz/rational.hpp>
 #include "files/unknown_keys.hpp"
 
@@ -38,7 +39,11 @@ Scene load_scene(const std::string& name_or_file, std::optional<double> radius,
 /// repeats in fewer directions.
 Scene load_crystal(const std::string& name_or_file, std::optional<double> radius, const std::string& what);
 
-/// The same of a scene whose numbers may be rational (texts like "1/3").
+/// Its numbers rounded to the format. Throws InputError if that leaves a flaw: a radius of 0, vectors that depend on
+/// each other.
+Scene rounded_scene(const Scene& scene, NumberFormat format, const std::string& name_or_file);
+
+/// A scene whose numbers may be rational (texts like "1/3").
 RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
                                   UnknownKeys unknown = UnknownKeys::warned);
 

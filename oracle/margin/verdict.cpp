@@ -68,10 +68,15 @@ class DepartureBound {
   // X is entered, or missed by no more than k; nothing contains x or is entered earlier with more than k to
   // spare.
   void bound_hit(const ObstacleId& id) {
-    bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
-    if (exceeds_tolerance()) return;
     const Uncertain<D>& atom = query_.atom_of(id);
     const Centre<D> centre = query_.centre_of(id);
+    bound_containing([&](const Uncertain<D>& other, const Centre<D>& its) {
+      const bool is_target = &other == &atom && its.point.n == centre.point.n;
+      if (!is_target && !is_after(atom, centre, other, its))
+        bound_entered_at_once(other, its, [&] { return spare_before(atom, centre, other, its); });
+      return true;
+    });
+    if (exceeds_tolerance()) return;
     if (query_.is_from(atom, centre.point.n)) needs(kInfinity, id);
     if (centre.h2 >= atom.rho2()) needs(atom.margin_of_meeting(centre), atom, centre);
     if (centre.c2 < atom.view().radius2) needs(atom.margin_of_containing(centre), atom, centre);
@@ -90,15 +95,18 @@ class DepartureBound {
     if (centre.c2 >= atom.view().radius2) needs(atom.margin_of_containing(centre), atom, centre);
     if (exceeds_tolerance()) return;
     const auto key = std::tuple(id.lattice, id.atom, centre.point.n);
-    bound_containing([&](const Uncertain<D>& other, const ZVec<D>& n) {
-      return std::tuple(other.lattice(), other.atom(), n) < key;
+    bound_containing([&](const Uncertain<D>& other, const Centre<D>& its) {
+      return std::tuple(other.lattice(), other.atom(), its.point.n) < key;
     });
   }
 
   // Nothing contains x with more than k to spare, and there is an open corridor that contains x, whose
   // direction is within k ulps of v.
   void bound_never() {
-    bound_containing([](const Uncertain<D>&, const ZVec<D>&) { return true; });
+    bound_containing([&](const Uncertain<D>& atom, const Centre<D>& centre) {
+      bound_entered_at_once(atom, centre, [] { return Real(kHuge); });
+      return true;
+    });
     if (exceeds_tolerance() || exact_.outcome == Outcome::never) return;
     if (is_open_everywhere(query_.scene())) return bound_all_entered();
     needs(open_near(query_, ulps_) ? ulps_to_open_way() : kInfinity, exact_.obstacle);
@@ -148,14 +156,38 @@ class DepartureBound {
       visit_ball<D>(view.basis, view.offset, view.radius2,
                     [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
                       visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-                        if (query_.is_from(atom, point.n) || !counts(atom, point.n)) return;
+                        if (query_.is_from(atom, point.n)) return;
                         const Centre<D> centre(view.velocity, point);
+                        if (!counts(atom, centre)) return;
                         needs(atom.margin_of_containing(centre), atom, centre);
                       });
                       return exceeds_tolerance();
                     });
       if (exceeds_tolerance()) return;
     }
+  }
+
+  // An obstacle that contains x: where x is outside after all, it is entered at once, unless it is missed or behind;
+  // or it takes `later` to be entered after another one.
+  template <class Later>
+  void bound_entered_at_once(const Uncertain<D>& atom, const Centre<D>& centre, const Later& later) {
+    if (centre.s <= 0) return;
+    const Real spare = std::min(atom.margin_of_meeting(centre), atom.margin_of_ahead(centre));
+    if (to_double(spare, kHuge) > needed_.ulps) needs(std::min(spare, later()), atom, centre);
+  }
+
+  // One that is met, and X, or where the line is nearest to it.
+  static bool is_after(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
+                       const Centre<D>& centre) {
+    const Z chord2 = target.rho2() - hit.h2, grazing = chord2 > 0 ? chord2 : Z(0);
+    return compare_entries(centre.s, atom.rho2() - centre.h2, atom.view().velocity.v2, hit.s, grazing,
+                           target.view().velocity.v2) > 0;
+  }
+  Real spare_before(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
+                    const Centre<D>& centre) const {
+    if (hit.h2 < target.rho2()) return margin_of_order(query_.ulps(), atom, centre, target, hit);
+    return (target.time_of(hit) - atom.time_of(centre)) /
+           largest_change(query_.ulps(), atom, atom.arrival(centre));
   }
 
   // Obstacles of one atom that are entered before X (which may be missed by a little: then where the line is
@@ -175,22 +207,14 @@ class DepartureBound {
     const bool is_target = &atom == &target && centre.point.n == hit.point.n;
     if (is_target || query_.is_from(atom, centre.point.n)) return;
     if (centre.s <= 0 || centre.h2 >= atom.rho2() || centre.c2 < atom.view().radius2) return;
-    const Z chord2 = target.rho2() - hit.h2, grazing = chord2 > 0 ? chord2 : Z(0);
-    if (compare_entries(centre.s, atom.rho2() - centre.h2, atom.view().velocity.v2, hit.s, grazing,
-                        target.view().velocity.v2) > 0)
-      return;
+    if (is_after(target, hit, atom, centre)) return;
     if (is_excused_by_time(target.time_of(hit), atom, centre)) {
       excused_by_time_ = true;
       return;
     }
-    Real spare = atom.margin_of_meeting(centre);
-    if (to_double(spare, kHuge) <= needed_.ulps) return;
-    if (chord2 > 0)
-      spare = std::min(spare, margin_of_order(query_.ulps(), atom, centre, target, hit));
-    else
-      spare = std::min(spare, (target.time_of(hit) - atom.time_of(centre)) /
-                                  largest_change(query_.ulps(), atom, atom.arrival(centre)));
-    needs(spare, atom, centre);
+    const Real spare = atom.margin_of_meeting(centre);
+    if (to_double(spare, kHuge) > needed_.ulps)
+      needs(std::min(spare, spare_before(target, hit, atom, centre)), atom, centre);
   }
 
   // Is it entered at most T times its time before that, and not yet left then?

@@ -31,8 +31,8 @@ constexpr int kRounds = 5;
 
 std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
   const NumberFormat format = plan.claim.precision;
-  const auto place = std::make_shared<Place>(rounded(load_scene(group.scene, group.radius), format),
-                                             Truth::oracle, plan.claim);
+  const auto place = std::make_shared<Place>(
+      rounded_scene(load_scene(group.scene, group.radius), format, group.scene), Truth::oracle, plan.claim);
   const starts::Kind kind = group.difficulty == "drawn"
                                 ? starts::Kind::uniform
                                 : starts::kind_named(group.difficulty, "--difficulty");

@@ -214,11 +214,15 @@ TEST_CASE("compare and golden check judge by what an engine claims", "[cli][comp
   CHECK(contains(said(" --time-tolerance inf").out, ", times not judged\n"));
   for (const char* bad : {" --precision float", " --time-tolerance -1", " --time-tolerance few"})
     CHECK(said(bad).status == 2);
+  const Run nothing = folder.lorentz("compare --precision binary32 --radius 1e-50 --count 3");
+  CHECK(nothing.status == 2);
+  CHECK(contains(nothing.err, "square: rounded to binary32: "));
 
   const Run check = folder.lorentz("golden check -e oracle --precision binary32 --json ball-3d");
   CHECK(contains(check.out, R"("sets":[{"set":"ball-3d","records":17,"agree":17,)"));
   CHECK(contains(check.out, R"("not_asked":623,)"));
-  CHECK(contains(check.out, R"("precision":"binary32","time_tolerance":null,"not_asked":0})"));
+  CHECK(contains(check.out,
+                 R"("precision":"binary32","time_tolerance":null,"records_not_asked":623,"not_asked":0})"));
   CHECK(contains(folder.lorentz("golden check -e oracle --precision binary32 ball-3d").out,
                  "623 records were not asked: their numbers are of another precision"));
 }

@@ -401,6 +401,30 @@ TEST_CASE("An obstacle left behind is acceptable only within the ulps that would
   }
 }
 
+TEST_CASE("A start hardly inside an obstacle is outside within ulps, and enters it at once",
+          "[oracle][verdict]") {
+  Scene alone = unit_scene(2, 1);
+  alone.lattices[0].vectors = {}, alone.lattices[0].missing = 2;
+  const double inside = -1 + 0x1p-53;
+  const auto along = [&](const Vec& v) { return Query{{inside, 0}, v, {}}; };
+  for (const Scene& scene : {alone, unit_scene(2, 0.25)}) {
+    const Query inwards{{scene.lattices[0].missing ? inside : -0.25 + 0x1p-54, 0}, {1, 0}, {}};
+    REQUIRE(oracle::Oracle(scene).first_hit(inwards).outcome == Outcome::inside);
+    CHECK(judged(scene, inwards, Answer::never()).verdict == Verdict::wrong);
+  }
+  const Scene square = unit_scene(2, 0.25);
+  const Query inwards{{-0.25 + 0x1p-54, 0}, {1, 0}, {}};
+  CHECK(judged(square, inwards, Answer::hit(at(1, 0), 1)).verdict == Verdict::wrong);
+  CHECK(judged(square, inwards, Answer::hit(at(0, 0), 0)).verdict == Verdict::ill_posed);
+  // Outwards nothing is entered; along the surface next to nothing.
+  CHECK(judged(alone, along({-1, 0}), Answer::never()).verdict == Verdict::ill_posed);
+  CHECK(judged(alone, along({0x1p-60, 1}), Answer::never()).verdict == Verdict::ill_posed);
+  const Query outwards{{0.25 - 0x1p-55, 0}, {1, 0}, {}};
+  REQUIRE(oracle::Oracle(square).first_hit(outwards).outcome == Outcome::inside);
+  CHECK(judged(square, outwards, Answer::hit(at(1, 0), 0.5)).verdict == Verdict::ill_posed);
+  CHECK(judged(square, outwards, Answer::hit(at(2, 0), 1.5)).verdict == Verdict::wrong);
+}
+
 TEST_CASE("Of two obstacles entered together within ulps either is acceptable", "[oracle][verdict]") {
   Scene scene = unit_scene(2, 0.25);
   scene.lattices[0].atoms.push_back({{0, 0.125}, 0.25, {}});
