@@ -120,6 +120,8 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
     place = Scene(scene, radius)
     if direction is not None:
         numbers = [finite(number, "direction") for number in vector(direction, "direction")]
+        if len(numbers) != 3:
+            raise Error(f"direction: has {len(numbers)} components, not 3")
         along: dict[str, Any] = json.loads(_lorentz.open_direction(native(place), numbers))
         return {key: value for key, value in along.items() if key != "scene"}
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)

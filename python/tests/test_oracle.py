@@ -97,7 +97,7 @@ def test_verdicts():
     verdict = lorentz.judge_answer(scene, x, v, a_few_ulps)
     assert (verdict.verdict, verdict.ulps, verdict.wrong_time) == ("agree", 3, False)
     assert lorentz.judge_answer(scene, x, v, a_few_ulps, ulps=0).wrong_time
-    single = replace(exact, time=float(np.float32(exact.time)))
+    single = replace(exact, time=float(np.nextafter(np.float32(exact.time), np.float32(0))))
     assert lorentz.judge_answer(scene, x, v, single).wrong_time
     assert not lorentz.judge_answer(scene, x, v, single, precision="binary32").wrong_time
     assert not lorentz.judge_answer(scene, x, v, single, time_tolerance=1e-6).wrong_time
