@@ -88,14 +88,10 @@ ComparedPart part_in(const std::string& text) {
   }
 }
 
-Scene plan_scene(const CompareOptions& options) {
-  const Scene scene = read_scene(options.scene.value_or("square"), options.radius);
-  return options.queries ? scene : rounded(scene, options.claim.claim().precision);
-}
-
 runs::Plan plan_of(const CompareOptions& options, const std::vector<std::string>& names) {
   std::string scene;
-  if (options.scene || !options.queries) append_scene_line(scene, plan_scene(options));
+  if (options.scene || !options.queries)
+    append_scene_line(scene, read_scene(options.scene.value_or("square"), options.radius));
   runs::Plan plan{{"compared", fmt::format("{}", fmt::join(names, ", "))},
                   {"queries", options.queries ? "given" : "drawn"},
                   {"count", options.queries ? "" : std::to_string(options.count)},

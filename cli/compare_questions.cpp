@@ -31,7 +31,6 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
 
 void ComparedQuestions::enter(const Scene& scene) {
   place_ = std::make_shared<Place>(scene, question::Truth::oracle, claim_);
-  fits_ = consists_of(scene, claim_.precision);
   disagreements_.begin(place_);
   is_new_ = true;
 }
@@ -57,7 +56,7 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
     bad_ids_ = true;
     say("the query id {} comes twice: answers cannot be matched to its queries", id);
   }
-  if (!fits_ || !consists_of(query, claim_.precision)) {
+  if (!place_->has_numbers_for(query)) {
     ++not_asked_;
     if (!options_.answers.empty()) passed_over_.push_back({.place = place_, .query = query, .id = id});
     return;

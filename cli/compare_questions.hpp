@@ -75,7 +75,7 @@ class ComparedQuestions {
   std::unique_ptr<ColumnReader> columns_;  // or drawn
   std::shared_ptr<question::Place> place_;
   std::optional<starts::FreeStarts> starts_;  // of drawn queries
-  bool is_new_ = false, bad_ids_ = false, fits_ = true;
+  bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;
   std::size_t not_asked_ = 0, rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
   std::unordered_set<Id> ids_;

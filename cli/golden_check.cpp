@@ -75,16 +75,12 @@ Source records_of(const Source& records, const std::optional<std::string>& id, s
   };
 }
 
-// Those that consist of numbers of that format; the others are counted.
-Source consisting_of(NumberFormat format, Source records, std::size_t& others) {
-  return [format, records = std::move(records), &others]() -> std::optional<Question> {
-    for (;;) {
-      std::optional<Question> question = records();
-      if (!question || !question->is_query() ||
-          (consists_of(question->place->scene(), format) && consists_of(question->query, format)))
-        return question;
-      ++others;
-    }
+// Those that consist of the engine's numbers; the others are counted.
+Source in_its_numbers(Source records, std::size_t& others) {
+  return [records = std::move(records), &others]() -> std::optional<Question> {
+    std::optional<Question> question = records();
+    for (; question && !question->place->has_numbers_for(question->query); question = records()) ++others;
+    return question;
   };
 }
 
@@ -114,9 +110,8 @@ class EngineCheck {
     tally.description = reader.header().description;
     tally.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
-    const Source records =
-        consisting_of(claim_.precision, records_of(golden::questions_of(reader, claim_), id, first, progress),
-                      tally.of_other_numbers);
+    const Source records = in_its_numbers(
+        records_of(golden::questions_of(reader, claim_), id, first, progress), tally.of_other_numbers);
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
       examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
     tally.failed = answerers_[0]->failed();

@@ -59,23 +59,19 @@ class Drawn {
 class Golden {
  public:
   Golden(const std::string& path, const Claim& claim)
-      : reader_(path), format_(claim.precision), records_(golden::questions_of(reader_, claim)) {}
+      : reader_(path), records_(golden::questions_of(reader_, claim)) {}
 
   std::optional<Question> next() {
     std::optional<Question> question;
     do question = records_();
-    while (question && (question->place->is_beyond_engine() || !is_of_format(*question)));
+    while (question &&
+           (question->place->is_beyond_engine() || !question->place->has_numbers_for(question->query)));
     if (question) question->where = fmt::format("golden {}, {}", reader_.header().name, question->where);
     return question;
   }
 
  private:
-  bool is_of_format(const Question& question) const {
-    return consists_of(question.place->scene(), format_) && consists_of(question.query, format_);
-  }
-
   golden::Reader reader_;
-  const NumberFormat format_;
   const question::Source records_;
 };
 
@@ -128,22 +124,21 @@ class CampaignQuestions {
     const cases::Case base = target.make(seed_, begin);
     if (!scope_.admits(base.scene)) return;
     const auto place = place_for(base.scene, claim_);
-    if (flaw_of(place->scene()) || !fuzz::is_sound(place->scene())) return;  // what rounding made of it
-    const auto add = [&](Query query, Answer exact, std::uint64_t index, int step) {
-      if (!consists_of(query, claim_.precision)) {
-        query = rounded(query, claim_.precision);
-        if (flaw_of(query, place->scene())) return;
-        exact = place->exact(query);
-      }
+    if (place->scene() != base.scene && !fuzz::is_sound(place->scene())) return;  // what rounding made of it
+    const auto add = [&](const Query& made, std::optional<Answer> exact, std::uint64_t index, int step) {
+      const Query query = rounded(made, claim_.precision);
+      if (!place->has_numbers_for(made)) exact.reset();
+      if (!exact && flaw_of(query, place->scene())) return;
+      if (!exact) exact = place->exact(query);
       questions_.push_back({.place = place,
                             .query = query,
-                            .exact = exact,
+                            .exact = std::move(*exact),
                             .where = fmt::format("campaign, {}/{}{}", target.name(), index,
                                                  step > 0 ? fmt::format(".{}", step) : "")});
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
       const cases::Case one = target.make(seed_, index);
-      if (one.scene == base.scene) add(one.query, place->exact(one.query), index, 0);
+      if (one.scene == base.scene) add(one.query, std::nullopt, index, 0);
     }
     int step = 0;
     const cases::Random random(seed_, target.name(), begin, cases::Use::variants);

@@ -24,8 +24,8 @@ std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
 /// out. The places must outlast the source.
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count);
 
-/// The records of a golden set that consist of numbers of the claim's precision; of a scene that is beyond the engine the first. Throws as golden::Reader
-/// does.
+/// The records of a golden set that consist of numbers of the claim's precision; of a scene that is beyond the
+/// engine the first. Throws as golden::Reader does.
 Source golden_set(const std::string& path, const Claim& claim = {});
 
 /// What the targets of a campaign get in equal parts: time (some take a hundred times as long as others), or

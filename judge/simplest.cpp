@@ -24,10 +24,9 @@ class SameWay {
   bool operator()(const Scene& scene, const Query& query) {
     if (!place_ || place_->scene() != scene) {
       if (!fuzz::is_sound(scene) || !fuzz::is_sane(scene)) return false;
-      if (!consists_of(scene, examination_.claim().precision)) return false;
       place_ = std::make_shared<Place>(scene, question::Truth::oracle, examination_.claim());
     }
-    if (flaw_of(query, scene) || !consists_of(query, examination_.claim().precision)) return false;
+    if (flaw_of(query, scene) || !place_->has_numbers_for(query)) return false;
     const Question question{
         .place = place_, .query = query, .exact = place_->exact(query), .where = like_.question.where};
     last_ = examination_.example_of(question);

@@ -26,10 +26,17 @@ class Place {
  public:
   /// Judge and margins count in ulps of the claim's precision.
   explicit Place(Scene scene, Truth truth = Truth::oracle, const Claim& claim = {})
-      : scene_(std::move(scene)), truth_(truth), claim_(claim) {}
+      : scene_(std::move(scene)),
+        truth_(truth),
+        claim_(claim),
+        is_in_its_numbers_(consists_of(scene_, claim.precision)) {}
 
   const Scene& scene() const { return scene_; }
   const Claim& claim() const { return claim_; }
+  /// Do the scene and this query consist of numbers of the claim's precision?
+  bool has_numbers_for(const Query& query) const {
+    return is_in_its_numbers_ && consists_of(query, claim_.precision);
+  }
   const oracle::Oracle& oracle() const { return made(oracle_); }
   const oracle::Judge& judge() const { return made(judge_, claim_); }
   const oracle::Margins& margins() const { return made(margins_, claim_.precision); }
@@ -69,6 +76,7 @@ class Place {
   const Scene scene_;
   const Truth truth_;
   const Claim claim_;
+  const bool is_in_its_numbers_;
   mutable std::unique_ptr<oracle::Oracle> oracle_;
   mutable std::unique_ptr<oracle::Certified> certified_;
   mutable std::unique_ptr<oracle::Judge> judge_;

@@ -39,11 +39,7 @@ Vec near_rational_direction(Random& random, const Scene& scene, NumberFormat for
   if (lattice.missing > 0) lattice.vectors = cases::Box::of(scene).vectors;
   Vec v = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
   if (random.one_in(2)) {
-    if (format == NumberFormat::binary64) cases::jitter(random, v, d, kUlps);
-    for (double& component : v)
-      if (format != NumberFormat::binary64)
-        component += static_cast<double>(random.integer(-kUlps, kUlps)) *
-                     (component == 0 ? 0 : ulp(component, format));
+    cases::jitter(random, v, d, kUlps << (53 - bits_of(format)));
     return v;
   }
   const Vec aside = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));

@@ -1,8 +1,6 @@
 // What an engine claims, and by which it is judged: the precision of its numbers, and of its times.
 #pragma once
 
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include <lorentz/query.hpp>
@@ -10,6 +8,7 @@
 
 namespace lorentz {
 
+/// A format of IEEE 754 for an engine's numbers.
 enum class NumberFormat { binary64, binary32 };
 
 constexpr int bits_of(NumberFormat precision) {  ///< of the significand
@@ -20,6 +19,7 @@ inline const char* name_of(NumberFormat precision) {
   return precision == NumberFormat::binary64 ? "binary64" : "binary32";
 }
 
+/// By which an engine is judged (docs/verdicts.md).
 struct Claim {
   NumberFormat precision = NumberFormat::binary64;
   /// T: a time is right if it is off by at most T times itself. Infinite: times are not judged.

@@ -34,7 +34,7 @@ class DepartureBound {
     if (time_tolerance_ && std::isinf(*time_tolerance_)) time_tolerance_.reset();  // times are not judged
   }
 
-  bool is_excused_by_time() const { return excused_by_time_; }  ///< an obstacle that was passed over
+  bool used_tolerance() const { return used_tolerance_; }  ///< of times, for an obstacle that was passed over
 
   Departure of(const Answer& given) {
     switch (given.outcome) {
@@ -209,7 +209,7 @@ class DepartureBound {
     if (centre.s <= 0 || centre.h2 >= atom.rho2() || centre.c2 < atom.view().radius2) return;
     if (is_after(target, hit, atom, centre)) return;
     if (is_excused_by_time(target.time_of(hit), atom, centre)) {
-      excused_by_time_ = true;
+      used_tolerance_ = true;
       return;
     }
     const Real spare = atom.margin_of_meeting(centre);
@@ -229,7 +229,7 @@ class DepartureBound {
   const Answer& exact_;
   const double ulps_;
   std::optional<double> time_tolerance_;
-  bool excused_by_time_ = false;
+  bool used_tolerance_ = false;
   Departure needed_;
   std::size_t passed_over_ = 0;
 };
@@ -313,16 +313,16 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
     return given.outcome == Outcome::hit ? impl_->judge_time(query, exact, given, ulps)
                                          : Judgement{Verdict::agree};
   Departure needed{kInfinity};
-  bool excused_by_time = false;
+  bool used_tolerance = false;
   if (!names_obstacle || !flaw_of(Query{query.x, query.v, given.obstacle}, impl_->scene.scene()))
     needed = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       DepartureBound<D> bound(perturbed, exact, ulps, impl_->time_tolerance);
       const Departure departure = bound.of(given);
-      excused_by_time = bound.is_excused_by_time();
+      used_tolerance = bound.used_tolerance();
       return departure;
     });
   // Not a tie either, where nothing is forgiven.
-  const bool forgiven = (ulps > 0 || excused_by_time) && needed.ulps <= ulps;
+  const bool forgiven = (ulps > 0 || used_tolerance) && needed.ulps <= ulps;
   return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, false, needed.obstacle};
 }
 

@@ -20,8 +20,9 @@ FirstHitFunction = Callable[..., Any]
 
 
 def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
-          quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115, threads: int = 1, ulps: float = 4,
-          precision: str = "binary64", time_tolerance: float | None = None, times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
+          quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115,
+          threads: int = 1, ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
+          times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
 
     Args:

@@ -1,30 +1,36 @@
 #include <lorentz/claim.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace lorentz {
 namespace {
 
-template <class Visit>
-void for_each_number(Vec& a, const Visit& visit) {
-  for (double& component : a) visit(component);
+// Of a query or a scene, constant or not.
+template <class Q, class Visit>
+requires std::same_as<std::remove_const_t<Q>, Query>
+void for_each_number(Q& query, const Visit& visit) {
+  for (auto& component : query.x) visit(component);
+  for (auto& component : query.v) visit(component);
 }
 
-template <class Visit>
-void for_each_number(Scene& scene, const Visit& visit) {
-  for (Lattice& lattice : scene.lattices)
-    for (Vec& u : lattice.vectors) for_each_number(u, visit);
-  for_each_atom(scene, [&](Atom& atom) {
-    for_each_number(atom.position, visit);
+template <class S, class Visit>
+requires std::same_as<std::remove_const_t<S>, Scene>
+void for_each_number(S& scene, const Visit& visit) {
+  const auto visit_all = [&](auto& vectors) {
+    for (auto& vector : vectors)
+      for (auto& component : vector) visit(component);
+  };
+  for (auto& lattice : scene.lattices) visit_all(lattice.vectors);
+  for_each_atom(scene, [&](auto& atom) {
+    for (auto& component : atom.position) visit(component);
     visit(atom.radius);
-    for (Vec& axis : atom.semiaxes) for_each_number(axis, visit);
+    visit_all(atom.semiaxes);
   });
-}
-
-template <class Visit>
-void for_each_number(Query& query, const Visit& visit) {
-  for_each_number(query.x, visit);
-  for_each_number(query.v, visit);
 }
 
 template <class T>
@@ -34,9 +40,9 @@ T all_rounded(T of, NumberFormat precision) {
 }
 
 template <class T>
-bool all_consist_of(T of, NumberFormat precision) {
+bool all_consist_of(const T& of, NumberFormat precision) {
   bool yes = true;
-  for_each_number(of, [&](double& number) { yes &= rounded(number, precision) == number; });
+  for_each_number(of, [&](double number) { yes &= rounded(number, precision) == number; });
   return yes;
 }
 

@@ -52,7 +52,7 @@ class Ball:
             self.slope = dot(self.normal, v)
 
     def derivatives(self):
-        """Of the time: by x, by v, by r."""
+        """The derivatives of the time by x, v and r."""
         by_x = [-n / self.slope for n in self.normal]
         return [*by_x, *(self.t * d for d in by_x), 1 / self.slope]
 

@@ -32,9 +32,9 @@ struct Velocity {
     }
   }
 
-  /// A time in the scaled units, in those of the query. Without rounding: lanes
-  /// know no times but 0 and those from 2^-100 (they tell a start from its obstacle's surface to 2^-52 of a
-  /// radius of 2^-40 or more) to 2^63, exponents are at most 400, and the factor is within 2^-490 and 2^490.
+  /// A time in the scaled units, in those of the query. Without rounding: lanes know no times but 0 and those from
+  /// 2^-100 (they tell a start from its obstacle's surface to 2^-52 of a radius of 2^-40 or more) to 2^63, exponents
+  /// are at most 400, and the factor is within 2^-490 and 2^490.
   template <bool kUnit>
   HWY_INLINE V time_of(V time, const PreparedScene& scene) const {
     if constexpr (!kUnit) time = time * all(scene.unit);
