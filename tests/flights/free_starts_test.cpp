@@ -78,6 +78,22 @@ TEST_CASE("Starts in binary32 are free, and as hard in its ulps as others in the
   }
 }
 
+TEST_CASE("Half of the near-rational directions in binary32 are within 3 of its ulps of integers",
+          "[flights][starts][claim]") {
+  const FreeStarts starts(unit_scene(3, 0.1), Kind::near_rational, kSeed, NumberFormat::binary32);
+  int near = 0, exact = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    double most = 0;  // of the components, in ulps
+    for (const double component : starts[i].v)
+      most = std::max(most,
+                      std::fabs(component - std::round(component)) / ulp(component, NumberFormat::binary32));
+    near += most <= 6, exact += most == 0;  // below a power of two an ulp is half of what it is above
+  }
+  CAPTURE(near, exact);
+  CHECK((near > 160 && near < 300));
+  CHECK(exact < near / 2);
+}
+
 TEST_CASE("A start that rounding puts into an obstacle is drawn again", "[flights][starts][claim]") {
   // The unit lattice in a basis in which starts lie so far out that binary32 has every other integer there.
   Scene scene = unit_scene(2, 0.25);
