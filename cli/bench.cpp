@@ -69,9 +69,10 @@ runs::Plan words_of(const report::Manifest& manifest, const Claim& claim) {
   return words;
 }
 
-BenchPlan plan_of(const BenchOptions& options) {
+BenchPlan plan_of(BenchOptions options) {
   BenchPlan plan;
   plan.engines = engines_named(options.engines);
+  options.claim.ask(plan.engines);
   plan.seed = options.seed;
   plan.count = options.count;
   plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);

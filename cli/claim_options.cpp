@@ -1,5 +1,6 @@
 #include "cli/claim_options.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "cli/numbers.hpp"
@@ -7,10 +8,24 @@
 
 namespace lorentz::cli {
 
+void ClaimOptions::ask(const std::vector<question::EngineInfo>& engines) {
+  claim();  // what is wrong with the options is said first
+  for (const question::EngineInfo& engine : engines) {
+    const auto introduction = engine.introduce ? engine.introduce() : std::nullopt;
+    if (!introduction) continue;
+    const Claim& one = introduction->claim;
+    if (bits_of(one.precision) < bits_of(said_.precision)) said_.precision = one.precision;
+    if (one.time_tolerance)
+      said_.time_tolerance = std::max(*one.time_tolerance, said_.time_tolerance.value_or(0));
+  }
+}
+
 Claim ClaimOptions::claim() const {
-  Claim claim;
-  if (index_of_name(precision, {"binary64", "binary32"}, "--precision") == 1)
-    claim.precision = NumberFormat::binary32;
+  Claim claim = said_;
+  if (precision) {
+    const std::size_t number = index_of_name(*precision, {"binary64", "binary32"}, "--precision");
+    claim.precision = number == 1 ? NumberFormat::binary32 : NumberFormat::binary64;
+  }
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
   claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"
@@ -21,12 +36,16 @@ Claim ClaimOptions::claim() const {
 
 Option ClaimOptions::precision_row() {
   return {"--precision", &precision, "binary64|binary32",
-          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them"};
+          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them "
+          "(default: what a "
+          "cmd: engine says of itself, else binary64)"};
 }
 
 Option ClaimOptions::time_tolerance_row() {
   return {"--time-tolerance", &time_tolerance, "T",
-          "a time is right if it is off by at most T times itself, not by ulps; inf: times are not judged"};
+          "a time is right if it is off by at most T times itself, not by ulps; inf: times are not judged "
+          "(default: what a "
+          "cmd: engine says of itself)"};
 }
 
 }  // namespace lorentz::cli

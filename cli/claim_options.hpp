@@ -3,21 +3,29 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lorentz/claim.hpp>
 #include "cli/command.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::cli {
 
 struct ClaimOptions {
-  std::string precision = "binary64";
-  std::optional<std::string> time_tolerance;
+  std::optional<std::string> precision, time_tolerance;
+
+  /// What these engines say of themselves holds where the options say nothing: of several, the coarsest. Throws
+  /// InputError.
+  void ask(const std::vector<question::EngineInfo>& engines);
 
   /// Throws InputError.
   Claim claim() const;
 
   Option precision_row();
   Option time_tolerance_row();
+
+ private:
+  Claim said_;  // by the engines
 };
 
 }  // namespace lorentz::cli

@@ -42,9 +42,10 @@ void add_tally(json::Members& object, const Tally& t, bool judged) {
              "wrong", count(t.wrong), "undecided", count(t.undecided), "unsupported", count(t.unsupported),
              "error", count(t.error), "missing", count(t.missing));
   object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
-             if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "wrong_time",
-             count(t.wrong_time), "other_quantity", count(t.other_quantity), "wrong_time_ulps",
-             spread_of(t.wrong_ulps), "wrong_time_conditions", spread_of(t.wrong_conditions));
+             if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "engine_ns",
+             t.speed.own_ns, "wrong_time", count(t.wrong_time), "other_quantity", count(t.other_quantity),
+             "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
+             spread_of(t.wrong_conditions));
 }
 
 std::string json_of(const std::string& scene, const CompareOptions& options, std::size_t not_asked,
@@ -289,10 +290,11 @@ void race_all(const CompareOptions& options, const std::vector<Question>& questi
   }
 }
 
-int act(const CompareOptions& options) {
+int act(CompareOptions options) {
   std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty() && options.answers.empty()) engines = engines_named({"classical", "published"});
   check(options, engines);
+  options.claim.ask(engines);
   DisagreementFile file(options.disagreements);
   ComparedQuestions questions(options, file);
   std::vector<Compared> compared = all_compared(options, engines, questions);
@@ -306,6 +308,7 @@ int act(const CompareOptions& options) {
   for (Compared& one : compared) {
     for (const auto& answerer : one.answerers) answerer->finish();
     one.tally.failed = one.answerers[0]->failed();
+    if (const auto time = one.answerers[0]->own_time()) one.tally.speed.own_ns = time->ns_per_query();
     bad_input |= one.logged && one.logged->had_bad_input();
   }
   file.close();
@@ -370,7 +373,7 @@ Command compare_command() {
       "right obstacle,\n"
       "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
       "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
-      "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included."
+      "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included;"
       "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
       [options] { return act(*options); }};
 }

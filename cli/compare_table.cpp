@@ -67,6 +67,8 @@ std::string verdict_of(const Tally& t) {
                                        t.name, answers, 100 * report::bound_of_none(answers));
   text += others;
   if (t.other_quantity > 0) text += fmt::format("; in {} the time is another quantity", t.other_quantity);
+  if (t.speed.own_ns)
+    text += fmt::format("; its own calls take {:.3g} ns a query, as it says", *t.speed.own_ns);
   if (t.wrong_time == 0) return text;
   const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
   return text + fmt::format(

@@ -332,9 +332,10 @@ int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
   return status;
 }
 
-int act(const CheckOptions& options) {
+int act(CheckOptions options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
+  options.claim.ask(engines);
   const Claim claim = options.claim.claim();
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());

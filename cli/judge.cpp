@@ -82,9 +82,10 @@ std::string command_of(const JudgeOptions& o) {
   return command;
 }
 
-JudgeOrder order_of(const JudgeOptions& options) {
+JudgeOrder order_of(JudgeOptions options) {
   JudgeOrder order;
   order.engine = question::engine_named(options.engine);
+  options.claim.ask({order.engine});
   order.command = command_of(options);
   order.quick = options.quick;
   order.time = options.seconds;

@@ -14,6 +14,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
+#include "question/introduction.hpp"
 #include "question/listener.hpp"
 
 namespace lorentz::question {
@@ -103,6 +104,9 @@ class Answerer {
 
   /// True if it broke so often that it is no longer asked about this scene.
   virtual bool given_up() const { return false; }
+
+  /// The time of its own calls so far, if it tells: another program does at its end.
+  virtual std::optional<OwnTime> own_time() const { return {}; }
 
   /// True if it was given up and never answered anything: it is not asked about other scenes either.
   virtual bool is_hopeless() const { return false; }

@@ -274,6 +274,7 @@ void CommandEngine::take_line(const LineReader::Line& line) {
   Answer answer;
   std::size_t components = 0;
   try {
+    if (take_own_time(line)) return;
     if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
   } catch (const InputError& error) {
     const std::string what = line.too_long ? "wrote a line that is too long for an answer"
@@ -284,6 +285,15 @@ void CommandEngine::take_line(const LineReader::Line& line) {
     else
       take_no_answer(what);
   }
+}
+
+bool CommandEngine::take_own_time(const LineReader::Line& line) {
+  const auto time = own_time_in(line.text);
+  if (!time) return false;
+  if (!own_time_) own_time_.emplace();
+  own_time_->seconds += time->seconds;
+  own_time_->queries += time->queries;
+  return true;
 }
 
 // Something that is no answer to anything. Whether it stands in the place of one, the next answer shows.

@@ -42,6 +42,7 @@ class CommandEngine final : public Answerer {
   bool given_up() const override { return given_up_in_ != nullptr; }
   bool is_hopeless() const override { return given_up() && !ever_answered_; }
   void try_again() override;
+  std::optional<OwnTime> own_time() const override { return own_time_; }
   std::uint64_t batch_size() const override { return 256; }
 
  private:
@@ -93,6 +94,7 @@ class CommandEngine final : public Answerer {
 
   void take_line(const LineReader::Line& line);
   void see_unknown_key(const std::string& key);
+  bool take_own_time(const LineReader::Line& line);
   void take_no_answer(const std::string& what);
   void take_answer(const Id& id, Answer& answer, std::size_t components);
   void take_nameless(Answer& answer);
@@ -128,6 +130,7 @@ class CommandEngine final : public Answerer {
   std::size_t limit_ = kNoLimit;  // queries for the next run, while the one at fault is sought
   int failures_in_row_ = 0;
   bool failed_ = false, ever_answered_ = false;
+  std::optional<OwnTime> own_time_;           // of all runs that told it
   std::shared_ptr<const Scene> given_up_in_;  // or null: it is not given up
 
   std::set<std::string> unknown_keys_;  // that were told of

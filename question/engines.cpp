@@ -158,9 +158,18 @@ EngineInfo engine_named(const std::string& name) {
   const std::string command = name.substr(kCommand.size());
   if (command.find_first_not_of(" \t\n") == std::string::npos)
     throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
-  return {name, {}, EngineInfo::Kind::command, {}, [command](const AnswererOptions& options) {
-            return std::make_unique<CommandEngine>(command, options);
-          }};
+  EngineInfo engine{name, {}, EngineInfo::Kind::command};
+  engine.answerer = [command](const AnswererOptions& options) {
+    return std::make_unique<CommandEngine>(command, options);
+  };
+  engine.introduce = [name, command] {
+    try {
+      return introduction_of_command(command);
+    } catch (const InputError& error) {
+      throw InputError(name + " says of itself: " + error.what());
+    }
+  };
+  return engine;
 }
 
 std::vector<std::string> names_in(const std::vector<std::string>& arguments) {

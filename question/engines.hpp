@@ -13,6 +13,7 @@
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "question/answerer.hpp"
+#include "question/introduction.hpp"
 
 namespace lorentz::question {
 
@@ -44,6 +45,9 @@ struct EngineInfo {
   std::function<FirstHit(const Scene&)> first_hit = {};
   /// Many at a time. Any number of threads may call it, each for itself.
   std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> answerer = {};
+
+  /// What it says of itself. Empty where it has nothing to say: of an engine of this program, or a guest.
+  std::function<std::optional<Introduction>()> introduce = {};
 
   bool is_own() const { return kind == Kind::own; }
   bool is_command() const { return kind == Kind::command; }

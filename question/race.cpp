@@ -154,6 +154,7 @@ class Entrant {
     if (own_) own_->finish();
     Speed speed;
     speed.failed = failed();
+    if (own_ && own_->own_time()) speed.own_ns = own_->own_time()->ns_per_query();
     if (questions_.empty() || rounds_.empty()) return speed;
     std::sort(rounds_.begin(), rounds_.end(),
               [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });

@@ -20,8 +20,9 @@ struct Speed {
                                    ///< the mean
   double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
   std::optional<double> instructions =
-      {};               ///< a query, where InstructionCounter counts; not of another program
-  bool failed = false;  ///< another program that broke on the way
+      {};                             ///< a query, where InstructionCounter counts; not of another program
+  std::optional<double> own_ns = {};  ///< a query, of the engine's own calls, as it says itself (OwnTime)
+  bool failed = false;                ///< another program that broke on the way
 };
 
 /// What one engine did over some questions.

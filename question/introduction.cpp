@@ -1,0 +1,102 @@
+#include "question/introduction.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <lorentz/exchange.hpp>
+#include "question/process.hpp"
+#include "src/exchange/exchange_json.hpp"
+
+namespace lorentz::question {
+namespace {
+
+constexpr std::chrono::seconds kToIntroduce{10};
+
+// The object that is the line's first member, if that has this key.
+template <class Read>
+bool read_first(std::string_view line, std::string_view key, const Read& read) {
+  const std::string_view rest = line.substr(std::min(line.find_first_not_of(" \t{"), line.size()));
+  if (!rest.starts_with('"' + std::string(key) + '"')) return false;
+  try {
+    json::Document document;
+    document.open(line);
+    json::Object object = document.object();
+    json::Object inside = object[std::string(key).c_str()].object();
+    json::each_member(inside, read);
+    return true;
+  } catch (const json::Error& error) {
+    throw InputError(fmt::format("{}: {}", key, error.what()));
+  }
+}
+
+NumberFormat format_called(std::string_view name) {
+  for (const NumberFormat format : {NumberFormat::binary64, NumberFormat::binary32})
+    if (name == name_of(format)) return format;
+  throw InputError("precision is binary64 or binary32, not " + json_quoted(std::string(name)));
+}
+
+double not_negative(json::Value value, const char* what) {
+  const double number = read_number_or_infinity(value, what);
+  if (std::isnan(number) || number < 0) throw InputError(fmt::format("{} is below zero", what));
+  return number;
+}
+
+std::vector<int> dimensions_in(json::Value value) {
+  std::vector<int> dimensions;
+  json::each_element(value.array(), [&](json::Value one) {
+    const std::int64_t dimension = one.integer();
+    if (dimension != 2 && dimension != 3) throw InputError("dimensions are 2 and 3");
+    dimensions.push_back(static_cast<int>(dimension));
+  });
+  return dimensions;
+}
+
+}  // namespace
+
+std::optional<Introduction> introduction_in(std::string_view line) {
+  Introduction made;
+  const bool is_there = read_first(line, "engine", [&](std::string_view key, json::Value value) {
+    if (key == "name") made.name = value.text();
+    if (key == "version") made.version = value.text();
+    if (key == "precision") made.claim.precision = format_called(value.text());
+    if (key == "time_tolerance" && !value.is_null())
+      made.claim.time_tolerance = not_negative(value, "time_tolerance");
+    if (key == "dimensions") made.dimensions = dimensions_in(value);
+  });
+  return is_there ? std::optional(made) : std::nullopt;
+}
+
+std::optional<Introduction> introduction_of_command(const std::string& command) {
+  Process process("{ " + command + "\n} 2>/dev/null");  // what it complains of is said when it is asked
+  process.close_input();
+  LineBuffer lines;
+  LineReader::Line line;
+  const auto until = std::chrono::steady_clock::now() + kToIntroduce;
+  while (!lines.next(line)) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    if (left.count() <= 0) return std::nullopt;
+    pollfd output{process.output(), POLLIN, 0};
+    ::poll(&output, 1, static_cast<int>(left.count()));
+    if (lines.read_from(process.output()) == LineBuffer::Read::end && !lines.next(line)) return std::nullopt;
+  }
+  return introduction_in(line.text);
+}
+
+std::optional<double> OwnTime::ns_per_query() const {
+  return queries > 0 ? std::optional(1e9 * seconds / queries) : std::nullopt;
+}
+
+std::optional<OwnTime> own_time_in(std::string_view line) {
+  OwnTime time;
+  const bool is_there = read_first(line, "engine_time", [&](std::string_view key, json::Value value) {
+    if (key == "seconds") time.seconds = not_negative(value, "engine_time: seconds");
+    if (key == "queries") time.queries = static_cast<double>(value.natural());
+  });
+  return is_there ? std::optional(time) : std::nullopt;
+}
+
+}  // namespace lorentz::question

@@ -1,0 +1,120 @@
+// What a program says of itself when its input is empty, and of the time of its own calls; and what is made of it.
+#include "question/introduction.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include <lorentz/errors.hpp>
+#include "tests/support/command_line.hpp"
+
+using namespace lorentz;
+using namespace lorentz::question;
+using namespace lorentz::test;
+
+namespace {
+
+// Says its first argument where its input is empty; else answers as `reduction` does, and ends with its second.
+constexpr const char* kProgram = R"(#!/bin/sh
+cat >"$0.asked"
+if [ -s "$0.asked" ]; then )" LORENTZ_PROGRAM
+                                 R"( first-hit "$0.asked"; echo "$2"; else echo "$1"; echo complains >&2; fi
+)";
+
+std::string engine_of(const Folder& folder, const std::string& introduction, const std::string& end = "") {
+  return " --engine 'cmd:sh " + folder.write("engine", kProgram) + " \"" + introduction + "\" \"" + end +
+         "\"' ";
+}
+
+// As the shell's double quotes take it.
+std::string said(const std::string& members) {
+  std::string text;
+  for (const char c : "{\"engine\":{" + members + "}}")
+    text += c == '"' ? std::string("\\\"") : std::string(1, c);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("An introduction is read, whatever is left out", "[compare][introduction]") {
+  const auto whole = introduction_in(
+      R"({"engine":{"name":"Ball","version":"1.2","precision":"binary32","time_tolerance":1e-4,"dimensions":[2,3],"new":1}})");
+  REQUIRE(whole);
+  CHECK(whole->name == "Ball");
+  CHECK(whole->version == "1.2");
+  CHECK(whole->claim == Claim{NumberFormat::binary32, 1e-4});
+  CHECK(whole->dimensions == std::vector{2, 3});
+  const auto empty = introduction_in(R"( { "engine" : {"time_tolerance":null}} )");
+  REQUIRE(empty);
+  CHECK(empty->claim == Claim());
+  CHECK(empty->dimensions.empty());
+  CHECK(introduction_in(R"({"engine":{"time_tolerance":"inf"}})")->claim.time_tolerance ==
+        std::numeric_limits<double>::infinity());
+  for (const char* other : {"", "hello", "{}", R"({"id":1,"outcome":"never"})", R"({"engines":{}})"})
+    CHECK_FALSE(introduction_in(other));
+  for (const char* bad : {R"({"engine":1})", R"({"engine":{)", R"({"engine":{"precision":"float"}})",
+                          R"({"engine":{"time_tolerance":-1}})", R"({"engine":{"dimensions":[4]}})",
+                          R"({"engine":{"name":"a","name":"b"}})"})
+    CHECK_THROWS_AS(introduction_in(bad), InputError);
+}
+
+TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]") {
+  const auto time = own_time_in(R"({"engine_time":{"seconds":0.5,"queries":250}})");
+  REQUIRE(time);
+  CHECK(time->ns_per_query() == 2e6);
+  CHECK_FALSE(own_time_in(R"({"engine_time":{"seconds":0,"queries":0}})")->ns_per_query());
+  CHECK_FALSE(own_time_in(R"({"id":1,"outcome":"never"})"));
+  for (const char* bad :
+       {R"({"engine_time":{"seconds":-1,"queries":1}})", R"({"engine_time":{"queries":-1}})"})
+    CHECK_THROWS_AS(own_time_in(bad), InputError);
+}
+
+TEST_CASE("An engine is judged by what it says of itself, unless an option says otherwise",
+          "[compare][introduction]") {
+  const Folder folder;
+  const std::string engine = engine_of(folder, said(R"("precision":"binary32","time_tolerance":0.001)"),
+                                       R"({\"engine_time\":{\"seconds\":1,\"queries\":1000}})");
+  const Run own = folder.lorentz("compare --json --count 8" + engine);
+  INFO(own.err);
+  CHECK(own.status == 0);
+  CHECK(own.err.empty());
+  CHECK(contains(own.out, R"("precision":"binary32","time_tolerance":0.001,)"));
+  CHECK(contains(own.out, R"("engine_ns":1e+06,)"));
+  CHECK(contains(folder.lorentz("compare --count 8" + engine).out,
+                 "its own calls take 1e+06 ns a query, as it says"));
+  CHECK(contains(folder.lorentz("compare --json --count 8 --precision binary64" + engine).out,
+                 R"("precision":"binary64","time_tolerance":0.001,)"));
+  CHECK(contains(folder.lorentz("compare --json --count 8 --time-tolerance 0.5" + engine).out,
+                 R"("precision":"binary32","time_tolerance":0.5,)"));
+  CHECK(contains(folder.lorentz("golden check ball-3d --first 1 --json" + engine).out,
+                 R"("precision":"binary32","time_tolerance":0.001,)"));
+  CHECK(contains(folder.lorentz("judge --questions 1 --json" + engine).out,
+                 R"(--precision binary32 --time-tolerance 0.001"})"));
+  CHECK(contains(
+      folder.lorentz("bench --scene square --radius 0.1 --difficulty drawn --count 32 --json" + engine).out,
+      R"("precision":"binary32","time_tolerance":0.001)"));
+}
+
+TEST_CASE("Of several engines the coarsest claim holds", "[compare][introduction]") {
+  const Folder folder;
+  const std::string one = engine_of(folder, said(R"("precision":"binary32","time_tolerance":0.125)"));
+  fs::create_directory(folder.file("other"));
+  const std::string program = folder.write("other/engine", kProgram);
+  const std::string two = " -e 'cmd:sh " + program + " \"" + said(R"("time_tolerance":0.25)") + "\" \"\"' ";
+  for (const std::string& both : {one + two + "-e reduction", "-e reduction " + two + one})
+    CHECK(contains(folder.lorentz("compare --json --count 8 " + both).out,
+                   R"("precision":"binary32","time_tolerance":0.25,)"));
+}
+
+TEST_CASE("An introduction that cannot be is bad input, none is no fault", "[compare][introduction]") {
+  const Folder folder;
+  const Run bad = folder.lorentz("compare --count 8" + engine_of(folder, said(R"("precision":"binary16")")));
+  CHECK(bad.status == 2);
+  CHECK(contains(bad.err, R"(says of itself: precision is binary64 or binary32, not "binary16")"));
+  for (const char* other : {"", "usage: engine FILE"}) {
+    const Run none = folder.lorentz("compare --json --count 8" + engine_of(folder, other));
+    CHECK(none.status == 0);
+    CHECK(none.err.empty());
+    CHECK(contains(none.out, R"("precision":"binary64","time_tolerance":null,)"));
+    CHECK(contains(none.out, R"("engine_ns":null,)"));
+  }
+}
