@@ -1,8 +1,12 @@
 // lorentz judge: all that this program can say of one engine, and a verdict.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <chrono>
 
 #include <lorentz/exchange.hpp>
+#include <lorentz/line_reader.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
@@ -11,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "files/whole_file.hpp"
+#include "judge/baseline.hpp"
 #include "judge/judging.hpp"
 #include "report/claim_words.hpp"
 #include "report/page.hpp"
@@ -27,7 +32,7 @@ struct JudgeOptions {
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
   std::optional<std::uint64_t> questions;
   std::optional<double> ulps, timeout, seconds;
-  std::optional<std::string> html;
+  std::optional<std::string> html, baseline;
   ClaimOptions claim;
   bool quick = false, json = false, times = false, strict = false;
 };
@@ -39,6 +44,26 @@ int exit_status(const JudgeReport& report, const JudgeOptions& options) {
       (options.strict && t.ill_posed + t.undecided + t.missing + report.nonsense() > 0))
     return kDisagreement;
   return kDone;
+}
+
+std::optional<judge::Baseline> baseline_of(const JudgeOptions& options) {
+  if (!options.baseline) return std::nullopt;
+  std::string text;
+  LineReader lines(*options.baseline);
+  for (LineReader::Line line; lines.next(line);) text.append(line.text) += '\n';
+  return judge::Baseline(text, *options.baseline);
+}
+
+// Says what is worse than in an earlier report; the exit status is of that alone.
+int status_against(const judge::Baseline& baseline, const JudgeReport& report, const JudgeOptions& options) {
+  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
+  const std::vector<std::string> worse = baseline.worse(report, options.times);
+  if (const auto others = baseline.not_compared(report); !others.empty())
+    say("{} rows asked another number of questions than in {}; only new kinds of fault are told of them: {}",
+        others.size(), *options.baseline, fmt::join(others, ", "));
+  for (const std::string& one : worse) say("worse than in {}: {}", *options.baseline, one);
+  if (worse.empty()) say("nothing is worse than in {}", *options.baseline);
+  return worse.empty() ? kDone : kDisagreement;
 }
 
 // Tells how much of the time that all is to take has passed.
@@ -105,13 +130,15 @@ int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html);
+  const std::optional<judge::Baseline> baseline = baseline_of(options);
   const Interrupt interrupt;
   order.on_progress = order.questions ? rows_shown() : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
   html.write([&] { return report::page(report.json()); });
-  if (!Interrupt::came()) return exit_status(report, options);
+  if (!Interrupt::came())
+    return baseline ? status_against(*baseline, report, options) : exit_status(report, options);
   say("{}: this is what was found so far", Interrupt::what());
   return kFailed;
 }
@@ -145,6 +172,9 @@ Command judge_command() {
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
            kOutput},
           {"--json", &options->json, "", "one JSON object instead of tables"},
+          {"--baseline", &options->baseline, "FILE",
+           "what --json printed earlier, of the same questions (--questions): exit status 1 only for what is "
+           "worse now"},
           {"--times", &options->times, "", "wrong times count: in the verdict, and exit status 1"},
           {"--strict", &options->strict, "",
            "answers to invalid questions count in the verdict; exit status 1 also for these, and "
