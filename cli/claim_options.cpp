@@ -8,6 +8,11 @@
 
 namespace lorentz::cli {
 
+NumberFormat number_format_named(const std::string& precision) {
+  const std::size_t number = index_of_name(precision, {"binary64", "binary32"}, "--precision");
+  return number == 1 ? NumberFormat::binary32 : NumberFormat::binary64;
+}
+
 void ClaimOptions::ask(const std::vector<question::EngineInfo>& engines) {
   claim();  // what is wrong with the options is said first
   for (const question::EngineInfo& engine : engines) {
@@ -22,10 +27,7 @@ void ClaimOptions::ask(const std::vector<question::EngineInfo>& engines) {
 
 Claim ClaimOptions::claim() const {
   Claim claim = said_;
-  if (precision) {
-    const std::size_t number = index_of_name(*precision, {"binary64", "binary32"}, "--precision");
-    claim.precision = number == 1 ? NumberFormat::binary32 : NumberFormat::binary64;
-  }
+  if (precision) claim.precision = number_format_named(*precision);
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
   claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"

@@ -11,6 +11,9 @@
 
 namespace lorentz::cli {
 
+/// Of --precision. Throws InputError.
+NumberFormat number_format_named(const std::string& precision);
+
 struct ClaimOptions {
   std::optional<std::string> precision, time_tolerance;
 

@@ -18,9 +18,8 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
     scene = load_scene(options.scene.value_or("square"), options.radius, options.unknown_keys());
   else if (options.radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  // What is drawn is drawn in what the engine can take; what is given is asked as it is.
-  if (scene && !options.queries)
-    scene = rounded_scene(*scene, claim_.precision, options.scene.value_or("square"));
+  // What --scene names is rounded to what the engine can take; what a stream holds is asked as it is.
+  if (scene) scene = rounded_scene(*scene, claim_.precision, options.scene.value_or("square"));
   if (scene) enter(*scene);
   if (!options.queries) return;
   if (is_columns(*options.queries))

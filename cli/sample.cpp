@@ -3,6 +3,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
@@ -21,7 +22,7 @@ using starts::Kind;
 namespace {
 
 struct SampleOptions {
-  std::string scene = "square", kind = "uniform", format = "ndjson";
+  std::string scene = "square", kind = "uniform", format = "ndjson", precision = "binary64";
   std::uint64_t count = 1000, seed = starts::kDefaultSeed;
   std::optional<double> radius;
   bool strict = false;
@@ -35,6 +36,7 @@ struct SampleOrder {
   Kind kind;
   SampleFormat format;
   std::uint64_t count, seed;
+  NumberFormat precision;
 
   bool leaves_obstacles() const { return kind == Kind::surface; }
 };
@@ -44,7 +46,10 @@ SampleOrder order_of(const SampleOptions& options) {
   const auto format =
       static_cast<SampleFormat>(index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format"));
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  return {load_scene(options.scene, options.radius, unknown), kind, format, options.count, options.seed};
+  const NumberFormat precision = number_format_named(options.precision);
+  const Scene scene =
+      rounded_scene(load_scene(options.scene, options.radius, unknown), precision, options.scene);
+  return {scene, kind, format, options.count, options.seed, precision};
 }
 
 void append(QueryRows& rows, const Query& query, const SampleOrder& order) {
@@ -88,7 +93,7 @@ void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, c
 int act(const SampleOptions& options) {
   constexpr std::uint64_t kRowsTogether = 1024;
   const SampleOrder order = order_of(options);
-  const FreeStarts starts(order.scene, order.kind, order.seed);
+  const FreeStarts starts(order.scene, order.kind, order.seed, order.precision);
   const question::Listener listener = terminal();
   Output output;
   QueryRows rows;
@@ -125,6 +130,7 @@ Command sample_command() {
            "2^-40; grazing: at an obstacle's edge but for ulps to 2^-10"},
           {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N", "how many"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},
+          {"--precision", &options->precision, "binary64|binary32", "of the numbers of scene and starts"},
           {"--format", &options->format, "ndjson|csv|npy",
            "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
            "(docs/formats.md), which first-hit reads with --scene"},

@@ -114,3 +114,28 @@ TEST_CASE("Sample into a pipe that closes ends quietly", "[cli][sample]") {
   CHECK(run.err.empty());
   CHECK(lines(run.out) == 1);
 }
+
+TEST_CASE("sample --precision: starts in binary32, which compare asks of columns", "[cli][sample]") {
+  const Folder folder;
+  const std::string scene = " --scene cubic --radius 0.2 ";
+  const Run stream = folder.lorentz("sample --precision binary32 --count 50" + scene);
+  CHECK(contains(stream.out, R"("radius":0.20000000298023224)"));
+  for (const double t : times_behind("\"v\":[", stream.out)) CHECK(t == static_cast<float>(t));
+  CHECK(times_behind("\"v\":[", stream.out).size() == 50);
+  for (const std::string format : {"npy", "csv"}) {
+    const std::string queries = folder.file("q." + format), answers = folder.file("a." + format);
+    const std::string drawn = "sample --precision binary32 --count 50 --format " + format + scene;
+    folder.write("q." + format, folder.lorentz(drawn).out);
+    folder.write("a." + format,
+                 folder
+                     .lorentz("first-hit --radius 0.20000000298023224 --scene cubic --format " + format +
+                              " " + queries)
+                     .out);
+    const Run run = folder.lorentz("compare --json --precision binary32 --queries " + queries +
+                                   " --answers mine=" + answers + scene);
+    INFO(format << run.err);
+    CHECK(run.status == 0);
+    CHECK(contains(run.out, R"("not_asked":0,"engines":[{"engine":"mine","queries":50,"agree":50,)"));
+  }
+  CHECK(folder.lorentz("sample --precision double").status == 2);
+}
