@@ -24,6 +24,10 @@ FILES = {"F": SCENE + QUERY, "FILE": ANSWER, "queries.ndjson": SCENE + QUERY, "p
          "classical.ndjson": ANSWER, "start": '{"x":["1/2","1/10"],"v":[1,0]}\n',
          "mine": f"#!/bin/sh\nexec python3 {SOURCE}/examples/naive_engine.py\n"}
 
+MADE = {"queries.npy": "sample --scene cubic --radius 0.2 --count 9 --format npy",
+        "answers.npy": "first-hit --scene cubic --radius 0.2 --format npy queries.npy",
+        "before.json": "judge --questions 1 --engine published --json"}
+
 
 def commands(text):
     """The commands of lorentz in the blocks of code, with the lines that go on."""
@@ -60,6 +64,9 @@ class Examples(unittest.TestCase):
         cls.environment = dict(os.environ, PATH=f"{LORENTZ.parent}:{os.environ['PATH']}")
         stores = ["fuzz", "--engine", "published", "--target", "published-faults,leaving", "--count", "99", "--store", "published.campaign"]
         subprocess.run([LORENTZ, *stores], cwd=begun, stdout=subprocess.DEVNULL, check=False)
+        for name, command in MADE.items():
+            with open(begun / name, "wb") as out:
+                subprocess.run([LORENTZ, *command.split()], cwd=begun, stdout=out, stderr=subprocess.DEVNULL, check=False)
 
     @classmethod
     def tearDownClass(cls):
