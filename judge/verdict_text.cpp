@@ -61,6 +61,7 @@ std::string times_text(const JudgeReport& report) {
   const bool is_right = drawn.wrong_time + hard.wrong_time == 0;
   if (is_right && drawn.timed_hits == 0) return "";
   const auto radii = json::finite(is_right ? largest_radii(report.rows, false) : report.max_radii());
+  if (is_right && radii == 0) return "; times exact on drawn flights";
   const std::string along = radii ? fmt::format("{:.2g} radii along the ray", *radii) : "";
   if (is_right)
     return fmt::format("; times within {} ({}) on drawn flights, no wrong time", along,
