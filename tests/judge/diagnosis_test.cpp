@@ -119,7 +119,7 @@ TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its 
       "gives times of the right obstacle that are off by more than rounding of the inputs explains, by up to "
       "0.003 radii along the ray");
   Scene slender = unit_scene(2, 0.25);
-  // (0.3, 0.3) and (0.2, -0.2) are perpendicular; sheared, the smallest semiaxis is no column's length.
+  // Sheared: the smallest semiaxis is no column's length.
   slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};
   const double expected = 0.0625 / smallest_semiaxis(slender.lattices[0].atoms[0], 2);
   CHECK(smallest_semiaxis(slender.lattices[0].atoms[0], 2) == Approx(0.0438).epsilon(0.01));
