@@ -230,14 +230,13 @@ test("The one question can be copied as C++ and as JSON", async () => {
       ["C++", primitive_cpp.trimEnd()],
       ["JSON", JSON.stringify(primitive)],
     ]) {
-      await page
+      const button = page
         .locator(".finding")
         .first()
-        .getByRole("button", { name: `Copy the ${what}` })
-        .click();
-      await page.waitForFunction(async (text) => (await navigator.clipboard.readText()) === text, wanted, {
-        timeout: 3000,
-      });
+        .getByRole("button", { name: `Copy the ${what}` });
+      await button.click();
+      await button.filter({ hasText: "copied" }).waitFor({ timeout: 3000 });
+      assert.equal(await page.evaluate(() => navigator.clipboard.readText()), wanted);
     }
   });
 });
